@@ -1,0 +1,81 @@
+# Everything here needs Python 3.11 or later and make, nothing else: each target sets up .venv itself.
+# Another interpreter: make PYTHON=python3.12 ...
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check
+# Twice quiet: only errors are shown.
+INSTALL := $(PIP) install --quiet --quiet --constraint constraints.txt
+# Two stamps: `make paper` needs only what the package needs to run; the other targets add the developers' tools.
+RUNTIME := $(VENV)/runtime.stamp
+DEV := $(VENV)/dev.stamp
+
+.DEFAULT_GOAL := help
+.PHONY: help venv paper test check lint types imports docs format constraints clean distclean
+
+help:  ## list the targets
+	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1|\2/p' $(MAKEFILE_LIST) | \
+	while IFS='|' read -r target meaning; do printf '%-20s %s\n' "$$target" "$$meaning"; done
+
+paper: $(RUNTIME)  ## recompute the paper: figures, tables and audit, in build/paper
+	@$(BIN)/stackbounce paper --out build/paper
+	@echo "Open $(CURDIR)/build/paper/index.html"
+
+test: $(DEV)  ## run the tests
+	@$(BIN)/python -m pytest
+
+check: lint types imports docs  ## everything: lint, types, import rules, documentation, tests
+	@$(MAKE) --no-print-directory test
+
+lint: $(DEV)  ## ruff's rules and formatting
+	@$(BIN)/ruff check
+	@$(BIN)/ruff format --check
+
+types: $(DEV)  ## mypy --strict on the package
+	@$(BIN)/mypy
+
+imports: $(DEV)  ## the import rules (import-linter)
+	@$(BIN)/lint-imports
+
+docs: $(DEV)  ## build the documentation in build/docs, warnings being errors
+	@$(BIN)/python -m sphinx -q -W --keep-going -n -b html docs build/docs
+	@echo "Documentation: $(CURDIR)/build/docs/index.html"
+
+format: $(DEV)  ## let ruff put the code in order
+	@$(BIN)/ruff check --fix
+	@$(BIN)/ruff format
+
+constraints:  ## write constraints.txt anew from the newest versions that fit
+	@rm -rf build/constraints
+	@$(PYTHON) -m venv build/constraints
+	@build/constraints/bin/python -m pip --disable-pip-version-check install --quiet --quiet --editable '.[dev]'
+	@{ sed -n '/^#/p' constraints.txt; \
+	   build/constraints/bin/python -m pip --disable-pip-version-check freeze --all --exclude-editable \
+	     --exclude pip --exclude setuptools | grep -E '^[A-Za-z0-9._-]+==[^ @]+$$'; } > build/constraints.txt
+	@mv build/constraints.txt constraints.txt
+	@rm -rf build/constraints
+
+clean:  ## remove what was built, keep .venv
+	@rm -rf build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
+	@find src tests docs -name __pycache__ -type d -prune -exec rm -rf {} +
+
+distclean: clean  ## remove .venv too
+	@rm -rf $(VENV)
+
+venv: $(DEV)  ## set up .venv with the developers' tools
+
+$(DEV): $(RUNTIME)
+	@echo "Installing the developers' tools into $(VENV)"
+	@$(INSTALL) --no-build-isolation --editable '.[dev]'
+	@touch $@
+
+$(RUNTIME): pyproject.toml constraints.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || \
+	  { echo "stackbounce needs Python 3.11 or later, which '$(PYTHON)' is not: try make PYTHON=python3.12" >&2; exit 1; }
+	@test -x $(BIN)/pip || $(PYTHON) -m venv --clear $(VENV) || \
+	  { echo "Python's venv module does not work here (on Debian or Ubuntu: apt install python3-venv)" >&2; exit 1; }
+	@echo "Installing stackbounce into $(VENV)"
+	@$(INSTALL) editables hatchling
+	@$(INSTALL) --no-build-isolation --editable .
+	@touch $@
