@@ -1,0 +1,204 @@
+"""The package's exceptions, each also a builtin one, and the validators that raise them.
+
+A message is one line: what was wrong, what was got, what would be right. It begins with the name
+of what was wrong, so that a reader of files can put the path in front of it
+(``mass must be …`` becomes ``balls.1.mass must be …``).
+"""
+
+import difflib
+import math
+from collections.abc import Callable, Iterable
+from numbers import Integral, Real
+
+__all__ = [
+    "FileError",
+    "InvalidType",
+    "InvalidValue",
+    "ScenarioError",
+    "StackbounceError",
+    "UnitError",
+    "between",
+    "finite",
+    "fraction",
+    "nearest",
+    "non_negative",
+    "positive",
+    "shown",
+    "whole",
+]
+
+
+class StackbounceError(Exception):
+    """Base of everything that this package raises on purpose."""
+
+
+class InvalidValue(StackbounceError, ValueError):
+    """A value of the right type that makes no sense, such as a negative mass."""
+
+
+class InvalidType(StackbounceError, TypeError):
+    """A value of the wrong type, such as a string for a mass."""
+
+
+class UnitError(InvalidValue):
+    """A quantity whose unit is unknown or does not fit, such as a height in kilograms."""
+
+
+class ScenarioError(InvalidValue):
+    """A scenario (TOML file or mapping) that cannot be read."""
+
+
+class FileError(StackbounceError, OSError):
+    """A file or folder that cannot be read or written."""
+
+
+def finite(name: str, value: object, of: str = "") -> float:
+    """Return `value` as a float if it is a finite number.
+
+    Parameters
+    ----------
+    name : str
+        What the value is called; the message begins with it.
+    value : object
+        An int, a float or a numpy scalar; a bool, a string or None is refused.
+    of : str, optional
+        The unit in words, for the message.
+
+    Returns
+    -------
+    float
+
+    Raises
+    ------
+    InvalidType
+        If `value` is not a real number.
+    InvalidValue
+        If it is NaN or infinite.
+
+    Examples
+    --------
+    >>> finite("height", 2)
+    2.0
+    """
+    return _checked(name, value, "a finite number" + _of(of), math.isfinite)
+
+
+def positive(name: str, value: object, of: str = "") -> float:
+    """Return `value` as a float if it is a finite number above 0; see `finite`.
+
+    Examples
+    --------
+    >>> positive("mass", -0.057, "kilograms")
+    Traceback (most recent call last):
+        ...
+    stackbounce.errors.InvalidValue: mass must be a positive number of kilograms, got -0.057
+    """
+    return _checked(name, value, "a positive number" + _of(of), lambda number: number > 0.0)
+
+
+def non_negative(name: str, value: object, of: str = "") -> float:
+    """Return `value` as a float if it is a finite number, 0 or above; see `finite`.
+
+    Examples
+    --------
+    >>> non_negative("gap", 0)
+    0.0
+    """
+    right = "a number" + _of(of) + ", 0 or above"
+    return _checked(name, value, right, lambda number: number >= 0.0)
+
+
+def fraction(name: str, value: object, *, zero: bool = True) -> float:
+    """Return `value` as a float if it lies from 0 to 1, with 0 itself allowed or not; see `finite`.
+
+    Examples
+    --------
+    >>> fraction("restitution", 0.78)
+    0.78
+    """
+    if zero:
+        return _checked(name, value, "a number from 0 to 1", lambda number: 0.0 <= number <= 1.0)
+    right = "a number above 0 and at most 1"
+    return _checked(name, value, right, lambda number: 0.0 < number <= 1.0)
+
+
+def between(name: str, value: object, low: float, high: float = math.inf, of: str = "") -> float:
+    """Return `value` as a float if it lies from `low` to `high`, both included; see `finite`.
+
+    Examples
+    --------
+    >>> between("exponent", 1.5, 1.0)
+    1.5
+    """
+    right = "a number" + _of(of)
+    right += f" from {low:g} to {high:g}" if math.isfinite(high) else f", {low:g} or above"
+    return _checked(name, value, right, lambda number: low <= number <= high)
+
+
+def whole(name: str, value: object, low: int = 0) -> int:
+    """Return `value` as an int if it is a whole number of at least `low`.
+
+    Raises
+    ------
+    InvalidType
+        If `value` is not an integer (a bool, a string and 2.0 are none).
+    InvalidValue
+        If it lies below `low`.
+
+    Examples
+    --------
+    >>> whole("event_limit", 100, 1)
+    100
+    """
+    message = f"{name} must be a whole number, {low} or above, got {shown(value)}"
+    if isinstance(value, bool) or not isinstance(value, Integral):
+        raise InvalidType(message)
+    if value < low:
+        raise InvalidValue(message)
+    return int(value)
+
+
+def nearest(name: object, known: Iterable[str]) -> str:
+    """Return the words that end a message about an unknown name: the nearest one, and all of them.
+
+    Examples
+    --------
+    >>> nearest("sprung", ["Rigid", "Spring"])
+    'did you mean Spring? Known: Rigid, Spring'
+    """
+    names = list(known)
+    folded = {one.casefold(): one for one in names}
+    close = difflib.get_close_matches(str(name).casefold(), folded, n=1)
+    hint = f"did you mean {folded[close[0]]}? " if close else ""
+    return f"{hint}Known: {', '.join(names)}" if hint else f"known: {', '.join(names)}"
+
+
+def shown(value: object) -> str:
+    """Return `value` as a message shows it: on one line, and not too long.
+
+    Examples
+    --------
+    >>> shown("150 g")
+    "'150 g'"
+    """
+    if isinstance(value, Real) and not isinstance(value, bool):
+        return str(value)
+    text = " ".join(repr(value).split())
+    return text if len(text) <= 60 else text[:57] + "..."
+
+
+def _of(unit: str) -> str:
+    return f" of {unit}" if unit else ""
+
+
+def _checked(name: str, value: object, right: str, holds: Callable[[float], bool]) -> float:
+    message = f"{name} must be {right}, got {shown(value)}"
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise InvalidType(message)
+    try:
+        number = float(value)
+    except OverflowError:
+        number = math.inf
+    if not math.isfinite(number) or not holds(number):
+        raise InvalidValue(message)
+    return number

@@ -1,0 +1,20 @@
+"""What is dropped: balls, contact laws, drops, and the catalogue of the paper's balls.
+
+Frozen values, validated once, without numerics.
+"""
+
+from stackbounce.model.ball import Ball
+from stackbounce.model.drop import STANDARD_GRAVITY, Drop
+from stackbounce.model.laws import LAWS, ContactLaw, Hysteretic, Rigid, Spring, law_named
+
+__all__ = [
+    "LAWS",
+    "STANDARD_GRAVITY",
+    "Ball",
+    "ContactLaw",
+    "Drop",
+    "Hysteretic",
+    "Rigid",
+    "Spring",
+    "law_named",
+]

@@ -1,0 +1,277 @@
+"""A drop: balls, the contacts below them, the gaps between them, and how fast they come in."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from os import PathLike
+from typing import Annotated, Any
+
+from stackbounce.errors import InvalidType, InvalidValue, finite, non_negative, positive, shown
+from stackbounce.model.ball import Ball
+from stackbounce.model.laws import LAWS, ContactLaw, Rigid
+from stackbounce.units import Unit
+
+__all__ = ["STANDARD_GRAVITY", "Drop"]
+
+STANDARD_GRAVITY = 9.80665
+"""Standard gravity in m/s**2, for a `height` where a run has no gravity of its own."""
+
+_INCIDENCE = ("impact_speed", "height", "velocities")
+
+
+@dataclass(frozen=True)
+class Drop:
+    """A stack of balls on its way down, at the moment when the lowest one touches the floor.
+
+    Parameters
+    ----------
+    balls : sequence of Ball
+        N balls, the lowest first.
+    contacts : sequence of ContactLaw
+        N laws, each of the contact below its ball; the first one is the floor's and may be None
+        for no floor. Either all are `Rigid` or none is.
+    gaps : sequence of float, optional
+        N - 1 distances in m, 0 or above, each between a ball and the next one up; default all 0.
+    impact_speed : float, optional
+        In m/s, above 0, downward, the same for every ball.
+    height : float, optional
+        The height in m, above 0, fallen from rest instead, at `gravity`, or at 9.80665 m/s**2
+        where `gravity` is 0.
+    velocities : sequence of float, optional
+        N velocities in m/s, up-positive, instead; not all 0. Exactly one of these three is given.
+    gravity : float, optional
+        In m/s**2, 0 or above, during the run; 0 is the paper's assumption.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of its range, a length does not fit, `Rigid` is mixed with other laws,
+        or not exactly one of `impact_speed`, `height` and `velocities` is given.
+    InvalidType
+        If something has the wrong type.
+
+    Notes
+    -----
+    Sequences become tuples and numbers floats. The numbers are those of R. Cross, Am. J. Phys. 75,
+    1009 (2007), Fig. 3.
+
+    Examples
+    --------
+    >>> from stackbounce.model.laws import Spring
+    >>> drop = Drop(
+    ...     balls=[Ball(0.150), Ball(0.057)],
+    ...     contacts=[Spring(2500), Spring(1000)],
+    ...     impact_speed=3.53,
+    ... )
+    >>> drop.gaps, drop.start_velocities
+    ((0.0,), (-3.53, -3.53))
+    """
+
+    balls: Sequence[Ball]
+    contacts: Sequence[ContactLaw | None]
+    # None stands for all zero in the call only: __post_init__ replaces it.
+    gaps: Sequence[Annotated[float, Unit("m")]] = None  # type: ignore[assignment]
+    impact_speed: Annotated[float, Unit("m/s")] | None = None
+    height: Annotated[float, Unit("m")] | None = None
+    velocities: Sequence[Annotated[float, Unit("m/s")]] | None = None
+    gravity: Annotated[float, Unit("m/s**2")] = 0.0
+
+    def __post_init__(self) -> None:
+        balls = _items("balls", self.balls)
+        contacts = _items("contacts", self.contacts)
+        given: object = self.gaps
+        gaps = (0.0,) * (len(balls) - 1) if given is None else _items("gaps", given)
+        _check_balls(balls)
+        _check_contacts(contacts, len(balls))
+        if len(gaps) != len(balls) - 1:
+            raise InvalidValue(
+                f"gaps must hold one number per neighbouring pair of balls ({len(balls) - 1}), "
+                f"got {len(gaps)}"
+            )
+        gaps = tuple(non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(gaps))
+        values: dict[str, Any] = {"balls": balls, "contacts": contacts, "gaps": gaps}
+        values["gravity"] = non_negative("gravity", self.gravity, "m/s**2")
+        for name, value in (values | self._incidence(len(balls))).items():
+            object.__setattr__(self, name, value)
+
+    def _incidence(self, count: int) -> dict[str, Any]:
+        given = [name for name in _INCIDENCE if getattr(self, name) is not None]
+        if len(given) != 1:
+            raise InvalidValue(
+                "impact_speed, height and velocities: exactly one of the three must be given, "
+                f"got {' and '.join(given) or 'none'}"
+            )
+        if self.impact_speed is not None:
+            return {"impact_speed": positive("impact_speed", self.impact_speed, "m/s")}
+        if self.height is not None:
+            return {"height": positive("height", self.height, "metres")}
+        velocities = _items("velocities", self.velocities)
+        if len(velocities) != count:
+            raise InvalidValue(
+                f"velocities must hold one number per ball ({count}), got {len(velocities)}"
+            )
+        velocities = tuple(finite(f"velocities.{i}", v, "m/s") for i, v in enumerate(velocities))
+        if not any(velocities):
+            raise InvalidValue("velocities must not all be 0, got 0 for every ball")
+        return {"velocities": velocities}
+
+    @property
+    def reference_speed(self) -> float:
+        """The speed v0 in m/s that rebound ratios refer to; the largest of given velocities."""
+        if self.impact_speed is not None:
+            return self.impact_speed
+        if self.height is not None:
+            return math.sqrt(2.0 * (self.gravity or STANDARD_GRAVITY) * self.height)
+        assert self.velocities is not None
+        return max(abs(velocity) for velocity in self.velocities)
+
+    @property
+    def start_velocities(self) -> tuple[float, ...]:
+        """The velocity of each ball at the start, (N,), in m/s, up-positive."""
+        if self.velocities is not None:
+            return tuple(self.velocities)
+        return (-self.reference_speed,) * len(self.balls)
+
+    @property
+    def rigid(self) -> bool:
+        """Whether every contact is `Rigid`, so that the drop is a sequence of collisions."""
+        return all(isinstance(law, Rigid) for law in self.contacts if law is not None)
+
+    @classmethod
+    def from_mapping(cls, mapping: Mapping[str, Any]) -> "Drop":
+        """Return the drop that a mapping describes, with the keys and values of a scenario file.
+
+        Parameters
+        ----------
+        mapping : mapping
+            As read from TOML or JSON: ``balls`` and ``contacts`` are lists of mappings, each
+            contact has a ``law`` (``"none"`` for no floor), numbers are SI and strings carry
+            units.
+
+        Returns
+        -------
+        Drop
+
+        Raises
+        ------
+        ScenarioError
+            If it cannot be read; the message begins with the path of what is wrong.
+
+        Examples
+        --------
+        >>> drop = Drop.from_mapping({
+        ...     "balls": [{"mass": "57 g"}],
+        ...     "contacts": [{"law": "Spring", "stiffness": "22.5 kN/m"}],
+        ...     "impact_speed": 1.0,
+        ... })
+        >>> drop.balls[0].mass, drop.contacts[0].stiffness
+        (0.057, 22500.0)
+        """
+        from stackbounce.model.schema import read_mapping
+
+        return read_mapping(mapping)
+
+    @classmethod
+    def from_toml(cls, path: str | PathLike[str]) -> "Drop":
+        """Return the drop of a scenario file in TOML; see `from_mapping` for its keys.
+
+        Parameters
+        ----------
+        path : str or path-like
+            The file.
+
+        Returns
+        -------
+        Drop
+
+        Raises
+        ------
+        FileError
+            If the file cannot be opened.
+        ScenarioError
+            If it is not TOML, or no drop; the message begins with the file's name.
+
+        Examples
+        --------
+        >>> Drop.from_toml("no-such-file.toml")
+        Traceback (most recent call last):
+            ...
+        stackbounce.errors.FileError: no-such-file.toml cannot be read: No such file or directory
+        """
+        from stackbounce.model.toml import read_toml
+
+        return read_toml(path)
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return the drop as plain dicts, lists, strings and numbers, which `from_mapping` reads.
+
+        Examples
+        --------
+        >>> from stackbounce.model.laws import Spring
+        >>> Drop([Ball(0.057)], [Spring(22500)], impact_speed=1).to_mapping()["contacts"]
+        [{'law': 'Spring', 'stiffness': 22500.0}]
+        """
+        from stackbounce.model.schema import write_mapping
+
+        return write_mapping(self)
+
+    def to_toml(self) -> str:
+        """Return the drop as a scenario file's text, which `from_toml` reads back exactly.
+
+        Examples
+        --------
+        >>> from stackbounce.model.laws import Spring
+        >>> print(Drop([Ball(0.057)], [Spring(22500)], impact_speed=1).to_toml())
+        gaps = []
+        impact_speed = 1.0
+        gravity = 0.0
+        <BLANKLINE>
+        [[balls]]
+        mass = 0.057
+        <BLANKLINE>
+        [[contacts]]
+        law = "Spring"
+        stiffness = 22500.0
+        <BLANKLINE>
+        """
+        from stackbounce.model.toml import write_toml
+
+        return write_toml(self.to_mapping())
+
+
+def _items(name: str, values: object) -> tuple[Any, ...]:
+    if isinstance(values, str | bytes | Mapping | set | frozenset):
+        raise InvalidType(f"{name} must be a list, got {shown(values)}")
+    try:
+        return tuple(values)  # type: ignore[arg-type]
+    except TypeError:
+        raise InvalidType(f"{name} must be a list, got {shown(values)}") from None
+
+
+def _check_balls(balls: tuple[object, ...]) -> None:
+    if not balls:
+        raise InvalidValue("balls must hold at least one ball, got none")
+    for i, ball in enumerate(balls):
+        if not isinstance(ball, Ball):
+            raise InvalidType(f"balls.{i} must be a Ball, got {shown(ball)}")
+
+
+def _check_contacts(contacts: tuple[object, ...], count: int) -> None:
+    if len(contacts) != count:
+        raise InvalidValue(
+            f"contacts must hold one law per ball, the one below it ({count}), got {len(contacts)}"
+        )
+    for i, law in enumerate(contacts):
+        if law is None and i > 0:
+            raise InvalidValue(f"contacts.{i} must be a contact law, got None (for the floor only)")
+        if law is not None and not isinstance(law, tuple(LAWS.values())):
+            known = ", ".join(LAWS)
+            raise InvalidType(f"contacts.{i} must be a contact law ({known}), got {shown(law)}")
+    rigid = [i for i, law in enumerate(contacts) if isinstance(law, Rigid)]
+    finite_ones = [i for i, law in enumerate(contacts) if law is not None and i not in rigid]
+    if rigid and finite_ones:
+        other = type(contacts[finite_ones[0]]).__name__
+        raise InvalidValue(
+            "contacts must be all Rigid or have none that is, got a mixture: "
+            f"contacts.{rigid[0]} is Rigid and contacts.{finite_ones[0]} is {other}"
+        )

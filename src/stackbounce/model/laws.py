@@ -1,0 +1,201 @@
+"""The contact laws: what the force between two balls, or ball and floor, is while compressed.
+
+Each is a small frozen value with its formula and source. Forces never pull.
+"""
+
+import math
+from dataclasses import KW_ONLY, dataclass, field
+from typing import Annotated, TypeAlias
+
+from stackbounce.errors import InvalidValue, between, fraction, nearest, positive, shown
+from stackbounce.units import Unit
+
+__all__ = ["LAWS", "ContactLaw", "Hysteretic", "Rigid", "Spring", "law_named"]
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """An instantaneous collision with Newton's restitution.
+
+    The two part at the restitution times the speed at which they met,
+    ``v_upper' - v_lower' = -e (v_upper - v_lower)``, and momentum is conserved; at the floor
+    ``v' = -e v``.
+
+    Parameters
+    ----------
+    restitution : float
+        The ratio e of the relative speeds after and before, from 0 to 1.
+
+    Raises
+    ------
+    InvalidValue
+        If `restitution` lies outside 0 to 1.
+    InvalidType
+        If it is no number.
+
+    Notes
+    -----
+    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4.
+
+    Examples
+    --------
+    >>> Rigid(0.9)
+    Rigid(restitution=0.9)
+    """
+
+    restitution: Annotated[float, Unit()]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "restitution", fraction("restitution", self.restitution))
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A linear spring without loss that can be compressed and cannot pull.
+
+    ``F = k c`` while the compression c is above 0, else 0.
+
+    Parameters
+    ----------
+    stiffness : float
+        k, in N/m, above 0.
+
+    Raises
+    ------
+    InvalidValue
+        If `stiffness` is not positive and finite.
+    InvalidType
+        If it is no number.
+
+    Notes
+    -----
+    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 5 and 6.
+
+    Examples
+    --------
+    >>> Spring(2500)
+    Spring(stiffness=2500.0)
+    """
+
+    stiffness: Annotated[float, Unit("N/m")]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness, "N/m"))
+
+
+@dataclass(frozen=True)
+class Hysteretic:
+    """A spring that gives back less than it took: a softer curve on the way out.
+
+    Loading follows ``F = k c**p``; from the peak compression C it unloads along
+    ``F = k C**p (c/C)**n``. A contact compressed again before it has opened goes back up its
+    unloading curve to the old peak C and on along the loading curve. The contact ends when force
+    and compression are zero, and the next one starts afresh. The work given back over the work
+    taken is ``e**2 = (p + 1)/(n + 1)``, whatever the speed.
+
+    Parameters
+    ----------
+    stiffness : float
+        k, in N/m**exponent, above 0.
+    exponent : float, optional
+        p of the loading curve, above 0; 1, a linear spring, is the paper's choice.
+    restitution : float, optional
+        e, above 0 and at most 1.
+    unloading_exponent : float, optional
+        n of the unloading curve, at least `exponent`. Give exactly one of this and `restitution`;
+        the other is derived, and both can be read.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of its range, or not exactly one of the last two is given.
+    InvalidType
+        If one is no number.
+
+    Notes
+    -----
+    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), section V. The paper has a single loading and
+    unloading; the rule for reloading is this package's own.
+
+    Examples
+    --------
+    >>> Hysteretic(5.6e4, unloading_exponent=7.0).restitution
+    0.5
+    >>> Hysteretic(5.6e4, restitution=0.5).unloading_exponent
+    7.0
+    """
+
+    stiffness: Annotated[float, Unit("N/m**exponent")]
+    _: KW_ONLY
+    exponent: Annotated[float, Unit()] = 1.0
+    # One of these is given and the other derived in __post_init__: neither is ever None to read.
+    restitution: Annotated[float, Unit()] = None  # type: ignore[assignment]
+    unloading_exponent: Annotated[float, Unit()] = None  # type: ignore[assignment]
+    derived: str = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        given = [name for name in _ONE_OF if getattr(self, name) is not None]
+        if len(given) != 1:
+            got = " and ".join(f"{name}={shown(getattr(self, name))}" for name in given)
+            raise InvalidValue(
+                "restitution and unloading_exponent: exactly one of the two must be given, "
+                f"got {got or 'neither'}"
+            )
+        p = positive("exponent", self.exponent)
+        if given == ["restitution"]:
+            e = fraction("restitution", self.restitution, zero=False)
+            n, derived = (max(p, (p + 1.0) / e / e - 1.0), "unloading_exponent")  # section V
+            if not math.isfinite(n):
+                raise InvalidValue(f"restitution must be above 1e-150 for this law, got {shown(e)}")
+        else:
+            n = between("unloading_exponent", self.unloading_exponent, p)
+            e, derived = math.sqrt((p + 1.0) / (n + 1.0)), "restitution"  # section V
+        object.__setattr__(
+            self, "stiffness", positive("stiffness", self.stiffness, "N/m**exponent")
+        )
+        object.__setattr__(self, "exponent", p)
+        object.__setattr__(self, "restitution", e)
+        object.__setattr__(self, "unloading_exponent", n)
+        object.__setattr__(self, "derived", derived)
+
+    def __repr__(self) -> str:
+        given = next(name for name in _ONE_OF if name != self.derived)
+        return (
+            f"Hysteretic(stiffness={self.stiffness!r}, exponent={self.exponent!r}, "
+            f"{given}={getattr(self, given)!r})"
+        )
+
+
+_ONE_OF = ("restitution", "unloading_exponent")
+
+ContactLaw: TypeAlias = Rigid | Spring | Hysteretic
+LAWS: dict[str, type[ContactLaw]] = {law.__name__: law for law in (Rigid, Spring, Hysteretic)}
+
+
+def law_named(name: object) -> type[ContactLaw]:
+    """Return the law of a name, such as ``"Spring"``; case does not matter.
+
+    Parameters
+    ----------
+    name : str
+        A key of `LAWS`.
+
+    Returns
+    -------
+    type
+        The law's class.
+
+    Raises
+    ------
+    InvalidValue
+        If no law has this name; the message suggests the nearest and lists all.
+
+    Examples
+    --------
+    >>> law_named("spring").__name__
+    'Spring'
+    """
+    for known, law in LAWS.items():
+        if isinstance(name, str) and name.casefold() == known.casefold():
+            return law
+    raise InvalidValue(f"law must be a contact law, got {shown(name)}; {nearest(name, LAWS)}")

@@ -1,0 +1,152 @@
+"""A drop from and to plain mappings: the one schema behind TOML files, JSON and the web.
+
+The keys are the fields of the dataclasses, the units are those of their ``Unit`` annotations, and
+what a value may be is checked where it always is, in the dataclasses. Reading only adds the path.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import MISSING, fields
+from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
+
+from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, nearest, positive, shown
+from stackbounce.model.ball import Ball
+from stackbounce.model.drop import Drop
+from stackbounce.model.laws import LAWS, ContactLaw, Hysteretic, law_named
+from stackbounce.units import Unit, quantity
+
+__all__ = ["NO_FLOOR", "read_ball", "read_law", "read_mapping", "write_law", "write_mapping"]
+
+NO_FLOOR = "none"
+"""The ``law`` of the lowest contact where there is no floor."""
+
+_T = TypeVar("_T")
+
+
+def read_mapping(mapping: object) -> Drop:
+    """Return the drop that a mapping describes; see `Drop.from_mapping`."""
+    table = _table(mapping, "the scenario")
+    _check_keys(Drop, table, "")
+    values = {
+        key: _value(Drop, key, value, "")
+        for key, value in table.items()
+        if key not in ("balls", "contacts")
+    }
+    values["balls"] = _each(read_ball, table["balls"], "balls")
+    values["contacts"] = _each(read_law, table["contacts"], "contacts")
+    return _made(Drop, values, "")
+
+
+def read_ball(value: object, path: str) -> Ball:
+    """Return the ball that a mapping describes; `path` begins the messages."""
+    table = _table(value, path)
+    _check_keys(Ball, table, path)
+    return _made(Ball, {key: _value(Ball, key, one, path) for key, one in table.items()}, path)
+
+
+def read_law(value: object, path: str) -> ContactLaw | None:
+    """Return the contact law that a mapping with a ``law`` describes; None for no floor."""
+    table = dict(_table(value, path))
+    if "law" not in table:
+        raise ScenarioError(f"{path}.law is missing; {nearest('', [*LAWS, NO_FLOOR])}")
+    name = table.pop("law")
+    if isinstance(name, str) and name.casefold() == NO_FLOOR:
+        if table:
+            raise ScenarioError(f'{path}.{min(table)} is not a key of law = "{NO_FLOOR}"')
+        return None
+    try:
+        kind = law_named(name)
+    except InvalidValue as error:
+        raise ScenarioError(f"{path}.{error}, {NO_FLOOR}") from error
+    _check_keys(kind, table, path)
+    exponent = _value(kind, "exponent", table["exponent"], path) if "exponent" in table else 1.0
+    values = {key: _value(kind, key, one, path, exponent) for key, one in table.items()}
+    return _made(kind, values, path)
+
+
+def write_mapping(drop: Drop) -> dict[str, Any]:
+    """Return the drop as plain values; see `Drop.to_mapping`."""
+    plain = {
+        name: list(value) if isinstance(value, tuple) else value
+        for name, value in _given(drop).items()
+        if name not in ("balls", "contacts")
+    }
+    balls = [_given(ball) for ball in drop.balls]
+    return plain | {"balls": balls, "contacts": [write_law(law) for law in drop.contacts]}
+
+
+def write_law(law: ContactLaw | None) -> dict[str, Any]:
+    """Return a contact law as plain values, with its name as ``law``."""
+    if law is None:
+        return {"law": NO_FLOOR}
+    plain = {"law": type(law).__name__} | _given(law)
+    if isinstance(law, Hysteretic):
+        del plain[law.derived]
+    return plain
+
+
+def _given(instance: Any) -> dict[str, Any]:
+    values = {one.name: getattr(instance, one.name) for one in fields(instance) if one.init}
+    return {name: value for name, value in values.items() if value is not None}
+
+
+def _table(value: object, path: str) -> Mapping[str, Any]:
+    if not isinstance(value, Mapping):
+        raise ScenarioError(f"{path} must be a table of keys and values, got {shown(value)}")
+    return {str(key): one for key, one in value.items() if one is not None}
+
+
+def _check_keys(kind: type, table: Iterable[str], path: str) -> None:
+    known = {one.name: one for one in fields(kind) if one.init}
+    for key in table:
+        if key not in known:
+            raise ScenarioError(f"{_join(path, key)} is not a known key; {nearest(key, known)}")
+    for name, one in known.items():
+        if one.default is MISSING and name not in table:
+            raise ScenarioError(f"{_join(path, name)} is missing")
+
+
+def _each(read: Any, values: object, path: str) -> list[Any]:
+    if not isinstance(values, list | tuple):
+        raise ScenarioError(f"{path} must be a list of tables, got {shown(values)}")
+    return [read(value, f"{path}.{i}") for i, value in enumerate(values)]
+
+
+def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0) -> Any:
+    unit = _unit(get_type_hints(kind, include_extras=True)[key])
+    if unit is None:
+        return value
+    if isinstance(value, list | tuple):
+        return [_quantity(one, unit, f"{_join(path, key)}.{i}") for i, one in enumerate(value)]
+    if "exponent" in unit.symbol:
+        _raised(positive, f"{path}.exponent", exponent)
+        power = "" if exponent == 1.0 else f"**{exponent!r}"
+        return _quantity(value, Unit(unit.symbol.replace("**exponent", power)), _join(path, key))
+    return _quantity(value, unit, _join(path, key))
+
+
+def _quantity(value: object, unit: Unit, path: str) -> float:
+    return float(_raised(quantity, value, unit.symbol, path))
+
+
+def _unit(hint: Any) -> Unit | None:
+    if get_origin(hint) is Annotated:
+        return next((note for note in hint.__metadata__ if isinstance(note, Unit)), None)
+    return next((unit for unit in map(_unit, get_args(hint)) if unit is not None), None)
+
+
+def _made(kind: type[_T], values: dict[str, Any], path: str) -> _T:
+    try:
+        return kind(**values)
+    except (InvalidValue, InvalidType) as error:
+        raise ScenarioError(_join(path, str(error))) from error
+
+
+def _raised(function: Any, *arguments: object) -> Any:
+    try:
+        return function(*arguments)
+    except (InvalidValue, InvalidType) as error:
+        raise ScenarioError(str(error)) from error
+
+
+def _join(path: str, key: str) -> str:
+    return f"{path}.{key}" if path else key

@@ -1,0 +1,57 @@
+"""Scenario files: a drop in TOML, read with the standard library and written back exactly."""
+
+import json
+import os
+import tomllib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from stackbounce.errors import FileError, ScenarioError
+from stackbounce.model.drop import Drop
+from stackbounce.model.schema import read_mapping
+
+__all__ = ["read_toml", "write_toml"]
+
+
+def read_toml(path: str | os.PathLike[str]) -> Drop:
+    """Return the drop of a scenario file; see `Drop.from_toml`."""
+    name = os.fspath(path)
+    try:
+        content = Path(path).read_bytes()
+    except OSError as error:
+        raise FileError(f"{name} cannot be read: {error.strerror or error}") from error
+    except ValueError as error:  # a null character in the name
+        raise FileError(f"{name!r} cannot be read: {error}") from error
+    try:
+        mapping = tomllib.loads(content.decode("utf-8-sig"))
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{name} is not TOML: it is not text in UTF-8") from error
+    except (ValueError, RecursionError) as error:
+        raise ScenarioError(f"{name} is not TOML: {' '.join(str(error).split())}") from error
+    try:
+        return read_mapping(mapping)
+    except ScenarioError as error:
+        raise ScenarioError(f"{name}: {error}") from error
+
+
+def write_toml(mapping: Mapping[str, Any]) -> str:
+    """Return a mapping of plain values, lists of them, and lists of tables as TOML."""
+    lines = []
+    tables = []
+    for key, value in mapping.items():
+        if isinstance(value, list) and value and isinstance(value[0], Mapping):
+            for table in value:
+                tables += ["", f"[[{key}]]"]
+                tables += [f"{name} = {_written(one)}" for name, one in table.items()]
+        else:
+            lines.append(f"{key} = {_written(value)}")
+    return "\n".join(lines + tables) + "\n"
+
+
+def _written(value: object) -> str:
+    if isinstance(value, str):
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, list):
+        return f"[{', '.join(_written(one) for one in value)}]"
+    return repr(value)

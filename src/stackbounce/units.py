@@ -1,0 +1,128 @@
+"""Units at the border: "58 mm" -> 0.058. Inside, everything is SI and a plain float."""
+
+import functools
+import re
+from dataclasses import dataclass
+from decimal import Decimal
+from typing import TYPE_CHECKING
+
+from stackbounce.errors import InvalidType, UnitError, finite, shown
+
+if TYPE_CHECKING:
+    import pint
+
+__all__ = ["Unit", "quantity"]
+
+_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
+_WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
+# What is handed to pint: names with small powers, nothing that could be a long computation.
+_TERM = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d(?:\.\d{1,3})?)?"
+_UNIT = re.compile(rf"%|{_TERM}(?:\s*[*/·\s]\s*{_TERM}){{0,5}}")
+_KINDS = {
+    "": ("a pure number", "0.78"),
+    "kg": ("a mass", "150 g"),
+    "m": ("a length", "58 mm"),
+    "s": ("a time", "30 ms"),
+    "m/s": ("a speed", "3.53 m/s"),
+    "m/s**2": ("an acceleration", "9.81 m/s^2"),
+    "N/m": ("a stiffness", "20 kN/m"),
+}
+
+
+@dataclass(frozen=True)
+class Unit:
+    """The unit of a field, to be written as ``Annotated[float, Unit("kg")]``.
+
+    Parameters
+    ----------
+    symbol : str
+        The SI unit; empty for a pure number. ``exponent`` in it stands for the field of that name.
+
+    Examples
+    --------
+    >>> Unit("kg").symbol
+    'kg'
+    """
+
+    symbol: str = ""
+
+
+def quantity(value: object, unit: str, name: str = "value") -> float:
+    """Return a number, or a string that carries a unit, as a float in `unit`.
+
+    Parameters
+    ----------
+    value : float or str
+        A number (or a string with nothing but a number), taken to be in `unit` already, or a
+        string with a number and a unit, such as ``"58 mm"`` or ``"9.81 m/s^2"``.
+    unit : str
+        The SI unit that is wanted, such as ``"m"``; empty for a pure number.
+    name : str, optional
+        What the value is called; messages begin with it.
+
+    Returns
+    -------
+    float
+        The value in `unit`.
+
+    Raises
+    ------
+    InvalidType
+        If `value` is neither a number nor a string.
+    InvalidValue
+        If it is NaN or infinite.
+    UnitError
+        If the string cannot be read, or its unit is unknown or does not fit.
+
+    Examples
+    --------
+    >>> quantity("58 mm", "m")
+    0.058
+    >>> quantity(0.058, "m")
+    0.058
+    """
+    if not isinstance(value, str):
+        try:
+            return finite(name, value, unit)
+        except InvalidType as error:
+            raise InvalidType(_message(name, value, unit)) from error
+    found = _WRITTEN.fullmatch(value.strip())
+    if not found:
+        raise UnitError(_message(name, value, unit))
+    number, written = found[1], found[2]
+    if not written:
+        return finite(name, float(number), unit)
+    factor = _factor(written, unit, _message(name, value, unit))
+    # In decimals, so that "24.8 g" is 0.0248 to the last digit.
+    return finite(name, float(Decimal(number) * Decimal(repr(factor))), unit)
+
+
+def _factor(written: str, unit: str, message: str) -> float:
+    import pint
+
+    if not _UNIT.fullmatch(written):
+        raise UnitError(message)
+    registry = _registry()
+    try:
+        units = registry.parse_units(written.replace("·", "*"))
+        if registry.Quantity(0.0, units).m_as(unit) != 0.0:  # decibels and the like
+            raise UnitError(message)
+        return float(registry.Quantity(1.0, units).m_as(unit))
+    except pint.UndefinedUnitError as error:
+        raise UnitError(f"{message}, of unknown unit") from error
+    except pint.PintError as error:
+        raise UnitError(message) from error
+
+
+def _message(name: str, value: object, unit: str) -> str:
+    kind, example = _KINDS.get(unit, ("a quantity", f"20 {unit}"))
+    number = f"a number of {unit}" if unit else "a number"
+    right = f'{kind} ({number} or a string such as "{example}")'
+    return f"{name} must be {right}, got {shown(value)}"
+
+
+@functools.cache
+def _registry() -> "pint.UnitRegistry[float]":
+    import pint
+
+    return pint.UnitRegistry()
