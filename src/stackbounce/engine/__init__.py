@@ -1,0 +1,16 @@
+"""The solvers: functions on numbers and flat arrays that never raise and say how they ended.
+
+============= =====================================================================
+kernel        one source, two modes: plain Python for a few drops, numba for many
+codes         the integers that stand for statuses, laws, phases and kinds of event
+stack         the arrays that hold a stack of balls, and how to fill them
+rigid         sequences of instantaneous collisions (eqs 1 to 4)
+collapse      when a sequence of collisions is infinite, decided by theory
+series        Taylor series: how far one surely keeps its sign, powers, shifts
+modes         a cluster whose closed contacts are all linear: normal modes (eqs 5, 6)
+taylor        any other cluster: the power series of its motion, step by step
+motion        displacement, velocity and compression at any time, whatever the cluster
+contacts      what ends the present phase of a contact, and what comes after it
+simultaneous  the event loop of a stack with finite contacts
+============= =====================================================================
+"""

@@ -1,0 +1,38 @@
+"""The integers that stand for statuses, laws, phases and kinds of event inside the kernels."""
+
+# how a run ended
+RUNNING = 0  # the log is full: empty it and call again
+FINISHED = 1
+SETTLED = 2
+COLLAPSED = 3
+TIME_REACHED = 4
+EVENT_LIMIT = 5
+INVALID = 6
+
+# laws of a contact
+ABSENT = 0  # no floor
+POWER = 1  # F = k c^p, loading and unloading alike
+HYSTERETIC = 2  # F = k c^p loading, k C^p (c/C)^n unloading from the peak C
+
+# phases of a contact
+OPEN = 0
+COMPRESSING = 1
+RELEASING = 2
+
+# kinds of event
+LOOK = 0  # nothing happened yet: look again at that time
+TOUCH = 1
+RELEASE = 2
+COLLISION = 3
+PEAK = 4  # the compression stops growing
+DIP = 5  # the compression stops falling
+FAINT = 6  # the force sinks below round-off: the power law is continued by its chord
+PRESSED = 7  # ... and rises above it
+RELOADED = 8  # an unloading curve has been climbed back to its old peak
+
+# the columns of a log of events
+TIME, CONTACT, KIND, LOWER_VELOCITY, UPPER_VELOCITY = 0, 1, 2, 3, 4
+START, PEAK_FORCE, PEAK_COMPRESSION, IMPULSE = 5, 6, 7, 8
+LOG_COLUMNS = 9
+
+EPSILON = 2.220446049250313e-16

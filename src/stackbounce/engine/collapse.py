@@ -1,0 +1,136 @@
+"""When a sequence of collisions is infinite: decided by theory, not by a speed threshold.
+
+Two neighbouring contacts. Let x and y be the rates at which contacts 1 and 2 close, right after a
+collision at contact 1 (so x <= 0), e1 and e2 their restitutions, and let a collision at 1 add a x
+to the rate of 2 and one at 2 add b y to that of 1: a = (1+e1) m_lower/(m_lower+m_middle),
+b = (1+e2) m_upper/(m_middle+m_upper), with a floor as an infinite mass. A round (collisions at 2,
+then 1) maps x to -e1 (x + b y) and y to -e2 y + a (x + b y): its determinant is e1 e2 and its
+trace a b - e1 - e2. The round repeats for ever exactly where its eigenvalues are real and positive,
+
+    a b >= (sqrt(e1) + sqrt(e2))^2,
+
+which for a floor and two balls is m2/m1 >= (sqrt(e1)+sqrt(e2))^2 / (1-sqrt(e1 e2))^2, and where the
+first state lies on the right side of the weaker eigenvector. Gaps shrink as e1 e2 x_n/x_(n+1), so
+that the durations of all rounds telescope to b g / (x (1 + weaker/e1) + b y), g being the gap at
+contact 2 and weaker the smaller eigenvalue.
+
+More contacts. A state that has come back in all its proportions, only smaller, does so for ever:
+this is found by Brent's cycle search on the closing rates and gaps of the contacts involved.
+"""
+
+import math
+
+from stackbounce.engine.codes import ABSENT, EPSILON
+from stackbounce.engine.kernel import kernel
+from stackbounce.engine.stack import RigidStack
+
+_SAME = 1e-12  # proportions that agree this well are the same
+
+
+@kernel
+def closing_rate(stack: RigidStack, i: int) -> float:
+    """Return the rate at which contact i closes."""
+    below = stack.velocity[i - 1] if i > 0 else 0.0
+    return below - stack.velocity[i]
+
+
+@kernel
+def approach(stack: RigidStack, i: int) -> float:
+    """Return the rate at which contact i closes, 0 where it opens or rests within round-off."""
+    if stack.law[i] == ABSENT:
+        return 0.0
+    noise = stack.velocity_noise[i]
+    if i > 0:
+        noise += stack.velocity_noise[i - 1]
+    rate = closing_rate(stack, i)
+    return rate if rate > noise else 0.0
+
+
+@kernel
+def share(stack: RigidStack, i: int, ball: int) -> float:
+    """Return the mass on the other side of contact i over that of both sides, seen from a ball."""
+    if i == 0:
+        return 1.0
+    total = stack.mass[i - 1] + stack.mass[i]
+    return (stack.mass[i - 1] if ball == i else stack.mass[i]) / total
+
+
+@kernel
+def pair_ends(stack: RigidStack, hit: int, other: int) -> float:
+    """Return how long the infinite rounds of two neighbouring contacts last; infinity if finite.
+
+    Contact ``hit`` has just collided and ``other``, beside it, is closing.
+    """
+    x, y = closing_rate(stack, hit), approach(stack, other)
+    e1, e2 = stack.restitution[hit], stack.restitution[other]
+    if y == 0.0 or stack.law[hit] == ABSENT or e1 * e2 == 1.0:
+        return math.inf
+    middle = min(hit, other)
+    a = (1.0 + e1) * share(stack, hit, middle)
+    b = (1.0 + e2) * share(stack, other, middle)
+    trace = a * b - e1 - e2
+    least = 2.0 * math.sqrt(e1 * e2)
+    if trace < least - 8.0 * EPSILON * (a * b + e1 + e2):
+        return math.inf
+    discriminant = math.sqrt(max(0.0, (trace - least) * (trace + least)))
+    # the weaker eigenvalue over e1, from the product e1 e2 of both, without cancellation
+    weaker = 2.0 * e2 / (trace + discriminant) if e2 > 0.0 else 0.0
+    margin = x * (1.0 + weaker) + b * y
+    if margin <= 0.0:
+        return math.inf
+    return b * max(0.0, -stack.compression[other]) / margin
+
+
+@kernel
+def common_velocity(stack: RigidStack, low: int, high: int) -> float:
+    """Return the velocity that the balls at contacts low..high share in the end."""
+    if low == 0:
+        return 0.0
+    momentum, mass = 0.0, 0.0
+    for b in range(low - 1, high + 1):
+        momentum += stack.mass[b] * stack.velocity[b]
+        mass += stack.mass[b]
+    return momentum / mass
+
+
+@kernel
+def remember(stack: RigidStack, contact: int, time: float) -> None:
+    """Take the present state as the one to compare later ones with."""
+    for i in range(len(stack.mass)):
+        stack.kept_rate[i] = closing_rate(stack, i)
+        stack.kept_gap[i] = stack.compression[i]
+        stack.involved[i] = 0
+    stack.memory[0] = contact
+    stack.memory[1] = 2 * stack.memory[1]
+    stack.memory[2] = 0
+    stack.number[1] = time
+
+
+@kernel
+def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
+    """Compare with the state kept: return its (lowest, highest) contact and the ratio of sizes.
+
+    The ratio is 0 where the present state is not the kept one on a smaller scale.
+    """
+    low, high = -1, -1
+    size, kept, gap, kept_gap = 0.0, 0.0, 0.0, 0.0
+    for i in range(len(stack.mass)):
+        if stack.involved[i] == 1:
+            low = i if low < 0 else low
+            high = i
+    for i in range(low, high + 1):
+        if stack.involved[i] == 0:
+            return low, high, 0.0
+        size = max(size, abs(closing_rate(stack, i)))
+        kept = max(kept, abs(stack.kept_rate[i]))
+        gap = max(gap, -stack.compression[i])
+        kept_gap = max(kept_gap, -stack.kept_gap[i])
+    if contact != stack.memory[0] or high < low + 2 or size >= kept or size == 0.0:
+        return low, high, 0.0
+    for i in range(low, high + 1):
+        if abs(closing_rate(stack, i) / size - stack.kept_rate[i] / kept) > _SAME:
+            return low, high, 0.0
+        if kept_gap > 0.0 and abs(stack.compression[i] / gap - stack.kept_gap[i] / kept_gap) > 1e-9:
+            return low, high, 0.0
+    shrink = gap / kept_gap * kept / size if kept_gap > 0.0 else 0.0
+    return low, high, shrink if shrink > 0.0 else -1.0

@@ -1,0 +1,81 @@
+"""One source, two modes: a kernel runs as plain Python, or compiled by numba where it is asked to.
+
+A kernel is marked with :func:`kernel` and stays an ordinary Python function, so that a single drop
+needs no compiler. :func:`compiled` clones a marked function with its marked callees compiled in its
+namespace and hands the clone to numba. Both modes give the same bits: no fast-math, no threads.
+"""
+
+import dis
+import functools
+import hashlib
+import os
+import tempfile
+import types
+from collections.abc import Callable, MutableSequence
+from pathlib import Path
+from typing import Any, TypeAlias, TypeVar
+
+Floats: TypeAlias = MutableSequence[float]  # a list in plain Python, a numpy array when compiled
+Integers: TypeAlias = MutableSequence[int]
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+_MARK = "__stackbounce_kernel__"
+
+
+def kernel(function: Function) -> Function:
+    """Mark a function as a kernel: callable as it is, and compilable with its marked callees."""
+    setattr(function, _MARK, True)
+    return function
+
+
+@functools.cache
+def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the numba-compiled form of a kernel; its marked callees are compiled with it."""
+    from numba import njit
+    from numba.core import config
+
+    namespace = dict(function.__globals__)
+    for instruction in dis.get_instructions(function):
+        if instruction.opname != "LOAD_GLOBAL":
+            continue
+        name = instruction.argval
+        callee = namespace.get(name)
+        if getattr(callee, _MARK, False):
+            namespace[name] = compiled(callee)
+    clone = types.FunctionType(
+        function.__code__, namespace, function.__name__, function.__defaults__
+    )
+    clone.__qualname__ = function.__qualname__
+    clone.__module__ = function.__module__
+    folder = _cache_folder()
+    previous = config.CACHE_DIR  # type: ignore[attr-defined]
+    config.CACHE_DIR = "" if folder is None else str(folder)  # type: ignore[attr-defined]
+    try:
+        function_compiled: Callable[..., Any] = njit(cache=folder is not None, error_model="numpy")(
+            clone
+        )
+        return function_compiled
+    finally:
+        config.CACHE_DIR = previous  # type: ignore[attr-defined]
+
+
+@functools.cache
+def _cache_folder() -> Path | None:
+    """Find a writable folder for compiled code, named by a hash of all of the engine's sources.
+
+    numba looks for changes only in the file of the cached function itself; with the hash in the
+    folder's name a change in any engine file leaves the old code behind.
+    """
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(source.read_bytes())
+    user = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    for parent in (user, Path(tempfile.gettempdir())):
+        folder = parent / "stackbounce" / digest.hexdigest()[:16]
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            with tempfile.TemporaryFile(dir=folder):
+                return folder
+        except OSError:
+            continue
+    return None

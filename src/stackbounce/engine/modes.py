@@ -1,0 +1,159 @@
+"""A cluster whose closed contacts are all linear moves in normal modes: no time step, no tolerance.
+
+In the coordinates w_i = sqrt(k_i) c_i of the closed contacts the stored energy is |w|^2/2 and eqs 5
+and 6, for any number of balls, read w'' = -B B^T w + g, where the row of B for contact i holds
+sqrt(k_i/m) of the two balls at it. Orthogonalising those rows (one-sided Jacobi, which for two
+contacts is a single rotation) gives the modes y = Q w with frequencies equal to the rows' lengths.
+The balls follow from the contact forces by momentum, so that impulses are exact as well.
+"""
+
+import math
+
+from stackbounce.engine.codes import EPSILON
+from stackbounce.engine.kernel import Floats, kernel
+from stackbounce.engine.stack import Stack
+
+
+@kernel
+def find_modes(stack: Stack, low: int, high: int) -> None:
+    """Find the modes of the closed contacts low..high-1 of one cluster, in place."""
+    size = len(stack.mass)
+    bottom = max(low - 1, 0)
+    for i in range(low, high):
+        for b in range(bottom, high):
+            stack.rows[i * size + b] = 0.0
+        for j in range(low, high):
+            stack.shape[i * size + j] = 1.0 if i == j else 0.0
+        root = math.sqrt(stack.rate[i])
+        if i > 0:
+            stack.rows[i * size + i - 1] = root / math.sqrt(stack.mass[i - 1])
+        stack.rows[i * size + i] = -root / math.sqrt(stack.mass[i])
+    for _ in range(60):
+        turned = False
+        for i in range(low, high - 1):
+            for j in range(i + 1, high):
+                if _orthogonalise(stack, i, j, low, high):
+                    turned = True
+        if not turned:
+            break
+    for i in range(low, high):
+        square = 0.0
+        for b in range(bottom, high):
+            square += stack.rows[i * size + b] * stack.rows[i * size + b]
+        stack.omega[i] = math.sqrt(square)
+
+
+@kernel
+def _orthogonalise(stack: Stack, i: int, j: int, low: int, high: int) -> bool:
+    """Rotate rows i and j of B until they are orthogonal; tell whether they were not."""
+    size = len(stack.mass)
+    bottom = max(low - 1, 0)
+    ii, jj, ij = 0.0, 0.0, 0.0
+    for b in range(bottom, high):
+        x = stack.rows[i * size + b]
+        y = stack.rows[j * size + b]
+        ii += x * x
+        jj += y * y
+        ij += x * y
+    if abs(ij) <= 2.0 * EPSILON * math.sqrt(ii) * math.sqrt(jj):
+        return False
+    zeta = (jj - ii) / (2.0 * ij)
+    tangent = 1.0 / (abs(zeta) + math.sqrt(1.0 + zeta * zeta))
+    if zeta < 0.0:
+        tangent = -tangent
+    cosine = 1.0 / math.sqrt(1.0 + tangent * tangent)
+    sine = tangent * cosine
+    for b in range(bottom, high):
+        x = stack.rows[i * size + b]
+        y = stack.rows[j * size + b]
+        stack.rows[i * size + b] = cosine * x - sine * y
+        stack.rows[j * size + b] = sine * x + cosine * y
+    for k in range(low, high):
+        x = stack.shape[i * size + k]
+        y = stack.shape[j * size + k]
+        stack.shape[i * size + k] = cosine * x - sine * y
+        stack.shape[j * size + k] = sine * x + cosine * y
+    return True
+
+
+@kernel
+def start_modes(stack: Stack, low: int, high: int) -> None:
+    """Set the amplitudes of the modes of contacts low..high-1 from compressions and velocities."""
+    size = len(stack.mass)
+    gravity = stack.number[0]
+    for j in range(low, high):
+        start, speed, load = 0.0, 0.0, 0.0
+        for i in range(low, high):
+            weight = stack.shape[j * size + i] * math.sqrt(stack.rate[i])
+            below = stack.velocity[i - 1] if i > 0 else 0.0
+            start += weight * stack.compression[i]
+            speed += weight * (below - stack.velocity[i])
+            if i == 0:
+                load += weight * gravity
+        stack.static[j] = load / (stack.omega[j] * stack.omega[j])
+        stack.cosine[j] = start - stack.static[j]
+        stack.sine[j] = speed
+
+
+@kernel
+def modal_compression(
+    stack: Stack, i: int, low: int, high: int, s: float, out: Floats
+) -> tuple[float, float, float]:
+    """Expand the compression of closed contact i about s after the anchor, in eight terms.
+
+    Returns the bound on the rest (of order s^8), the round-off of the compression and of its rate.
+    """
+    size = len(stack.mass)
+    for k in range(8):
+        out[k] = 0.0
+    tail, noise, rate_noise = 0.0, 0.0, 0.0
+    for j in range(low, high):
+        weight = stack.shape[j * size + i] / math.sqrt(stack.rate[i])
+        omega = stack.omega[j]
+        cosine, sine = math.cos(omega * s), math.sin(omega * s)
+        swing = stack.cosine[j] * cosine + stack.sine[j] * sine / omega
+        speed = stack.sine[j] * cosine - stack.cosine[j] * omega * sine
+        out[0] += weight * stack.static[j]
+        even, odd = weight * swing, weight * speed
+        for k in range(0, 8, 2):
+            out[k] += even
+            out[k + 1] += odd
+            even *= -omega * omega / ((k + 1) * (k + 2))
+            odd *= -omega * omega / ((k + 2) * (k + 3))
+        fastest = abs(weight) * math.hypot(stack.cosine[j] * omega, stack.sine[j])
+        tail += fastest * omega**7 / 40320.0
+        reach = abs(stack.cosine[j]) + abs(stack.sine[j]) * min(s, 1.0 / omega)
+        noise += abs(weight) * (abs(stack.static[j]) + reach)
+        rate_noise += fastest
+    return tail, 16.0 * EPSILON * noise, 16.0 * EPSILON * rate_noise
+
+
+@kernel
+def modal_impulse(stack: Stack, i: int, low: int, high: int, s: float) -> tuple[float, float]:
+    """Return the first and second time integrals of the force of closed contact i over s."""
+    size = len(stack.mass)
+    once, twice = 0.0, 0.0
+    for j in range(low, high):
+        weight = stack.shape[j * size + i] * math.sqrt(stack.rate[i])
+        omega = stack.omega[j]
+        angle = omega * s
+        half = math.sin(0.5 * angle)
+        first = math.sin(angle) / omega
+        second = 2.0 * half * half / (omega * omega)
+        third = _sine_rest(angle) / (omega * omega * omega)
+        static, cosine, sine = stack.static[j], stack.cosine[j], stack.sine[j]
+        once += weight * (static * s + cosine * first + sine * second)
+        twice += weight * (0.5 * static * s * s + cosine * second + sine * third)
+    return once, twice
+
+
+@kernel
+def _sine_rest(x: float) -> float:
+    """Return x - sin x without cancellation."""
+    if x > 0.7:
+        return x - math.sin(x)
+    square = x * x
+    total = 1.0
+    for k in range(16, 3, -2):
+        total = 1.0 - square / (k * (k + 1)) * total
+    return x * square / 6.0 * total

@@ -1,0 +1,102 @@
+"""Taylor series: how far one surely keeps its sign, powers, products of time and shifts."""
+
+import math
+
+from stackbounce.engine.kernel import Floats, kernel
+
+ORDER = 18  # of the power series by which nonlinear clusters move
+TERMS = ORDER + 2  # a series in scratch space: one order more for an integrated one
+
+
+@kernel
+def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
+    """Find a time before which a positive series surely stays positive.
+
+    The function is within ``tail s^(n+1)`` of ``a[0] + a[1] s + ... + a[n] s^n``, a[0] > 0. Nested
+    lower bounds (each bracket of Horner's scheme is at least its constant, or that plus s times
+    the next bracket's bound where this is negative) give a slope l with f(u) >= a[0] + l u on all
+    of [0, s]: either s is safe, or -a[0]/l is. The trial s shrinks until one of them is long
+    enough; close to a simple root the steps become Newton's, always from the safe side.
+    """
+    s = limit
+    if a[1] < 0.0:
+        s = min(s, -2.0 * a[0] / a[1])
+    while True:
+        slope = -tail
+        for k in range(n, 0, -1):
+            slope = a[k] + min(0.0, slope * s)
+        if a[0] + slope * s >= 0.0:
+            return s
+        root = -a[0] / slope
+        if root >= 0.25 * s:
+            return root
+        s = 0.25 * s
+
+
+@kernel
+def parabola_root(a0: float, a1: float, a2: float) -> float:
+    """Return the first root s > 0 of a0 + a1 s + a2 s^2, a0 >= 0; infinity where there is none."""
+    if a0 <= 0.0 and (a1 < 0.0 or (a1 == 0.0 and a2 < 0.0)):
+        return 0.0
+    discriminant = a1 * a1 - 4.0 * a2 * a0
+    if discriminant < 0.0:
+        return math.inf
+    if a1 < 0.0:
+        return 2.0 * a0 / (-a1 + math.sqrt(discriminant))
+    if a2 < 0.0:
+        return (a1 + math.sqrt(discriminant)) / (-2.0 * a2)
+    return math.inf
+
+
+@kernel
+def value(a: Floats, offset: int, n: int, s: float) -> float:
+    """Evaluate a[offset] + a[offset+1] s + ... + a[offset+n] s^n."""
+    total = a[offset + n]
+    for k in range(n - 1, -1, -1):
+        total = a[offset + k] + s * total
+    return total
+
+
+@kernel
+def integral(a: Floats, offset: int, n: int, s: float) -> float:
+    """Evaluate the integral of that polynomial from 0 to s."""
+    total = a[offset + n] / (n + 1)
+    for k in range(n - 1, -1, -1):
+        total = a[offset + k] / (k + 1) + s * total
+    return s * total
+
+
+@kernel
+def double_integral(a: Floats, offset: int, n: int, s: float) -> float:
+    """Evaluate the integral of that integral from 0 to s."""
+    total = a[offset + n] / ((n + 1) * (n + 2))
+    for k in range(n - 1, -1, -1):
+        total = a[offset + k] / ((k + 1) * (k + 2)) + s * total
+    return s * s * total
+
+
+@kernel
+def shift(a: Floats, offset: int, n: int, s: float, out: Floats) -> None:
+    """Expand that polynomial about s: out[0] + out[1] u + ... + out[n] u^n at s + u."""
+    for k in range(n + 1):
+        out[k] = a[offset + k]
+    for k in range(n):
+        for j in range(n - 1, k - 1, -1):
+            out[j] += s * out[j + 1]
+
+
+@kernel
+def power_term(
+    base: Floats, unit: float, power: Floats, offset: int, exponent: float, k: int
+) -> float:
+    """Return term k of (base/unit)^exponent from terms up to k of the base and k-1 of the power.
+
+    From u = c^p: c u' = p c' u, compared order by order. The base's first term is positive.
+    """
+    if k == 0:
+        first: float = (base[offset] / unit) ** exponent
+        return first
+    total = 0.0
+    for j in range(1, k + 1):
+        total += (exponent * j - (k - j)) * base[offset + j] * power[offset + k - j]
+    return total / (k * base[offset])

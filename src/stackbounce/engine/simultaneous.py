@@ -1,0 +1,225 @@
+"""Simultaneous, finite contacts: from event to event, each cluster on its own solution.
+
+Every contact is looked at no later than it could possibly have changed its phase, so that no event
+is missed; the earliest due comes next, at a tie the lowest contact. What an event touches is the
+clusters beside it and nothing else.
+"""
+
+import math
+
+from stackbounce.engine.codes import (
+    ABSENT,
+    CONTACT,
+    EVENT_LIMIT,
+    FINISHED,
+    IMPULSE,
+    INVALID,
+    KIND,
+    LOG_COLUMNS,
+    LOOK,
+    LOWER_VELOCITY,
+    OPEN,
+    PEAK,
+    PEAK_COMPRESSION,
+    PEAK_FORCE,
+    RELEASE,
+    RUNNING,
+    START,
+    TIME,
+    TIME_REACHED,
+    TOUCH,
+    UPPER_VELOCITY,
+)
+from stackbounce.engine.contacts import (
+    begin,
+    change_curve,
+    changes_curve,
+    force,
+    look,
+    record_peak,
+    stored_energy,
+    turn,
+)
+from stackbounce.engine.kernel import Floats, kernel
+from stackbounce.engine.motion import (
+    advance_cluster,
+    compression_at,
+    contact_impulse,
+    form_clusters,
+    velocity_at,
+)
+from stackbounce.engine.stack import Samples, Stack
+
+LOOKS_LIMIT = 1_000_000  # looks without an event: a state that goes on for ever
+
+
+@kernel
+def start(stack: Stack) -> None:
+    """Anchor a new stack at time 0 and look at every contact for the first time."""
+    size = len(stack.mass)
+    for i in range(size):
+        stack.phase[i] = OPEN
+        stack.touching[i] = 0.0
+    form_clusters(stack, 0, size - 1, 0.0)
+    for i in range(size):
+        look(stack, i, 0.0)
+
+
+@kernel
+def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: Samples) -> int:
+    """Move a stack on until it is finished, a time or a limit is reached, or the log is full.
+
+    Fills ``samples`` on the way and returns the status; counter[0] tells the entries in the log.
+    """
+    room = len(log) // LOG_COLUMNS
+    size = len(stack.mass)
+    while True:
+        slot = 0
+        for candidate in range(1, 2 * size):
+            if stack.due[candidate] < stack.due[slot]:
+                slot = candidate
+        time = stack.due[slot]
+        _sample(stack, samples, min(time, until))
+        if time > until:
+            return TIME_REACHED
+        if time == math.inf:
+            return _ending(stack)
+        if stack.counter[1] >= event_limit or stack.counter[2] >= LOOKS_LIMIT:
+            return EVENT_LIMIT
+        if stack.counter[0] == room:
+            return RUNNING
+        stack.clock[1] = time
+        if slot >= size:
+            stack.counter[2] += 1
+            _renew(stack, slot - size, time)
+        elif stack.event[slot] == LOOK:
+            stack.counter[2] += 1
+            look(stack, slot, time)
+        else:
+            kind = stack.event[slot]
+            _happen(stack, slot, kind, time, log)
+            if kind == RELEASE and until == math.inf and _all_part(stack):
+                _sample(stack, samples, math.inf)
+                return _ending(stack)
+
+
+@kernel
+def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
+    """Apply an event of contact i."""
+    stack.counter[1] += 1
+    stack.counter[2] = 0
+    stack.clock[0] = time
+    if kind not in (TOUCH, RELEASE):
+        compression = compression_at(stack, i, time)
+        if kind == PEAK:
+            record_peak(stack, i, compression)
+        if not changes_curve(stack, i, kind):
+            turn(stack, i, kind)
+            look(stack, i, time)
+            return
+    bottom = stack.first[max(i - 1, 0)]
+    top = stack.last[i]
+    advance_cluster(stack, i, time)
+    if i > 0 and stack.first[i - 1] != stack.first[i]:
+        advance_cluster(stack, i - 1, time)
+    logical = time
+    if kind == TOUCH:
+        begin(stack, i, time)
+        logical = stack.start[i]
+    elif kind == RELEASE:
+        stack.phase[i] = OPEN
+    else:
+        change_curve(stack, i, kind)
+    form_clusters(stack, bottom, top, time)
+    for j in range(bottom, min(top + 2, len(stack.mass))):
+        if stack.phase[j] == OPEN:
+            stack.touching[j] = logical
+        look(stack, j, time)
+    if kind in (TOUCH, RELEASE):
+        _write(stack, i, kind, logical, log)
+
+
+@kernel
+def _renew(stack: Stack, ball: int, time: float) -> None:
+    """Expand the motion of a ball's cluster anew where its series ends."""
+    bottom, top = stack.first[ball], stack.last[ball]
+    advance_cluster(stack, ball, time)
+    form_clusters(stack, bottom, top, time)
+    for j in range(bottom, min(top + 2, len(stack.mass))):
+        look(stack, j, time)
+
+
+@kernel
+def _write(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
+    """Append an event of contact i to the log; both its balls are anchored at this moment."""
+    at = stack.counter[0] * LOG_COLUMNS
+    stack.counter[0] += 1
+    log[at + TIME] = time
+    log[at + CONTACT] = i
+    log[at + KIND] = kind
+    log[at + LOWER_VELOCITY] = stack.velocity[i - 1] if i > 0 else 0.0
+    log[at + UPPER_VELOCITY] = stack.velocity[i]
+    log[at + START] = stack.start[i]
+    log[at + PEAK_FORCE] = stack.peak_force[i]
+    log[at + PEAK_COMPRESSION] = stack.peak_compression[i]
+    log[at + IMPULSE] = stack.impulse[i]
+
+
+@kernel
+def write_unfinished(stack: Stack, time: float, log: Floats) -> None:
+    """Append the intervals that are still under way at a time, as releases at infinity."""
+    for i in range(len(stack.mass)):
+        if stack.phase[i] == OPEN:
+            continue
+        compression = compression_at(stack, i, time)
+        record_peak(stack, i, compression)
+        once, _ = contact_impulse(stack, i, time - stack.anchor[stack.first[i]])
+        stack.impulse[i] += once
+        _write(stack, i, RELEASE, math.inf, log)
+
+
+@kernel
+def _ending(stack: Stack) -> int:
+    """Return FINISHED, or INVALID where a number got lost."""
+    for velocity in stack.velocity:
+        if not math.isfinite(velocity):
+            return INVALID
+    return FINISHED
+
+
+@kernel
+def _all_part(stack: Stack) -> bool:
+    """Tell, with gravity, whether all contacts are open and no ball approaches what is below it."""
+    if stack.number[0] == 0.0:
+        return False  # nothing brings them back: the run ends when nothing is due any more
+    time = stack.clock[0]
+    for i in range(len(stack.mass)):
+        if stack.law[i] == ABSENT:
+            continue
+        noise = stack.velocity_noise[i]
+        below = 0.0
+        if i > 0:
+            noise += stack.velocity_noise[i - 1]
+            below = velocity_at(stack, i - 1, time)
+        if stack.phase[i] != OPEN or below - velocity_at(stack, i, time) > noise:
+            return False
+    return True
+
+
+@kernel
+def _sample(stack: Stack, samples: Samples, time: float) -> None:
+    """Record every ball and contact at the sample times up to a time, before its event."""
+    size = len(stack.mass)
+    while stack.counter[3] < len(samples.time) and samples.time[stack.counter[3]] <= time:
+        now = samples.time[stack.counter[3]]
+        at = stack.counter[3] * size
+        position = 0.0
+        for i in range(size):
+            compression = compression_at(stack, i, now)
+            position -= compression
+            samples.position[at + i] = position
+            samples.velocity[at + i] = velocity_at(stack, i, now)
+            samples.compression[at + i] = compression
+            samples.force[at + i] = force(stack, i, compression)
+            samples.stored[at + i] = stored_energy(stack, i, compression)
+        stack.counter[3] += 1

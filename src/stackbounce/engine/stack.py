@@ -1,0 +1,160 @@
+"""The arrays that hold a stack of balls: lists in plain Python, numpy arrays when compiled.
+
+Index b runs over balls from the lowest up, index i over contacts; contact i lies below ball i.
+A *cluster* is a run of balls joined by closed contacts, known by its lowest ball; a ball in flight
+is a cluster of its own. Each cluster is anchored at a time of its own: velocities (and compressions
+of its closed contacts) are those of the anchor. An open contact keeps ``compression[i]`` such that
+its compression at any time is that number plus the displacement of the ball below it less that of
+the ball above it, both since the anchors of their clusters.
+"""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+from stackbounce.engine.kernel import Floats, Integers
+from stackbounce.engine.series import TERMS
+
+
+class Stack(NamedTuple):
+    """A stack on finite contacts."""
+
+    # what does not change: one entry per ball or contact
+    mass: Floats
+    law: Integers
+    stiffness: Floats
+    exponent: Floats
+    unloading: Floats  # exponent of the unloading curve
+    scale: Floats  # a typical compression of the contact
+    number: Floats  # [gravity, reference speed, tolerance of a velocity per step]
+    # the state
+    velocity: Floats
+    velocity_noise: Floats  # round-off that the velocity may have gathered
+    compression: Floats
+    phase: Integers
+    curve_force: Floats  # the curve that the force follows now: curve_force (c/curve_unit)^exponent
+    curve_unit: Floats
+    curve_exponent: Floats
+    top: Floats  # where an unloading curve joins the loading curve; infinite on the latter
+    faint_below: Floats
+    faint: Integers  # 1 where the force follows the chord of its curve below faint_below
+    touching: Floats  # since when a contact has been touching without a force; nan if it is not
+    # the interval of each contact that is under way
+    start: Floats
+    peak_force: Floats
+    peak_compression: Floats
+    impulse: Floats
+    # clusters
+    first: Integers  # lowest ball of the cluster that a ball belongs to
+    last: Integers
+    linear: Integers  # 1 where the cluster moves in normal modes (entry of its lowest ball)
+    anchor: Floats
+    # when to look: contacts, then ends of the series' validity by lowest ball
+    due: Floats
+    event: Integers
+    # normal modes, known by contact index
+    rate: Floats  # effective stiffness F/c of a linear contact
+    omega: Floats
+    shape: Floats
+    static: Floats
+    cosine: Floats
+    sine: Floats
+    rows: Floats
+    # power series about the anchor
+    compression_series: Floats
+    force_series: Floats
+    velocity_series: Floats
+    power_series: Floats
+    # scratch space and counters
+    scratch: Floats
+    watched: Floats
+    margin: Floats
+    counter: Integers  # [rows in the log, events so far, looks since the last one, next sample]
+    clock: Floats  # [time of the last event, time of the last look]
+
+
+class RigidStack(NamedTuple):
+    """A stack of rigid balls."""
+
+    mass: Floats
+    law: Integers
+    restitution: Floats
+    velocity: Floats
+    velocity_noise: Floats  # round-off that the velocity may have gathered
+    compression: Floats  # minus the gap
+    infinite: Integers  # 1 where a contact has collided infinitely often
+    # what the search for collapse keeps: a state, the contacts hit since, where it was taken
+    kept_rate: Floats
+    kept_gap: Floats
+    involved: Integers
+    memory: Integers  # [contact hit then, collisions after which to keep another, those since]
+    number: Floats  # [factor of the velocities and gaps, time of the state kept]
+    counter: Integers  # as in a Stack
+    clock: Floats
+
+
+class Samples(NamedTuple):
+    """What a run leaves at given times: rows of times, columns of balls or contacts."""
+
+    time: Floats
+    position: Floats
+    velocity: Floats
+    compression: Floats
+    force: Floats
+    stored: Floats
+
+
+_PER_BALL = (
+    "mass law stiffness exponent unloading scale velocity velocity_noise compression phase "
+    "curve_force curve_unit curve_exponent top faint_below faint touching start peak_force "
+    "peak_compression impulse first last linear anchor rate omega static cosine sine"
+).split()
+_INTEGERS = {
+    name
+    for record in (Stack, RigidStack)
+    for name, kind in record.__annotations__.items()
+    if kind is Integers
+}
+
+
+def new_stack(size: int, **given: Sequence[Any]) -> Stack:
+    """Return a stack of ``size`` balls as plain lists, all zero but for the fields given."""
+    lengths = dict.fromkeys(_PER_BALL, size)
+    lengths |= {"due": 2 * size, "event": 2 * size, "shape": size * size, "rows": size * size}
+    lengths |= dict.fromkeys(
+        ["compression_series", "force_series", "velocity_series", "power_series"], size * TERMS
+    )
+    lengths |= {
+        "scratch": TERMS,
+        "watched": TERMS,
+        "margin": TERMS,
+        "counter": 4,
+        "clock": 2,
+        "number": 3,
+    }
+    fields = {name: [0 if name in _INTEGERS else 0.0] * length for name, length in lengths.items()}
+    return Stack(**(fields | {name: list(values) for name, values in given.items()}))
+
+
+def new_rigid_stack(size: int, **given: Sequence[Any]) -> RigidStack:
+    """Return a stack of ``size`` rigid balls as plain lists, all zero but for the fields given."""
+    lengths = dict.fromkeys(RigidStack._fields, size)
+    lengths |= {"memory": 3, "number": 2, "counter": 4, "clock": 2}
+    fields = {name: [0 if name in _INTEGERS else 0.0] * length for name, length in lengths.items()}
+    return RigidStack(**(fields | {name: list(values) for name, values in given.items()}))
+
+
+def new_samples(times: Sequence[float], size: int) -> Samples:
+    """Return room for what a run leaves at given times, in ascending order."""
+    return Samples(list(times), *([0.0] * (len(times) * size) for _ in range(5)))
+
+
+def as_arrays(record: Any) -> Any:
+    """Return a Stack or Samples of lists as one of numpy arrays, for compiled kernels."""
+    import numpy as np
+
+    return type(record)(
+        *(
+            np.array(values, dtype=np.int64 if name in _INTEGERS else np.float64)
+            for name, values in zip(record._fields, record, strict=True)
+        )
+    )
