@@ -74,13 +74,16 @@ def look(stack: Stack, i: int, time: float) -> None:
         return
     a = stack.watched
     order, tail, noise, rate_noise = compression_series(stack, i, time, a)
-    band = max(noise, 4.0 * EPSILON * stack.scale[i])
+    # round-off: of the solution, of the clock, and never less than that of a typical compression
+    tick = 4.0 * EPSILON * time
+    band = max(noise + tick * abs(a[1]), 4.0 * EPSILON * stack.scale[i])
+    rate_band = max(rate_noise + tick * abs(2.0 * a[2]), 4.0 * EPSILON * stack.number[1])
     horizon = stack.due[size + stack.first[i]]
     if i > 0:
         horizon = min(horizon, stack.due[size + stack.first[i - 1]])
     horizon -= time
     if stack.phase[i] == OPEN:
-        if a[0] < -band:
+        if a[0] < -band or a[1] < -rate_band:
             stack.touching[i] = math.nan
         if _never_meets(stack, i, a, order):
             stack.due[i] = math.inf
@@ -102,7 +105,6 @@ def look(stack: Stack, i: int, time: float) -> None:
             wait, reached = _wait(stack, a, order, tail, -1.0, level, band, horizon)
     for k in range(order):
         a[k] = (k + 1) * a[k + 1]
-    rate_band = max(rate_noise, 4.0 * EPSILON * stack.number[1])
     turning, turned = _wait(stack, a, order - 1, (order + 1) * tail, sign, 0.0, rate_band, horizon)
     if turning < wait:
         wait, reached, kind = turning, turned, turn

@@ -126,8 +126,10 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     if kind == TOUCH:
         begin(stack, i, time)
         logical = stack.start[i]
+        stack.compression[i] = max(stack.compression[i], 0.0)
     elif kind == RELEASE:
         stack.phase[i] = OPEN
+        stack.compression[i] = min(stack.compression[i], 0.0)
     else:
         change_curve(stack, i, kind)
     form_clusters(stack, bottom, top, time)
