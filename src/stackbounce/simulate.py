@@ -8,7 +8,7 @@ from typing import Any
 from stackbounce.engine import codes
 from stackbounce.engine.kernel import compiled as compile_kernel
 from stackbounce.engine.motion import velocity_at
-from stackbounce.engine.rigid import begin_collisions, collide_all
+from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance, start, write_unfinished
 from stackbounce.engine.stack import (
     RigidStack,
@@ -26,7 +26,7 @@ from stackbounce.result import Result, Status
 __all__ = ["simulate"]
 
 _LOG_ROWS = 4096
-_PLAIN_BALLS = 4  # stacks up to this size run faster in plain Python than numba loads
+_PLAIN_BALLS = 20  # up to this size plain Python is done before compiled code has been loaded
 _VELOCITY_TOLERANCE = 1e-16  # per step of a nonlinear cluster, of the reference speed
 
 
@@ -104,30 +104,37 @@ def _run(
     rigid = drop.rigid
     stack: Any = _rigid_stack(drop) if rigid else _finite_stack(drop)
     samples = new_samples(times, len(drop.balls))
-    log: Any = [0.0] * (_LOG_ROWS * codes.LOG_COLUMNS)
-    mode: Callable[..., Any] = _as_it_is
+    log: Any = [0.0] * (max(_LOG_ROWS, len(drop.balls)) * codes.LOG_COLUMNS)
+    handle, mode = stack, _as_it_is
     if compiled:
         import numpy as np
 
-        mode, stack, samples = compile_kernel, as_arrays(stack), as_arrays(samples)
-        log = np.array(log)
-    begin, go_on = (begin_collisions, collide_all) if rigid else (start, advance)
+        from stackbounce.engine.structure import structure
+
+        stack, samples, log = as_arrays(stack), as_arrays(samples), np.array(log)
+        handle, mode = structure(stack), compile_kernel
+    begin, go_on, speed = start, advance, velocity_at
+    if rigid:
+        begin, go_on, speed = begin_collisions, collide_all, rigid_velocity
     entries: list[float] = []
     try:
-        mode(begin)(stack)
+        mode(begin)(handle)
         status = codes.RUNNING
         while status == codes.RUNNING:
             stack.counter[0] = 0
-            status = int(mode(go_on)(stack, until, event_limit, log, samples))
+            status = int(mode(go_on)(handle, until, event_limit, log, samples))
             entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
-        time = until if status == codes.TIME_REACHED else float(max(stack.clock))
+        time = float(stack.clock[0])
+        if status != codes.FINISHED:
+            time = until if status == codes.TIME_REACHED else float(max(stack.clock))
         if not rigid and status != codes.FINISHED:
             stack.counter[0] = 0
-            mode(write_unfinished)(stack, time, log)
+            mode(write_unfinished)(handle, time, log)
             entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
+        velocities = [float(mode(speed)(handle, b, time)) for b in range(len(drop.balls))]
     except (ArithmeticError, ValueError):  # plain Python's word for what numba calls inf or nan
         status, time = codes.INVALID, float(stack.clock[0])
-    velocities = _velocities(stack, rigid, time, mode)
+        velocities = [float(velocity) for velocity in stack.velocity]
     infinite = list(stack.infinite) if rigid else [0] * len(drop.balls)
     return status, time, velocities, entries, infinite, samples
 
@@ -141,15 +148,6 @@ def _samples(
 
 def _as_it_is(kernel: Callable[..., Any]) -> Callable[..., Any]:
     return kernel
-
-
-def _velocities(
-    stack: Any, rigid: bool, time: float, mode: Callable[..., Callable[..., Any]]
-) -> list[float]:
-    """Return the velocities of all balls at the end of a run."""
-    if rigid:
-        return [float(velocity) * float(stack.number[0]) for velocity in stack.velocity]
-    return [float(mode(velocity_at)(stack, b, time)) for b in range(len(stack.mass))]
 
 
 def _compressions(drop: Drop) -> list[float]:

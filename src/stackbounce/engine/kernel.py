@@ -5,13 +5,14 @@ needs no compiler. :func:`compiled` clones a marked function with its marked cal
 namespace and hands the clone to numba. Both modes give the same bits: no fast-math, no threads.
 """
 
+import contextlib
 import dis
 import functools
 import hashlib
 import os
 import tempfile
 import types
-from collections.abc import Callable, MutableSequence
+from collections.abc import Callable, Iterator, MutableSequence
 from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
@@ -32,7 +33,6 @@ def kernel(function: Function) -> Function:
 def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return the numba-compiled form of a kernel; its marked callees are compiled with it."""
     from numba import njit
-    from numba.core import config
 
     namespace = dict(function.__globals__)
     for instruction in dis.get_instructions(function):
@@ -47,14 +47,21 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     )
     clone.__qualname__ = function.__qualname__
     clone.__module__ = function.__module__
+    with caching() as cached:
+        result: Callable[..., Any] = njit(cache=cached, error_model="numpy")(clone)
+    return result
+
+
+@contextlib.contextmanager
+def caching() -> Iterator[bool]:
+    """Let numba keep what is compiled inside in this package's own folder; yield whether it can."""
+    from numba.core import config
+
     folder = _cache_folder()
     previous = config.CACHE_DIR  # type: ignore[attr-defined]
     config.CACHE_DIR = "" if folder is None else str(folder)  # type: ignore[attr-defined]
     try:
-        function_compiled: Callable[..., Any] = njit(cache=folder is not None, error_model="numpy")(
-            clone
-        )
-        return function_compiled
+        yield folder is not None
     finally:
         config.CACHE_DIR = previous  # type: ignore[attr-defined]
 

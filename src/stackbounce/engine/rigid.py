@@ -79,6 +79,12 @@ def collide_all(
 
 
 @kernel
+def rigid_velocity(stack: RigidStack, b: int, _time: float) -> float:
+    """Return the velocity of ball b, which has not changed since the last collision."""
+    return stack.velocity[b] * stack.number[0]
+
+
+@kernel
 def _ending(stack: RigidStack) -> int:
     """Return how a sequence without further collisions has ended."""
     for velocity in stack.velocity:

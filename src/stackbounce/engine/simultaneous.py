@@ -108,7 +108,6 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     """Apply an event of contact i."""
     stack.counter[1] += 1
     stack.counter[2] = 0
-    stack.clock[0] = time
     if kind not in (TOUCH, RELEASE):
         compression = compression_at(stack, i, time)
         if kind == PEAK:
@@ -116,6 +115,7 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         if not changes_curve(stack, i, kind):
             turn(stack, i, kind)
             look(stack, i, time)
+            stack.clock[0] = time
             return
     bottom = stack.first[max(i - 1, 0)]
     top = stack.last[i]
@@ -124,10 +124,11 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         advance_cluster(stack, i - 1, time)
     logical = time
     if kind == TOUCH:
-        begin(stack, i, time)
+        begin(stack, i, _crossing(stack, i, time))
         logical = stack.start[i]
         stack.compression[i] = max(stack.compression[i], 0.0)
     elif kind == RELEASE:
+        logical = _crossing(stack, i, time)
         stack.phase[i] = OPEN
         stack.compression[i] = min(stack.compression[i], 0.0)
     else:
@@ -137,8 +138,19 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         if stack.phase[j] == OPEN:
             stack.touching[j] = logical
         look(stack, j, time)
+    stack.clock[0] = logical
     if kind in (TOUCH, RELEASE):
         _write(stack, i, kind, logical, log)
+
+
+@kernel
+def _crossing(stack: Stack, i: int, time: float) -> float:
+    """Return when the compression of contact i, anchored now just past zero, was zero."""
+    below = stack.velocity[i - 1] if i > 0 else 0.0
+    rate = below - stack.velocity[i]
+    if stack.compression[i] * rate <= 0.0:
+        return time
+    return max(stack.clock[0], time - stack.compression[i] / rate)
 
 
 @kernel
