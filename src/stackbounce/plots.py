@@ -1,0 +1,176 @@
+"""Pictures of a result: where the balls go, and what presses them."""
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType
+from stackbounce.result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["bounce"]
+
+_SAMPLES = 1200
+_BEFORE, _AFTER = 0.15, 0.35  # of the impact's duration shown before and after it
+_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")  # Okabe and Ito
+_STYLE: dict[str, Any] = {
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.8,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "stackbounce",
+    "figure.constrained_layout.use": True,
+}
+
+
+def bounce(result: Result) -> "Figure":
+    """Draw the impact: the position of each ball and the force at each contact against time.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw. A rigid stack has no finite forces: its impulses are drawn instead.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved: ``figure.savefig("bounce.svg")`` does.
+
+    Raises
+    ------
+    InvalidType
+        If `result` is no Result.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce import plots
+    >>> drop = sb.Drop(
+    ...     balls=[sb.Ball(0.150, name="basketball"), sb.Ball(0.057, name="tennis ball")],
+    ...     contacts=[sb.Spring(2500.0), sb.Spring(1000.0)],
+    ...     impact_speed=3.53,
+    ... )
+    >>> figure = plots.bounce(sb.simulate(drop))
+    >>> [axes.get_ylabel() for axes in figure.axes]
+    ['position (mm)', 'force (N)']
+    """
+    if not isinstance(result, Result):
+        raise InvalidType(f"result must be a Result, got {type(result).__name__}")
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(_STYLE):
+        figure = Figure(figsize=(7.2, 5.6))
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+        times = _times(result)
+        _draw_positions(above, result, times)
+        if result.drop.rigid:
+            _draw_impulses(below, result)
+        else:
+            _draw_forces(below, result, times)
+        below.set_xlabel("time since the lowest ball touched the floor (ms)")
+        below.set_xlim(1e3 * times[0], 1e3 * times[-1])
+        figure.align_ylabels()
+    return figure
+
+
+def _times(result: Result) -> NDArray[np.float64]:
+    """Return times in s from a little before the first touch to a little after the last release."""
+    ends = result.intervals["end"]
+    finite = ends[np.isfinite(ends)]
+    last = max([result.end_time, *finite]) if len(finite) else result.end_time
+    span = last if last > 0.0 else 0.010
+    stop = last + _AFTER * span if result.status.name != "TIME_REACHED" else last
+    return np.linspace(-_BEFORE * span, stop, _SAMPLES)
+
+
+def _draw_positions(axes: "Axes", result: Result, times: NDArray[np.float64]) -> None:
+    """Draw the path of each ball, straight before the first touch."""
+    drop = result.drop
+    flown = result.sample(np.maximum(times, 0.0)).position.values
+    early = np.minimum(times, 0.0)
+    for b, (ball, path, start) in enumerate(
+        zip(drop.balls, flown, drop.start_velocities, strict=True)
+    ):
+        fallen = start * early - 0.5 * drop.gravity * early**2
+        ratio = result.rebound_ratios[b]
+        axes.plot(1e3 * times, 1e3 * (path + fallen), color=_color(b))
+        label = f"{ball.name or f'ball {b}'}\n{ratio:.3g} v₀"
+        axes.annotate(
+            label,
+            xy=(1e3 * times[-1], 1e3 * (path + fallen)[-1]),
+            xytext=(6, 0),
+            textcoords="offset points",
+            va="center",
+            color=_color(b),
+            annotation_clip=False,
+        )
+    axes.set_ylabel("position (mm)")
+    axes.axhline(0.0, color="#808080", linewidth=0.8)
+    axes.set_title(_summary(result), loc="left", fontsize=10)
+
+
+def _draw_forces(axes: "Axes", result: Result, times: NDArray[np.float64]) -> None:
+    """Draw the force at each contact."""
+    forces = result.sample(np.maximum(times, 0.0)).force.values * (times >= 0.0)
+    for i, force in enumerate(forces):
+        if result.drop.contacts[i] is None:
+            continue
+        axes.plot(1e3 * times, force, color=_color(i), label=_between(result, i))
+        axes.fill_between(1e3 * times, force, color=_color(i), alpha=0.12, linewidth=0)
+    axes.set_ylabel("force (N)")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(frameon=False, loc="upper right")
+
+
+def _draw_impulses(axes: "Axes", result: Result) -> None:
+    """Draw the impulse of each collision of a rigid stack as a stem."""
+    for i in range(len(result.drop.balls)):
+        rows = result.intervals[result.intervals["contact"] == i]
+        axes.vlines(
+            1e3 * rows["start"],
+            0.0,
+            rows["impulse"],
+            color=_color(i),
+            linewidth=3.0 if i == 0 else 1.6,
+            label=_between(result, i) + f" ({_count(int(result.collisions[i]))})",
+        )
+    axes.set_ylabel("impulse (N s)")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(frameon=False, loc="upper right")
+
+
+def _count(collisions: int) -> str:
+    if collisions < 0:
+        return "infinitely many"
+    return "once" if collisions == 1 else f"{collisions} times"
+
+
+def _between(result: Result, contact: int) -> str:
+    """Return the words for a contact, such as ``floor and basketball``."""
+    names = [ball.name or f"ball {b}" for b, ball in enumerate(result.drop.balls)]
+    lower = "floor" if contact == 0 else names[contact - 1]
+    return f"{lower} and {names[contact]}"
+
+
+def _summary(result: Result) -> str:
+    """Return one line on what came in and what was kept."""
+    speed = result.drop.reference_speed
+    kept = result.energy_retained
+    words = f"v₀ = {speed:.3g} m/s"
+    if math.isfinite(kept):
+        words += f", kinetic energy kept {100.0 * kept:.0f} %"
+    return words
+
+
+def _color(index: int) -> str:
+    return _COLORS[index % len(_COLORS)]
