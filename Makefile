@@ -39,7 +39,7 @@ imports: $(DEV)  ## the import rules (import-linter)
 	@$(BIN)/lint-imports
 
 docs: $(DEV)  ## build the documentation in build/docs, warnings being errors
-	@$(BIN)/python -m sphinx -q -W --keep-going -n -b html docs build/docs
+	@$(BIN)/python -m sphinx -q -E -W --keep-going -n -b html -d build/doctrees docs build/docs
 	@echo "Documentation: $(CURDIR)/build/docs/index.html"
 
 format: $(DEV)  ## let ruff put the code in order

@@ -1,0 +1,49 @@
+"""Sphinx's settings. Nothing is fetched while building, and the pages fetch nothing."""
+
+import sys
+from pathlib import Path
+
+from stackbounce.version import __version__
+
+sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
+
+project = "stackbounce"
+author = "The stackbounce developers"
+copyright = "2026, The stackbounce developers"
+release = version = __version__
+
+extensions = [
+    "mathml",
+    "myst_parser",
+    "numpydoc",
+    "offline",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.autosummary",
+]
+exclude_patterns = ["_extensions"]
+default_role = "literal"  # docstrings name arguments in single backticks
+
+# References inside the package must resolve; other projects' names are not linked, as that would
+# need their inventories from the network.
+nitpicky = True
+nitpick_ignore_regex = [(r"py:.*", r"(?!stackbounce\b).*")]
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "none"  # the docstrings tell types, shapes and units
+autosummary_generate = False
+numpydoc_show_class_members = False
+numpydoc_validation_checks = {"GL01", "GL02", "GL06", "GL07", "PR01", "PR02", "PR03", "SS03"}
+numpydoc_validation_exclude = {r"\.Status$"}  # an enumeration's signature is Python's
+
+myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+math_number_all = False
+math_eqref_format = "({number})"
+
+html_theme = "furo"
+html_title = f"stackbounce {version}"
+html_math_renderer = "mathml"
+html_static_path = ["_static"]
+html_css_files = ["math.css"]
+html_copy_source = False
+html_show_sourcelink = False
