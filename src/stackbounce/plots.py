@@ -18,7 +18,7 @@ __all__ = ["bounce"]
 _SAMPLES = 1200
 _BEFORE, _AFTER = 0.15, 0.35  # of the impact's duration shown before and after it
 _COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")  # Okabe and Ito
-_STYLE: dict[str, Any] = {
+_STYLE: Any = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
@@ -68,7 +68,8 @@ def bounce(result: Result) -> "Figure":
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context():
+        mpl.rcParams.update(_STYLE)
         figure = Figure(figsize=(7.2, 5.6))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = _times(result)

@@ -27,6 +27,9 @@ __all__ = ["simulate"]
 
 _LOG_ROWS = 4096
 _PLAIN_BALLS = 20  # up to this size plain Python is done before compiled code has been loaded
+_Kernel = Callable[..., Any]
+_FINITE_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (start, advance, velocity_at)
+_RIGID_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (begin_collisions, collide_all, rigid_velocity)
 _VELOCITY_TOLERANCE = 1e-16  # per step of a nonlinear cluster, of the reference speed
 
 
@@ -113,9 +116,7 @@ def _run(
 
         stack, samples, log = as_arrays(stack), as_arrays(samples), np.array(log)
         handle, mode = structure(stack), compile_kernel
-    begin, go_on, speed = start, advance, velocity_at
-    if rigid:
-        begin, go_on, speed = begin_collisions, collide_all, rigid_velocity
+    begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
     entries: list[float] = []
     try:
         mode(begin)(handle)
@@ -146,7 +147,7 @@ def _samples(
     return _run(drop, until, event_limit, compiled, times)[-1]
 
 
-def _as_it_is(kernel: Callable[..., Any]) -> Callable[..., Any]:
+def _as_it_is(kernel: _Kernel) -> _Kernel:
     return kernel
 
 

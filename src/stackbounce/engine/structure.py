@@ -1,4 +1,4 @@
-"""A stack of numpy arrays as a numba structure: compiled kernels pass one pointer, not fifty arrays.
+"""A stack of numpy arrays as a numba structure: kernels pass one pointer, not fifty arrays.
 
 The structure shares the arrays, so that what a kernel leaves in them is read from the stack itself.
 numba compiles about three times faster this way.
@@ -14,33 +14,34 @@ from stackbounce.engine.stack import RigidStack, Stack
 
 
 @structref.register
-class StackType(types.StructRef):  # type: ignore[misc]
+class StackType(types.StructRef):
     """The numba type of a Stack."""
 
 
 @structref.register
-class RigidStackType(types.StructRef):  # type: ignore[misc]
+class RigidStackType(types.StructRef):
     """The numba type of a RigidStack."""
 
 
-class _StackStructure(structref.StructRefProxy):  # type: ignore[misc]
+class _StackStructure(structref.StructRefProxy):
     pass
 
 
-class _RigidStackStructure(structref.StructRefProxy):  # type: ignore[misc]
+class _RigidStackStructure(structref.StructRefProxy):
     pass
 
 
-structref.define_proxy(_StackStructure, StackType, Stack._fields)
-structref.define_proxy(_RigidStackStructure, RigidStackType, RigidStack._fields)
+_define: Any = structref.define_proxy
+_define(_StackStructure, StackType, Stack._fields)
+_define(_RigidStackStructure, RigidStackType, RigidStack._fields)
 
 
-def _new_stack(arrays: Any) -> Any:
-    return _StackStructure(*arrays)
+def _new_stack(arrays: tuple[Any, ...]) -> Any:
+    return _StackStructure(*arrays)  # type: ignore[no-untyped-call]
 
 
-def _new_rigid_stack(arrays: Any) -> Any:
-    return _RigidStackStructure(*arrays)
+def _new_rigid_stack(arrays: tuple[Any, ...]) -> Any:
+    return _RigidStackStructure(*arrays)  # type: ignore[no-untyped-call]
 
 
 with caching() as cached:
