@@ -58,7 +58,8 @@ def separate(drop: Drop) -> Drop:
     Returns
     -------
     Drop
-        The same drop with every contact `Rigid`, with the restitution of the law that it had.
+        The same drop with every contact `Rigid`, with the restitution of the law that it had, and
+        without gravity, which does nothing in a collision that takes no time.
 
     Notes
     -----
@@ -72,4 +73,9 @@ def separate(drop: Drop) -> Drop:
     (Rigid(restitution=1.0), Rigid(restitution=1.0))
     """
     contacts = [None if law is None else Rigid(restitution(law)) for law in drop.contacts]
-    return replace(drop, contacts=contacts)
+    rigid = replace(drop, contacts=contacts)
+    if drop.gravity == 0.0:
+        return rigid
+    if drop.height is None:
+        return replace(rigid, gravity=0.0)
+    return replace(rigid, gravity=0.0, height=None, impact_speed=drop.reference_speed)

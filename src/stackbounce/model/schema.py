@@ -51,7 +51,7 @@ def read_law(value: object, path: str) -> ContactLaw | None:
     name = table.pop("law")
     if isinstance(name, str) and name.casefold() == NO_FLOOR:
         if table:
-            raise ScenarioError(f'{path}.{min(table)} is not a key of law = "{NO_FLOOR}"')
+            raise ScenarioError(f'{path}.law = "{NO_FLOOR}" has no numbers, got {shown(table)}')
         return None
     try:
         kind = law_named(name)
@@ -99,7 +99,8 @@ def _check_keys(kind: type, table: Iterable[str], path: str) -> None:
     known = {one.name: one for one in fields(kind) if one.init}
     for key in table:
         if key not in known:
-            raise ScenarioError(f"{_join(path, key)} is not a known key; {nearest(key, known)}")
+            name = key if key.isidentifier() and len(key) < 60 else shown(key)
+            raise ScenarioError(f"{_join(path, name)} is not a known key; {nearest(key, known)}")
     for name, one in known.items():
         if one.default is MISSING and name not in table:
             raise ScenarioError(f"{_join(path, name)} is missing")

@@ -1,0 +1,189 @@
+"""The command line: ``stackbounce --help`` lists it."""
+
+import os
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from stackbounce.errors import StackbounceError
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+__all__ = ["app", "main"]
+
+app = typer.Typer(
+    name="stackbounce",
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
+
+
+@app.callback(invoke_without_command=True)
+def stackbounce(
+    context: typer.Context,
+    version: Annotated[bool, typer.Option("--version", help="Print the version.")] = False,
+) -> None:
+    """What happens when a stack of balls hits the floor."""
+    if version:
+        from stackbounce.version import __version__
+
+        typer.echo(f"stackbounce {__version__}")
+    elif context.invoked_subcommand is None:
+        typer.echo(context.get_help())
+
+
+@app.command(epilog="For example: stackbounce simulate basketball tennis --height 0.63m --gap 2mm")
+def simulate(
+    what: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="SCENARIO|BALLS",
+            help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
+            show_default=False,
+        ),
+    ],
+    height: Annotated[
+        str | None, typer.Option(metavar="LENGTH", help="Height fallen from rest, such as 0.63m.")
+    ] = None,
+    speed: Annotated[
+        str | None, typer.Option(metavar="SPEED", help="Impact speed, such as 3.53m/s.")
+    ] = None,
+    gap: Annotated[
+        list[str] | None,
+        typer.Option(metavar="LENGTH", help="Gap between two balls; once per pair, lowest first."),
+    ] = None,
+    contact: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="LAW",
+            help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
+            "lowest first.",
+        ),
+    ] = None,
+    gravity: Annotated[
+        str | None,
+        typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
+    ] = None,
+    until: Annotated[
+        str | None,
+        typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", readable=False, help="Draw it: .svg, .png or .pdf."),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Drop a stack of balls and tell how each one bounces."""
+    from stackbounce import simulate as run
+    from stackbounce.calibrate import separate
+    from stackbounce.cli import machine, output, scenario, show
+    from stackbounce.units import quantity
+
+    if plot is not None:
+        output.check_picture(plot)
+    chosen = scenario.read(
+        what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
+    )
+    end = None if until is None else quantity(until, "s", "--until")
+    result = run(chosen.drop, until=end)
+    textbook = None if chosen.drop.rigid else run(separate(chosen.drop))
+    if plot is not None:
+        output.draw(result, plot)
+    if as_json:
+        typer.echo(machine.text(machine.simulation(chosen, result, textbook)))
+    else:
+        show.simulation(_console(), chosen, result, textbook)
+        if plot is not None:
+            typer.echo(f"Picture: {plot}")
+
+
+@app.command()
+def balls(as_json: AsJson = False) -> None:
+    """List the catalogue: the paper's balls, each figure with its source."""
+    from stackbounce.cli import machine, show
+
+    if as_json:
+        typer.echo(machine.text(machine.catalogue()))
+    else:
+        show.catalogue(_console())
+
+
+@app.command()
+def paper(
+    out: Annotated[
+        Path,
+        typer.Option(metavar="DIR", readable=False, help="Folder to write to.", show_default=False),
+    ],
+    as_json: AsJson = False,
+) -> None:
+    """Recompute the paper: its figures, its tables, and an audit of every number in it."""
+    from stackbounce import cross2007
+    from stackbounce.cli import machine, show
+
+    audit = cross2007.write(out, lambda line: typer.echo(line, err=True))
+    if as_json:
+        typer.echo(machine.text(audit.as_dict()))
+    else:
+        show.audit(_console(), audit, out / "index.html")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line.
+
+    Parameters
+    ----------
+    arguments : sequence of str, optional
+        Those after the program's name; default the ones that the process was started with.
+
+    Returns
+    -------
+    int
+        0; 2 after an error, which is one line on stderr; 130 after an interruption.
+
+    Examples
+    --------
+    >>> main(["--version"])
+    stackbounce ...
+    0
+    """
+    for stream in (sys.stdout, sys.stderr):
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="replace")
+    try:
+        code = app(arguments, prog_name="stackbounce", standalone_mode=False)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 1
+    except StackbounceError as error:
+        return _failed(str(error))
+    except OSError as error:
+        return _failed(f"{error.filename or 'the disk'}: {error.strerror or error}")
+    except typer.TyperException as error:
+        return _failed(f"{error.format_message()} (see stackbounce --help)")
+    except KeyboardInterrupt:
+        code = 130
+    if code == 130:
+        typer.echo("stackbounce: interrupted", err=True)
+    return int(code or 0)
+
+
+def _failed(message: str) -> int:
+    line = "".join(c if c.isprintable() else "?" for c in " ".join(message.split()))
+    typer.echo(f"stackbounce: error: {line}", err=True)
+    return 2
+
+
+def _console() -> "Console":
+    from rich.console import Console
+
+    width = Console().width if sys.stdout.isatty() else 100
+    return Console(width=min(width, 100), markup=False, highlight=False, emoji=False)

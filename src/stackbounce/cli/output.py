@@ -1,0 +1,46 @@
+"""Pictures, to files that are checked before anything is computed."""
+
+from pathlib import Path
+
+from stackbounce.errors import FileError, InvalidValue
+from stackbounce.result import Result
+
+__all__ = ["SUFFIXES", "check_picture", "draw"]
+
+SUFFIXES = (".svg", ".png", ".pdf")
+"""The kinds of picture."""
+
+
+def check_picture(path: Path) -> None:
+    """Refuse a picture of another kind, or in a folder that is not there.
+
+    Raises
+    ------
+    InvalidValue
+        If the suffix is none of `SUFFIXES`.
+    FileError
+        If the folder does not exist, or `path` is one.
+    """
+    if path.suffix.lower() not in SUFFIXES:
+        raise InvalidValue(f"--plot must end in {', '.join(SUFFIXES)}, got {path}")
+    if path.is_dir():
+        raise FileError(f"{path} cannot be written: it is a folder")
+    if not path.parent.is_dir():
+        raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
+
+
+def draw(result: Result, path: Path) -> None:
+    """Write the picture of a result, in the format that the file's suffix names.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be written.
+    """
+    from stackbounce.plots import bounce
+
+    figure = bounce(result)
+    try:
+        figure.savefig(path)
+    except OSError as error:
+        raise FileError(f"{path} cannot be written: {error.strerror or error}") from error

@@ -1,0 +1,491 @@
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import stackbounce as sb
+from stackbounce import cross2007
+from stackbounce.calibrate import separate
+from stackbounce.cli import app, main, show
+from stackbounce.cli.scenario import read, read_contact
+from stackbounce.errors import FileError, InvalidValue
+from stackbounce.version import __version__
+
+PAIR = ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"]
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def run(capfd):
+    def run_main(*arguments):
+        code = main(list(arguments))
+        out, err = capfd.readouterr()
+        return code, out, err
+
+    return run_main
+
+
+def process(*arguments, **options):
+    command = [
+        sys.executable,
+        "-c",
+        "import sys; from stackbounce.cli import main; sys.exit(main())",
+    ]
+    return subprocess.run(
+        [*command, *arguments], capture_output=True, text=True, timeout=120, check=False, **options
+    )
+
+
+def rows(text, first):
+    """The cells of each table row that begins so: cells are two spaces apart, or more."""
+    cells = [re.split(r"  +", line.strip()) for line in text.splitlines()]
+    return [row for row in cells if row[0] == first and len(row) > 1]
+
+
+# the front door
+
+
+def test_version_and_help(run):
+    assert run("--version") == (0, f"stackbounce {__version__}\n", "")
+    code, out, err = run("--help")
+    assert (code, err) == (0, "")
+    assert all(command in out for command in ("simulate", "balls", "paper"))
+    assert run() == (0, out, "")
+    assert run("-h") == (0, out, "")
+    assert CliRunner().invoke(app, ["--help"]).exit_code == 0
+    for command in ("simulate", "balls", "paper"):
+        assert run(command, "--help")[0] == 0
+
+
+def test_help_does_not_wait_for_heavy_libraries():
+    code = (
+        "import sys; from stackbounce.cli import main; main(['--help']); "
+        "heavy = {'pint', 'xarray', 'matplotlib', 'numba', 'uncertainties', 'jinja2'}; "
+        "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert run.stderr.strip() == ""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["simulat"], "No such command 'simulat'"),
+        (["balls", "--jsn"], "No such option"),
+        (["simulate"], "Missing argument"),
+        (["paper"], "Missing option '--out'"),
+        (["simulate", "B1", "--height"], "'--height' requires an argument"),
+        (["balls", "B1"], "unexpected extra argument"),
+    ],
+)
+def test_wrong_usage_is_one_line(run, arguments, expected):
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("stackbounce: error: ")
+    assert expected in err
+    assert err.endswith(" (see stackbounce --help)\n")
+    assert err.count("\n") == 1
+
+
+# simulate
+
+
+def test_a_table_for_people(run):
+    code, out, err = run(*PAIR)
+    assert (code, err) == (0, "")
+    assert "basketball + tennis from 0.63 m, at 3.515 m/s" in out
+    assert (
+        "contact 1, basketball – tennis: Spring, stiffness 1000 N/m  [Cross 2007, Figure 9]" in out
+    )
+    assert "gap 0, basketball – tennis: 2 mm  [--gap]" in out
+    assert "Energy retained: 100.0 %" in out
+    result = sb.simulate(read(PAIR[1:3], height="0.63m", gaps=["2mm"]).drop)
+    textbook = sb.simulate(separate(result.drop))
+    for i, name in enumerate(("basketball", "tennis")):
+        _, mass, before, after, ratio, bounce, height, *other = rows(out, name)[0]
+        assert float(mass) == result.drop.balls[i].mass * 1e3
+        assert float(before) == pytest.approx(-result.drop.reference_speed, rel=1e-3)
+        assert float(after) == pytest.approx(result.rebound_speeds[i], rel=1e-3)
+        assert float(ratio) == pytest.approx(result.rebound_ratios[i], rel=1e-3)
+        assert float(bounce) == pytest.approx(result.rebound_ratios[i] ** 2, rel=1e-3)
+        assert float(height) == pytest.approx(0.63 * float(bounce), rel=1e-3)
+        assert float(other[0]) == pytest.approx(textbook.rebound_speeds[i], rel=1e-3)
+        assert float(other[1]) == pytest.approx(textbook.rebound_ratios[i] ** 2, rel=1e-3)
+    interval = result.intervals[1]
+    _, count, touch, release, longest, force, compression, impulse = rows(
+        out, "basketball – tennis"
+    )[0]
+    assert count == "1"
+    assert float(touch) == pytest.approx(interval["start"] * 1e3, rel=1e-3)
+    assert float(release) == pytest.approx(interval["end"] * 1e3, rel=1e-3)
+    assert float(longest) == pytest.approx((interval["end"] - interval["start"]) * 1e3, rel=1e-3)
+    assert float(force) == pytest.approx(interval["peak_force"], rel=1e-3)
+    assert float(compression) == pytest.approx(interval["peak_compression"] * 1e3, rel=1e-3)
+    assert float(impulse) == pytest.approx(interval["impulse"], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "arguments", [PAIR, ["balls"], ["simulate", "B1", "B2", "B3", "tennis"], ["simulate", "B1"]]
+)
+def test_piped_output_is_plain_and_no_wider_than_a_page(arguments):
+    done = process(*arguments, env=os.environ | {"PYTHONIOENCODING": "utf-8"}, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "\x1b" not in done.stdout
+    assert "…" not in done.stdout
+    assert max(len(line) for line in done.stdout.splitlines()) <= 100
+
+
+def test_a_terminal_without_unicode_is_no_reason_to_fail():
+    done = process(*PAIR, env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"})
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_balls_of_the_catalogue_fall_from_one_metre_unless_told_otherwise(run):
+    _, out, _ = run("simulate", "B1")
+    assert "B1 from 1 m, at 4.429 m/s (1 m unless --height or --speed is given)" in out
+
+
+def test_json_for_machines(run):
+    code, out, err = run(*PAIR, "--json")
+    assert (code, err) == (0, "")
+    got = json.loads(out)
+    result = sb.simulate(sb.Drop.from_mapping(got["drop"]))
+    assert got["stackbounce"] == __version__
+    assert got["status"] == "FINISHED"
+    assert got["rebound_speeds"] == result.rebound_speeds.tolist()
+    assert got["rebound_ratios"] == result.rebound_ratios.tolist()
+    assert got["collisions"] == [1, 1]
+    assert got["intervals"][1]["peak_force"] == result.intervals["peak_force"][1]
+    assert got["contact_sources"] == ["Cross 2007, Figure 9"] * 2
+    assert got["gap_sources"] == ["--gap"]
+    textbook = sb.simulate(separate(result.drop))
+    assert got["separate"]["rebound_speeds"] == textbook.rebound_speeds.tolist()
+
+
+def test_json_has_null_where_numbers_are_not_finite(run):
+    code, out, _ = run("simulate", "B1", "--contact", "Rigid restitution=0.8", "--json")
+    assert code == 0
+    got = json.loads(out, parse_constant=pytest.fail)
+    assert got["intervals"][0]["peak_force"] is None
+    assert got["separate"] is None
+
+
+def test_a_scenario_file_and_changes_to_it(run):
+    drop = sb.Drop(
+        [sb.Ball(0.1, name="lower"), sb.Ball(0.05)],
+        [sb.Spring(1e4), sb.Hysteretic(5e3, restitution=0.8)],
+        height=0.5,
+    )
+    Path("drop.toml").write_text(drop.to_toml())
+    code, out, err = run("simulate", "drop.toml")
+    assert (code, err) == (0, "")
+    assert "lower + ball 1 from 0.5 m, at 3.132 m/s" in out
+    assert "Hysteretic, stiffness 5000 N/m, restitution 0.8  [drop.toml]" in out
+    code, out, _ = run(
+        "simulate", "./drop.toml", "--speed", "2 m/s", "--gap", "1mm", "--gravity", "9.81m/s^2",
+        "--contact", "Spring stiffness='20 kN/m'", "--contact", "spring stiffness=1000", "--json",
+    )  # fmt: skip
+    assert code == 0
+    assert sb.Drop.from_mapping(json.loads(out)["drop"]) == sb.Drop(
+        drop.balls,
+        [sb.Spring(2e4), sb.Spring(1e3)],
+        gaps=[0.001],
+        impact_speed=2.0,
+        gravity=9.81,
+    )
+
+
+def test_a_rigid_drop_needs_no_textbook_beside_it(run):
+    _, out, _ = run("simulate", "B1", "--contact", "Rigid restitution=0.5", "--speed", "2")
+    assert "Rigid, restitution 0.5" in out
+    assert "eparate" not in out
+    assert rows(out, "B1")[0][3:6] == ["1.000", "0.5000", "0.2500"]
+
+
+def test_a_run_that_did_not_finish_says_what_to_do(run):
+    code, out, _ = run("simulate", "B1", "B2", "--until", "3ms")
+    assert code == 0
+    assert "not yet" in out
+    assert re.search(r"Status: TIME_REACHED: .*until", out)
+    rigid = ["--contact", "Rigid restitution=0.1"] * 2
+    _, out, _ = run("simulate", "B3", "B1", *rigid)
+    assert "Status: COLLAPSED: " in out
+    assert rows(out, "floor – B3")[0][1] == "∞"
+
+
+def test_names_cannot_write_on_the_terminal(run):
+    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red]")], [sb.Spring(1.0)], impact_speed=1.0)
+    Path("drop.toml").write_text(drop.to_toml())
+    _, out, _ = run("simulate", "drop.toml")
+    assert "\x1b" not in out
+    assert "a?[31mb?c[red] at 1.000 m/s" in out
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".png", ".pdf", ".SVG"])
+def test_pictures(run, suffix):
+    code, out, err = run(*PAIR, "--plot", f"drop{suffix}")
+    assert (code, err) == (0, "")
+    assert f"Picture: drop{suffix}" in out
+    start = Path(f"drop{suffix}").read_bytes()[:5]
+    assert start in (b"<?xml", b"\x89PNG\r", b"%PDF-")
+
+
+def test_json_stays_pure_with_a_picture(run):
+    code, out, _ = run("simulate", "B1", "--plot", "drop.svg", "--json")
+    assert code == 0
+    assert json.loads(out)["status"] == "FINISHED"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["tenis"], "ball must be one of the catalogue, got 'tenis'; did you mean tennis? Known: "),
+        (["B1", "--height", "-1m"], "height must be a positive number of metres, got -1.0"),
+        (["B1", "--height", "0"], "height must be a positive number of metres, got 0.0"),
+        (["B1", "--height", "3 kg"], "--height must be a length (a number of m or a string such"),
+        (["B1", "--height", "nan"], "--height must be a length"),
+        (["B1", "--speed", "inf"], "--speed must be a speed"),
+        (["B1", "--speed", "-3m/s"], "impact_speed must be a positive number of m/s, got -3.0"),
+        (["B1", "--speed", "1", "--height", "1"], "--height and --speed: only one of the two"),
+        (
+            ["B1", "B2", "--gap", "-1mm"],
+            "gaps.0 must be a number of metres, 0 or above, got -0.001",
+        ),
+        (["B1", "--gap", "1mm"], "gaps must hold one number per neighbouring pair of balls (0)"),
+        (["B1", "--gravity", "-1"], "gravity must be a number of m/s**2, 0 or above, got -1.0"),
+        (["B1", "--until", "1m"], "--until must be a time"),
+        (["B1", "--until", "-1s"], "until must be"),
+        (["B1", "--contact", ""], "--contact 0 must be 'LAW key=value …', such as 'Spring stiff"),
+        (["B1", "--contact", "Spring 3"], "--contact 0 must be 'LAW key=value …', such as"),
+        (["B1", "--contact", "Spring stiffness="], "--contact 0 must be 'LAW key=value …'"),
+        (["B1", "--contact", "'"], "--contact 0 must be 'LAW key=value …'"),
+        (
+            ["B1", "--contact", "Sprung stiffness=1"],
+            "--contact 0.law must be a contact law, got 'Sp",
+        ),
+        (
+            ["B1", "--contact", "Spring stifness=1"],
+            "--contact 0.stifness is not a known key; did yo",
+        ),
+        (
+            ["B1", "--contact", "Spring stiffness=-1"],
+            "--contact 0.stiffness must be a positive num",
+        ),
+        (
+            ["B1", "--contact", "Spring stiffness=1kg"],
+            "--contact 0.stiffness must be a stiffness (",
+        ),
+        (["B1", "B2", "--contact", "Spring stiffness=1"], "contacts must hold one law per ball"),
+        (
+            ["B1", "B2", "--contact", "Rigid restitution=1", "--contact", "Spring stiffness=1"],
+            "contacts must be all Rigid or have none that is, got a mixture",
+        ),
+        (["none.toml"], "none.toml cannot be read: No such file or directory"),
+        (["./B1"], "./B1 cannot be read: No such file or directory"),
+        (["."], ". cannot be read: Is a directory"),
+        (
+            ["a.toml", "b.toml"],
+            "simulate needs one scenario file, or balls of the catalogue, got a",
+        ),
+        (
+            ["a.toml", "B1"],
+            "simulate needs one scenario file, or balls of the catalogue, got a.toml",
+        ),
+        (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
+        (["B1", "--plot", "drop"], "--plot must end in .svg, .png, .pdf, got drop"),
+        (["B1", "--plot", "no/drop.svg"], "no/drop.svg cannot be written: there is no folder no"),
+    ],
+)
+def test_bad_input_is_one_line(run, arguments, expected):
+    code, out, err = run("simulate", *arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"stackbounce: error: {expected}")
+    assert err.count("\n") == 1
+
+
+def test_broken_toml_is_one_line(run):
+    Path("bad.toml").write_text("[[balls]\nmass = 1")
+    code, out, err = run("simulate", "bad.toml")
+    assert (code, out) == (2, "")
+    assert err.startswith("stackbounce: error: bad.toml is not TOML: ")
+    assert err.count("\n") == 1
+
+
+def test_a_picture_that_cannot_be_written_is_one_line(run):
+    Path("folder.svg").mkdir()
+    _, _, err = run("simulate", "B1", "--plot", "folder.svg")
+    assert err == "stackbounce: error: folder.svg cannot be written: it is a folder\n"
+
+
+def test_true_process_ends_with_2_and_no_traceback():
+    done = process("simulate", "B1", "--height", "3 kg")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr == (
+        "stackbounce: error: --height must be a length (a number of m or a string such as "
+        "\"58 mm\"), got '3 kg'\n"
+    )
+
+
+def test_interruption_is_one_line(run, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sb, "simulate", interrupted)
+    assert run("simulate", "B1") == (130, "", "stackbounce: interrupted\n")
+
+
+def test_a_full_disk_is_one_line(run, monkeypatch):
+    def full(*_, **__):
+        raise OSError(28, "No space left on device", "x.svg")
+
+    monkeypatch.setattr(sb, "simulate", full)
+    assert run("simulate", "B1") == (2, "", "stackbounce: error: x.svg: No space left on device\n")
+
+
+def test_a_reader_that_goes_away_is_no_error():
+    reader, writer = os.pipe()
+    os.close(reader)
+    code = "import sys; from stackbounce.cli import main; sys.exit(main(['balls']))"
+    done = subprocess.run(
+        [sys.executable, "-c", code], stdout=writer, stderr=subprocess.PIPE, check=False
+    )
+    os.close(writer)
+    assert done.stderr == b""
+
+
+# balls
+
+
+def test_the_catalogue_as_a_table(run):
+    code, out, err = run("balls")
+    assert (code, err) == (0, "")
+    assert rows(out, "tennis")[0] == ["tennis", *"57.00 66.00 0.7506 5.000 22500 10300".split()]
+    assert rows(out, "basketball")[0][4] == "–"
+    assert "Cross 2007, Table I" in out
+    assert rows(out, "B1")[1][:5] == ["B1", "B2", "56000", "16000", "1.000"]
+
+
+def test_the_catalogue_as_json(run):
+    code, out, _ = run("balls", "--json")
+    assert code == 0
+    got = json.loads(out)
+    tennis = got["balls"][1]
+    assert (tennis["name"], tennis["mass"], tennis["stiffness"]) == ("tennis", 0.057, 22500.0)
+    assert tennis["sources"]["mass"] == "Cross 2007, section III"
+    assert got["balls"][0]["contact_time"] is None
+    assert got["pairs"][0]["stiffness"] == 1000.0
+
+
+# paper
+
+
+@dataclass(frozen=True)
+class Row:
+    verdict: str
+    explained: bool
+
+
+@dataclass(frozen=True)
+class Audit:
+    rows: tuple[Row, ...]
+    counts: dict[str, int]
+
+    def as_dict(self):
+        return {"counts": self.counts, "computed": math.inf}
+
+
+@pytest.fixture
+def write(monkeypatch):
+    """Stands in for the report, which has tests of its own, and takes its time."""
+    written = []
+
+    def stand_in(out, progress):
+        progress("figure 2a")
+        written.append(out)
+        rows = (Row("agrees", True), Row("agrees", True), Row("differs", False))
+        return Audit(rows, {"agrees": 2, "differs": 1})
+
+    monkeypatch.setattr(cross2007, "write", stand_in)
+    return written
+
+
+def test_paper_says_what_it_does_and_what_came_out(run, write):
+    code, out, err = run("paper", "--out", "new/folder")
+    assert (code, err) == (0, "figure 2a\n")
+    assert write == [Path("new/folder")]
+    assert rows(out, "agrees") == [["agrees", "2"]]
+    assert rows(out, "differs") == [["differs", "1"]]
+    assert rows(out, "all") == [["all", "3"]]
+    assert "Rows that disagree without an explanation: 1\n" in out
+    assert out.endswith("Open new/folder/index.html\n")
+
+
+def test_paper_as_json(run, write):
+    code, out, err = run("paper", "--out", "new", "--json")
+    assert (code, err) == (0, "figure 2a\n")
+    assert len(write) == 1
+    assert json.loads(out) == {"counts": {"agrees": 2, "differs": 1}, "computed": None}
+
+
+@pytest.mark.parametrize("folder", ["file", "file/new/deep", "/proc/new"])
+def test_an_output_folder_that_cannot_be_written_to(run, folder):
+    Path("file").write_text("kept")
+    code, out, err = run("paper", "--out", folder)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"stackbounce: error: {folder} cannot be written to: ")
+    assert err.count("\n") == 1
+    assert Path("file").read_text() == "kept"
+    assert list(Path().iterdir()) == [Path("file")]
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
+def test_an_output_folder_without_permission(run):
+    Path("shut").mkdir(mode=0o500)
+    code, out, err = run("paper", "--out", "shut")
+    assert (code, out) == (2, "")
+    assert err == "stackbounce: error: shut cannot be written to: Permission denied\n"
+    assert list(Path("shut").iterdir()) == []
+
+
+# parts
+
+
+def test_contacts_in_words():
+    assert read_contact("none", "x") is None
+    assert read_contact("Hysteretic stiffness=1kN/m restitution=78%", "x") == sb.Hysteretic(
+        1000.0, restitution=0.78
+    )
+    law = sb.Hysteretic(2000.0, exponent=1.5, restitution=0.5)
+    text = "Hysteretic, stiffness 2000 N/m^1.5, exponent 1.5, restitution 0.5"
+    assert show.law_text(law) == text
+    assert show.law_text(None) == "none"
+
+
+def test_errors_of_the_parts_are_ours():
+    with pytest.raises(InvalidValue):
+        read([])
+    with pytest.raises(FileError):
+        read(["none.toml"])
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (1e-300, "0"), (1e-11, "1.000e-11"), (0.1, "0.1000"), (999.96, "1000."), (1234.5, "1234"),
+        (123456.0, "123456"), (1e12, "1.000e+12"), (-math.inf, "-∞"), (-2.0, "-2.000"),
+    ],
+)  # fmt: skip
+def test_numbers_for_people(value, text):
+    assert show.number(value) == text.removesuffix(".")

@@ -1,0 +1,311 @@
+import json
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from stackbounce import errors
+from stackbounce.model import Ball, Drop, Hysteretic, Rigid, Spring
+
+SCENARIO = """
+height = "63 cm"
+gaps = ["2 mm"]
+
+[[balls]]
+name = "basketball"
+mass = "150 g"
+diameter = "16 cm"
+
+[[balls]]
+mass = 0.057
+
+[[contacts]]
+law = "Spring"
+stiffness = "2.5 kN/m"
+
+[[contacts]]
+law = "hysteretic"
+stiffness = "1 N/mm"
+restitution = "78 %"
+"""
+
+
+@pytest.fixture
+def read(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def read_text(text):
+        content = text if isinstance(text, bytes) else text.encode()
+        (tmp_path / "drop.toml").write_bytes(content)
+        return Drop.from_toml("drop.toml")
+
+    return read_text
+
+
+def refused(error, function, *arguments):
+    with pytest.raises(error) as caught:
+        function(*arguments)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def test_a_scenario_file(read):
+    assert read(SCENARIO) == Drop(
+        balls=[Ball(0.150, 0.16, "basketball"), Ball(0.057)],
+        contacts=[Spring(2500.0), Hysteretic(1000.0, restitution=0.78)],
+        gaps=[0.002],
+        height=0.63,
+    )
+
+
+def test_a_byte_order_mark_is_passed_over(read):
+    assert read(b"\xef\xbb\xbf" + SCENARIO.encode()) == read(SCENARIO)
+
+
+numbers = st.floats(min_value=1e-300, max_value=1e300)
+laws = st.one_of(
+    st.builds(Spring, numbers),
+    st.builds(
+        Hysteretic,
+        numbers,
+        exponent=st.floats(0.1, 5.0),
+        restitution=st.floats(0.01, 1.0),
+    ),
+    st.builds(Hysteretic, numbers, unloading_exponent=st.floats(1.0, 50.0)),
+)
+rigid_laws = st.builds(Rigid, st.floats(0.0, 1.0))
+texts = st.text(st.characters(exclude_categories=["Cs"]), min_size=1).filter(str.strip)
+all_balls = st.builds(Ball, numbers, st.none() | numbers, st.none() | texts)
+
+
+@st.composite
+def drops(draw):
+    count = draw(st.integers(1, 4))
+    law = draw(st.sampled_from([laws, rigid_laws]))
+    incidence = draw(
+        st.one_of(
+            st.fixed_dictionaries({"impact_speed": numbers}),
+            st.fixed_dictionaries({"height": numbers}),
+            st.fixed_dictionaries(
+                {"velocities": st.lists(numbers, min_size=count, max_size=count)}
+            ),
+        )
+    )
+    return Drop(
+        balls=[draw(all_balls) for _ in range(count)],
+        contacts=[draw(law | st.none()), *(draw(law) for _ in range(count - 1))],
+        gaps=[draw(numbers | st.just(0.0)) for _ in range(count - 1)],
+        gravity=draw(numbers | st.just(0.0)),
+        **incidence,
+    )
+
+
+@given(drops())
+def test_toml_and_mappings_are_read_back_exactly(tmp_path_factory, drop):
+    path = tmp_path_factory.mktemp("round") / "drop.toml"
+    path.write_text(drop.to_toml(), encoding="utf-8", newline="")
+    assert Drop.from_toml(path) == drop
+    assert repr(Drop.from_toml(path)) == repr(drop)
+    assert Drop.from_mapping(json.loads(json.dumps(drop.to_mapping()))) == drop
+
+
+def test_no_floor():
+    drop = Drop([Ball(1.0)], [None], impact_speed=1.0)
+    assert drop.to_mapping()["contacts"] == [{"law": "none"}]
+    assert 'law = "none"' in drop.to_toml()
+    assert Drop.from_mapping(drop.to_mapping()) == drop
+
+
+def test_null_stands_for_a_key_left_out():
+    plain = Drop([Ball(1.0)], [Spring(1.0)], impact_speed=1.0).to_mapping()
+    assert Drop.from_mapping(plain | {"height": None, "velocities": None}).impact_speed == 1.0
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "expected"),
+    [
+        ('"150 g"', "-0.15", "balls.0.mass must be a positive number of kilograms, got -0.15"),
+        ('"150 g"', '"-150 g"', "balls.0.mass must be a positive number of kilograms, got -0.15"),
+        ('"150 g"', "0", "balls.0.mass must be a positive number of kilograms, got 0.0"),
+        (
+            "0.057",
+            '"0.057 m"',
+            (
+                'balls.1.mass must be a mass (a number of kg or a string such as "150 g"), '
+                "got '0.057 m'"
+            ),
+        ),
+        ("0.057", "nan", "balls.1.mass must be a finite number of kg, got nan"),
+        ("0.057", "inf", "balls.1.mass must be a finite number of kg, got inf"),
+        (
+            "0.057",
+            "true",
+            'balls.1.mass must be a mass (a number of kg or a string such as "150 g"), got True',
+        ),
+        ("0.057", "[1.0]", "balls.1.mass must be a positive number of kilograms, got [1.0]"),
+        ("mass = 0.057", "", "balls.1.mass is missing"),
+        (
+            "mass = 0.057",
+            "mas = 0.057",
+            "balls.1.mas is not a known key; did you mean mass? Known: mass, diameter, name",
+        ),
+        ('"basketball"', "3", "balls.0.name must be a string, got 3"),
+        (
+            '"63 cm"',
+            '"3 kg"',
+            "height must be a length (a number of m or a string such as \"58 mm\"), got '3 kg'",
+        ),
+        ('"63 cm"', '"0 m"', "height must be a positive number of metres, got 0.0"),
+        (
+            "height",
+            "hight",
+            (
+                "hight is not a known key; did you mean height? Known: balls, contacts, gaps, "
+                "impact_speed, height, velocities, gravity"
+            ),
+        ),
+        (
+            'height = "63 cm"',
+            "",
+            "impact_speed, height and velocities: exactly one of the three must be given, got none",
+        ),
+        (
+            '["2 mm"]',
+            '["2 s"]',
+            "gaps.0 must be a length (a number of m or a string such as \"58 mm\"), got '2 s'",
+        ),
+        ('["2 mm"]', '"2 mm"', "gaps must be a list, got 0.002"),
+        (
+            '["2 mm"]',
+            "[]",
+            "gaps must hold one number per neighbouring pair of balls (1), got 0",
+        ),
+        (
+            '"Spring"',
+            '"Sprong"',
+            (
+                "contacts.0.law must be a contact law, got 'Sprong'; did you mean Spring? "
+                "Known: Rigid, Spring, Hysteretic, none"
+            ),
+        ),
+        (
+            '"Spring"',
+            "3",
+            "contacts.0.law must be a contact law, got 3; known: Rigid, Spring, Hysteretic, none",
+        ),
+        (
+            'law = "Spring"',
+            "",
+            "contacts.0.law is missing; known: Rigid, Spring, Hysteretic, none",
+        ),
+        ('stiffness = "2.5 kN/m"', "", "contacts.0.stiffness is missing"),
+        (
+            '"2.5 kN/m"',
+            '"2.5 kN"',
+            (
+                "contacts.0.stiffness must be a stiffness (a number of N/m or a string such as "
+                "\"20 kN/m\"), got '2.5 kN'"
+            ),
+        ),
+        ('"2.5 kN/m"', "0", "contacts.0.stiffness must be a positive number of N/m, got 0.0"),
+        (
+            "restitution",
+            "resitution",
+            (
+                "contacts.1.resitution is not a known key; did you mean restitution? "
+                "Known: stiffness, exponent, restitution, unloading_exponent"
+            ),
+        ),
+        (
+            '"78 %"',
+            "1.5",
+            "contacts.1.restitution must be a number above 0 and at most 1, got 1.5",
+        ),
+        (
+            'restitution = "78 %"',
+            "exponent = -1\nrestitution = 0.78",
+            "contacts.1.exponent must be a positive number, got -1.0",
+        ),
+        (
+            'law = "Spring"\nstiffness = "2.5 kN/m"',
+            'law = "Rigid"\nrestitution = 0.9',
+            (
+                "contacts must be all Rigid or have none that is, got a mixture: "
+                "contacts.0 is Rigid and contacts.1 is Hysteretic"
+            ),
+        ),
+        (
+            'law = "Spring"',
+            'law = "none"',
+            "contacts.0.law = \"none\" has no numbers, got {'stiffness': '2.5 kN/m'}",
+        ),
+    ],
+)
+def test_what_is_wrong_in_a_file_is_said_with_its_path(read, old, new, expected):
+    assert SCENARIO.count(old) >= 1
+    got = refused(errors.ScenarioError, read, SCENARIO.replace(old, new, 1))
+    assert got == f"drop.toml: {expected}"
+
+
+def test_the_unit_of_a_stiffness_follows_the_exponent(read):
+    text = SCENARIO.replace('restitution = "78 %"', "restitution = 0.78\nexponent = 1.5")
+    assert read(text.replace("1 N/mm", "1 N/m^1.5")).contacts[1].stiffness == 1.0
+    got = refused(errors.ScenarioError, read, text)
+    assert got == (
+        "drop.toml: contacts.1.stiffness must be a quantity (a number of N/m**1.5 or a string such "
+        "as \"20 N/m**1.5\"), got '1 N/mm'"
+    )
+
+
+@pytest.mark.parametrize(
+    ("mapping", "expected"),
+    [
+        (3, "the scenario must be a table of keys and values, got 3"),
+        ({}, "balls is missing"),
+        ({"balls": 3, "contacts": []}, "balls must be a list of tables, got 3"),
+        ({"balls": [3], "contacts": []}, "balls.0 must be a table of keys and values, got 3"),
+        ({"balls": []}, "contacts is missing"),
+        (
+            {"balls": [{"mass": 1}], "contacts": [{"law": "Spring", "stiffness": math.nan}]},
+            "contacts.0.stiffness must be a finite number of N/m, got nan",
+        ),
+    ],
+)
+def test_mappings_of_another_shape(mapping, expected):
+    assert refused(errors.ScenarioError, Drop.from_mapping, mapping) == expected
+
+
+def test_a_key_cannot_break_the_line(read):
+    got = refused(errors.ScenarioError, read, '"a\\nb\\u001b" = 1\n' + SCENARIO)
+    assert got.startswith(r"drop.toml: 'a\nb\x1b' is not a known key; known: balls, contacts")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "[[balls]",
+        "height = ",
+        "height = 1\nheight = 2",
+        "just words",
+        "a = " + "[" * 5000,
+        "a = " + "9" * 5000,
+    ],
+)
+def test_broken_toml(read, content):
+    assert refused(errors.ScenarioError, read, content).startswith("drop.toml is not TOML: ")
+
+
+def test_no_text(read):
+    got = refused(errors.ScenarioError, read, b"\xff\xfe\x00a")
+    assert got == "drop.toml is not TOML: it is not text in UTF-8"
+
+
+def test_files_that_cannot_be_opened(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    got = refused(errors.FileError, Drop.from_toml, "none.toml")
+    assert got == "none.toml cannot be read: No such file or directory"
+    (tmp_path / "folder.toml").mkdir()
+    got = refused(errors.FileError, Drop.from_toml, "folder.toml")
+    assert got == "folder.toml cannot be read: Is a directory"
+    assert refused(errors.FileError, Drop.from_toml, "a\0b").startswith("'a\\x00b' cannot be read")

@@ -1,0 +1,111 @@
+import math
+
+import numpy as np
+import pytest
+
+from stackbounce import errors
+from stackbounce.units import quantity
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "value"),
+    [
+        ("58 mm", "m", 0.058),
+        ("58mm", "m", 0.058),
+        ("0.63m", "m", 0.63),
+        ("5 µm", "m", 5e-6),
+        ("2 in", "m", 0.0508),
+        ("24.8 g", "kg", 0.0248),
+        ("150 g", "kg", 0.150),
+        ("20 kN/m", "N/m", 20000.0),
+        ("2.5kN/m", "N/m", 2500.0),
+        ("9.81 m/s^2", "m/s**2", 9.81),
+        ("9.81 m/s**2", "m/s**2", 9.81),
+        ("9.81 m s^-2", "m/s**2", 9.81),
+        ("3.53 m/s", "m/s", 3.53),
+        ("36 km/h", "m/s", 10.0),
+        ("30 ms", "s", 0.030),
+        ("78 %", "", 0.78),
+        ("0.78", "", 0.78),
+        ("1 N/mm^1.5", "N/m**1.5", 1000.0**1.5),
+        ("1e-3 m", "m", 1e-3),
+        ("-.5 m", "m", -0.5),
+        ("+2 m", "m", 2.0),
+        (" 2 m ", "m", 2.0),
+        ("0.058", "m", 0.058),
+    ],
+)
+def test_strings_with_units(text, unit, value):
+    got = quantity(text, unit)
+    assert type(got) is float
+    assert got == pytest.approx(value, rel=1e-15, abs=0)
+
+
+@pytest.mark.parametrize("text", ["24.8 g", "8.5 g", "0.1 g", "101 g"])
+def test_decimal_prefixes_lose_no_digit(text):
+    assert quantity(text, "kg") == float(f"{text.removesuffix(' g')}e-3")
+
+
+@pytest.mark.parametrize("value", [0.058, np.float64(0.058)])
+def test_numbers_are_si_already(value):
+    assert quantity(value, "m") == 0.058
+
+
+def test_message_is_one_clear_line():
+    with pytest.raises(errors.UnitError) as caught:
+        quantity("3 kg", "m", "height")
+    assert str(caught.value) == (
+        "height must be a length (a number of m or a string such as \"58 mm\"), got '3 kg'"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "unit", "kind"),
+    [
+        ("3 kg", "m", "a length"),
+        ("3 m", "kg", "a mass"),
+        ("3 m", "m/s", "a speed"),
+        ("3 N", "N/m", "a stiffness"),
+        ("3 m/s", "m/s**2", "an acceleration"),
+        ("3 m", "s", "a time"),
+        ("3 m", "", "a pure number"),
+        ("1 N/m", "N/m**1.5", "a quantity"),
+    ],
+)
+def test_units_that_do_not_fit(text, unit, kind):
+    with pytest.raises(errors.UnitError, match=f"x must be {kind} ") as caught:
+        quantity(text, unit, "x")
+    assert str(caught.value).endswith(f"got {text!r}")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", " ", "mm", "mm 58", "58 58 mm", "1,5 mm", "nan", "inf", "nan m", "0x10 m",
+        "1e9999999 m",
+        "3 m**", "3 m^", "3 (m)", "3 m;", "3 'm'", "4 lambda", "4 if", "3 m**9**9**9**9", "٣ m",
+        "3 dB", "4 degC", "3 " + "m" * 100, "3 " + "m " * 40, "__import__('os')", "3 __class__",
+    ],
+)  # fmt: skip
+def test_strings_that_cannot_be_read(text):
+    with pytest.raises(errors.UnitError, match=r"^x must be a length ") as caught:
+        quantity(text, "m", "x")
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 200
+
+
+def test_unknown_unit_is_said_to_be_one():
+    with pytest.raises(errors.UnitError, match=r"got '3 furlongz', of unknown unit$"):
+        quantity("3 furlongz", "m")
+
+
+@pytest.mark.parametrize("value", [None, True, [1.0], {}, b"3 m"])
+def test_neither_number_nor_string(value):
+    with pytest.raises(errors.InvalidType, match=r"^x must be a length "):
+        quantity(value, "m", "x")
+
+
+@pytest.mark.parametrize("value", [math.nan, math.inf, "1e999", "1e999 m"])
+def test_not_finite(value):
+    with pytest.raises(errors.InvalidValue, match=r"^x must be a finite number of m, got "):
+        quantity(value, "m", "x")
