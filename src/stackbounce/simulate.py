@@ -27,6 +27,7 @@ __all__ = ["simulate"]
 
 _LOG_ROWS = 4096
 _PLAIN_BALLS = 20  # up to this size plain Python is done before compiled code has been loaded
+_PLAIN_EVENTS = 2000  # after so many events a run goes on compiled
 _Kernel = Callable[..., Any]
 _FINITE_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (start, advance, velocity_at)
 _RIGID_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (begin_collisions, collide_all, rigid_velocity)
@@ -54,7 +55,7 @@ def simulate(
         After how many events to give up, with the status EVENT_LIMIT and all that was reached.
     compiled : bool, optional
         Whether to run compiled by numba rather than as plain Python; by default where the stack is
-        tall. Both give the same bits.
+        tall or the run long. Both give the same bits.
 
     Returns
     -------
@@ -90,8 +91,6 @@ def simulate(
             f"gravity must be 0 while all contacts are Rigid, got {drop.gravity!r}: "
             "give the contacts a stiffness, or leave gravity out"
         )
-    if compiled is None:
-        compiled = len(drop.balls) > _PLAIN_BALLS
     status, time, velocities, log, infinite, _ = _run(drop, end, limit, compiled, ())
     rerun = functools.partial(_samples, drop, end, limit, compiled)
     return Result(drop, Status(status), time, velocities, log, infinite, rerun)
@@ -101,30 +100,31 @@ _Run = tuple[int, float, list[float], list[float], list[int], Samples]
 
 
 def _run(
-    drop: Drop, until: float, event_limit: int, compiled: bool, times: Sequence[float]
+    drop: Drop, until: float, event_limit: int, compiled: bool | None, times: Sequence[float]
 ) -> _Run:
     """Run an engine; return status, time, velocities, log, infinite contacts and samples."""
     rigid = drop.rigid
+    begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
     stack: Any = _rigid_stack(drop) if rigid else _finite_stack(drop)
     samples = new_samples(times, len(drop.balls))
     log: Any = [0.0] * (max(_LOG_ROWS, len(drop.balls)) * codes.LOG_COLUMNS)
     handle, mode = stack, _as_it_is
-    if compiled:
-        import numpy as np
-
-        from stackbounce.engine.structure import structure
-
-        stack, samples, log = as_arrays(stack), as_arrays(samples), np.array(log)
-        handle, mode = structure(stack), compile_kernel
-    begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
+    tall = len(drop.balls) > _PLAIN_BALLS
+    plain = event_limit if compiled is False else 0 if compiled or tall else _PLAIN_EVENTS
     entries: list[float] = []
     try:
-        mode(begin)(handle)
+        begin(stack)
         status = codes.RUNNING
         while status == codes.RUNNING:
+            if stack.counter[1] >= plain and mode is _as_it_is:
+                stack, samples, log, handle = _for_numba(stack, samples, log)
+                mode, plain = compile_kernel, event_limit
             stack.counter[0] = 0
-            status = int(mode(go_on)(handle, until, event_limit, log, samples))
+            limit = min(plain, event_limit)
+            status = int(mode(go_on)(handle, until, limit, log, samples))
             entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
+            if status == codes.EVENT_LIMIT and limit <= stack.counter[1] < event_limit:
+                status = codes.RUNNING
         time = float(stack.clock[0])
         if status != codes.FINISHED:
             time = until if status == codes.TIME_REACHED else float(max(stack.clock))
@@ -140,8 +140,18 @@ def _run(
     return status, time, velocities, entries, infinite, samples
 
 
+def _for_numba(stack: Any, samples: Samples, log: Any) -> tuple[Any, Samples, Any, Any]:
+    """Return stack, samples and log as arrays, and what compiled kernels take for the stack."""
+    import numpy as np
+
+    from stackbounce.engine.structure import structure
+
+    arrays = as_arrays(stack)
+    return arrays, as_arrays(samples), np.array(log), structure(arrays)
+
+
 def _samples(
-    drop: Drop, until: float, event_limit: int, compiled: bool, times: Sequence[float]
+    drop: Drop, until: float, event_limit: int, compiled: bool | None, times: Sequence[float]
 ) -> Samples:
     """Run an engine once more and return its samples at times in ascending order."""
     return _run(drop, until, event_limit, compiled, times)[-1]
@@ -178,7 +188,9 @@ def _finite_stack(drop: Drop) -> Stack:
     for i, contact in enumerate(drop.contacts):
         k = getattr(contact, "stiffness", 1.0)
         p = getattr(contact, "exponent", 1.0)
-        kind = codes.HYSTERETIC if isinstance(contact, Hysteretic) else codes.POWER
+        kind = codes.POWER
+        if isinstance(contact, Hysteretic):
+            kind = codes.LOSSY if contact.reloading == "lossy" else codes.HYSTERETIC
         reduced = mass[i] if i == 0 else mass[i - 1] * mass[i] / (mass[i - 1] + mass[i])
         law.append(codes.ABSENT if contact is None else kind)
         stiffness.append(k)

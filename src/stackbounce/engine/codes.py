@@ -13,6 +13,7 @@ INVALID = 6
 ABSENT = 0  # no floor
 POWER = 1  # F = k c^p, loading and unloading alike
 HYSTERETIC = 2  # F = k c^p loading, k C^p (c/C)^n unloading from the peak C
+LOSSY = 3  # the same, and every reloading loses the share of its work that the first loading lost
 
 # phases of a contact
 OPEN = 0

@@ -25,10 +25,11 @@ from stackbounce.engine.codes import (
     DIP,
     EPSILON,
     FAINT,
-    HYSTERETIC,
     LOOK,
+    LOSSY,
     OPEN,
     PEAK,
+    POWER,
     PRESSED,
     RELEASE,
     RELEASING,
@@ -60,7 +61,7 @@ def force(stack: Stack, i: int, compression: float) -> float:
 def stored_energy(stack: Stack, i: int, compression: float) -> float:
     """Return what contact i would give back: its force integrated along the way out."""
     exponent = stack.curve_exponent[i]
-    if stack.law[i] == HYSTERETIC and stack.top[i] == math.inf:
+    if stack.law[i] != POWER and stack.top[i] == math.inf:
         exponent = stack.unloading[i]
     return force(stack, i, compression) * compression / (exponent + 1.0)
 
@@ -199,6 +200,22 @@ def _follow(stack: Stack, i: int, force_at_unit: float, unit: float, exponent: f
 
 
 @kernel
+def _steepen(stack: Stack, i: int, compression: float) -> None:
+    """Let contact i, turning back below its old peak, give back e^2 of what reloading took."""
+    pressing = force(stack, i, compression)
+    exponent = stack.exponent[i]
+    kept = (exponent + 1.0) / (stack.unloading[i] + 1.0)
+    reloaded = stored_energy(stack, i, compression)
+    energy = stack.dip_energy[i] + kept * (reloaded - stack.dip_energy[i])
+    steeper = pressing * compression / energy - 1.0
+    if steeper <= stack.curve_exponent[i]:
+        return
+    meeting = stack.stiffness[i] * compression**exponent / pressing
+    _follow(stack, i, pressing, compression, steeper)
+    stack.top[i] = compression * meeting ** (1.0 / (steeper - exponent))
+
+
+@kernel
 def record_peak(stack: Stack, i: int, compression: float) -> None:
     """Keep the largest force and compression of the interval under way."""
     stack.peak_force[i] = max(stack.peak_force[i], force(stack, i, compression))
@@ -209,13 +226,15 @@ def record_peak(stack: Stack, i: int, compression: float) -> None:
 def changes_curve(stack: Stack, i: int, kind: int) -> bool:
     """Tell whether after an event inside an interval the force follows another curve."""
     if kind == PEAK:
-        return stack.law[i] == HYSTERETIC and stack.top[i] == math.inf
+        return stack.law[i] == LOSSY or (stack.law[i] != POWER and stack.top[i] == math.inf)
     return kind != DIP
 
 
 @kernel
-def turn(stack: Stack, i: int, kind: int) -> None:
+def turn(stack: Stack, i: int, kind: int, compression: float) -> None:
     """Let contact i turn from compressing to releasing or back."""
+    if kind == DIP:
+        stack.dip_energy[i] = stored_energy(stack, i, compression)
     stack.phase[i] = RELEASING if kind == PEAK else COMPRESSING
 
 
@@ -225,8 +244,11 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
     compression = stack.compression[i]
     if kind == PEAK:
         stack.phase[i] = RELEASING
-        _follow(stack, i, force(stack, i, compression), compression, stack.unloading[i])
-        stack.top[i] = compression
+        if stack.top[i] == math.inf:
+            _follow(stack, i, force(stack, i, compression), compression, stack.unloading[i])
+            stack.top[i] = compression
+        else:
+            _steepen(stack, i, compression)
     elif kind == RELOADED:
         _load(stack, i)
     else:

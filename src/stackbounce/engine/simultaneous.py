@@ -50,7 +50,7 @@ from stackbounce.engine.motion import (
 )
 from stackbounce.engine.stack import Samples, Stack
 
-LOOKS_LIMIT = 1_000_000  # looks without an event: a state that goes on for ever
+LOOKS_LIMIT = 100_000  # looks without an event: a state that goes on for ever
 
 
 @kernel
@@ -113,7 +113,7 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         if kind == PEAK:
             record_peak(stack, i, compression)
         if not changes_curve(stack, i, kind):
-            turn(stack, i, kind)
+            turn(stack, i, kind, compression)
             look(stack, i, time)
             stack.clock[0] = time
             return

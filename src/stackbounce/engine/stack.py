@@ -34,6 +34,7 @@ class Stack(NamedTuple):
     curve_force: Floats  # the curve that the force follows now: curve_force (c/curve_unit)^exponent
     curve_unit: Floats
     curve_exponent: Floats
+    dip_energy: Floats  # energy stored when the compression last stopped falling
     top: Floats  # where an unloading curve joins the loading curve; infinite on the latter
     faint_below: Floats
     faint: Integers  # 1 where the force follows the chord of its curve below faint_below
@@ -105,8 +106,8 @@ class Samples(NamedTuple):
 
 _PER_BALL = (
     "mass law stiffness exponent unloading scale velocity velocity_noise compression phase "
-    "curve_force curve_unit curve_exponent top faint_below faint touching start peak_force "
-    "peak_compression impulse first last linear anchor rate omega static cosine sine"
+    "curve_force curve_unit curve_exponent dip_energy top faint_below faint touching start "
+    "peak_force peak_compression impulse first last linear anchor rate omega static cosine sine"
 ).split()
 _INTEGERS = {
     name

@@ -89,9 +89,11 @@ class Hysteretic:
 
     Loading follows ``F = k c**p``; from the peak compression C it unloads along
     ``F = k C**p (c/C)**n``. A contact compressed again before it has opened goes back up its
-    unloading curve to the old peak C and on along the loading curve. The contact ends when force
-    and compression are zero, and the next one starts afresh. The work given back over the work
-    taken is ``e**2 = (p + 1)/(n + 1)``, whatever the speed.
+    unloading curve to the old peak C and on along the loading curve, so that no cycle gains energy.
+    (Where `reloading` is lossy and it turns back at a lower peak, it unloads from there along a
+    steeper power law, which gives back e**2 of the work that the reloading took.) The contact ends
+    when force and compression are zero, and the next one starts afresh. The work given back over
+    the work taken is ``e**2 = (p + 1)/(n + 1)``, whatever the speed.
 
     Parameters
     ----------
@@ -104,6 +106,10 @@ class Hysteretic:
     unloading_exponent : float, optional
         n of the unloading curve, at least `exponent`. Give exactly one of this and `restitution`;
         the other is derived, and both can be read.
+    reloading : str, optional
+        What it costs to be compressed again before the contact has opened: ``"free"``, nothing up
+        to the old peak, or ``"lossy"``, the same share of the work as the first time. Nature's rule
+        is not known; the second is here to show what the choice changes.
 
     Raises
     ------
@@ -131,6 +137,7 @@ class Hysteretic:
     # One of these is given and the other derived in __post_init__: neither is ever None to read.
     restitution: Annotated[float, Unit()] = None  # type: ignore[assignment]
     unloading_exponent: Annotated[float, Unit()] = None  # type: ignore[assignment]
+    reloading: str = "free"
     derived: str = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -141,6 +148,9 @@ class Hysteretic:
                 "restitution and unloading_exponent: exactly one of the two must be given, "
                 f"got {got or 'neither'}"
             )
+        if self.reloading not in _RELOADINGS:
+            words = nearest(self.reloading, _RELOADINGS)
+            raise InvalidValue(f"reloading must name a rule, got {shown(self.reloading)}; {words}")
         p = positive("exponent", self.exponent)
         if given == ["restitution"]:
             e = fraction("restitution", self.restitution, zero=False)
@@ -160,13 +170,15 @@ class Hysteretic:
 
     def __repr__(self) -> str:
         given = next(name for name in _ONE_OF if name != self.derived)
+        rule = "" if self.reloading == "free" else f", reloading={self.reloading!r}"
         return (
             f"Hysteretic(stiffness={self.stiffness!r}, exponent={self.exponent!r}, "
-            f"{given}={getattr(self, given)!r})"
+            f"{given}={getattr(self, given)!r}{rule})"
         )
 
 
 _ONE_OF = ("restitution", "unloading_exponent")
+_RELOADINGS = ("free", "lossy")
 
 ContactLaw: TypeAlias = Rigid | Spring | Hysteretic
 LAWS: dict[str, type[ContactLaw]] = {law.__name__: law for law in (Rigid, Spring, Hysteretic)}

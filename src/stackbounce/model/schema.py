@@ -81,6 +81,8 @@ def write_law(law: ContactLaw | None) -> dict[str, Any]:
     plain = {"law": type(law).__name__} | _given(law)
     if isinstance(law, Hysteretic):
         del plain[law.derived]
+        if law.reloading == "free":
+            del plain["reloading"]
     return plain
 
 

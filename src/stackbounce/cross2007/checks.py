@@ -1,0 +1,317 @@
+"""The audit: each number that the paper prints, beside what the library makes of it.
+
+A check says where a number stands, how it is printed, and holds the function that computes it.
+Running the checks on a bench gives the rows: computed value, verdict, the source of the function,
+the library calls it made and the inputs it read, all observed while it ran.
+"""
+
+import ast
+import inspect
+import math
+import textwrap
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from decimal import Decimal
+from typing import Any, TypeAlias
+
+from stackbounce.cross2007.bench import Bench, as_call, propagated
+from stackbounce.cross2007.data import Data
+
+__all__ = [
+    "AGREES",
+    "DIFFERS",
+    "WITHIN_ERROR",
+    "Attempt",
+    "Check",
+    "Number",
+    "Row",
+    "Section",
+    "half_unit",
+    "run",
+    "source_of",
+]
+
+AGREES = "agrees"
+WITHIN_ERROR = "agrees within error"
+DIFFERS = "differs"
+
+SCALES = {"": 1.0, "%": 1e-2, "ms": 1e-3, "mm": 1e-3, "m": 1.0, "m/s": 1.0, "J": 1.0, "N/m": 1.0}
+"""How much an audit unit is in SI."""
+
+Number: TypeAlias = float | Any
+"""A number, of Python or of a numpy array."""
+
+Compute = Callable[[Bench], Number]
+
+
+@dataclass(frozen=True)
+class Check:
+    """A printed number and how to compute it.
+
+    Parameters
+    ----------
+    id : str
+        Its name.
+    where : str
+        Section, figure or table.
+    what : str
+        What it is.
+    printed : str
+        As printed, without the unit.
+    number : str
+        The same in digits; the tolerance follows from its last one.
+    unit : str
+        A key of `SCALES`.
+    compute : callable
+        Makes the number, in SI units, on a bench.
+    counted : bool
+        Whether it is a count, which has no tolerance.
+    stated : float
+        The error in `unit` that the paper states for the printed number, or 0.
+    reason : str
+        Why it disagrees, or what to know where it agrees.
+    others : tuple of (str, str, callable)
+        Other readings: what is assumed, the number in digits that it is compared with, and its
+        computation.
+    """
+
+    id: str
+    where: str
+    what: str
+    printed: str
+    number: str
+    unit: str
+    compute: Compute
+    counted: bool = False
+    stated: float = 0.0
+    reason: str = ""
+    others: tuple[tuple[str, str, Compute], ...] = ()
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """Another reading of a printed number: what it assumes, what it gives, how that compares."""
+
+    reading: str
+    number: str
+    computed: float
+    verdict: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """A printed number beside the computed one; see `Check` for the first five.
+
+    ``number`` is its value, ``tolerance`` half a unit in its last printed digit, ``error`` what the
+    errors of the inputs and of the printed number itself add, both in `unit`; ``source`` is the
+    text of the function that computed it, ``calls`` are the library calls that it made, ``inputs``
+    the data that it read.
+    """
+
+    id: str
+    where: str
+    what: str
+    printed: str
+    digits: str
+    number: float
+    unit: str
+    computed: float
+    tolerance: float
+    error: float
+    verdict: str
+    reason: str
+    attempts: tuple[Attempt, ...]
+    source: str
+    calls: tuple[str, ...]
+    inputs: tuple[str, ...]
+
+    @property
+    def explained(self) -> bool:
+        """Whether the number agrees, or has a reason and a reading that agrees."""
+        if self.verdict != DIFFERS:
+            return True
+        return bool(self.attempts) and any(one.verdict != DIFFERS for one in self.attempts)
+
+
+@dataclass
+class Section:
+    """The checks of one section of the paper, in the order of its text.
+
+    Examples
+    --------
+    >>> section = Section("Sec. I")
+    >>> @section.check("nine", "bounce over drop height", "9")
+    ... def nine(bench):
+    ...     return 9.0
+    >>> section.checks[0].id, section.checks[0].where
+    ('nine', 'Sec. I')
+    """
+
+    where: str
+    checks: list[Check] = field(default_factory=list)
+
+    def check(
+        self,
+        name: str,
+        what: str,
+        printed: str,
+        unit: str = "",
+        *,
+        number: str = "",
+        counted: bool = False,
+        stated: float = 0.0,
+        where: str = "",
+        reason: str = "",
+    ) -> Callable[[Compute], Compute]:
+        """Return a decorator that adds a check; see `Check` for the arguments."""
+
+        def add(compute: Compute) -> Compute:
+            digits = number or printed
+            place = where or self.where
+            self.checks.append(
+                Check(name, place, what, printed, digits, unit, compute, counted, stated, reason)
+            )
+            return compute
+
+        return add
+
+    def other(self, reading: str, *, number: str = "") -> Callable[[Compute], Compute]:
+        """Return a decorator that adds another reading to the latest check."""
+
+        def add(compute: Compute) -> Compute:
+            latest = self.checks[-1]
+            more = (reading, number or latest.number, compute)
+            self.checks[-1] = replace(latest, others=(*latest.others, more))
+            return compute
+
+        return add
+
+
+def run(check: Check, data: Data) -> Row:
+    """Return the row of a check.
+
+    Parameters
+    ----------
+    check : Check
+        What to compute and compare.
+    data : mapping of str to Input
+        The paper's numbers.
+
+    Returns
+    -------
+    Row
+    """
+    computed, error, verdict, bench = _compared(check, check.number, check.compute, data)
+    attempts = [_attempt(check, *other, data) for other in check.others]
+    if verdict != AGREES and not check.counted and _cut(computed, check.number):
+        text = "the computed digits cut off after the last printed one, not rounded"
+        attempts.append(Attempt(text, check.number, float(check.number), AGREES, ""))
+    return Row(
+        id=check.id,
+        where=check.where,
+        what=check.what,
+        printed=check.printed,
+        digits=check.number,
+        number=float(check.number),
+        unit=check.unit,
+        computed=computed,
+        tolerance=_tolerance(check, check.number),
+        error=error,
+        verdict=verdict,
+        reason=check.reason,
+        attempts=tuple(attempts),
+        source=source_of(check.compute),
+        calls=tuple(dict.fromkeys(as_call(drop) for drop in bench.drops)),
+        inputs=tuple(bench.read),
+    )
+
+
+def half_unit(number: str) -> float:
+    """Return half a unit in the last printed digit.
+
+    Parameters
+    ----------
+    number : str
+        Such as ``"2.64"`` or ``"5.4e4"``.
+
+    Returns
+    -------
+    float
+
+    Examples
+    --------
+    >>> half_unit("2.64"), half_unit("5.4e4"), half_unit("106")
+    (0.005, 500.0, 0.5)
+    """
+    return float(_last_digit(number) / 2)
+
+
+def source_of(function: Callable[..., object]) -> str:
+    """Return the statements of a function, without its name, arguments and docstring.
+
+    Parameters
+    ----------
+    function : callable
+        Defined in a file.
+
+    Returns
+    -------
+    str
+        Python text; a single ``return`` is reduced to what it returns.
+
+    Examples
+    --------
+    >>> source_of(half_unit)
+    'float(_last_digit(number) / 2)'
+    """
+    tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
+    definition = tree.body[0]
+    assert isinstance(definition, ast.FunctionDef)
+    body = definition.body
+    if ast.get_docstring(definition) is not None:
+        body = body[1:]
+    last = body[-1]
+    if len(body) == 1 and isinstance(last, ast.Return) and last.value is not None:
+        return ast.unparse(last.value)
+    return "\n".join(ast.unparse(statement) for statement in body)
+
+
+def _attempt(check: Check, reading: str, number: str, compute: Compute, data: Data) -> Attempt:
+    computed, _, verdict, _ = _compared(check, number, compute, data)
+    return Attempt(reading, number, computed, verdict, source_of(compute))
+
+
+def _compared(
+    check: Check, number: str, compute: Compute, data: Data
+) -> tuple[float, float, str, Bench]:
+    """Return the computed number, its error, the verdict, and the bench that it was made on."""
+    bench = Bench(data)
+    scale = SCALES[check.unit]
+    computed = float(compute(bench)) / scale
+    spread = 0.0 if check.counted else propagated(compute, data, bench.read) / scale
+    error = math.hypot(spread, check.stated)
+    verdict = _verdict(computed, float(number), _tolerance(check, number), error)
+    return computed, error, verdict, bench
+
+
+def _tolerance(check: Check, number: str) -> float:
+    return 0.0 if check.counted else half_unit(number)
+
+
+def _verdict(computed: float, number: float, tolerance: float, error: float) -> str:
+    distance = abs(computed - number)
+    if distance <= tolerance * (1.0 + 1e-9):
+        return AGREES
+    return WITHIN_ERROR if distance <= tolerance + error else DIFFERS
+
+
+def _last_digit(number: str) -> Decimal:
+    exponent = Decimal(number).as_tuple().exponent
+    assert isinstance(exponent, int)
+    return Decimal(1).scaleb(exponent)
+
+
+def _cut(computed: float, number: str) -> bool:
+    unit = float(_last_digit(number))
+    return float(number) != 0.0 and 0.0 <= abs(computed) - abs(float(number)) < unit

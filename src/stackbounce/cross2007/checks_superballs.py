@@ -1,0 +1,333 @@
+"""The audit's checks of section IV's text: drops of two superballs."""
+
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.checks import Number, Section
+from stackbounce.cross2007.checks_tables import WITH_105
+from stackbounce.cross2007.drops import Two, rigid_pair, solved
+from stackbounce.cross2007.stacks import heavier_b1, late_pair
+from stackbounce.result import Result
+
+__all__ = ["STEEL", "SUPERBALLS"]
+
+STEEL = Section("Sec. IV")
+SUPERBALLS = Section("Sec. IV")
+
+
+@STEEL.check("IV.steel_diameters", "ratio of the steel balls' diameters", "1.411")
+def _(b: Bench) -> Number:
+    return b("steel.large_diameter") / b("steel.small_diameter")
+
+
+@STEEL.check(
+    "IV.steel_masses",
+    "ratio of the steel balls' masses, as the cube of their diameters' ratio",
+    "2.815",
+    reason="The masses were weighed, not computed; the diameters, to 0.1 mm, bear them out.",
+)
+def _(b: Bench) -> Number:
+    return (b("steel.large_diameter") / b("steel.small_diameter")) ** 3
+
+
+@STEEL.check("IV.steel_stiffness", "ratio of the steel balls' dynamic stiffnesses", "1.422")
+def _(b: Bench) -> Number:
+    return b("steel.mass_ratio") / b("steel.time_ratio") ** 2
+
+
+@SUPERBALLS.check("IV.B2_height", "B2's bounce on B1 over the drop height", "3.65")
+def _(b: Bench) -> Number:
+    return b("B2_on_B1.upper") ** 2
+
+
+@SUPERBALLS.check("IV.B1_height", "B1's bounce under B2", "8", "%")
+def _(b: Bench) -> Number:
+    return b("B2_on_B1.lower") ** 2
+
+
+@SUPERBALLS.check("IV.reversed_B1_height", "B1's bounce on B2", "71", "%")
+def _(b: Bench) -> Number:
+    return b("B1_on_B2.upper") ** 2
+
+
+@SUPERBALLS.check(
+    "IV.reversed_B2_height",
+    "B2's bounce under B1",
+    "3.3",
+    "%",
+    reason="0.17 squared is 2.9 %. Within the error of 0.02 the two agree; a mean of squares over "
+    "unequal bounces also lies above the square of the mean.",
+)
+def _(b: Bench) -> Number:
+    return b("B1_on_B2.lower") ** 2
+
+
+def _apart(b: Bench, masses: Two, restitution: str) -> Result:
+    """Separate collisions of two superballs that come in at 1 m/s, with one restitution."""
+    return b.simulate(rigid_pair(masses, b(restitution)))
+
+
+def _light_on_heavy(b: Bench, heavy: float) -> Result:
+    return _apart(b, (heavy, b("B2.mass")), "fit.restitution")
+
+
+_REASON_3_68 = (
+    "Table I's 101 g give less. With the mass ratio that Table II prints the height comes within "
+    "the error of that ratio, or exactly if the paper has cut off the next digit."
+)
+
+
+@SUPERBALLS.check("IV.apart_B2", "B2's bounce on B1, e = 0.90", "3.68", reason=_REASON_3_68)
+def _(b: Bench) -> Number:
+    return _light_on_heavy(b, b("B1.mass")).rebound_ratios[1] ** 2
+
+
+@SUPERBALLS.other(WITH_105)
+def _(b: Bench) -> Number:
+    return _light_on_heavy(b, heavier_b1(b)).rebound_ratios[1] ** 2
+
+
+@SUPERBALLS.other("with the printed mass ratio 4.23")
+def _(b: Bench) -> Number:
+    return _apart(b, (b("B2_on_B1.mass_ratio"), 1.0), "fit.restitution").rebound_ratios[1] ** 2
+
+
+@SUPERBALLS.check(
+    "IV.apart_B1",
+    "B1's bounce under B2, e = 0.90",
+    "4",
+    "%",
+    reason="With either mass; here the lower ball leaves upward at once.",
+)
+def _(b: Bench) -> Number:
+    return _light_on_heavy(b, b("B1.mass")).rebound_ratios[0] ** 2
+
+
+@SUPERBALLS.other(WITH_105)
+def _(b: Bench) -> Number:
+    return _light_on_heavy(b, heavier_b1(b)).rebound_ratios[0] ** 2
+
+
+def _heavy_on_light(b: Bench, heavy: float, restitution: str) -> Result:
+    return _apart(b, (b("B2.mass"), heavy), restitution)
+
+
+@SUPERBALLS.check(
+    "IV.reversed_count",
+    "ball-ball collisions, B1 on B2, e = 0.90",
+    "three",
+    number="3",
+    counted=True,
+)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, b("B1.mass"), "fit.restitution").collisions[1]
+
+
+@SUPERBALLS.check(
+    "IV.reversed_apart_B1",
+    "B1's bounce on B2, e = 0.90",
+    "59",
+    "%",
+    reason="Again the heavier B1 fits.",
+)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, b("B1.mass"), "fit.restitution").rebound_ratios[1] ** 2
+
+
+@SUPERBALLS.other(WITH_105)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, heavier_b1(b), "fit.restitution").rebound_ratios[1] ** 2
+
+
+@SUPERBALLS.check(
+    "IV.reversed_apart_B2",
+    "B2's bounce under B1, e = 0.90",
+    "essentially zero",
+    "%",
+    number="0",
+    reason="Again the heavier B1 fits.",
+)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, b("B1.mass"), "fit.restitution").rebound_ratios[0] ** 2
+
+
+@SUPERBALLS.other(WITH_105)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, heavier_b1(b), "fit.restitution").rebound_ratios[0] ** 2
+
+
+@SUPERBALLS.check(
+    "IV.better_count", "ball-ball collisions, B1 on B2, e = 0.92", "three", number="3", counted=True
+)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, b("B1.mass"), "fit.reversed_restitution").collisions[1]
+
+
+@SUPERBALLS.check(
+    "IV.better_B1",
+    "B1's bounce on B2, e = 0.92",
+    "71",
+    "%",
+    reason="Neither mass of B1 gives 71 %, which is the measured height. It is very sensitive: the "
+    "restitution that does give it still rounds to 0.92.",
+)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, b("B1.mass"), "fit.reversed_restitution").rebound_ratios[1] ** 2
+
+
+@SUPERBALLS.other(WITH_105)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, heavier_b1(b), "fit.reversed_restitution").rebound_ratios[1] ** 2
+
+
+@SUPERBALLS.other("the restitution that gives 71 % " + WITH_105 + ", against 0.92", number="92")
+def _(b: Bench) -> Number:
+    masses = b("B2.mass"), heavier_b1(b)
+
+    def excess(restitution: float) -> float:
+        upper = float(b.simulate(rigid_pair(masses, restitution)).rebound_ratios[1])
+        return upper**2 - b("B1_on_B2.upper_height")
+
+    return solved(excess, 0.8, 1.0)
+
+
+@SUPERBALLS.check(
+    "IV.better_B2",
+    "B2's bounce under B1, e = 0.92",
+    "0.1",
+    "%",
+    reason="Again the heavier B1 fits.",
+)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, b("B1.mass"), "fit.reversed_restitution").rebound_ratios[0] ** 2
+
+
+@SUPERBALLS.other(WITH_105)
+def _(b: Bench) -> Number:
+    return _heavy_on_light(b, heavier_b1(b), "fit.reversed_restitution").rebound_ratios[0] ** 2
+
+
+def _heavy_on_small(b: Bench, heavy: float) -> Result:
+    return _apart(b, (b("B3.mass"), heavy), "fit.B3_restitution")
+
+
+@SUPERBALLS.check(
+    "IV.small_count",
+    "collisions of B3 with floor and B1, e = 0.88",
+    "nine",
+    number="9",
+    counted=True,
+    reason="Eqs 1 to 4 give five ball-ball and six floor collisions with either mass of B1, and "
+    "never fewer for other restitutions, equal or not: with more loss the count goes up. Nine may "
+    "be what the force record showed: on springs that meet at the measured 7 ms, the last two of "
+    "the eleven contacts come late and are weak.",
+)
+def _(b: Bench) -> Number:
+    return sum(_heavy_on_small(b, b("B1.mass")).collisions)
+
+
+@SUPERBALLS.other(WITH_105)
+def _(b: Bench) -> Number:
+    return sum(_heavy_on_small(b, heavier_b1(b)).collisions)
+
+
+@SUPERBALLS.other("the fewest for any two restitutions from 0.60 to 1.00, in steps of 0.05")
+def _(b: Bench) -> Number:
+    masses = b("B3.mass"), b("B1.mass")
+    steps = [0.05 * step for step in range(12, 21)]
+    drops = [rigid_pair(masses, floor, between=between) for floor in steps for between in steps]
+    return min(sum(b.simulate(drop).collisions) for drop in drops)
+
+
+@SUPERBALLS.other("on springs, the contacts that begin in the first 25 ms")
+def _(b: Bench) -> Number:
+    return sum(b.simulate(late_pair(b)).intervals["start"] < 25e-3)
+
+
+@SUPERBALLS.check(
+    "IV.small_B1",
+    "B1's bounce height on B3, e = 0.88",
+    "49",
+    "%",
+    reason="The printed number is the velocity ratio, not its square, and needs the heavier B1.",
+)
+def _(b: Bench) -> Number:
+    return _heavy_on_small(b, b("B1.mass")).rebound_ratios[1] ** 2
+
+
+@SUPERBALLS.other("the velocity ratio, with B1 = 101 g")
+def _(b: Bench) -> Number:
+    return _heavy_on_small(b, b("B1.mass")).rebound_ratios[1]
+
+
+@SUPERBALLS.other("the velocity ratio, " + WITH_105)
+def _(b: Bench) -> Number:
+    return _heavy_on_small(b, heavier_b1(b)).rebound_ratios[1]
+
+
+@SUPERBALLS.check(
+    "IV.small_B3",
+    "B3's bounce height under B1, e = 0.88",
+    "28",
+    "%",
+    reason="Close to the velocity ratio, not its square, with the heavier B1; what remains is "
+    "within the error of the masses, on which this ratio depends strongly.",
+)
+def _(b: Bench) -> Number:
+    return _heavy_on_small(b, b("B1.mass")).rebound_ratios[0] ** 2
+
+
+@SUPERBALLS.other("the velocity ratio, with B1 = 101 g")
+def _(b: Bench) -> Number:
+    return _heavy_on_small(b, b("B1.mass")).rebound_ratios[0]
+
+
+@SUPERBALLS.other("the velocity ratio, " + WITH_105)
+def _(b: Bench) -> Number:
+    return _heavy_on_small(b, heavier_b1(b)).rebound_ratios[0]
+
+
+def _twins(b: Bench, ratio: float, floor: str, between: str) -> Result:
+    """Two large balls as separate collisions, each contact with its restitution."""
+    return b.simulate(rigid_pair((ratio, 1.0), b(floor), between=b(between)))
+
+
+def _twins_alike(b: Bench) -> Result:
+    return _twins(b, b("B1_on_B1.mass_ratio"), "fit.twin_restitution", "fit.twin_restitution")
+
+
+@SUPERBALLS.check("IV.twin_lower", "e1 of two large balls, e = 0.88", "0.75")
+def _(b: Bench) -> Number:
+    return _twins_alike(b).rebound_ratios[0]
+
+
+@SUPERBALLS.check("IV.twin_upper", "e2 of two large balls, e = 0.88", "0.80")
+def _(b: Bench) -> Number:
+    return _twins_alike(b).rebound_ratios[1]
+
+
+_REASON_TWINS = "The printed value is that of equal balls; these differ by 4 %."
+
+
+@SUPERBALLS.check(
+    "IV.twin_split_lower", "e1, floor 0.76, ball-ball 1.0", "0.76", reason=_REASON_TWINS
+)
+def _(b: Bench) -> Number:
+    ratio = b("B1_on_B1.mass_ratio")
+    return _twins(b, ratio, "fit.twin_floor", "fit.twin_balls").rebound_ratios[0]
+
+
+@SUPERBALLS.other("with equal balls")
+def _(b: Bench) -> Number:
+    return _twins(b, 1.0, "fit.twin_floor", "fit.twin_balls").rebound_ratios[0]
+
+
+@SUPERBALLS.check(
+    "IV.twin_split_upper", "e2, floor 0.76, ball-ball 1.0", "0.76", reason=_REASON_TWINS
+)
+def _(b: Bench) -> Number:
+    ratio = b("B1_on_B1.mass_ratio")
+    return _twins(b, ratio, "fit.twin_floor", "fit.twin_balls").rebound_ratios[1]
+
+
+@SUPERBALLS.other("with equal balls")
+def _(b: Bench) -> Number:
+    return _twins(b, 1.0, "fit.twin_floor", "fit.twin_balls").rebound_ratios[1]

@@ -1,0 +1,108 @@
+"""Drops of two balls, and what is read off their results.
+
+Lower ball first everywhere, as in the library: masses (m1, m2), contacts (floor, ball-ball).
+"""
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from stackbounce.model.ball import Ball
+from stackbounce.model.drop import STANDARD_GRAVITY, Drop
+from stackbounce.model.laws import ContactLaw, Hysteretic, Rigid, Spring
+from stackbounce.result import Result
+
+__all__ = [
+    "Two",
+    "after_meeting",
+    "fallen_speed",
+    "force_above",
+    "hysteretic_pair",
+    "pair",
+    "rigid_pair",
+    "risen_height",
+    "solved",
+    "spring_pair",
+]
+
+Two = tuple[float, float]
+
+
+def pair(masses: Two, contacts: Sequence[ContactLaw], *, speed: float, gap: float = 0.0) -> Drop:
+    """Return the drop of two balls that come down together."""
+    return Drop([Ball(mass) for mass in masses], contacts, gaps=[gap], impact_speed=speed)
+
+
+def rigid_pair(
+    masses: Two, restitution: float, *, between: float | None = None, speed: float = 1.0
+) -> Drop:
+    """Return a drop with separate collisions (eqs 1 to 4), one restitution for both or two."""
+    contacts = [Rigid(restitution), Rigid(restitution if between is None else between)]
+    return pair(masses, contacts, speed=speed)
+
+
+def spring_pair(masses: Two, stiffnesses: Two, *, speed: float = 1.0, gap: float = 0.0) -> Drop:
+    """Return a drop with a simultaneous collision without loss (eqs 5 and 6)."""
+    return pair(masses, [Spring(one) for one in stiffnesses], speed=speed, gap=gap)
+
+
+def hysteretic_pair(
+    masses: Two, stiffnesses: Two, exponent: float, *, speed: float, gap: float
+) -> Drop:
+    """Return section V's drop: the floor's contact loses energy, the one between the balls none."""
+    floor = Hysteretic(stiffnesses[0], unloading_exponent=exponent)
+    return pair(masses, [floor, Spring(stiffnesses[1])], speed=speed, gap=gap)
+
+
+def after_meeting(result: Result, count: int) -> Two:
+    """Return both velocities in m/s right after the balls' `count`-th rigid collision.
+
+    They are nan where the balls do not collide that often.
+    """
+    met = result.events[result.events["contact"] == 1]
+    if len(met) < count:
+        return float("nan"), float("nan")
+    return float(met[count - 1]["lower_velocity"]), float(met[count - 1]["upper_velocity"])
+
+
+def force_above(result: Result, contact: int, share: float) -> Two:
+    """Return when a contact's force first and last passes `share` of its peak, in s."""
+    times = np.linspace(0.0, result.end_time, 401)
+    force = np.asarray(result.sample(times)["force"].isel(contact=contact))
+    level = share * force.max()
+    above = np.flatnonzero(force > level)
+    first, last = above[0], above[-1]
+    rise = np.interp(level, force[first - 1 : first + 1], times[first - 1 : first + 1])
+    fall = np.interp(-level, -force[last : last + 2], times[last : last + 2])
+    return float(rise), float(fall)
+
+
+def fallen_speed(height: float) -> float:
+    """Return the speed in m/s after a fall from rest, by the library's own rule."""
+    return Drop([Ball(1.0)], [Rigid(1.0)], height=height).reference_speed
+
+
+def risen_height(speed: float) -> float:
+    """Return how high in m a ball rises that leaves at `speed` in m/s."""
+    return speed**2 / (2.0 * STANDARD_GRAVITY)
+
+
+def solved(function: Callable[[float], float], low: float, high: float) -> float:
+    """Return where a function changes sign between `low` and `high`, by bisection.
+
+    A function that jumps is followed to its jump. The result is as exact as floats allow.
+
+    Examples
+    --------
+    >>> round(solved(lambda x: x * x - 2.0, 0.0, 2.0), 12)
+    1.414213562373
+    """
+    rising = function(high) > 0.0
+    while True:
+        middle = 0.5 * (low + high)
+        if not low < middle < high:
+            return middle
+        if (function(middle) > 0.0) == rising:
+            high = middle
+        else:
+            low = middle

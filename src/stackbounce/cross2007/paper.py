@@ -1,0 +1,128 @@
+"""The whole paper: its audit, figures and tables, in the order of its text."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from stackbounce.cross2007 import (
+    checks_basketball,
+    checks_fits,
+    checks_models,
+    checks_records,
+    checks_superballs,
+    checks_tables,
+    figures_basketball,
+    figures_models,
+    figures_superballs,
+)
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, run
+from stackbounce.cross2007.data import PAPER, Data
+from stackbounce.cross2007.style import Picture, styled
+from stackbounce.version import __version__
+
+__all__ = ["FIGURES", "SECTIONS", "Audit", "audit", "pictures"]
+
+SECTIONS = (
+    checks_models.INTRODUCTION,
+    checks_models.MODELS,
+    checks_basketball.BASKETBALL,
+    checks_tables.TABLE_ONE,
+    checks_superballs.STEEL,
+    checks_tables.TABLE_TWO,
+    checks_superballs.SUPERBALLS,
+    checks_records.RECORDS,
+    checks_fits.FITS,
+    checks_fits.CONCLUSION,
+)
+"""The sections of checks, in the order of the paper."""
+
+FIGURES: dict[str, Callable[[Bench], Picture]] = {
+    "2a": figures_models.figure_2a,
+    "2b": figures_models.figure_2b,
+    "4a": figures_models.figure_4a,
+    "4b": figures_models.figure_4b,
+    "5": figures_models.figure_5,
+    "6": figures_models.figure_6,
+    "7": figures_basketball.figure_7,
+    "8": figures_basketball.figure_8,
+    "9": figures_basketball.figure_9,
+    "10a": figures_superballs.figure_10a,
+    "10b": figures_superballs.figure_10b,
+    "11a": figures_superballs.figure_11a,
+    "11b": figures_superballs.figure_11b,
+    "12": figures_superballs.figure_12,
+    "13": figures_superballs.figure_13,
+}
+"""What draws each figure, by the paper's number; 1 and 3 are sketches and have no numbers."""
+
+
+@dataclass(frozen=True)
+class Audit:
+    """The paper's numbers beside the computed ones.
+
+    Parameters
+    ----------
+    rows : tuple of Row
+        A row per printed number, in the order of the paper.
+    data : mapping of str to Input
+        The inputs that it was computed from.
+    """
+
+    rows: tuple[Row, ...]
+    data: Data
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many rows have each verdict."""
+        verdicts = [row.verdict for row in self.rows]
+        return {verdict: verdicts.count(verdict) for verdict in (AGREES, WITHIN_ERROR, DIFFERS)}
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the audit as plain dicts, lists, strings and numbers, for JSON."""
+        return {
+            "paper": "R. Cross, Vertical bounce of two vertically aligned balls, "
+            "Am. J. Phys. 75, 1009 (2007), doi:10.1119/1.2772286",
+            "stackbounce": __version__,
+            "counts": self.counts,
+            "rows": [{**asdict(row), "explained": row.explained} for row in self.rows],
+            "inputs": [asdict(one) for one in self.data.values()],
+        }
+
+
+def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) -> Audit:
+    """Return the audit of the paper.
+
+    Parameters
+    ----------
+    data : mapping of str to Input, optional
+        The numbers to compute from, by default those that the paper gives.
+    progress : callable, optional
+        Is told what is being done, in a line each.
+
+    Returns
+    -------
+    Audit
+
+    Examples
+    --------
+    >>> result = audit()
+    >>> [row.verdict for row in result.rows if row.id == "II.ten_springs"]
+    ['agrees']
+    """
+    rows: list[Row] = []
+    for section in SECTIONS:
+        progress(f"audit of {section.where}: {len(section.checks)} numbers")
+        rows.extend(run(check, data) for check in section.checks)
+    return Audit(tuple(rows), data)
+
+
+def pictures(
+    data: Data = PAPER, progress: Callable[[str], None] = lambda _: None
+) -> Iterator[Picture]:
+    """Yield the paper's figures, recomputed; see `audit` for the arguments."""
+    for name, draw in FIGURES.items():
+        progress(f"figure {name}")
+        with styled():
+            picture = draw(Bench(data))
+        yield picture

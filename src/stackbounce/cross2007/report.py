@@ -1,0 +1,196 @@
+"""What `stackbounce paper` writes: audit and figures as files, and one page with everything."""
+
+import base64
+import csv
+import io
+import itertools
+import json
+import re
+import tempfile
+from collections.abc import Callable, Iterable
+from decimal import Decimal
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.checks import Row
+from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.paper import Audit, audit, pictures
+from stackbounce.cross2007.style import Picture, rendered
+from stackbounce.cross2007.tables import Table, table_one, table_two
+from stackbounce.errors import FileError
+from stackbounce.version import __version__
+
+if TYPE_CHECKING:
+    from markupsafe import Markup
+
+__all__ = ["write"]
+
+_COLUMNS = (
+    "id", "where", "what", "printed", "unit", "computed", "tolerance", "error", "verdict", "reason",
+    "other readings", "computed by", "library calls", "inputs",
+)  # fmt: skip
+
+
+def write(out: Path, progress: Callable[[str], None] = lambda _: None) -> Audit:
+    """Recompute the paper and write what comes out.
+
+    Parameters
+    ----------
+    out : Path
+        A folder, made if it is missing. It receives ``index.html``, ``audit.csv``, ``audit.json``
+        and ``figures/``; files of these names are replaced once all is computed. The same version
+        writes the same bytes every time.
+    progress : callable, optional
+        Is told what is being done, in a line each.
+
+    Returns
+    -------
+    Audit
+
+    Raises
+    ------
+    FileError
+        If the folder cannot be made or written to; nothing has been computed then.
+    """
+    _make_writable(out)
+    done = audit(PAPER, progress)
+    files: dict[str, bytes] = {}
+    drawn: list[tuple[Picture, str]] = []
+    for picture in pictures(PAPER, progress):
+        images = rendered(picture.figure)
+        files |= {f"figures/figure-{picture.name}.{end}": data for end, data in images.items()}
+        drawn.append((picture, _data_uri(images["svg"])))
+    progress("tables I and II")
+    tables = [table_one(Bench(PAPER)), table_two(Bench(PAPER))]
+    progress(f"writing to {out}")
+    files["audit.csv"] = _csv(done).encode()
+    files["audit.json"] = _json(done, [picture for picture, _ in drawn], tables).encode()
+    files["index.html"] = _page(done, drawn, tables).encode()
+    _replace(out, files)
+    return done
+
+
+def _make_writable(out: Path) -> None:
+    try:
+        (out / "figures").mkdir(parents=True, exist_ok=True)
+        for folder in (out, out / "figures"):
+            tempfile.TemporaryFile(dir=folder).close()
+    except OSError as error:
+        raise FileError(f"{out} cannot be written to: {error.strerror}") from None
+
+
+def _replace(out: Path, files: dict[str, bytes]) -> None:
+    """Write all files under temporary names, then give them their own."""
+    fresh: dict[Path, Path] = {}
+    try:
+        for name, content in files.items():
+            target = out / name
+            fresh[target] = target.with_name(f".{target.name}.new")
+            fresh[target].write_bytes(content)
+        for target, new in fresh.items():
+            new.replace(target)
+    except OSError as error:
+        raise FileError(f"{out} cannot be written to: {error.strerror}") from None
+    finally:
+        for new in fresh.values():
+            new.unlink(missing_ok=True)
+
+
+def _data_uri(svg: bytes) -> str:
+    return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
+
+
+def _json(done: Audit, drawn: list[Picture], tables: list[Table]) -> str:
+    content = done.as_dict()
+    content["figures"] = [
+        {
+            "name": picture.name,
+            "caption": picture.caption,
+            "guesses": picture.guesses,
+            "features": [vars(feature) for feature in picture.features],
+        }
+        for picture in drawn
+    ]
+    content["tables"] = [vars(table) for table in tables]
+    return json.dumps(content, indent=1, ensure_ascii=False) + "\n"
+
+
+def _csv(done: Audit) -> str:
+    stream = io.StringIO()
+    writer = csv.writer(stream, lineterminator="\n")
+    writer.writerow(_COLUMNS)
+    for row in done.rows:
+        readings = [f"{one.reading}: {one.computed:.6g} ({one.verdict})" for one in row.attempts]
+        writer.writerow(
+            (
+                row.id,
+                row.where,
+                row.what,
+                row.printed,
+                row.unit,
+                repr(row.computed),
+                repr(row.tolerance),
+                repr(row.error),
+                row.verdict,
+                row.reason,
+                "; ".join(readings),
+                row.source,
+                "; ".join(row.calls),
+                "; ".join(row.inputs),
+            )
+        )
+    return stream.getvalue()
+
+
+def _page(done: Audit, drawn: list[tuple[Picture, str]], tables: list[Table]) -> str:
+    import jinja2
+
+    environment = jinja2.Environment(
+        loader=jinja2.PackageLoader("stackbounce.cross2007"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    environment.filters["nice"] = _nice
+    environment.filters["digits"] = _digits
+    environment.filters["groupby_reason"] = _by_reason
+    return environment.get_template("paper.html.j2").render(
+        audit=done, figures=drawn, tables=tables, version=__version__, total=len(done.rows)
+    )
+
+
+_SIGNS = (
+    (r"\b([mvekhrF])_?([0-4mk])\b", r"\1<sub>\2</sub>"),
+    (r"\b1e(\d+)\b", r"10<sup>\1</sup>"),
+    (r"(\d)e(\d+)\b", r"\1 × 10<sup>\2</sup>"),
+    (r"(\d) x (\d)", r"\1 × \2"),
+    (r"sqrt\((\d+)\)", r"√\1"),
+    (r" - ", " − "),
+    (r"&#39;", "\N{RIGHT SINGLE QUOTATION MARK}"),
+)
+
+
+def _nice(text: str) -> "Markup":
+    """A text as HTML, with indices, powers and signs as they are printed."""
+    from markupsafe import Markup, escape
+
+    html = str(escape(text))
+    for pattern, replacement in _SIGNS:
+        html = re.sub(pattern, replacement, html)
+    return Markup(html)
+
+
+def _by_reason(rows: Iterable[Row]) -> list[list[Row]]:
+    """Rows that follow each other with the same reason, together."""
+    return [list(group) for _, group in itertools.groupby(rows, key=lambda row: row.reason)]
+
+
+def _digits(value: float, row: Row, number: str = "") -> str:
+    """A computed number with two digits more than the printed one; a count as it is."""
+    if row.tolerance == 0.0:
+        return f"{value:.0f}"
+    exponent = Decimal(number or row.digits).as_tuple().exponent
+    assert isinstance(exponent, int)
+    return f"{value:.{max(0, 2 - exponent)}f}"

@@ -1,0 +1,144 @@
+"""The paper's stacks: its pairs of balls with the contacts, speeds and gaps that it gives them."""
+
+from dataclasses import replace
+
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.drops import Two, fallen_speed, hysteretic_pair, solved, spring_pair
+from stackbounce.model.ball import Ball
+from stackbounce.model.drop import Drop
+from stackbounce.model.laws import Hysteretic
+
+__all__ = [
+    "better_fit",
+    "early_twins",
+    "gap_for_delay",
+    "heavier_b1",
+    "late_pair",
+    "late_twins",
+    "other_fit",
+    "reversed_pair",
+    "small_fit",
+    "smallest_fit",
+    "stack_masses",
+    "stiffening",
+    "superball_speed",
+    "twin_pair",
+]
+
+
+def stack_masses(b: Bench) -> Two:
+    """Return the masses of basketball and tennis ball in kg."""
+    return b("basketball.mass"), b("tennis.mass")
+
+
+def better_fit(b: Bench) -> Drop:
+    """Return the drop of Fig. 9."""
+    stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")
+    return spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+
+
+def other_fit(b: Bench) -> Drop:
+    """Return the alternative to Fig. 9 that the text describes."""
+    stiffnesses = b("fig9.other_floor_stiffness"), b("fig9.other_ball_stiffness")
+    return spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+
+
+def heavier_b1(bench: Bench) -> float:
+    """Return the mass in kg of the heavier of the two balls B1.
+
+    Table II gives 1.040 for the mass ratio of two balls that share the name B1; if the 101 g of
+    Table I are the lighter one's, the other has 105 g.
+    """
+    return bench("B1_on_B1.mass_ratio") * bench("B1.mass")
+
+
+def superball_speed(bench: Bench) -> float:
+    """Return the superballs' impact speed in m/s, after their fall of about 20 cm."""
+    return fallen_speed(bench("superballs.drop_height"))
+
+
+def gap_for_delay(bench: Bench, drop: Drop, delay: float) -> float:
+    """Return the gap in m for which two balls first touch `delay` s after the lower one's landing.
+
+    Until they touch, the upper ball comes down steadily and the lower one bounces alone.
+    """
+    speed = drop.reference_speed
+    alone = bench.simulate(Drop(drop.balls[:1], drop.contacts[:1], impact_speed=speed))
+    return speed * delay + float(alone.sample([delay])["position"].isel(ball=0)[0])
+
+
+def small_fit(bench: Bench, heavy: float) -> Drop:
+    """Return section V's drop of B2 on B1, the fit of Fig. 13, with a mass for B1 in kg."""
+    stiffnesses = bench("fig13.floor_stiffness"), bench("fig13.ball_stiffness")
+    speed, gap = superball_speed(bench), bench("fig13.gap")
+    masses = heavy, bench("B2.mass")
+    return hysteretic_pair(masses, stiffnesses, bench("V.exponent"), speed=speed, gap=gap)
+
+
+def smallest_fit(bench: Bench, heavy: float) -> Drop:
+    """Return section V's drop of B3 on B1, with a mass for B1 in kg."""
+    stiffnesses = bench("B3_fit.floor_stiffness"), bench("B3_fit.ball_stiffness")
+    speed, gap = superball_speed(bench), bench("B3_fit.gap")
+    masses = heavy, bench("B3.mass")
+    return hysteretic_pair(masses, stiffnesses, bench("V.exponent"), speed=speed, gap=gap)
+
+
+def reversed_pair(bench: Bench, gap: float) -> Drop:
+    """Return B1 on B2, no loss: B2's dynamic stiffness below, Fig. 13's between the balls."""
+    stiffnesses = bench("B2.dynamic_stiffness"), bench("fig13.ball_stiffness")
+    masses = bench("B2.mass"), bench("B1.mass")
+    return spring_pair(masses, stiffnesses, speed=superball_speed(bench), gap=gap)
+
+
+def late_pair(bench: Bench) -> Drop:
+    """Return B1 on B3 without loss, so far apart that they meet at the measured 7 ms."""
+    stiffnesses = bench("B3.dynamic_stiffness"), bench("B3_fit.ball_stiffness")
+    masses = bench("B3.mass"), bench("B1.mass")
+    drop = spring_pair(masses, stiffnesses, speed=superball_speed(bench))
+    return replace(drop, gaps=(gap_for_delay(bench, drop, bench("superballs.late_delay")),))
+
+
+def twin_pair(bench: Bench, gap: float) -> Drop:
+    """Return B1 on B1 without loss: two equal springs in series between the balls."""
+    floor = bench("B1.dynamic_stiffness")
+    masses = heavier_b1(bench), bench("B1.mass")
+    return spring_pair(masses, (floor, floor / 2), speed=superball_speed(bench), gap=gap)
+
+
+def early_twins(bench: Bench) -> Drop:
+    """Return two large balls that meet at the shortest delay that the text reports, 1 ms."""
+    gap = gap_for_delay(bench, twin_pair(bench, 0.0), bench("superballs.twin_delay"))
+    return twin_pair(bench, gap)
+
+
+def late_twins(bench: Bench) -> Drop:
+    """Return two large balls that are off the floor after the measured 12 ms."""
+
+    def late(gap: float) -> float:
+        end = float(bench.simulate(twin_pair(bench, gap)).last_release[0])
+        return end - bench("superballs.twin_duration")
+
+    return twin_pair(bench, solved(late, 2e-3, 2e-2))
+
+
+def stiffening(bench: Bench, drop: Drop) -> Drop:
+    """Return a drop of two balls with each spring replaced by Hertz's law, F = k c**1.5.
+
+    The new contact lasts as long as the old one, for the lower ball on the floor and for the two
+    balls on each other, when they meet at the drop's impact speed.
+    """
+    speed = drop.reference_speed
+    lower, upper = (ball.mass for ball in drop.balls)
+    reduced = lower * upper / (lower + upper)
+    laws = []
+    for mass, spring in zip((lower, reduced), drop.contacts, strict=True):
+        assert spring is not None
+        wanted = bench.simulate(Drop([Ball(mass)], [spring], impact_speed=speed)).end_time
+        at_one = bench.simulate(Drop([Ball(mass)], [_hertz(1.0)], impact_speed=speed)).end_time
+        # Hertz's contact time goes with stiffness to the power -2/5
+        laws.append(_hertz((at_one / wanted) ** 2.5))
+    return replace(drop, contacts=laws)
+
+
+def _hertz(stiffness: float) -> Hysteretic:
+    return Hysteretic(stiffness, exponent=1.5, unloading_exponent=1.5)

@@ -1,0 +1,197 @@
+"""How the paper's figures look: one place for type, lines and colours.
+
+Journal width, serif type, black on white. The colours (Okabe and Ito) keep apart for colour-blind
+readers and in grey; line styles and labels at the curves say the same without colour.
+"""
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from stackbounce.cross2007.curves import Array
+
+__all__ = [
+    "BLACK",
+    "FLOOR",
+    "GREY",
+    "UPPER",
+    "Feature",
+    "Picture",
+    "axes",
+    "bracket",
+    "note",
+    "rendered",
+    "styled",
+    "tag",
+]
+
+BLACK = "#000000"
+FLOOR = "#0072B2"
+UPPER = "#D55E00"
+GREY = "#6b6b6b"
+
+WIDTH = 4.2  # inches
+_BRACKET = 0.75  # height of a bracket in its axes
+
+_RC: dict[Any, Any] = {
+    "font.family": "STIXGeneral",
+    "mathtext.fontset": "stix",
+    "font.size": 10.5,
+    "axes.labelsize": 10.5,
+    "axes.linewidth": 0.7,
+    "axes.xmargin": 0.0,
+    "xtick.direction": "in",
+    "ytick.direction": "in",
+    "xtick.top": True,
+    "ytick.right": True,
+    "xtick.minor.visible": True,
+    "ytick.minor.visible": True,
+    "xtick.major.width": 0.7,
+    "ytick.major.width": 0.7,
+    "xtick.minor.width": 0.5,
+    "ytick.minor.width": 0.5,
+    "xtick.labelsize": 9.5,
+    "ytick.labelsize": 9.5,
+    "lines.linewidth": 1.25,
+    "lines.dash_capstyle": "butt",
+    "lines.dashed_pattern": (5.0, 2.2),
+    "figure.facecolor": "white",
+    "savefig.facecolor": "white",
+    "svg.fonttype": "path",
+    "svg.hashsalt": "stackbounce",
+}
+
+
+@dataclass(frozen=True)
+class Feature:
+    """What the paper's text reports of a figure, beside what the model shows."""
+
+    what: str
+    paper: str
+    here: str
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A recomputed figure.
+
+    ``name`` is the paper's number (``"2a"``), ``guesses`` lists what the paper does not tell,
+    ``features`` compares what its text reports.
+    """
+
+    name: str
+    title: str
+    caption: str
+    guesses: tuple[str, ...]
+    features: tuple[Feature, ...]
+    figure: "Figure"
+
+
+@contextmanager
+def styled() -> Iterator[None]:
+    """Draw in the paper's style within this context."""
+    import matplotlib as mpl
+
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        mpl.rcParams.update(_RC)
+        yield
+
+
+def axes(
+    height: float = 3.0,
+    rows: int = 1,
+    *,
+    right: float = 0.14,
+    ratios: tuple[float, ...] | None = None,
+) -> tuple["Figure", list["Axes"]]:
+    """Return an empty figure of journal width with axes above each other on one horizontal axis.
+
+    The margins are fixed, in inches, so that the frames of all figures line up; `ratios` are the
+    relative heights of the axes.
+    """
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(WIDTH, height))
+    panels = list(figure.subplots(rows, 1, sharex=True, squeeze=False, height_ratios=ratios)[:, 0])
+    panel = (height - 0.55) / rows
+    figure.subplots_adjust(
+        left=0.58 / WIDTH,
+        right=1.0 - right / WIDTH,
+        bottom=0.45 / height,
+        top=1.0 - 0.1 / height,
+        hspace=0.12 / (panel - 0.12),
+    )
+    for ax in panels:
+        ax.yaxis.set_label_coords(-0.115, 0.5)
+    return figure, panels
+
+
+def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
+    """Mark a span that the paper reports, over the curves, with its text."""
+    place = ax.get_xaxis_transform()
+    ax.annotate(
+        "",
+        xy=(end, _BRACKET),
+        xytext=(start, _BRACKET),
+        xycoords=place,
+        textcoords=place,
+        arrowprops={
+            "arrowstyle": "|-|,widthA=0.25,widthB=0.25",
+            "color": GREY,
+            "lw": 0.8,
+            "shrinkA": 0.0,
+            "shrinkB": 0.0,
+        },
+    )
+    ax.annotate(
+        text,
+        xy=(start, _BRACKET),
+        xycoords=place,
+        xytext=(4.0, 5.0),
+        textcoords="offset points",
+        color=GREY,
+        fontsize=9,
+    )
+
+
+def note(ax: "Axes", text: str) -> None:
+    """Write a remark at the right edge of the axes, below the label of what they show."""
+    ax.text(0.98, 0.6, text, transform=ax.transAxes, ha="right", va="top", color=GREY, fontsize=9)
+
+
+def tag(
+    ax: "Axes", xs: "Array", ys: "Array", at: float, text: str, color: str, *, above: bool = True
+) -> None:
+    """Write a curve's label next to the curve, over or under its point at x = `at`."""
+    import numpy as np
+
+    ax.annotate(
+        text,
+        xy=(at, float(np.interp(at, xs, ys))),
+        xytext=(0, 3.5 if above else -3.5),
+        textcoords="offset points",
+        ha="center",
+        va="bottom" if above else "top",
+        color=color,
+    )
+
+
+def rendered(figure: "Figure") -> dict[str, bytes]:
+    """Return a figure as the bytes of its files, by ending; equal figures give equal bytes."""
+    files = {}
+    with styled():
+        for ending, options in (
+            ("svg", {"metadata": {"Date": None, "Creator": None}}),
+            ("png", {"dpi": 300, "metadata": {"Software": None}}),
+        ):
+            buffer = io.BytesIO()
+            figure.savefig(buffer, format=ending, **options)
+            files[ending] = buffer.getvalue()
+    return files

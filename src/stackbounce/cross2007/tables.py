@@ -1,0 +1,135 @@
+"""Tables I and II recomputed, with the paper's errors carried through by `uncertainties`."""
+
+from dataclasses import dataclass
+from math import pi
+from typing import TYPE_CHECKING
+
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.checks_tables import HEIGHTS, RATIOS
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["Table", "table_one", "table_two"]
+
+
+@dataclass(frozen=True)
+class Table:
+    """A recomputed table as text: name, title, column heads, rows, notes."""
+
+    name: str
+    title: str
+    head: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    notes: tuple[str, ...]
+
+
+def table_one(bench: Bench) -> Table:
+    """Return Table I: the superballs, with their dynamic stiffness from the contact time.
+
+    Parameters
+    ----------
+    bench : Bench
+        The paper's data.
+
+    Returns
+    -------
+    Table
+    """
+    rows = []
+    for ball in ("B1", "B2", "B3"):
+        time = bench.measured(f"{ball}.contact_time")
+        diameter = bench.measured(f"{ball}.diameter")
+        static = bench.measured(f"{ball}.static_stiffness")
+        dynamic = bench.measured(f"{ball}.mass") * (pi / time) ** 2
+        rows.append(
+            (
+                ball,
+                _text(1e3 * diameter),
+                _text(1e3 * bench.measured(f"{ball}.mass")),
+                _text(1e-4 * static),
+                _text(1e3 * time),
+                f"{1e-4 * bench(f'{ball}.dynamic_stiffness'):.1f}",
+                _text(1e-4 * dynamic),
+                _text(dynamic / static),
+                _text(1e-3 * dynamic / (1e3 * diameter)),
+            )
+        )
+    head = (
+        "ball",
+        "D (mm)",
+        "m (g)",
+        "static k (1e4 N/m)",
+        "contact time (ms)",
+        "dynamic k printed (1e4 N/m)",
+        "dynamic k = m (π/time)²",
+        "dynamic/static",
+        "dynamic k/D (kN/m per mm)",
+    )
+    notes = (
+        "Errors are the paper's (0.1 ms, 5 %), or half a unit in the last printed digit.",
+        "The last column is what the text calls proportional to the radius.",
+    )
+    return Table("I", "Properties of the superballs", head, tuple(rows), notes)
+
+
+def table_two(bench: Bench) -> Table:
+    """Return Table II: mass ratios, and bounce heights as squares of the rebound ratios.
+
+    Parameters
+    ----------
+    bench : Bench
+        The paper's data.
+
+    Returns
+    -------
+    Table
+    """
+    balls = ("B1", "B2", "B3", "basketball", "tennis")
+    masses = {ball: bench.measured(f"{ball}.mass") for ball in balls}
+    heavier = bench.measured("B1_on_B1.mass_ratio") * masses["B1"]
+    rows = []
+    for pair, ratio in RATIOS.items():
+        upper, lower = pair.split("_on_")
+        below, above = masses[lower], masses[upper]
+        with_heavier = (heavier if lower == "B1" else below) / (
+            heavier if upper == "B1" and lower != "B1" else above
+        )
+        e1, e2 = bench.measured(f"{pair}.lower"), bench.measured(f"{pair}.upper")
+        rows.append(
+            (
+                lower,
+                upper,
+                ratio,
+                "" if lower == upper else _text(below / above),
+                _text(with_heavier) if "B1" in (lower, upper) else "",
+                _text(e1),
+                _text(e2),
+                HEIGHTS[pair][0],
+                _text(e1**2),
+                HEIGHTS[pair][1],
+                _text(e2**2),
+            )
+        )
+    head = (
+        "bottom",
+        "top",
+        "m1/m2 printed",
+        "from Table I",
+        "B1 = 105 g",
+        "e1",
+        "e2",
+        "h1/h0 printed",
+        "e1 squared",
+        "h2/h0 printed",
+        "e2 squared",
+    )
+    notes = (
+        "Errors: 0.02 for e1 and e2 of the superballs; else half a unit in the last digit.",
+        "105 g is 1.040 times Table I's 101 g; the lower ball of B1 on B1 is the heavier one.",
+    )
+    return Table("II", "Rebound ratios of the pairs", head, tuple(rows), notes)
+
+
+def _text(value: "UFloat") -> str:
+    return f"{value:P}"

@@ -1,0 +1,72 @@
+"""The cases of `reference` as drops of stackbounce, and what the tests compare."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+import stackbounce as sb
+
+
+def contact(stiffness: float, **law: float) -> sb.Spring | sb.Hysteretic:
+    """Return a spring, or a hysteretic contact where more than a stiffness is given."""
+    return sb.Hysteretic(stiffness, **law) if law else sb.Spring(stiffness)
+
+
+def drop_of(case: Mapping[str, Any]) -> sb.Drop:
+    """Return the drop of a case of the data files."""
+    return sb.Drop(
+        balls=[sb.Ball(mass) for mass in case["masses"]],
+        contacts=[contact(**law) for law in case["contacts"]],
+        gaps=case["gaps"],
+        velocities=case["velocities"],
+    )
+
+
+def springs(
+    masses: Sequence[float],
+    stiffnesses: Sequence[float | None],
+    gaps: Sequence[float] | None = None,
+    velocities: Sequence[float] | None = None,
+) -> sb.Drop:
+    """Return a drop on springs, at speed 1 unless velocities are given; None: no floor."""
+    return sb.Drop(
+        balls=[sb.Ball(mass) for mass in masses],
+        contacts=[None if k is None else sb.Spring(k) for k in stiffnesses],
+        gaps=gaps,
+        velocities=velocities or [-1.0] * len(masses),
+    )
+
+
+def rigid(
+    masses: Sequence[float],
+    restitutions: Sequence[float | None] | float = 1.0,
+    gaps: Sequence[float] | None = None,
+    velocities: Sequence[float] | None = None,
+) -> sb.Drop:
+    """Return a drop of rigid balls, at speed 1 unless velocities are given; None: no floor."""
+    if isinstance(restitutions, float):
+        restitutions = [restitutions] * len(masses)
+    return sb.Drop(
+        balls=[sb.Ball(mass) for mass in masses],
+        contacts=[None if e is None else sb.Rigid(e) for e in restitutions],
+        gaps=gaps,
+        velocities=velocities or [-1.0] * len(masses),
+    )
+
+
+def masses_of(drop: sb.Drop) -> np.ndarray:
+    """Return the masses."""
+    return np.array([ball.mass for ball in drop.balls])
+
+
+def of_contact(result: sb.Result, index: int) -> np.ndarray:
+    """Return the intervals of one contact, in order."""
+    return result.intervals[result.intervals["contact"] == index]
+
+
+def by_contact(rows: np.ndarray) -> np.ndarray:
+    """Return intervals as a table, contact by contact, each in order of time."""
+    order = np.lexsort((rows["start"], rows["contact"]))
+    names = ("contact", "start", "end", "peak_force", "peak_compression", "impulse")
+    return np.stack([rows[name][order].astype(float) for name in names], axis=-1)

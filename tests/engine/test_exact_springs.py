@@ -1,0 +1,133 @@
+"""Springs (eqs 5 and 6) against the thirty-digit reference and published values."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import mp
+
+import stackbounce as sb
+from drops import by_contact, drop_of, of_contact, springs
+from reference import make_data
+from reference import rigid as rigid_reference
+from reference import springs as springs_reference
+
+PRECISION = 1e-11
+ENERGY = 1e-12
+ROWS = make_data.read("springs")
+
+
+@pytest.mark.parametrize("row", ROWS, ids=range(len(ROWS)))
+def test_reference(row):
+    drop = drop_of(row["case"])
+    result = sb.simulate(drop)
+    assert result.status is sb.Status.FINISHED
+    expected = np.array(sorted(row["intervals"]))
+    counts = np.bincount(expected[:, 0].astype(int), minlength=len(drop.balls))
+    assert result.collisions.tolist() == counts.tolist()
+    error = np.abs(result.rebound_speeds - row["rebound_speeds"])
+    assert error.max() <= PRECISION * drop.reference_speed
+    assert abs(result.energy_retained - 1) <= ENERGY
+    found = by_contact(result.intervals)
+    unit = np.sqrt(drop.balls[0].mass / drop.contacts[0].stiffness)
+    scale = np.abs(expected)
+    scale[:, 1:3] = np.maximum(scale[:, 1:3], unit)
+    assert (np.abs(found - expected) <= PRECISION * scale).all()
+    assert result.end_time == found[:, 2].max()
+
+
+@pytest.mark.parametrize(
+    ("ratio", "stiffness", "delay", "published"),
+    [
+        ((1, 3), 1.0, 0.0, (0.888123, 1.278167)),
+        ((1, 3), 0.01, 0.0, (0.009420, 1.999933)),
+        ((1, 3), 100.0, 0.0, (0.999788, 1.000636)),
+        ((1, 1), 1.0, 0.0, (0.766350, 1.188574)),
+        ((1, 10), 0.1, 0.0, (0.751498, 2.313548)),
+        ((1, 3), 1.0, 1.0, (0.322171, 1.920577)),
+    ],
+)
+def test_published(ratio, stiffness, delay, published):
+    upper, lower = ratio
+    drop = springs([lower, upper], [1.0, stiffness], [delay * lower**0.5])
+    assert sb.simulate(drop).rebound_ratios == pytest.approx(published, abs=6e-7)
+
+
+def test_the_paper_equal_masses_and_springs():
+    assert sb.simulate(springs([1, 1], [1, 1])).rebound_ratios.round(4).tolist() == [0.7664, 1.1886]
+
+
+def test_the_paper_mass_ratio_ten():
+    assert sb.simulate(springs([10, 1], [1, 1])).rebound_ratios[1] == pytest.approx(1.127, abs=5e-4)
+
+
+def figure_9(floor, balls):
+    masses, speeds = [sb.Ball(0.150), sb.Ball(0.057)], {"impact_speed": 3.53}
+    return sb.simulate(sb.Drop(masses, [sb.Spring(floor), sb.Spring(balls)], **speeds))
+
+
+def test_the_paper_figure_9():
+    result = figure_9(2500.0, 1000.0)
+    assert result.rebound_speeds == pytest.approx([1.340, 6.366], abs=5e-4)
+    assert of_contact(result, 0)["end"] == pytest.approx([0.0306], abs=5e-5)
+
+
+def test_the_paper_alternative_to_figure_9():
+    result = figure_9(2000.0, 500.0)
+    assert result.rebound_speeds[0] == pytest.approx(0.614, abs=5e-4)
+    assert of_contact(result, 1)["end"] == pytest.approx([0.0434], abs=5e-5)
+
+
+@given(
+    upper=st.floats(0.02, 1.0), stiffness=st.floats(0.01, 100.0), delay=st.floats(np.pi, 3 * np.pi)
+)
+def test_wide_gap_gives_separate_collisions(upper, stiffness, delay):
+    """A gap of at least pi v sqrt(m1/k1) is wide where the upper ball is not the heavier one."""
+    result = sb.simulate(springs([1.0, upper], [1.0, stiffness], [delay]))
+    numbers = [[mp.mpf(x) for x in row] for row in ((1.0, upper), (1, 1), (0,), (-1, -1))]
+    expected = rigid_reference.run(*numbers)
+    assert result.rebound_ratios == pytest.approx(
+        [float(v) for v in expected.velocities], abs=PRECISION
+    )
+    if upper not in (1.0, 1 / 3):  # where a ball stops or keeps up, a rounding error may count
+        assert result.collisions.tolist() == expected.counts()
+
+
+def test_wide_gap_under_a_heavier_ball_is_not_wide():
+    result = sb.simulate(springs([1.0, 10.0], [1.0, 1.0], [np.pi]))
+    assert result.rebound_ratios[0] == pytest.approx(0.168, abs=5e-4)
+    separate = sb.simulate(sb.Drop([sb.Ball(1.0), sb.Ball(10.0)], [sb.Rigid(1.0)] * 2, None, 1.0))
+    assert separate.rebound_ratios[0] == pytest.approx(0.748, abs=5e-4)
+
+
+def test_motion_between_the_events():
+    """Equal balls and springs start on the modes of eqs 5 and 6: golden-ratio frequencies."""
+    result = sb.simulate(springs([1, 1], [1, 1]))
+    times = np.linspace(0.0, result.intervals["end"].min(), 101)
+    slow, fast = (np.sqrt(5) - 1) / 2, (np.sqrt(5) + 1) / 2
+    sample = result.sample(times)
+    lower = upper = 0.0
+    for w in (slow, fast):
+        shape = 2 - w**2  # of the upper ball where the lower one's is 1
+        weight = (1 + shape) / (1 + shape**2) / w
+        lower = lower - weight * np.sin(w * times)
+        upper = upper - weight * shape * np.sin(w * times)
+    assert sample.position.sel(ball=0).values == pytest.approx(lower, abs=1e-13)
+    assert sample.position.sel(ball=1).values == pytest.approx(upper, abs=1e-13)
+    assert sample.force.sel(contact=0).values == pytest.approx(-lower, abs=1e-13)
+    assert sample.force.sel(contact=1).values == pytest.approx(lower - upper, abs=1e-13)
+
+
+def test_no_floor():
+    """A row of balls without a floor, one of them struck: against the reference."""
+    drop = springs([1, 2, 1, 3], [None, 1, 4, 2], [0.0, 0.3, 0.0], [1.0, 0.0, 0.0, -0.5])
+    expected = springs_reference.run(
+        [1, 2, 1, 3], [None, 1, 4, 2], [0.0, 0.3, 0.0], [1.0, 0.0, 0.0, -0.5]
+    )
+    result = sb.simulate(drop)
+    assert result.rebound_speeds == pytest.approx(
+        [float(v) for v in expected.velocities], abs=PRECISION
+    )
+    assert result.collisions.tolist() == expected.counts(4)
+    ends = sorted(float(i.end) for i in expected.intervals)
+    assert sorted(result.intervals["end"]) == pytest.approx(ends, rel=PRECISION)

@@ -1,0 +1,146 @@
+"""Hysteretic contacts (section V) against closed forms and the Taylor-series reference."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import stackbounce as sb
+from drops import by_contact, drop_of, masses_of
+from reference import hysteretic, make_data
+
+RESTITUTION = 1e-10
+EVENT = 1e-12  # of the contact time
+ROWS = make_data.read("hysteretic")
+SPEED = (2 * 9.80665 * 0.2) ** 0.5
+
+
+def one_ball(law, mass=0.101, speed=SPEED):
+    return sb.simulate(sb.Drop([sb.Ball(mass)], [law], impact_speed=speed))
+
+
+@pytest.mark.parametrize("e", [0.05, 0.3, 0.78, 0.9, 0.999, 1.0])
+@pytest.mark.parametrize("exponent", [1.0, 1.25, 1.5, 2.0, 3.0])
+def test_one_ball(e, exponent):
+    law = sb.Hysteretic(5.6e4, exponent=exponent, restitution=e)
+    result = one_ball(law)
+    assert abs(result.rebound_ratios[0] - e) <= RESTITUTION
+    assert result.collisions.tolist() == [1]
+    expected = hysteretic.one_ball(0.101, hysteretic.Law.of_restitution(5.6e4, exponent, e), SPEED)
+    (interval,) = result.intervals
+    assert interval["start"] == 0.0
+    assert abs(interval["end"] - float(expected.end)) <= EVENT * float(expected.end)
+    for name in ("peak_force", "peak_compression", "impulse"):
+        assert interval[name] == pytest.approx(float(getattr(expected, name)), rel=RESTITUTION)
+
+
+@pytest.mark.parametrize(("exponent", "unloading"), [(1.0, 2.3), (1.5, 1.5), (2.0, 7.0)])
+def test_one_ball_by_exponents(exponent, unloading):
+    law = sb.Hysteretic(100.0, exponent=exponent, unloading_exponent=unloading)
+    e = ((exponent + 1) / (unloading + 1)) ** 0.5
+    assert law.restitution == pytest.approx(e, rel=1e-15)
+    assert abs(one_ball(law).rebound_ratios[0] - e) <= RESTITUTION
+
+
+def test_section_v_exponent():
+    """e**2 = 2/(n + 1), and e = 0.78, give n = 2.3."""
+    assert sb.Hysteretic(5.6e4, restitution=0.78).unloading_exponent == pytest.approx(2.3, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("exponent", "factor"), [(1.0, 3.141592654), (1.5, 2.943275184), (2.0, 2.804364211)]
+)
+def test_contact_time_of_a_power_law(exponent, factor):
+    """T = C c_max / v, C = 2 sqrt(pi) Gamma(1 + s) / Gamma(1/2 + s), s = 1/(n+1)."""
+    result = one_ball(sb.Hysteretic(10.0, exponent=exponent, restitution=1.0), 2.0, 3.0)
+    (interval,) = result.intervals
+    assert interval["end"] * 3.0 / interval["peak_compression"] == pytest.approx(factor, rel=1e-9)
+
+
+def test_contact_time_of_hertz():
+    result = one_ball(sb.Hysteretic(7.0, exponent=1.5, restitution=1.0), 2.0, 3.0)
+    expected = 3.218065 * (2.0**2 / (7.0**2 * 3.0)) ** 0.2
+    assert result.end_time == pytest.approx(expected, rel=2e-7)
+
+
+@pytest.mark.parametrize("row", ROWS, ids=range(len(ROWS)))
+def test_reference(row):
+    drop = drop_of(row["case"])
+    result = sb.simulate(drop)
+    assert result.status is sb.Status.FINISHED
+    expected, found = np.array(sorted(row["intervals"])), by_contact(result.intervals)
+    counts = np.bincount(expected[:, 0].astype(int), minlength=len(drop.balls))
+    assert result.collisions.tolist() == counts.tolist()
+    error = np.abs(result.rebound_speeds - row["rebound_speeds"])
+    assert error.max() <= RESTITUTION * drop.reference_speed
+    assert abs(result.energy_retained - row["energy_retained"]) <= RESTITUTION
+    duration = expected[:, 2:3] - expected[:, 1:2]
+    assert (np.abs(found[:, 1:3] - expected[:, 1:3]) <= EVENT * duration).all()
+    assert (np.abs(found[:, 3:] - expected[:, 3:]) <= RESTITUTION * expected[:, 3:]).all()
+
+
+@pytest.mark.parametrize(
+    ("ratio", "published"),
+    [(1.0, (0.71077, 1.22262)), (0.5, (0.76851, 2.06765)), (0.3, (0.98319, 1.49491))],
+)
+def test_hertz_published(ratio, published):
+    """Two balls of one material, zero gap: k2/k1 = sqrt(r/(1+r))/2, masses as r**3."""
+    stiffness = (ratio / (1 + ratio)) ** 0.5 / 2
+    laws = [sb.Hysteretic(k, exponent=1.5, restitution=1.0) for k in (1.0, stiffness)]
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(ratio**3)], laws, impact_speed=1.0)
+    result = sb.simulate(drop)
+    assert result.rebound_ratios == pytest.approx(published, abs=6e-6)
+    assert abs(result.energy_retained - 1) <= RESTITUTION
+
+
+def maxima(values):
+    inner = values[1:-1]
+    return int(np.sum((inner > values[:-2]) & (inner >= values[2:])))
+
+
+def test_several_cycles_in_one_interval_follow_the_rule():
+    """Reloading goes up the unloading curve to the old peak, then along the loading curve."""
+    seen = 0
+    for row in ROWS[8:]:
+        drop = drop_of(row["case"])
+        result = sb.simulate(drop)
+        sample = result.sample(np.linspace(0.0, result.end_time, 4001))
+        for interval in result.intervals:
+            law = drop.contacts[interval["contact"]]
+            if isinstance(law, sb.Spring):
+                continue
+            at = (sample.time > interval["start"]) & (sample.time < interval["end"])
+            c = sample.compression.sel(contact=interval["contact"], time=at).values
+            force = sample.force.sel(contact=interval["contact"], time=at).values
+            seen += maxima(c) > 1
+            peak = np.maximum.accumulate(c)
+            loading = law.stiffness * c**law.exponent
+            unloading = law.stiffness * peak**law.exponent * (c / peak) ** law.unloading_exponent
+            expected = np.where(c < peak, unloading, loading)
+            # between the samples the peak may be higher than the highest sample
+            assert force == pytest.approx(expected, abs=2e-4 * interval["peak_force"])
+            assert (force <= loading + 1e-12 * interval["peak_force"]).all()
+    assert seen >= 5
+
+
+@given(
+    mass=st.floats(-1, 1.5).map(lambda x: 10**x),
+    stiffness=st.floats(-1, 1).map(lambda x: 10**x),
+    gap=st.floats(0.0, 3.0),
+    e=st.tuples(st.floats(0.3, 1.0), st.floats(0.3, 1.0)),
+    exponent=st.sampled_from([1.0, 1.5]),
+)
+def test_energy_never_rises(mass, stiffness, gap, e, exponent):
+    laws = [
+        sb.Hysteretic(k, exponent=exponent, restitution=x)
+        for k, x in zip((1.0, stiffness), e, strict=True)
+    ]
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(mass)], laws, gaps=[gap], impact_speed=1.0)
+    result = sb.simulate(drop)
+    energy = result.sample(np.linspace(0.0, 1.1 * result.end_time, 200)).energy.values
+    start = 0.5 * np.sum(masses_of(drop))
+    assert energy[0] == pytest.approx(start, rel=1e-14)
+    assert np.diff(energy).max() <= 1e-12 * start
+    assert energy[-1] == pytest.approx(result.energy_retained * start, rel=1e-12)
+    assert result.energy_retained <= 1 + 1e-12
+    assert result.energy_retained >= min(e) ** (2 * result.collisions.sum()) - 1e-12

@@ -1,0 +1,259 @@
+"""What holds for every drop: momentum, energy, scaling, order of the intervals, sampling."""
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import stackbounce as sb
+from drops import masses_of, of_contact
+
+MOMENTUM = 1e-12
+ENERGY = 1e-12
+
+
+def powers(low, high):
+    return st.floats(low, high).map(lambda x: 10**x)
+
+
+@st.composite
+def laws(draw, kind):
+    k = draw(powers(-1, 1))
+    if kind == "spring":
+        return sb.Spring(k)
+    if kind == "rigid":
+        return sb.Rigid(draw(st.one_of(st.just(1.0), st.floats(0.55, 1.0))))
+    exponent = draw(st.sampled_from([1.0, 1.0, 1.5]))
+    return sb.Hysteretic(k, exponent=exponent, restitution=draw(st.floats(0.4, 1.0)))
+
+
+@st.composite
+def drops(draw, kinds=("spring",), largest=4):
+    size = draw(st.integers(1, largest))
+    kind = draw(st.sampled_from(kinds))
+    finite = ["spring", "hysteretic"] if kind == "mixed" else [kind]
+    contacts = [draw(laws(draw(st.sampled_from(finite)))) for _ in range(size)]
+    gaps = [draw(st.one_of(st.just(0.0), st.floats(0.01, 3.0))) for _ in range(size - 1)]
+    masses = [draw(powers(-1, 1)) for _ in range(size)]
+    if draw(st.booleans()):
+        return sb.Drop([sb.Ball(m) for m in masses], contacts, gaps, impact_speed=1.0)
+    velocities = [-1.0, *[draw(st.floats(-2.0, 0.5)) for _ in masses[1:]]]
+    return sb.Drop([sb.Ball(m) for m in masses], contacts, gaps, velocities=velocities)
+
+
+EVERY = ("spring", "mixed", "hysteretic", "rigid")
+FINITE = EVERY[:3]
+
+
+def scaled(drop, *, mass=1.0, stiffness=1.0, speed=1.0, gap=1.0):
+    """Return the drop with its masses, stiffnesses, speeds and gaps multiplied."""
+    contacts = []
+    for law in drop.contacts:
+        if isinstance(law, sb.Spring):
+            contacts.append(sb.Spring(law.stiffness * stiffness))
+        elif isinstance(law, sb.Hysteretic):
+            kept = {"exponent": law.exponent, "unloading_exponent": law.unloading_exponent}
+            contacts.append(sb.Hysteretic(law.stiffness * stiffness, **kept))
+        else:
+            contacts.append(law)
+    return sb.Drop(
+        [sb.Ball(ball.mass * mass) for ball in drop.balls],
+        contacts,
+        [x * gap for x in drop.gaps],
+        velocities=[v * speed for v in drop.start_velocities],
+    )
+
+
+def assert_identical(one, other, *, time=1.0, speed=1.0, force=1.0, length=1.0, impulse=1.0):
+    """Compare two results bit by bit, after multiplication by powers of two."""
+    assert one.status is other.status
+    assert (one.rebound_speeds * speed).tolist() == other.rebound_speeds.tolist()
+    assert one.collisions.tolist() == other.collisions.tolist()
+    factors = {
+        "contact": 1,
+        "start": time,
+        "end": time,
+        "peak_force": force,
+        "peak_compression": length,
+        "impulse": impulse,
+    }
+    for name, factor in factors.items():
+        assert (one.intervals[name] * factor).tolist() == other.intervals[name].tolist()
+
+
+@given(drops(EVERY))
+def test_momentum(drop):
+    """The change of every ball's momentum is the impulse from below less the one from above."""
+    result = sb.simulate(drop)
+    mass = masses_of(drop)
+    if (result.collisions < 0).any():
+        return  # infinitely many impulses, of which the first ones are listed
+    impulse = np.array([of_contact(result, i)["impulse"].sum() for i in range(len(mass))])
+    change = mass * (result.rebound_speeds - drop.start_velocities)
+    scale = mass.sum() * drop.reference_speed * max(1, len(result.intervals))
+    assert impulse - np.append(impulse[1:], 0.0) == pytest.approx(change, abs=MOMENTUM * scale)
+    assert change.sum() == pytest.approx(impulse[0], abs=MOMENTUM * scale)
+    assert (result.intervals["impulse"] > 0.0).all()
+
+
+@given(drops(EVERY))
+def test_each_impulse_is_the_top_balls_change_of_momentum(drop):
+    result = sb.simulate(drop)
+    top = len(drop.balls) - 1
+    if result.collisions[top] < 0:
+        return
+    events = result.events[result.events["contact"] == top]
+    after = events["upper_velocity"][events["kind"] != "touch"]
+    before = np.append(drop.start_velocities[top], after[:-1])
+    impulse = of_contact(result, top)["impulse"]
+    mass = drop.balls[top].mass
+    scale = mass * np.abs(np.append(before, after)).max(initial=drop.reference_speed)
+    assert impulse == pytest.approx(mass * (after - before), abs=MOMENTUM * scale)
+
+
+@given(drops(EVERY))
+def test_energy_never_rises(drop):
+    result = sb.simulate(drop)
+    assert -ENERGY <= result.energy_retained <= 1 + ENERGY
+    if all(isinstance(law, sb.Spring) for law in drop.contacts):
+        assert result.energy_retained == pytest.approx(1.0, abs=ENERGY)
+    energy = result.sample(np.linspace(0.0, 1.2 * result.end_time + 0.1, 80)).energy.values
+    assert np.diff(energy).max() <= ENERGY * energy[0]
+    if all(isinstance(law, sb.Spring) for law in drop.contacts):
+        assert energy == pytest.approx(energy[0], rel=ENERGY)
+
+
+@given(drops(EVERY))
+def test_run_ends_when_nothing_approaches(drop):
+    result = sb.simulate(drop)
+    assert result.status in (sb.Status.FINISHED, sb.Status.COLLAPSED)
+    tiny = 1e-13 * np.abs(result.events["upper_velocity"]).max(initial=drop.reference_speed)
+    assert result.rebound_speeds[0] >= -tiny
+    assert (np.diff(result.rebound_speeds) >= -tiny).all()
+
+
+@given(drops(EVERY))
+def test_intervals_of_a_contact_follow_each_other(drop):
+    result = sb.simulate(drop)
+    assert (np.diff(result.intervals["start"]) >= 0.0).all()
+    assert (np.diff(result.events["time"]) >= 0.0).all()
+    for i, count in enumerate(result.collisions):
+        rows = of_contact(result, i)
+        assert count in (len(rows), -1)
+        assert (rows["start"] <= rows["end"]).all()
+        assert (rows["start"][1:] >= rows["end"][:-1]).all()
+        kinds = result.events["kind"][result.events["contact"] == i].tolist()
+        expected = ["collision"] if drop.rigid else ["touch", "release"]
+        assert kinds == expected * len(rows)
+        if not drop.rigid:
+            assert (rows["start"] < rows["end"]).all()
+            assert (rows["peak_compression"] > 0.0).all()
+            law = drop.contacts[i]
+            force = law.stiffness * rows["peak_compression"] ** getattr(law, "exponent", 1.0)
+            assert rows["peak_force"] == pytest.approx(force, rel=1e-14)
+            assert (rows["impulse"] <= rows["peak_force"] * (rows["end"] - rows["start"])).all()
+
+
+@given(drops(EVERY), st.floats(0.01, 100.0))
+def test_speed_scales(drop, factor):
+    """All speeds scale with v0, the times stay, where forces are linear and gaps scale too."""
+    if any(getattr(law, "exponent", 1.0) != 1.0 for law in drop.contacts):
+        return
+    one, other = sb.simulate(drop), sb.simulate(scaled(drop, speed=factor, gap=factor))
+    assert one.collisions.tolist() == other.collisions.tolist()
+    assert one.rebound_speeds * factor == pytest.approx(other.rebound_speeds, abs=1e-9 * factor)
+    for name in ("start", "end"):
+        assert one.intervals[name] == pytest.approx(other.intervals[name], rel=1e-7, abs=1e-7)
+
+
+@given(drops(EVERY), st.floats(0.01, 100.0))
+def test_masses_and_stiffnesses_scale_together(drop, factor):
+    one, other = sb.simulate(drop), sb.simulate(scaled(drop, mass=factor, stiffness=factor))
+    assert one.collisions.tolist() == other.collisions.tolist()
+    assert one.rebound_speeds == pytest.approx(other.rebound_speeds, abs=1e-9)
+    for name in ("start", "end"):
+        assert one.intervals[name] == pytest.approx(other.intervals[name], rel=1e-7, abs=1e-7)
+
+
+@given(drops(("spring", "rigid")), st.integers(-6, 6))
+def test_powers_of_two_of_the_speed_change_no_bit(drop, power):
+    f = 2.0**power
+    other = sb.simulate(scaled(drop, speed=f, gap=f))
+    assert_identical(sb.simulate(drop), other, speed=f, force=f, length=f, impulse=f)
+
+
+@given(drops(("spring", "rigid")), st.integers(-6, 6))
+def test_powers_of_two_of_masses_and_stiffnesses_change_no_bit(drop, power):
+    f = 2.0**power
+    other = sb.simulate(scaled(drop, mass=f, stiffness=f))
+    assert_identical(sb.simulate(drop), other, force=f, impulse=f)
+
+
+@given(drops(("spring", "rigid")), st.integers(-3, 3))
+def test_powers_of_four_of_the_masses_change_no_bit(drop, power):
+    """Times go with the root of the mass; gaps scale with v0 times them."""
+    f, t = 4.0**power, 2.0**power
+    other = sb.simulate(scaled(drop, mass=f, gap=t))
+    assert_identical(sb.simulate(drop), other, time=t, force=t, length=t, impulse=f)
+
+
+@given(drops(EVERY, largest=3))
+def test_sample_agrees_with_the_result(drop):
+    result = sb.simulate(drop)
+    before = result.intervals.tolist()
+    # a sequence of collisions at one time has its last velocities just after it
+    end = result.end_time * (1 + 1e-12) + (1e-300 if drop.rigid else 0.0)
+    sample = result.sample([0.0, end, end + 1.0])
+    speed = drop.reference_speed
+    if not drop.rigid:
+        assert sample.velocity.isel(time=0).values.tolist() == list(drop.start_velocities)
+    for at in (1, 2):
+        assert sample.velocity.isel(time=at).values == pytest.approx(
+            result.rebound_speeds, abs=1e-11 * speed
+        )
+    heights = np.concatenate([[0.0], np.cumsum(drop.gaps)])
+    assert sample.position.isel(time=0).values == pytest.approx(heights, abs=1e-15)
+    flown = sample.position.isel(time=2) - sample.position.isel(time=1)
+    assert flown.values == pytest.approx(result.rebound_speeds, abs=1e-9)
+    if not drop.rigid:
+        assert (sample.force.isel(time=2) == 0.0).all()
+    assert result.intervals.tolist() == before
+    assert_identical(result, sb.simulate(drop))
+
+
+@given(drops(FINITE, largest=3), st.lists(st.floats(0.0, 1.0), min_size=1, max_size=6))
+def test_sampling_elsewhere_changes_nothing(drop, fractions):
+    result = sb.simulate(drop)
+    times = np.array(fractions) * result.end_time
+    alone = [result.sample([t]) for t in times]
+    together = result.sample(times)
+    for index, sample in enumerate(alone):
+        for name in ("position", "velocity", "force", "compression"):
+            assert sample[name].values[:, 0].tolist() == together[name].values[:, index].tolist()
+
+
+@settings(max_examples=50)
+@given(drops(FINITE, largest=3), st.floats(0.05, 1.2))
+def test_split_run_equals_the_whole(drop, fraction):
+    """Stopped at a time, a run has the whole one's velocities and events up to then."""
+    whole = sb.simulate(drop)
+    stop = fraction * whole.end_time
+    part = sb.simulate(drop, until=stop)
+    here = whole.sample([stop]).velocity.values[:, 0]
+    if fraction < 1:
+        assert part.status is sb.Status.TIME_REACHED
+        assert part.rebound_speeds == pytest.approx(here, abs=1e-12 * drop.reference_speed)
+    else:
+        assert part.rebound_speeds == pytest.approx(whole.rebound_speeds, abs=1e-12)
+    earlier = whole.events[whole.events["time"] <= stop]
+    assert part.events[part.events["time"] < stop].tolist() == (
+        earlier[earlier["time"] < stop].tolist()
+    )
+
+
+@given(drops(EVERY))
+def test_reproducible_to_the_last_bit(drop):
+    one, other = sb.simulate(drop), sb.simulate(drop)
+    assert one.intervals.tolist() == other.intervals.tolist()
+    assert one.events.tolist() == other.events.tolist()
+    assert one.rebound_speeds.tolist() == other.rebound_speeds.tolist()

@@ -1,0 +1,389 @@
+"""Rigid balls: eqs 1 to 4, collision counts, inelastic collapse, against exact references."""
+
+from fractions import Fraction
+from random import Random
+
+import numpy as np
+import pytest
+from hypothesis import assume, given
+from hypothesis import strategies as st
+from mpmath import mpf
+
+import stackbounce as sb
+from drops import masses_of, rigid
+from reference import rigid as reference
+
+PRECISION = 1e-11
+fractions = st.floats(0.0, 1.0)
+
+
+def exact(drop, limit=2000):
+    """Return the exact solution of a drop."""
+    return reference.run(
+        [Fraction(ball.mass) for ball in drop.balls],
+        [None if law is None else Fraction(law.restitution) for law in drop.contacts],
+        [Fraction(gap) for gap in drop.gaps],
+        [Fraction(v) for v in drop.start_velocities],
+        limit,
+    )
+
+
+def precise(drop, limit=100_000):
+    """Return the solution of a drop to fifty digits."""
+    return reference.run(
+        [mpf(ball.mass) for ball in drop.balls],
+        [None if law is None else mpf(law.restitution) for law in drop.contacts],
+        [mpf(gap) for gap in drop.gaps],
+        [mpf(v) for v in drop.start_velocities],
+        limit,
+    )
+
+
+def assert_same(result, expected, drop):
+    """Compare the velocities after every collision, the times, the counts and the end."""
+    scale = PRECISION * drop.reference_speed
+    assert result.collisions.tolist() == expected.counts()
+    assert result.events["contact"].tolist() == [c.contact for c in expected.collisions]
+    for name, field in (("lower_velocity", "lower"), ("upper_velocity", "upper")):
+        values = np.array([float(getattr(c, field)) for c in expected.collisions])
+        assert np.abs(result.events[name] - values).max(initial=0.0) <= scale
+    times = np.array([float(c.time) for c in expected.collisions])
+    assert np.abs(result.events["time"] - times).max(initial=0.0) <= PRECISION * times.max(
+        initial=0.0
+    )
+    velocities = np.array([float(v) for v in expected.velocities])
+    assert np.abs(result.rebound_speeds - velocities).max() <= scale
+
+
+@pytest.mark.parametrize("e", [1.0, 0.92, 0.9, 0.88, 0.8, 0.5])
+@pytest.mark.parametrize("lower", [10.0, 4.23, 3.0, 2.63, 1.0])
+def test_equations_1_and_2(lower, e):
+    m1, m2 = lower, 1.0
+    result = sb.simulate(rigid([m1, m2], e))
+    event = result.events[1]
+    assert event["contact"] == 1
+    v1 = (e * m1 - (1 + e + e**2) * m2) / (m1 + m2)  # eq. 1
+    v2 = (e * (2 + e) * m1 - m2) / (m1 + m2)  # eq. 2
+    assert event["lower_velocity"] == pytest.approx(v1, abs=1e-15)
+    assert event["upper_velocity"] == pytest.approx(v2, abs=1e-15)
+    if v1 >= 0:
+        assert result.rebound_ratios == pytest.approx([v1, v2], abs=1e-15)
+        assert result.collisions.tolist() == [1, 1]
+
+
+@pytest.mark.parametrize("e", [1.0, 0.92, 0.88])
+@pytest.mark.parametrize("lower", [0.9, 0.5, 0.236, 0.081])
+def test_equations_3_and_4(lower, e):
+    m1, m2 = lower, 1.0
+    result = sb.simulate(rigid([m1, m2], e))
+    _, first, floor, second = result.events[:4]
+    v1, v2 = float(first["lower_velocity"]), float(first["upper_velocity"])
+    assert floor["contact"] == 0
+    assert floor["upper_velocity"] == pytest.approx(-e * v1, abs=1e-15)
+    v3 = ((1 + e) * m2 * v2 + e * (e * m2 - m1) * v1) / (m1 + m2)  # eq. 3
+    v4 = ((m2 - e * m1) * v2 - e * (1 + e) * m1 * v1) / (m1 + m2)  # eq. 4
+    assert second["lower_velocity"] == pytest.approx(v3, abs=2e-15)
+    assert second["upper_velocity"] == pytest.approx(v4, abs=2e-15)
+
+
+@pytest.mark.parametrize(
+    ("e", "published"), [((1.0, 1.0), (0.647416, 2.647416)), ((0.8, 0.9), (0.498541, 2.118541))]
+)
+def test_published_sequential(e, published):
+    ratios = sb.simulate(rigid([0.600, 0.058], e)).rebound_ratios
+    assert ratios == pytest.approx(published, abs=6e-7)
+
+
+@given(lower=st.floats(0.02, 50), floor=fractions, balls=fractions)
+def test_first_two_collisions_with_two_restitutions(lower, floor, balls):
+    m1, m2, e1, e2 = lower, 1.0, floor, balls
+    event = sb.simulate(rigid([m1, m2], [e1, e2])).events[1]
+    v1 = (m1 * e1 - m2 - m2 * e2 * (1 + e1)) / (m1 + m2)
+    v2 = (m1 * e1 - m2 + m1 * e2 * (1 + e1)) / (m1 + m2)
+    assert event["lower_velocity"] == pytest.approx(v1, abs=1e-14)
+    assert event["upper_velocity"] == pytest.approx(v2, abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("upper", "floor", "balls"),
+    [
+        (1, 2, 1),
+        (3, 3, 2),
+        (10, 5, 5),
+        (100, 16, 15),
+        (10**4, 157, 157),
+        (10**6, 1571, 1570),
+        (10**8, 15708, 15707),
+    ],
+)
+def test_elastic_counts(upper, floor, balls):
+    assert reference.elastic_counts(1, upper) == (floor, balls)
+    result = sb.simulate(rigid([1.0, float(upper)]))
+    assert result.collisions.tolist() == [floor, balls]
+    assert result.status is sb.Status.FINISHED
+
+
+@pytest.mark.parametrize(
+    ("power", "total"), [(0, 3), (1, 31), (2, 314), (3, 3141), (4, 31415), (5, 314159)]
+)
+@pytest.mark.parametrize("gap", [0.0, 1.0])
+def test_digits_of_pi(power, total, gap):
+    """The lower ball at rest, the upper one coming down: Galperin's count."""
+    drop = rigid([1.0, 100.0**power], gaps=[gap], velocities=[0.0, -1.0])
+    assert sb.simulate(drop).collisions.sum() == total
+
+
+@given(st.floats(1e-2, 1e6))
+def test_elastic_counts_of_any_ratio(upper):
+    angle = 0.5 * np.pi / np.arctan(upper**-0.5)
+    assume(abs(2 * angle - round(2 * angle)) > 1e-6)  # at a tie rounding decides
+    counts = sb.simulate(rigid([1.0, upper])).collisions.tolist()
+    assert tuple(counts) == reference.elastic_counts(1.0, upper)
+
+
+def test_hundred_thousand_elastic_collisions():
+    upper = 1.05e9
+    result = sb.simulate(rigid([1.0, upper]))
+    events = result.events
+    assert len(events) > 100_000
+    assert tuple(result.collisions) == reference.elastic_counts(1.0, upper)
+    balls = np.flatnonzero(events["contact"] == 1)
+    fastest = [np.abs(events[name][balls]).max() for name in ("lower_velocity", "upper_velocity")]
+    random = Random(4)
+    for index in [*random.sample(balls.tolist(), 400), *balls[:3].tolist(), *balls[-3:].tolist()]:
+        expected = reference.elastic_pair(1.0, upper, index + 1)
+        for name, value, largest in zip(
+            ("lower_velocity", "upper_velocity"), expected, fastest, strict=True
+        ):
+            assert abs(events[name][index] - float(value)) <= PRECISION * largest
+    expected = reference.elastic_pair(1.0, upper, len(events))
+    error = np.abs(result.rebound_speeds - [float(v) for v in expected])
+    assert (error <= PRECISION * np.array(fastest)).all()
+    assert abs(result.energy_retained - 1) <= PRECISION
+
+
+def test_thousands_of_elastic_collisions_of_three_balls():
+    drop = rigid([1.0, 200.0, 1e6], gaps=[0.5, 0.7])
+    expected, result = precise(drop), sb.simulate(drop)
+    assert expected.finished
+    assert len(expected.collisions) > 1000
+    assert result.collisions.tolist() == expected.counts()
+    assert result.events["contact"].tolist() == [c.contact for c in expected.collisions]
+    fastest = np.zeros(3)
+    for c in expected.collisions:
+        fastest[c.contact] = max(fastest[c.contact], abs(c.upper))
+        if c.contact:
+            fastest[c.contact - 1] = max(fastest[c.contact - 1], abs(c.lower))
+    for event, c in zip(result.events, expected.collisions, strict=True):
+        assert abs(event["upper_velocity"] - float(c.upper)) <= PRECISION * fastest[c.contact]
+        if c.contact:
+            scale = PRECISION * fastest[c.contact - 1]
+            assert abs(event["lower_velocity"] - float(c.lower)) <= scale
+
+
+@pytest.mark.parametrize("masses", [(1.0, 3.0), (0.1, 0.3), (0.05, 0.15), (7.0, 21.0), (1.1, 3.3)])
+@pytest.mark.parametrize("gap", [0.0, 0.3])
+def test_tie_at_the_end(masses, gap):
+    """Both leave with the same speed: rounding makes no third ball-ball collision of it."""
+    result = sb.simulate(rigid(masses, gaps=[gap]))
+    assert result.collisions.tolist() == [3, 2]
+    assert result.rebound_ratios == pytest.approx([1.0, 1.0], abs=PRECISION)
+    assert result.status is sb.Status.FINISHED
+
+
+@pytest.mark.parametrize("size", [2, 3, 4, 5, 6])
+@pytest.mark.parametrize("unit", [1.0, 0.1, 0.057])
+def test_cannon(size, unit):
+    """Masses in ratios (n+2)/n, counted from the bottom: all the energy to the top ball."""
+    masses = [unit]
+    for n in range(size - 1, 0, -1):
+        masses.insert(0, masses[0] * (n + 2) / n)
+    result = sb.simulate(rigid(masses))
+    assert result.collisions.tolist() == [1] * size
+    assert result.rebound_ratios == pytest.approx([0.0] * (size - 1) + [size], abs=PRECISION)
+    assert result.rebound_ratios[-1] ** 2 == pytest.approx(size**2, abs=1e-10)
+
+
+def test_cannon_masses():
+    assert sb.simulate(rigid([3.0, 1.0])).rebound_ratios == pytest.approx([0.0, 2.0], abs=1e-15)
+    assert sb.simulate(rigid([6.0, 2.0, 1.0])).rebound_ratios == pytest.approx(
+        [0.0, 0.0, 3.0], abs=1e-14
+    )
+
+
+@pytest.mark.parametrize(
+    ("floor", "balls"), [(0.5, 0.5), (0.8, 0.8), (0.9, 0.9), (0.9, 0.3), (0.2, 0.95), (1.0, 0.5)]
+)
+def test_collapse_from_the_threshold_on(floor, balls):
+    threshold = float(reference.collapse_threshold(floor, balls))
+    for factor in (1.0001, 1.5, 1e3, 1e6):
+        result = sb.simulate(rigid([1.0, threshold * factor], [floor, balls]))
+        assert result.status is sb.Status.COLLAPSED
+        assert result.collisions.tolist() == [-1, -1]
+        assert result.rebound_speeds.tolist() == [0.0, 0.0]
+        assert result.energy_retained == 0.0
+    drop = rigid([1.0, threshold * 0.98], [floor, balls])
+    result, expected = sb.simulate(drop), exact(drop)
+    assert expected.finished
+    assert result.status is sb.Status.FINISHED
+    assert result.collisions.tolist() == expected.counts()
+
+
+def test_collapse_exactly_at_the_threshold():
+    assert sb.simulate(rigid([1.0, 8.0], 0.5)).status is sb.Status.COLLAPSED
+
+
+@pytest.mark.parametrize("gap", [0.0, 0.25])
+def test_just_below_collapse_is_counted_to_the_end(gap):
+    drop = rigid([1.0, 7.999], 0.5, gaps=[gap])
+    result, expected = sb.simulate(drop), exact(drop)
+    assert result.status is sb.Status.FINISHED
+    assert result.collisions.tolist() == expected.counts() == [421, 421]
+    assert 1e-129 < result.rebound_speeds[0] < result.rebound_speeds[1] < 1e-126
+    assert result.rebound_speeds == pytest.approx([float(v) for v in expected.velocities], rel=1e-8)
+
+
+def test_below_collapse():
+    drop = rigid([1.0, 7.9], 0.5)
+    result = sb.simulate(drop)
+    assert result.collisions.tolist() == [42, 41]
+    assert_same(result, exact(drop), drop)
+
+
+def test_collapse_of_two_balls_with_a_gap_ends_at_a_finite_time():
+    drop = rigid([1.0, 20.0], 0.5, gaps=[0.3])
+    result = sb.simulate(drop)
+    assert result.status is sb.Status.COLLAPSED
+    end = exact(drop, limit=300).collisions[-1].time
+    assert result.end_time == pytest.approx(float(end), rel=1e-9)
+
+
+@given(
+    floor=st.floats(0.05, 0.97),
+    balls=st.floats(0.05, 0.97),
+    side=st.floats(-2.0, 2.0).map(lambda x: 10**x),
+    gap=st.sampled_from([0.0, 0.125, 2.0]),
+)
+def test_collapse_is_decided_by_theory(floor, balls, side, gap):
+    threshold = float(reference.collapse_threshold(floor, balls))
+    assume(abs(side - 1) > 0.01)
+    drop = rigid([1.0, threshold * side], [floor, balls], gaps=[gap])
+    result = sb.simulate(drop)
+    if side > 1:
+        assert result.status is sb.Status.COLLAPSED
+        assert result.rebound_speeds.tolist() == [0.0, 0.0]
+    else:
+        assert result.status is sb.Status.FINISHED
+        assert result.collisions.tolist() == precise(drop).counts()
+
+
+def test_collapse_of_three_balls():
+    result = sb.simulate(rigid([1.0, 1.0, 1.0], 0.1))
+    assert result.status is sb.Status.COLLAPSED
+    assert not exact(rigid([1.0, 1.0, 1.0], 0.1), limit=400).finished
+    assert (result.rebound_speeds >= 0.0).all()
+    assert (np.diff(result.rebound_speeds) >= 0.0).all()
+    assert 0.0 <= result.energy_retained < 1.0
+
+
+def test_collapse_in_the_middle_of_three_balls_without_a_floor():
+    """Equal balls, e < 7 - 4 sqrt(3) = 0.0718 (McNamara and Young 1992): they end up together."""
+    drop = rigid([1.0] * 3, [None, 0.05, 0.05], [1.0, 1.0], [1.0, 0.25, -1.0])
+    result = sb.simulate(drop)
+    assert not exact(drop, limit=200).finished
+    assert result.status is sb.Status.COLLAPSED
+    assert result.collisions.tolist() == [0, -1, -1]
+    assert result.rebound_speeds == pytest.approx([0.25 / 3] * 3, abs=PRECISION)
+
+
+@pytest.mark.parametrize(
+    ("masses", "restitutions"),
+    [
+        ((1.0, 1.0), (0.0, 1.0)),
+        ((2.0, 1.0), (0.0, 0.5)),
+        ((3.0, 1.0), (0.0, 0.5)),
+        ((1.0, 0.25), (0.5, 0.0)),
+        ((1.0, 0.5), (0.5, 0.0)),
+        ((4.0, 2.0, 0.5), (1.0, 0.0, 1.0)),
+    ],
+)
+def test_restitution_zero(masses, restitutions):
+    drop = rigid(masses, restitutions)
+    expected = exact(drop)
+    assert expected.finished
+    assert_same(sb.simulate(drop), expected, drop)
+
+
+@pytest.mark.parametrize(
+    ("masses", "restitutions"),
+    [((1.0, 1.0), (0.0, 0.0)), ((1.0, 1.0), (0.0, 0.5)), ((1.0, 1.0), (0.5, 0.0))],
+)
+def test_restitution_zero_that_collapses(masses, restitutions):
+    drop = rigid(masses, restitutions)
+    assert not exact(drop).finished
+    result = sb.simulate(drop)
+    assert result.status is sb.Status.COLLAPSED
+    assert result.rebound_speeds.tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("e", [0.0, 0.3, 1.0])
+def test_one_ball(e):
+    result = sb.simulate(rigid([2.0], e))
+    assert result.rebound_speeds.tolist() == [e]
+    assert result.collisions.tolist() == [1]
+    assert result.energy_retained == pytest.approx(e**2, abs=1e-15)
+    (interval,) = result.intervals
+    assert (interval["start"], interval["end"]) == (0.0, 0.0)
+    assert interval["peak_force"] == np.inf
+    assert interval["impulse"] == pytest.approx(2.0 * (1 + e), rel=1e-15)
+
+
+def random_stacks(count):
+    random = Random(11)
+    for _ in range(count):
+        size = random.choice([2, 2, 3, 3, 4, 5])
+        elastic = random.random() < 0.4
+        yield rigid(
+            [10 ** random.uniform(-1, 1) for _ in range(size)],
+            [1.0 if elastic else random.uniform(0.5, 1.0) for _ in range(size)],
+            [random.choice([0.0, random.uniform(0, 2)]) for _ in range(size - 1)],
+        )
+
+
+@pytest.mark.parametrize("drop", list(random_stacks(150)), ids=range(150))
+def test_random_stacks(drop):
+    expected = precise(drop, limit=1500)
+    result = sb.simulate(drop)
+    if expected.finished:
+        assert result.status is sb.Status.FINISHED
+        assert_same(result, expected, drop)
+    else:
+        assert result.status is sb.Status.COLLAPSED
+        assert (np.diff(result.rebound_speeds) >= -PRECISION).all()
+
+
+def test_impulses_of_collisions():
+    drop = rigid([1.0, 2.0, 0.5], 0.9, gaps=[0.1, 0.2])
+    result = sb.simulate(drop)
+    impulse = [
+        result.intervals["impulse"][result.intervals["contact"] == i].sum() for i in range(3)
+    ]
+    change = masses_of(drop) * (result.rebound_speeds + 1)
+    assert impulse - np.append(impulse[1:], 0.0) == pytest.approx(change, abs=1e-14)
+
+
+def test_newtons_cradle_lowest_approaching_first():
+    """Touching balls without a floor, two coming in: two go out."""
+    drop = rigid([1.0] * 5, [None, 1.0, 1.0, 1.0, 1.0], velocities=[1.0, 1.0, 0.0, 0.0, 0.0])
+    result = sb.simulate(drop)
+    assert result.rebound_speeds.tolist() == [0.0, 0.0, 0.0, 1.0, 1.0]
+    assert_same(result, exact(drop), drop)
+
+
+def test_ties_lowest_approaching_first():
+    """Both neighbours of a ball at rest arrive at once: the lower contact collides first."""
+    drop = rigid([1.0, 1.0, 2.0], [None, 0.5, 0.5], [1.0, 1.0], [1.0, 0.0, -1.0])
+    result = sb.simulate(drop)
+    assert result.events["contact"][:2].tolist() == [1, 2]
+    assert result.events["time"][0] == result.events["time"][1] == 1.0
+    assert_same(result, exact(drop), drop)

@@ -1,0 +1,243 @@
+"""The audit: every number of the paper is computed, compared, and explained where it differs."""
+
+import re
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.cross2007 import PAPER, audit, changed
+from stackbounce.cross2007.bench import Bench, as_call, propagated
+from stackbounce.cross2007.checks import (
+    AGREES,
+    DIFFERS,
+    SCALES,
+    WITHIN_ERROR,
+    Section,
+    half_unit,
+    run,
+    source_of,
+)
+from stackbounce.cross2007.paper import FIGURES, SECTIONS
+from stackbounce.cross2007.style import styled
+from stackbounce.cross2007.tables import table_one, table_two
+from stackbounce.units import quantity
+
+CHECKS = [check for section in SECTIONS for check in section.checks]
+# Inputs that a row reads without depending on them: they drop out of its formula, or concern what
+# comes later than the moment that the row is about.
+DROPS_OUT = {
+    "I.relative": "textbook.mass_ratio",
+    "II.equal_first": "models.equal",
+    "II.ten_apart": "models.stiffness_ratio",
+    "III.static_ratio": "static.tennis",
+    "III.static_duration": "stack.impact_speed",
+    "IV.record_delay": "V.exponent",
+    "IV.record_gap": "V.exponent fig13.ball_stiffness fig13.gap B2.mass",
+    "IV.record_reversed_gap": "fig13.ball_stiffness B1.mass",
+    "IV.record_B3_delay": "V.exponent B3_fit.ball_stiffness B3.mass",
+    "IV.record_twin_duration": "superballs.drop_height",
+    "V.exponent": "fig13.floor_stiffness",
+    "V.restitution": "fig13.floor_stiffness",
+    "VI.smallest": "fig13.floor_stiffness fig13.ball_stiffness "
+    "B3_fit.floor_stiffness B3_fit.ball_stiffness",
+    "VI.largest": "fig9.floor_stiffness fig9.ball_stiffness "
+    "fig13.floor_stiffness fig13.ball_stiffness",
+    "VI.superballs": "fig9.floor_stiffness fig9.ball_stiffness",
+}
+# Inputs that no row rests on: figures, tables and other readings show them.
+ONLY_SHOWN = re.compile(
+    r"(diameter|static_stiffness|duration|late_delay|upper_height)$|^B3_on_B1.mass|^B3.dynamic"
+)
+
+
+@pytest.fixture(scope="module")
+def done():
+    return audit()
+
+
+def value(done, name):
+    (row,) = [row for row in done.rows if row.id == name]
+    return row.computed
+
+
+def test_about_ninety_numbers_and_each_has_a_verdict(done):
+    assert len(done.rows) >= 90
+    assert {row.verdict for row in done.rows} == {AGREES, WITHIN_ERROR, DIFFERS}
+    assert sum(done.counts.values()) == len(done.rows)
+    names = [row.id for row in done.rows]
+    assert len(set(names)) == len(names)
+
+
+def test_no_disagreement_is_left_unexplained(done):
+    assert not [row.id for row in done.rows if row.verdict != AGREES and not row.reason]
+    assert not [row.id for row in done.rows if not row.explained]
+
+
+@pytest.mark.parametrize(
+    ("name", "expected", "digits"),
+    [
+        ("II.spring_lower", 0.7664, 4),
+        ("II.spring_upper", 1.1886, 4),
+        ("II.ten_springs", 1.127, 3),
+        ("II.ten_apart", 2.636, 3),
+        ("III.fig9_lower", 1.340, 3),
+        ("III.fig9_upper", 6.366, 3),
+        ("III.other_speed", 0.614, 3),
+        ("III.other_release", 43.4, 1),
+        ("II.stop_lossy", 3.05, 12),
+        ("II.second_stop", 5.0 - 20.0**0.5, 12),
+        ("II.third_collision", 1.0 / 3.0, 12),
+        ("V.exponent", 2.0 / 0.78**2 - 1.0, 12),
+    ],
+)
+def test_known_values(done, name, expected, digits):
+    assert round(value(done, name) - expected, digits) == 0
+
+
+def test_the_large_ball_of_105_g_gives_the_ratios_of_table_two(done):
+    for row in done.rows:
+        if row.id.startswith("T2.") and row.id.endswith(".ratio") and row.verdict == DIFFERS:
+            assert [one.verdict for one in row.attempts] != [DIFFERS]
+
+
+def test_collisions_of_the_large_ball_on_the_smallest_are_eleven_not_nine(done):
+    (row,) = [row for row in done.rows if row.id == "IV.small_count"]
+    assert (row.number, row.computed, row.tolerance) == (9.0, 11.0, 0.0)
+    assert [one.computed for one in row.attempts] == [11.0, 11.0, 9.0]
+
+
+def test_reads_and_calls_are_recorded(done):
+    for row in done.rows:
+        assert row.inputs, row.id
+        assert row.source, row.id
+        assert ("b.simulate" in row.source) <= bool(row.calls), row.id
+
+
+def test_the_calls_can_be_run_and_give_the_computed_number(done):
+    plain = re.compile(r"b\.simulate\(.*\)\.(rebound_\w+|first_touch|last_release)\[([01])\]")
+    seen = 0
+    for row in done.rows:
+        if (found := plain.fullmatch(row.source)) and len(row.calls) == 1:
+            result = eval(row.calls[0], {"sb": sb})
+            assert getattr(result, found[1])[int(found[2])] == row.computed * SCALES[row.unit]
+            seen += 1
+    assert seen >= 15
+
+
+@pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.id)
+def test_one_percent_of_an_input_moves_the_rows_that_depend_on_it(check):
+    bench = Bench(PAPER)
+    before = check.compute(bench)
+    for key in bench.read:
+        after = check.compute(Bench(changed(PAPER, key, 0.99)))
+        if key not in DROPS_OUT.get(check.id, "").split() and not check.counted:
+            assert after != before, key
+
+
+@pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.id)
+def test_all_other_inputs_leave_a_row_alone(check):
+    bench = Bench(PAPER)
+    before = check.compute(bench)
+    data = PAPER
+    for key in PAPER:
+        if key not in bench.read:
+            data = changed(data, key, 0.99)
+    assert check.compute(Bench(data)) == before
+
+
+def test_every_input_is_used():
+    used = set()
+    computed = [compute for check in CHECKS for _, _, compute in check.others]
+    computed += [check.compute for check in CHECKS]
+    with styled():
+        for make in (*computed, table_one, table_two, *FIGURES.values()):
+            bench = Bench(PAPER)
+            make(bench)
+            used |= set(bench.read)
+    assert used == set(PAPER)
+
+
+@pytest.mark.parametrize("key", [key for key in PAPER if not ONLY_SHOWN.search(key)])
+def test_every_other_input_moves_a_row(key):
+    data = changed(PAPER, key, 0.99)
+    for check in CHECKS:
+        bench = Bench(PAPER)
+        before = check.compute(bench)
+        if key in bench.read and check.compute(Bench(data)) != before:
+            return
+    pytest.fail("no row moved")
+
+
+@pytest.mark.parametrize("key", PAPER)
+def test_values_are_the_printed_ones(key):
+    one = PAPER[key]
+    assert one.key == key
+    plain = re.fullmatch(r"(?:[en] = )?([\d.e]+) ?([a-zA-Z/]*)", one.printed)
+    if plain is None:
+        assert one.spread == 0.0
+        return
+    assert quantity(f"{plain[1]} {plain[2]}".strip(), one.unit or "1", key) == pytest.approx(
+        one.value, rel=1e-12
+    )
+
+
+def row_of(number, computed, **more):
+    section = Section("here")
+
+    @section.check("x", "a number", number, **more)
+    def _(_):
+        return computed
+
+    return run(section.checks[0], PAPER)
+
+
+def test_verdicts():
+    assert row_of("2.64", 2.6449).verdict == AGREES
+    assert row_of("2.64", 2.6451).verdict == DIFFERS
+    assert row_of("2.64", 2.6451, stated=0.01).verdict == WITHIN_ERROR
+    assert row_of("3", 3.0, counted=True).verdict == AGREES
+    assert row_of("3", 4.0, counted=True).verdict == DIFFERS
+
+
+def test_a_number_that_was_cut_off_is_recognised():
+    (attempt,) = row_of("0.76", 0.7664).attempts
+    assert attempt.verdict == AGREES
+    assert "cut off" in attempt.reading
+
+
+def test_errors_are_carried_through():
+    def twice(b):
+        return 2.0 * b("tennis.mass") / b("basketball.mass")
+
+    masses = [PAPER["tennis.mass"], PAPER["basketball.mass"]]
+    ratio = 2.0 * masses[0].value / masses[1].value
+    expected = ratio * sum((one.spread / one.value) ** 2 for one in masses) ** 0.5
+    error = propagated(twice, PAPER, [one.key for one in masses])
+    assert error == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        sb.Spring(2.0),
+        sb.Rigid(0.5),
+        sb.Hysteretic(2.0, restitution=0.7),
+        sb.Hysteretic(2.0, exponent=1.5, unloading_exponent=3.0),
+    ],
+)
+def test_a_call_makes_the_same_drop(law):
+    drop = sb.Drop([sb.Ball(0.1), sb.Ball(0.2)], [law, law], gaps=[0.01], impact_speed=2.0)
+    assert eval(as_call(drop), {"sb": sb}).drop == drop
+
+
+def test_half_a_unit():
+    assert [half_unit(number) for number in ("9", "0.236", "1.03e4")] == [0.5, 0.0005, 50.0]
+
+
+def test_source_leaves_the_docstring_out():
+    def doubled(b):
+        """What it is."""
+        one = b("x")
+        return 2.0 * one
+
+    assert source_of(doubled) == "one = b('x')\nreturn 2.0 * one"

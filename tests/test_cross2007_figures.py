@@ -1,0 +1,208 @@
+"""The paper's figures and tables, recomputed."""
+
+import struct
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pytest
+
+from stackbounce.cross2007 import PAPER, changed
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.curves import (
+    after_collision,
+    forces,
+    rebound_by_mass,
+    rebound_by_stiffness,
+)
+from stackbounce.cross2007.drops import force_above, solved, spring_pair
+from stackbounce.cross2007.paper import FIGURES, pictures
+from stackbounce.cross2007.stacks import (
+    early_twins,
+    gap_for_delay,
+    late_pair,
+    late_twins,
+    reversed_pair,
+    stiffening,
+    twin_pair,
+)
+from stackbounce.cross2007.style import GREY, rendered, styled
+from stackbounce.cross2007.tables import table_one, table_two
+from stackbounce.cross2007.waveforms import peak_times
+
+MASS, TIME, FORCE = "$m_1/m_2$", "$t$ (ms)", "$F$ (N)"
+# per figure: label of the horizontal axis, labels of the vertical ones, curves in each
+CONTENT = {
+    "2a": (MASS, ["$v/v_0$"], [4]),
+    "2b": (MASS, ["$v/v_0$"], [4]),
+    "4a": (MASS, ["$v/v_0$"], [2]),
+    "4b": (MASS, ["$v/v_0$"], [2]),
+    "5": (TIME, ["displacement (mm)", "force (N)"], [2, 2]),
+    "6": ("$r_k=k_1/k_2$", ["$v/v_0$"], [6]),
+    "7": ("compression (mm)", [FORCE], [6]),
+    "8": (TIME, [FORCE, FORCE], [2, 2]),
+    "9": (TIME, [FORCE], [2]),
+    "10a": (TIME, [FORCE, FORCE], [1, 1]),
+    "10b": (TIME, [FORCE, FORCE], [1, 1]),
+    "11a": (TIME, [FORCE, FORCE], [1, 1]),
+    "11b": (TIME, [FORCE, FORCE], [1, 1]),
+    "12": (TIME, [FORCE, FORCE, "balls"], [2, 2, 1]),
+    "13": (TIME, [FORCE], [2]),
+}
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    return {picture.name: picture for picture in pictures()}
+
+
+@pytest.fixture
+def bench():
+    return Bench(PAPER)
+
+
+def curves(ax):
+    return [line for line in ax.lines if line.get_color() != GREY]
+
+
+@pytest.mark.parametrize("name", CONTENT)
+def test_axes_and_curves(drawn, name):
+    below, beside, counts = CONTENT[name]
+    axes = drawn[name].figure.axes
+    assert axes[-1].get_xlabel() == below
+    assert [ax.get_ylabel() for ax in axes] == beside
+    assert [len(curves(ax)) for ax in axes] == counts
+    assert all(np.isfinite(line.get_ydata()).all() for ax in axes for line in curves(ax))
+
+
+@pytest.mark.parametrize("name", CONTENT)
+def test_every_guess_is_told(drawn, name):
+    assert drawn[name].guesses
+    assert drawn[name].title
+    assert drawn[name].caption
+
+
+def test_all_figures_with_numbers_are_there(drawn):
+    assert list(drawn) == list(FIGURES) == list(CONTENT)
+
+
+@pytest.mark.parametrize("name", ["6", "12"])
+def test_files_are_images_of_a_fair_size(drawn, name):
+    files = rendered(drawn[name].figure)
+    assert ET.fromstring(files["svg"]).tag == "{http://www.w3.org/2000/svg}svg"
+    assert files["png"].startswith(b"\x89PNG")
+    width, height = struct.unpack(">II", files["png"][16:24])
+    assert width == 1260
+    assert height >= 900
+
+
+def test_the_same_figure_gives_the_same_bytes(drawn):
+    with styled():
+        again = FIGURES["9"](Bench(PAPER))
+    assert rendered(again.figure) == rendered(drawn["9"].figure)
+
+
+def test_figure_six_is_dashed_and_solid_as_the_caption_says(drawn):
+    styles = [line.get_linestyle() for line in curves(drawn["6"].figure.axes[0])]
+    assert styles == ["--", "-"] * 3
+
+
+def test_figures_follow_the_data():
+    with styled():
+        lighter = FIGURES["9"](Bench(changed(PAPER, "tennis.mass", 0.99)))
+        same = FIGURES["9"](Bench(PAPER))
+    assert lighter.features != same.features
+
+
+@pytest.mark.parametrize("e", [1.0, 0.8])
+def test_first_collision_follows_equations_1_and_2(bench, e):
+    m = np.array([0.1, 1.0, 3.0, 10.0])
+    lower = (e * m - (1.0 + e + e * e)) / (m + 1.0)  # eq. 1
+    upper = (e * (2.0 + e) * m - 1.0) / (m + 1.0)  # eq. 2
+    np.testing.assert_allclose(after_collision(bench, m, e, 1), [lower, upper], atol=1e-13)
+
+
+@pytest.mark.parametrize("e", [1.0, 0.8])
+def test_second_collision_follows_equations_3_and_4(bench, e):
+    m = np.array([0.1, 0.3, 0.9])
+    v1, v2 = after_collision(bench, m, e, 1)
+    v3 = ((1.0 + e) * v2 + e * (e - m) * v1) / (m + 1.0)  # eq. 3
+    v4 = ((1.0 - e * m) * v2 - e * (1.0 + e) * m * v1) / (m + 1.0)  # eq. 4
+    np.testing.assert_allclose(after_collision(bench, m, e, 2), [v3, v4], atol=1e-12)
+
+
+def test_heavy_lower_balls_collide_once(bench):
+    assert np.isnan(after_collision(bench, np.array([2.0]), 1.0, 2)).all()
+
+
+def test_energy_is_kept_on_springs(bench):
+    m = np.array([0.05, 0.5, 2.63, 10.0])
+    lower, upper = rebound_by_mass(bench, m, 20.0)
+    np.testing.assert_allclose(m * lower**2 + upper**2, m + 1.0, rtol=1e-12)
+    lower, upper = rebound_by_stiffness(bench, 4.23, np.array([0.1, 1.0, 100.0]))
+    np.testing.assert_allclose(4.23 * lower**2 + upper**2, 5.23, rtol=1e-12)
+
+
+def test_a_stiff_lower_spring_comes_near_to_separate_collisions(bench):
+    lower, upper = rebound_by_stiffness(bench, 10.0, np.array([1e6]))
+    separate = after_collision(bench, np.array([10.0]), 1.0, 1)
+    np.testing.assert_allclose([lower, upper], separate, atol=1e-2)
+
+
+def test_forces_start_at_zero_and_end_with_the_contacts(bench):
+    drop = spring_pair((0.150, 0.057), (2500.0, 1000.0), speed=3.53)
+    (floor, between), result = forces(bench, drop, np.array([0.0, 0.012, 0.05]))
+    assert (floor[[0, 2]], between[[0, 2]]) == pytest.approx((0.0, 0.0))
+    assert floor[1] > 0.0 < between[1]
+    rise, fall = force_above(result, 0, 0.5)
+    assert 0.0 < rise < fall < result.last_release[0]
+
+
+def test_gap_for_a_delay_gives_the_delay(bench):
+    drop = reversed_pair(bench, 0.0)
+    gap = gap_for_delay(bench, drop, 2e-3)
+    assert bench.simulate(reversed_pair(bench, gap)).first_touch[1] == pytest.approx(2e-3, rel=1e-9)
+
+
+def test_measured_delays_and_durations_set_the_gaps(bench):
+    assert bench.simulate(late_pair(bench)).first_touch[1] == pytest.approx(7e-3, rel=1e-9)
+    assert bench.simulate(late_twins(bench)).last_release[0] == pytest.approx(12e-3, rel=1e-9)
+    assert bench.simulate(early_twins(bench)).first_touch[1] == pytest.approx(1e-3, rel=1e-9)
+
+
+def test_the_floor_force_shows_the_peaks_that_the_text_counts(bench):
+    three = reversed_pair(bench, bench("superballs.gap"))
+    assert len(peak_times(bench, three, 0, 0.011)) == 3
+    assert len(peak_times(bench, early_twins(bench), 0, 0.0095)) == 2
+    assert list(bench.simulate(late_twins(bench)).collisions) == [2, 1]
+
+
+def test_stiffening_keeps_the_contact_times(bench):
+    drop = twin_pair(bench, 0.0)
+    law = stiffening(bench, drop).contacts[0]
+    assert law.exponent == 1.5
+    assert law.restitution == 1.0
+
+
+def test_solved_meets_a_jump_and_a_root():
+    assert solved(lambda x: 1.0 if x > 0.3 else -1.0, 0.0, 1.0) == pytest.approx(0.3, abs=1e-15)
+    assert solved(lambda x: 2.0 - x * x, 0.0, 2.0) == pytest.approx(2.0**0.5, abs=1e-15)
+
+
+def test_table_one_carries_the_errors(bench):
+    table = table_one(bench)
+    printed, computed = (table.head.index(f"dynamic k {what}") for what in PRINTED_AND_COMPUTED)
+    assert [row[printed] for row in table.rows] == ["5.4", "3.6", "2.3"]
+    assert [row[computed] for row in table.rows] == ["5.39±0.25", "3.62±0.28", "2.32±0.24"]
+
+
+PRINTED_AND_COMPUTED = ("printed (1e4 N/m)", "= m (π/time)²")
+
+
+def test_table_two_has_printed_and_computed_values(bench):
+    table = table_two(bench)
+    assert all(len(row) == len(table.head) for row in table.rows)
+    first = dict(zip(table.head, table.rows[0], strict=True))
+    assert first["m1/m2 printed"] == "4.23"
+    assert first["from Table I"].startswith("4.07")
+    assert first["B1 = 105 g"].startswith("4.23")
+    assert first["e2 squared"] == "3.65±0.08"

@@ -1,0 +1,171 @@
+"""What `stackbounce paper` writes: complete, self-contained, and the same every time."""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from html.parser import HTMLParser
+
+import pytest
+
+from stackbounce import __version__, cross2007
+from stackbounce.cross2007.report import _nice
+from stackbounce.errors import FileError
+
+NAMES = "2a 2b 4a 4b 5 6 7 8 9 10a 10b 11a 11b 12 13".split()
+VOID = {"meta", "img", "input", "br", "hr", "link"}
+
+
+class Page(HTMLParser):
+    """Collects what a page refers to, and sees that its tags match."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.ids, self.loads, self.links, self.text = [], [], [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        if tag not in VOID:
+            self.open.append(tag)
+        if "id" in attrs:
+            self.ids.append(attrs["id"])
+        self.loads += [attrs[name] for name in ("src", "srcset", "data", "poster") if name in attrs]
+        if "href" in attrs:
+            (self.links if tag == "a" else self.loads).append(attrs["href"])
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+@pytest.fixture(scope="module")
+def told():
+    return []
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, told):
+    out = tmp_path_factory.mktemp("paper") / "new" / "folder"
+    cross2007.write(out, told.append)
+    return out
+
+
+@pytest.fixture(scope="module")
+def page(folder):
+    page = Page()
+    page.feed((folder / "index.html").read_text(encoding="utf-8"))
+    return page
+
+
+def contents(folder):
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob("*"))
+        if path.is_file()
+    }
+
+
+def test_all_files_and_no_others(folder):
+    figures = {f"figures/figure-{name}.{end}" for name in NAMES for end in ("svg", "png")}
+    assert set(contents(folder)) == {"index.html", "audit.csv", "audit.json"} | figures
+
+
+def test_it_says_what_it_is_doing(folder, told):
+    assert any("audit" in line for line in told)
+    assert [line for line in told if line.startswith("figure")] == [f"figure {n}" for n in NAMES]
+    assert told[-1] == f"writing to {folder}"
+
+
+def test_another_process_writes_the_same_bytes(folder, tmp_path):
+    code = (
+        "import sys, pathlib; from stackbounce import cross2007;"
+        "cross2007.write(pathlib.Path(sys.argv[1]))"
+    )
+    subprocess.run(
+        [sys.executable, "-c", code, tmp_path],
+        check=True,
+        env={**os.environ, "PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"},
+    )
+    assert contents(tmp_path) == contents(folder)
+
+
+def test_the_page_loads_nothing(page):
+    assert page.loads
+    assert all(one.startswith("data:image/svg+xml;base64,") for one in page.loads)
+    assert page.open == []
+
+
+def test_the_page_links_to_what_exists(page, folder):
+    assert len(set(page.ids)) == len(page.ids)
+    for link in page.links:
+        if link.startswith("#"):
+            assert link[1:] in page.ids
+        elif not link.startswith("https://doi.org/"):
+            assert (folder / link).exists()
+
+
+def test_the_page_has_every_row_figure_and_guess(page, folder):
+    done = json.loads((folder / "audit.json").read_text(encoding="utf-8"))
+    assert {row["id"] for row in done["rows"]} <= set(page.ids)
+    assert {f"figure-{name}" for name in NAMES} <= set(page.ids)
+    text = " ".join("".join(page.text).split())
+    assert "Guessed" in text
+    assert "Table II. Rebound ratios of the pairs." in text
+    assert f"stackbounce {__version__}" in text
+
+
+def test_json_has_rows_inputs_guesses_and_version(folder):
+    done = json.loads((folder / "audit.json").read_text(encoding="utf-8"))
+    assert done["stackbounce"] == __version__
+    assert sum(done["counts"].values()) == len(done["rows"])
+    assert all(row["verdict"] and row["explained"] for row in done["rows"])
+    assert {one["key"] for one in done["inputs"]} == set(cross2007.PAPER)
+    assert [one["name"] for one in done["figures"]] == NAMES
+    assert all(one["guesses"] for one in done["figures"])
+
+
+def test_csv_has_the_same_rows(folder):
+    with (folder / "audit.csv").open(encoding="utf-8", newline="") as stream:
+        lines = list(csv.DictReader(stream))
+    done = json.loads((folder / "audit.json").read_text(encoding="utf-8"))
+    assert [line["id"] for line in lines] == [row["id"] for row in done["rows"]]
+    assert [float(line["computed"]) for line in lines] == [row["computed"] for row in done["rows"]]
+
+
+def test_a_file_in_the_way_is_told_before_any_work(tmp_path):
+    told = []
+    (tmp_path / "taken").write_text("mine", encoding="utf-8")
+    for out in (tmp_path / "taken", tmp_path / "taken" / "below"):
+        with pytest.raises(FileError) as raised:
+            cross2007.write(out, told.append)
+        assert str(out) in str(raised.value)
+        assert "\n" not in str(raised.value)
+    assert told == []
+    assert (tmp_path / "taken").read_text(encoding="utf-8") == "mine"
+
+
+def test_no_temporary_file_stays_where_a_file_cannot_be_replaced(tmp_path):
+    from stackbounce.cross2007.report import _replace
+
+    (tmp_path / "audit.csv").mkdir()
+    with pytest.raises(FileError):
+        _replace(tmp_path, {"audit.csv": b"new", "index.html": b"new"})
+    assert [path.name for path in tmp_path.iterdir()] == ["audit.csv"]
+
+
+@pytest.mark.parametrize(
+    ("text", "html"),
+    [
+        ("m1/m2 of B1", "m<sub>1</sub>/m<sub>2</sub> of B1"),
+        ("1.03e4 N/m", "1.03 × 10<sup>4</sup> N/m"),
+        ("1e4 N/m", "10<sup>4</sup> N/m"),
+        ("5 - sqrt(20)", "5 − √20"),
+        ("<b> & e1", "&lt;b&gt; &amp; e<sub>1</sub>"),
+        ("1.040 x 101 g", "1.040 × 101 g"),
+    ],
+)
+def test_signs_as_they_are_printed(text, html):
+    assert str(_nice(text)) == html
