@@ -148,7 +148,7 @@ class Result:
         out["peak_force"] = rows[:, codes.PEAK_FORCE]
         out["peak_compression"] = rows[:, codes.PEAK_COMPRESSION]
         out["impulse"] = rows[:, codes.IMPULSE]
-        return _frozen(out[np.argsort(out["start"], kind="stable")])
+        return _frozen(out[np.lexsort((out["contact"], out["start"]))])
 
     @functools.cached_property
     def events(self) -> NDArray[Any]:

@@ -37,11 +37,12 @@ from stackbounce.engine.codes import (
     TOUCH,
 )
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.motion import compression_series
+from stackbounce.engine.motion import compression_series, meet_anchors
 from stackbounce.engine.series import parabola_root, safe_step
 from stackbounce.engine.stack import Stack
 
 FAINT_WORK = 1e-18
+_NOTHING = 1000.0 * EPSILON**2  # round-off of a motion that is itself round-off
 _FAINT_EXIT = 0.9  # the chord is left above 1 and taken below 0.9 of its end
 
 
@@ -73,6 +74,8 @@ def look(stack: Stack, i: int, time: float) -> None:
     if stack.law[i] == ABSENT:
         stack.due[i] = math.inf
         return
+    if stack.phase[i] == OPEN:
+        meet_anchors(stack, i)
     a = stack.watched
     order, tail, noise, rate_noise = compression_series(stack, i, time, a)
     # round-off: of the solution, of the clock, and never less than that of a typical compression
@@ -91,6 +94,10 @@ def look(stack: Stack, i: int, time: float) -> None:
             return
         wait, reached = _wait(stack, a, order, tail, -1.0, 0.0, band, horizon)
         _note(stack, i, time, wait, reached, TOUCH, horizon)
+        return
+    still = rate_noise < _NOTHING * stack.number[1] and noise < _NOTHING * stack.scale[i]
+    if still and stack.linear[stack.first[i]] == 1:
+        _note(stack, i, time, 0.0, True, RELEASE, horizon)
         return
     exponent = stack.curve_exponent[i]
     pressed = exponent != 1.0 and stack.faint[i] == 0
@@ -159,7 +166,9 @@ def _wait(
         f[10] -= tail
         return min(safe_step(f, order, 0.0, horizon), horizon), False
     size = abs(f[0]) + band / EPSILON
-    natural = 4.0 * (size / tail) ** (1.0 / (order + 1))
+    # where the rest of the series is as large, as a power of two: no unit's choice changes a bit
+    _, exponent = math.frexp(size / tail)
+    natural = math.ldexp(8.0, exponent // (order + 1))
     return safe_step(f, order, tail, min(natural, horizon)), False
 
 

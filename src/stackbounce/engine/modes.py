@@ -1,10 +1,11 @@
 """A cluster whose closed contacts are all linear moves in normal modes: no time step, no tolerance.
 
-In the coordinates w_i = sqrt(k_i) c_i of the closed contacts the stored energy is |w|^2/2 and eqs 5
-and 6, for any number of balls, read w'' = -B B^T w + g, where the row of B for contact i holds
-sqrt(k_i/m) of the two balls at it. Orthogonalising those rows (one-sided Jacobi, which for two
-contacts is a single rotation) gives the modes y = Q w with frequencies equal to the rows' lengths.
-The balls follow from the contact forces by momentum, so that impulses are exact as well.
+In the coordinates w_i = sqrt(k_i/k) c_i of the closed contacts, k the lowest one's, the stored
+energy is k |w|^2/2, and eqs 5 and 6, for any number of balls, read w'' = -B B^T w + g, where the
+row of B for contact i holds sqrt(k_i/m) of the two balls at it. Orthogonalising those rows
+(one-sided Jacobi, which for two contacts is a single rotation) gives the modes y = Q w with
+frequencies equal to the rows' lengths. The balls follow from the contact forces by momentum, so
+that impulses are exact as well.
 """
 
 import math
@@ -24,10 +25,10 @@ def find_modes(stack: Stack, low: int, high: int) -> None:
             stack.rows[i * size + b] = 0.0
         for j in range(low, high):
             stack.shape[i * size + j] = 1.0 if i == j else 0.0
-        root = math.sqrt(stack.rate[i])
+        stack.weight[i] = math.sqrt(stack.rate[i] / stack.rate[low])
         if i > 0:
-            stack.rows[i * size + i - 1] = root / math.sqrt(stack.mass[i - 1])
-        stack.rows[i * size + i] = -root / math.sqrt(stack.mass[i])
+            stack.rows[i * size + i - 1] = math.sqrt(stack.rate[i] / stack.mass[i - 1])
+        stack.rows[i * size + i] = -math.sqrt(stack.rate[i] / stack.mass[i])
     for _ in range(60):
         turned = False
         for i in range(low, high - 1):
@@ -84,7 +85,7 @@ def start_modes(stack: Stack, low: int, high: int) -> None:
     for j in range(low, high):
         start, speed, load = 0.0, 0.0, 0.0
         for i in range(low, high):
-            weight = stack.shape[j * size + i] * math.sqrt(stack.rate[i])
+            weight = stack.shape[j * size + i] * stack.weight[i]
             below = stack.velocity[i - 1] if i > 0 else 0.0
             start += weight * stack.compression[i]
             speed += weight * (below - stack.velocity[i])
@@ -108,7 +109,7 @@ def modal_compression(
         out[k] = 0.0
     tail, noise, rate_noise = 0.0, 0.0, 0.0
     for j in range(low, high):
-        weight = stack.shape[j * size + i] / math.sqrt(stack.rate[i])
+        weight = stack.shape[j * size + i] / stack.weight[i]
         omega = stack.omega[j]
         cosine, sine = math.cos(omega * s), math.sin(omega * s)
         swing = stack.cosine[j] * cosine + stack.sine[j] * sine / omega
@@ -134,7 +135,7 @@ def modal_impulse(stack: Stack, i: int, low: int, high: int, s: float) -> tuple[
     size = len(stack.mass)
     once, twice = 0.0, 0.0
     for j in range(low, high):
-        weight = stack.shape[j * size + i] * math.sqrt(stack.rate[i])
+        weight = stack.shape[j * size + i] / stack.weight[i] * stack.rate[i]
         omega = stack.omega[j]
         angle = omega * s
         half = math.sin(0.5 * angle)

@@ -66,7 +66,35 @@ def closed_compression(stack: Stack, i: int, s: float) -> float:
         omega = stack.omega[j]
         swing = stack.cosine[j] * math.cos(omega * s) + stack.sine[j] * math.sin(omega * s) / omega
         total += stack.shape[j * size + i] * (stack.static[j] + swing)
-    return total / math.sqrt(stack.rate[i])
+    return total / stack.weight[i]
+
+
+@kernel
+def fly_alike(stack: Stack, i: int) -> bool:
+    """Tell whether both balls at open contact i are in flight and anchored at one time.
+
+    Their distance then follows from their relative velocity, without their travels' round-off.
+    """
+    if i == 0 or stack.phase[i] != OPEN:
+        return False
+    below = stack.first[i - 1] == stack.last[i - 1] and stack.linear[i - 1] == 1
+    above = stack.first[i] == stack.last[i] and stack.linear[i] == 1
+    if not (below and above) or (i == 1 and stack.phase[0] != OPEN):
+        return False
+    return stack.anchor[i - 1] == stack.anchor[i]
+
+
+@kernel
+def meet_anchors(stack: Stack, i: int) -> None:
+    """Anchor the two balls at open contact i at one time if both are in flight."""
+    if i == 0 or (i == 1 and stack.phase[0] != OPEN):
+        return
+    if stack.first[i - 1] != stack.last[i - 1] or stack.first[i] != stack.last[i]:
+        return
+    if stack.anchor[i - 1] < stack.anchor[i]:
+        advance_cluster(stack, i - 1, stack.anchor[i])
+    elif stack.anchor[i] < stack.anchor[i - 1]:
+        advance_cluster(stack, i, stack.anchor[i - 1])
 
 
 @kernel
@@ -74,6 +102,9 @@ def compression_at(stack: Stack, i: int, time: float) -> float:
     """Return the compression of contact i at a time: positive while pressed, minus the gap else."""
     if stack.phase[i] != OPEN:
         return closed_compression(stack, i, time - stack.anchor[stack.first[i]])
+    if fly_alike(stack, i):
+        rate = stack.velocity[i - 1] - stack.velocity[i]
+        return stack.compression[i] + rate * (time - stack.anchor[i])
     travel, _ = ball_shift(stack, i, time - stack.anchor[stack.first[i]])
     total = stack.compression[i] - travel
     if i > 0:
@@ -136,8 +167,12 @@ def compression_series(
         out[k] = 0.0
     first = stack.first[i]
     if stack.phase[i] == OPEN:
-        out[0] = stack.compression[i]
         noise = 8.0 * EPSILON * abs(stack.compression[i])
+        if fly_alike(stack, i):
+            out[0] = compression_at(stack, i, time)
+            out[1] = stack.velocity[i - 1] - stack.velocity[i]
+            return 2, 0.0, noise, 0.0
+        out[0] = stack.compression[i]
         order, tail, round_off = add_ball_series(stack, i, -1.0, time, out)
         noise += round_off
         if i > 0:

@@ -108,8 +108,8 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     """Apply an event of contact i."""
     stack.counter[1] += 1
     stack.counter[2] = 0
+    compression = compression_at(stack, i, time)
     if kind not in (TOUCH, RELEASE):
-        compression = compression_at(stack, i, time)
         if kind == PEAK:
             record_peak(stack, i, compression)
         if not changes_curve(stack, i, kind):
@@ -124,18 +124,18 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         advance_cluster(stack, i - 1, time)
     logical = time
     if kind == TOUCH:
-        begin(stack, i, _crossing(stack, i, time))
+        begin(stack, i, _crossing(stack, i, compression, time))
         logical = stack.start[i]
-        stack.compression[i] = max(stack.compression[i], 0.0)
+        stack.compression[i] = max(compression, 0.0)
     elif kind == RELEASE:
-        logical = _crossing(stack, i, time)
+        logical = _crossing(stack, i, compression, time)
         stack.phase[i] = OPEN
         stack.compression[i] = min(stack.compression[i], 0.0)
     else:
         change_curve(stack, i, kind)
     form_clusters(stack, bottom, top, time)
     for j in range(bottom, min(top + 2, len(stack.mass))):
-        if stack.phase[j] == OPEN:
+        if stack.phase[j] == OPEN and kind in (TOUCH, RELEASE):
             stack.touching[j] = logical
         look(stack, j, time)
     stack.clock[0] = logical
@@ -144,13 +144,13 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
 
 
 @kernel
-def _crossing(stack: Stack, i: int, time: float) -> float:
-    """Return when the compression of contact i, anchored now just past zero, was zero."""
+def _crossing(stack: Stack, i: int, compression: float, time: float) -> float:
+    """Return when the compression of contact i, anchored now and just past zero, was zero."""
     below = stack.velocity[i - 1] if i > 0 else 0.0
     rate = below - stack.velocity[i]
-    if stack.compression[i] * rate <= 0.0:
+    if compression * rate <= 0.0:
         return time
-    return max(stack.clock[0], time - stack.compression[i] / rate)
+    return max(stack.clock[0], time - compression / rate)
 
 
 @kernel

@@ -54,6 +54,7 @@ class Stack(NamedTuple):
     event: Integers
     # normal modes, known by contact index
     rate: Floats  # effective stiffness F/c of a linear contact
+    weight: Floats  # square root of the rate over that of the cluster's lowest contact
     omega: Floats
     shape: Floats
     static: Floats
@@ -107,7 +108,8 @@ class Samples(NamedTuple):
 _PER_BALL = (
     "mass law stiffness exponent unloading scale velocity velocity_noise compression phase "
     "curve_force curve_unit curve_exponent dip_energy top faint_below faint touching start "
-    "peak_force peak_compression impulse first last linear anchor rate omega static cosine sine"
+    "peak_force peak_compression impulse first last linear anchor rate weight omega static cosine "
+    "sine"
 ).split()
 _INTEGERS = {
     name
