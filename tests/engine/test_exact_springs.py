@@ -131,3 +131,28 @@ def test_no_floor():
     assert result.collisions.tolist() == expected.counts(4)
     ends = sorted(float(i.end) for i in expected.intervals)
     assert sorted(result.intervals["end"]) == pytest.approx(ends, rel=PRECISION)
+
+
+def test_gravity_one_ball():
+    """With c'' = g - w**2 c a contact lasts 2 (pi - atan(v w / g)) / w, every flight 2 v / g."""
+    gravity, speed, w = 9.8, 1.5, 100.0
+    drop = sb.Drop([sb.Ball(2.0)], [sb.Spring(2.0 * w**2)], impact_speed=speed, gravity=gravity)
+    contact = 2 * (np.pi - np.arctan(speed * w / gravity)) / w
+    period = contact + 2 * speed / gravity
+    result = sb.simulate(drop, until=4.5 * period)
+    assert result.status is sb.Status.TIME_REACHED
+    bounces = np.arange(5)
+    assert result.intervals["start"] == pytest.approx(bounces * period, abs=PRECISION)
+    assert result.intervals["end"][:4] == pytest.approx(bounces[:4] * period + contact, rel=1e-11)
+    assert result.apexes["height"] == pytest.approx(speed**2 / (2 * gravity), rel=PRECISION)
+    energy = result.sample(np.linspace(0.0, 4.5 * period, 400)).energy.values
+    assert energy == pytest.approx(speed**2, rel=ENERGY)
+
+
+def test_gravity_keeps_energy_of_two_balls():
+    balls, contacts = [sb.Ball(1.0), sb.Ball(0.3)], [sb.Spring(1e4), sb.Spring(3e3)]
+    drop = sb.Drop(balls, contacts, [0.01], impact_speed=1.0, gravity=9.8)
+    result = sb.simulate(drop, until=3.0)
+    assert result.collisions.sum() > 20
+    energy = result.sample(np.linspace(0.0, 3.0, 1000)).energy.values
+    assert energy == pytest.approx(energy[0], rel=ENERGY)

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import stackbounce as sb
@@ -119,10 +119,11 @@ def test_several_cycles_in_one_interval_follow_the_rule():
             expected = np.where(c < peak, unloading, loading)
             # between the samples the peak may be higher than the highest sample
             assert force == pytest.approx(expected, abs=2e-4 * interval["peak_force"])
-            assert (force <= loading + 1e-12 * interval["peak_force"]).all()
+            assert (force <= loading + 1e-11 * interval["peak_force"]).all()
     assert seen >= 5
 
 
+@settings(max_examples=60)
 @given(
     mass=st.floats(-1, 1.5).map(lambda x: 10**x),
     stiffness=st.floats(-1, 1).map(lambda x: 10**x),

@@ -81,6 +81,7 @@ def assert_identical(one, other, *, time=1.0, speed=1.0, force=1.0, length=1.0, 
         assert (one.intervals[name] * factor).tolist() == other.intervals[name].tolist()
 
 
+@settings(max_examples=60)
 @given(drops(EVERY))
 def test_momentum(drop):
     """The change of every ball's momentum is the impulse from below less the one from above."""
@@ -96,6 +97,7 @@ def test_momentum(drop):
     assert (result.intervals["impulse"] > 0.0).all()
 
 
+@settings(max_examples=60)
 @given(drops(EVERY))
 def test_each_impulse_is_the_top_balls_change_of_momentum(drop):
     result = sb.simulate(drop)
@@ -111,6 +113,7 @@ def test_each_impulse_is_the_top_balls_change_of_momentum(drop):
     assert impulse == pytest.approx(mass * (after - before), abs=MOMENTUM * scale)
 
 
+@settings(max_examples=60)
 @given(drops(EVERY))
 def test_energy_never_rises(drop):
     result = sb.simulate(drop)
@@ -123,6 +126,7 @@ def test_energy_never_rises(drop):
         assert energy == pytest.approx(energy[0], rel=ENERGY)
 
 
+@settings(max_examples=60)
 @given(drops(EVERY))
 def test_run_ends_when_nothing_approaches(drop):
     result = sb.simulate(drop)
@@ -132,6 +136,7 @@ def test_run_ends_when_nothing_approaches(drop):
     assert (np.diff(result.rebound_speeds) >= -tiny).all()
 
 
+@settings(max_examples=60)
 @given(drops(EVERY))
 def test_intervals_of_a_contact_follow_each_other(drop):
     result = sb.simulate(drop)
@@ -154,6 +159,7 @@ def test_intervals_of_a_contact_follow_each_other(drop):
             assert (rows["impulse"] <= rows["peak_force"] * (rows["end"] - rows["start"])).all()
 
 
+@settings(max_examples=60)
 @given(drops(EVERY), st.floats(0.01, 100.0))
 def test_speed_scales(drop, factor):
     """All speeds scale with v0, the times stay, where forces are linear and gaps scale too."""
@@ -166,6 +172,7 @@ def test_speed_scales(drop, factor):
         assert one.intervals[name] == pytest.approx(other.intervals[name], rel=1e-7, abs=1e-7)
 
 
+@settings(max_examples=60)
 @given(drops(EVERY), st.floats(0.01, 100.0))
 def test_masses_and_stiffnesses_scale_together(drop, factor):
     one, other = sb.simulate(drop), sb.simulate(scaled(drop, mass=factor, stiffness=factor))
@@ -197,6 +204,7 @@ def test_powers_of_four_of_the_masses_change_no_bit(drop, power):
     assert_identical(sb.simulate(drop), other, time=t, force=t, length=t, impulse=f)
 
 
+@settings(max_examples=60)
 @given(drops(EVERY, largest=3))
 def test_sample_agrees_with_the_result(drop):
     result = sb.simulate(drop)
@@ -221,6 +229,7 @@ def test_sample_agrees_with_the_result(drop):
     assert_identical(result, sb.simulate(drop))
 
 
+@settings(max_examples=40)
 @given(drops(FINITE, largest=3), st.lists(st.floats(0.0, 1.0), min_size=1, max_size=6))
 def test_sampling_elsewhere_changes_nothing(drop, fractions):
     result = sb.simulate(drop)
@@ -251,6 +260,7 @@ def test_split_run_equals_the_whole(drop, fraction):
     )
 
 
+@settings(max_examples=60)
 @given(drops(EVERY))
 def test_reproducible_to_the_last_bit(drop):
     one, other = sb.simulate(drop), sb.simulate(drop)

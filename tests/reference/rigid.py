@@ -1,8 +1,9 @@
 """Rigid balls as a sequence of collisions (eqs 1 to 4), exactly or with many digits.
 
-With `fractions.Fraction` arguments everything is exact, ties included. With mpmath numbers, what
-differs by less than `TINY` of its own size is a tie. Several contacts closing at once: the lowest
-approaching one collides first.
+With `fractions.Fraction` arguments everything is exact, ties included. With mpmath numbers,
+velocities that differ by less than `TINY` of their own size are equal; a run that comes to such a
+pair with restitutions below 1 is not finished, as it may be on its way to an inelastic collapse.
+Several contacts closing at once: the lowest approaching one collides first.
 """
 
 from collections.abc import Sequence
@@ -64,14 +65,18 @@ def _run(
     for gap in gaps:
         q.append(q[-1] + gap)
     first = 1 if restitutions[0] is None else 0
+    decided = exact or all(e == 1 for e in restitutions[first:])
     done: list[Collision] = []
     while len(done) < limit:
-        waits = []
+        waits, close = [], False
         for i in range(first, len(v)):
             below, height = (v[i - 1], q[i - 1]) if i else (zero, zero)
             approach = below - v[i]
             if approach > tiny * (abs(below) + abs(v[i])):
                 waits.append(((q[i] - height) / approach, i))
+            close = close or 0 < abs(approach) <= tiny * (abs(below) + abs(v[i]))
+        if close and not decided:
+            break
         if not waits:
             return RigidOutcome(v, done, True)
         soonest = min(wait for wait, _ in waits)

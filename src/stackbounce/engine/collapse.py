@@ -14,8 +14,10 @@ first state lies on the right side of the weaker eigenvector. Gaps shrink as e1 
 that the durations of all rounds telescope to b g / (x (1 + weaker/e1) + b y), g being the gap at
 contact 2 and weaker the smaller eigenvalue.
 
-More contacts. A state that has come back in all its proportions, only smaller, does so for ever:
-this is found by Brent's cycle search on the closing rates and gaps of the contacts involved.
+More contacts, for which no condition is known. A state that has come back in all its proportions,
+only smaller, does so for ever: this is found by Brent's cycle search on the closing rates and gaps
+of the contacts involved. A sequence that is not periodic is followed until its rates come close to
+the end of the range of numbers, and taken for infinite then.
 """
 
 import math
@@ -25,6 +27,8 @@ from stackbounce.engine.kernel import kernel
 from stackbounce.engine.stack import RigidStack
 
 _SAME = 1e-12  # proportions that agree this well are the same
+_BUSY = 200  # collisions a ball back, up to which a contact belongs to a group
+_VANISHED = 1e-250  # rates below this part of the impact speed: close to the end of the numbers
 
 
 @kernel
@@ -70,7 +74,8 @@ def pair_ends(stack: RigidStack, hit: int, other: int) -> float:
     b = (1.0 + e2) * share(stack, other, middle)
     trace = a * b - e1 - e2
     least = 2.0 * math.sqrt(e1 * e2)
-    if trace < least - 8.0 * EPSILON * (a * b + e1 + e2):
+    round_off = 8.0 * EPSILON * (a * b + e1 + e2)
+    if trace < least - round_off or (least == 0.0 and trace <= round_off):
         return math.inf
     discriminant = math.sqrt(max(0.0, (trace - least) * (trace + least)))
     # the weaker eigenvalue over e1, from the product e1 e2 of both, without cancellation
@@ -110,7 +115,8 @@ def remember(stack: RigidStack, contact: int, time: float) -> None:
 def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
     """Compare with the state kept: return its (lowest, highest) contact and the ratio of sizes.
 
-    The ratio is 0 where the present state is not the kept one on a smaller scale.
+    The ratio is 0 where the present state is not the kept one on a smaller scale, and -1 where its
+    rounds take no time.
     """
     low, high = -1, -1
     size, kept, gap, kept_gap = 0.0, 0.0, 0.0, 0.0
@@ -125,7 +131,9 @@ def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
         kept = max(kept, abs(stack.kept_rate[i]))
         gap = max(gap, -stack.compression[i])
         kept_gap = max(kept_gap, -stack.kept_gap[i])
-    if contact != stack.memory[0] or high < low + 2 or size >= kept or size == 0.0:
+    if high < low + 2 or size >= kept or size == 0.0:
+        return low, high, 0.0
+    if contact != stack.memory[0] or (gap == 0.0) != (kept_gap == 0.0):
         return low, high, 0.0
     for i in range(low, high + 1):
         if abs(closing_rate(stack, i) / size - stack.kept_rate[i] / kept) > _SAME:
@@ -134,3 +142,25 @@ def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
             return low, high, 0.0
     shrink = gap / kept_gap * kept / size if kept_gap > 0.0 else 0.0
     return low, high, shrink if shrink > 0.0 else -1.0
+
+
+@kernel
+def vanished(stack: RigidStack, contact: int) -> tuple[int, int]:
+    """Return the lowest and highest contact of the busy group around one, if its rates are gone.
+
+    Otherwise, and for the two contacts on which theory decides, return that contact twice.
+    """
+    limit = _VANISHED * stack.number[2] / stack.number[0]
+    size = len(stack.mass)
+    if abs(closing_rate(stack, contact)) >= limit:
+        return contact, contact
+    busy = stack.counter[1] - _BUSY * size
+    low, high = contact, contact
+    while low > 0 and stack.last_hit[low - 1] > max(busy, 0):
+        low -= 1
+    while high + 1 < size and stack.last_hit[high + 1] > max(busy, 0):
+        high += 1
+    for i in range(low, high + 1):
+        if abs(closing_rate(stack, i)) >= limit:
+            return contact, contact
+    return (low, high) if high > low + 1 else (contact, contact)

@@ -34,6 +34,7 @@ from stackbounce.engine.collapse import (
     pair_ends,
     remember,
     repeats,
+    vanished,
 )
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.stack import RigidStack, Samples
@@ -47,6 +48,8 @@ def begin_collisions(stack: RigidStack) -> None:
     """Prepare a new rigid stack for its first collision."""
     stack.number[0] = 1.0
     stack.memory[1] = 1
+    for velocity in stack.velocity:
+        stack.number[2] = max(stack.number[2], abs(velocity))
     remember(stack, -1, 0.0)
 
 
@@ -179,6 +182,10 @@ def _find_collapse(stack: RigidStack, contact: int) -> None:
             duration = pair_ends(stack, contact, other)
             if duration <= soon:
                 _merge(stack, min(contact, other), max(contact, other), duration)
+    stack.last_hit[contact] = stack.counter[1]
+    low, high = vanished(stack, contact)
+    if low < high:
+        _merge(stack, low, high, 0.0)
     stack.involved[contact] = 1
     stack.memory[2] += 1
     low, high, shrink = repeats(stack, contact)

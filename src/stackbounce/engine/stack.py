@@ -88,8 +88,9 @@ class RigidStack(NamedTuple):
     kept_rate: Floats
     kept_gap: Floats
     involved: Integers
+    last_hit: Integers  # the collision, counted from 1, in which a contact was last hit
     memory: Integers  # [contact hit then, collisions after which to keep another, those since]
-    number: Floats  # [factor of the velocities and gaps, time of the state kept]
+    number: Floats  # [factor of velocities and gaps, time of the state kept, largest first speed]
     counter: Integers  # as in a Stack
     clock: Floats
 
@@ -141,7 +142,7 @@ def new_stack(size: int, **given: Sequence[Any]) -> Stack:
 def new_rigid_stack(size: int, **given: Sequence[Any]) -> RigidStack:
     """Return a stack of ``size`` rigid balls as plain lists, all zero but for the fields given."""
     lengths = dict.fromkeys(RigidStack._fields, size)
-    lengths |= {"memory": 3, "number": 2, "counter": 4, "clock": 2}
+    lengths |= {"memory": 3, "number": 3, "counter": 4, "clock": 2}
     fields = {name: [0 if name in _INTEGERS else 0.0] * length for name, length in lengths.items()}
     return RigidStack(**(fields | {name: list(values) for name, values in given.items()}))
 
