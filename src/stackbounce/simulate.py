@@ -133,8 +133,9 @@ def _run(
             mode(write_unfinished)(handle, time, log)
             entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
         velocities = [float(mode(speed)(handle, b, time)) for b in range(len(drop.balls))]
-    except (ArithmeticError, ValueError):  # plain Python's word for what numba calls inf or nan
+    except (ArithmeticError, TypeError, ValueError):  # where compiled code has inf, nan or complex
         status, time = codes.INVALID, float(stack.clock[0])
+        entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
         velocities = [float(velocity) for velocity in stack.velocity]
     infinite = list(stack.infinite) if rigid else [0] * len(drop.balls)
     return status, time, velocities, entries, infinite, samples
@@ -197,7 +198,8 @@ def _finite_stack(drop: Drop) -> Stack:
         exponent.append(p)
         unloading.append(getattr(contact, "unloading_exponent", p))
         # the compression at which a contact alone would hold the energy m v^2/2
-        scale.append((0.5 * (p + 1.0) * reduced * speed * speed / k) ** (1.0 / (p + 1.0)))
+        power = 1.0 / (p + 1.0)
+        scale.append((0.5 * (p + 1.0) * reduced / k) ** power * speed ** (2.0 * power))
     return new_stack(
         size,
         mass=mass,

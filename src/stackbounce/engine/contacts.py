@@ -43,6 +43,7 @@ from stackbounce.engine.stack import Stack
 
 FAINT_WORK = 1e-18
 _NOTHING = 1000.0 * EPSILON**2  # round-off of a motion that is itself round-off
+_STEEPEST = 10.0  # times its first unloading exponent, for a lossy contact reloaded many times
 _FAINT_EXIT = 0.9  # the chord is left above 1 and taken below 0.9 of its end
 
 
@@ -78,6 +79,9 @@ def look(stack: Stack, i: int, time: float) -> None:
         meet_anchors(stack, i)
     a = stack.watched
     order, tail, noise, rate_noise = compression_series(stack, i, time, a)
+    if not math.isfinite(tail + noise + rate_noise + a[0] + a[1] + a[order]):
+        stack.due[i] = -math.inf
+        return
     # round-off: of the solution, of the clock, and never less than that of a typical compression
     tick = 4.0 * EPSILON * time
     band = max(noise + tick * abs(a[1]), 4.0 * EPSILON * stack.scale[i])
@@ -210,13 +214,16 @@ def _follow(stack: Stack, i: int, force_at_unit: float, unit: float, exponent: f
 
 @kernel
 def _steepen(stack: Stack, i: int, compression: float) -> None:
-    """Let contact i, turning back below its old peak, give back e^2 of what reloading took."""
+    """Let contact i, turning back below its old peak, give back e^2 of what reloading took.
+
+    The exponent has a limit: some contacts would become a wall after infinitely many cycles.
+    """
     pressing = force(stack, i, compression)
     exponent = stack.exponent[i]
     kept = (exponent + 1.0) / (stack.unloading[i] + 1.0)
     reloaded = stored_energy(stack, i, compression)
     energy = stack.dip_energy[i] + kept * (reloaded - stack.dip_energy[i])
-    steeper = pressing * compression / energy - 1.0
+    steeper = min(pressing * compression / energy - 1.0, _STEEPEST * stack.unloading[i])
     if steeper <= stack.curve_exponent[i]:
         return
     meeting = stack.stiffness[i] * compression**exponent / pressing

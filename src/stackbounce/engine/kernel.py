@@ -66,6 +66,17 @@ def caching() -> Iterator[bool]:
         config.CACHE_DIR = previous  # type: ignore[attr-defined]
 
 
+def _digest() -> str:
+    """Return a hash of all of the engine's sources."""
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.glob("*.py")):
+        digest.update(source.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+_DIGEST = _digest()  # of what is being imported now, not of what the files hold later
+
+
 @functools.cache
 def _cache_folder() -> Path | None:
     """Find a writable folder for compiled code, named by a hash of all of the engine's sources.
@@ -73,12 +84,9 @@ def _cache_folder() -> Path | None:
     numba looks for changes only in the file of the cached function itself; with the hash in the
     folder's name a change in any engine file leaves the old code behind.
     """
-    digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.read_bytes())
     user = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
     for parent in (user, Path(tempfile.gettempdir())):
-        folder = parent / "stackbounce" / digest.hexdigest()[:16]
+        folder = parent / "stackbounce" / _DIGEST
         try:
             folder.mkdir(parents=True, exist_ok=True)
             with tempfile.TemporaryFile(dir=folder):

@@ -21,7 +21,7 @@ def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
     s = limit
     if a[1] < 0.0:
         s = min(s, -2.0 * a[0] / a[1])
-    while True:
+    for _ in range(600):  # more than floating point has powers of 4
         slope = -tail
         for k in range(n, 0, -1):
             slope = a[k] + min(0.0, slope * s)
@@ -31,6 +31,7 @@ def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
         if root >= 0.25 * s:
             return root
         s = 0.25 * s
+    return 0.0
 
 
 @kernel

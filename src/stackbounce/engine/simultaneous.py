@@ -79,6 +79,8 @@ def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: 
             if stack.due[candidate] < stack.due[slot]:
                 slot = candidate
         time = stack.due[slot]
+        if time < 0.0:
+            return INVALID
         _sample(stack, samples, min(time, until))
         if time > until:
             return TIME_REACHED
