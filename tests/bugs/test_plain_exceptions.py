@@ -1,0 +1,37 @@
+"""Where compiled code divides by zero, plain Python raised, and the run was given up as INVALID."""
+
+import pytest
+
+import stackbounce as sb
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+def test_restitution_zero(compiled):
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(1.0)], [sb.Rigid(0.0), sb.Rigid(1.0)], impact_speed=1.0)
+    result = sb.simulate(drop, compiled=compiled)
+    assert result.status is sb.Status.FINISHED
+    assert result.collisions.tolist() == [2, 1]
+    assert result.rebound_speeds.tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+def test_gaps_that_vanish(compiled):
+    balls = [sb.Ball(0.01), sb.Ball(0.04), sb.Ball(1.0)]
+    laws = [sb.Rigid(1.0), sb.Rigid(0.452), sb.Rigid(1.0)]
+    drop = sb.Drop(balls, laws, [1.0, 1.0], impact_speed=24.0)
+    assert sb.simulate(drop, compiled=compiled).status is sb.Status.COLLAPSED
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+@pytest.mark.parametrize(
+    ("mass", "stiffness", "speed"), [(1.0, 1e80, 1e40), (1e-300, 1.0, 1.0), (1.0, 1e308, 1.0)]
+)
+def test_numbers_out_of_range(mass, stiffness, speed, compiled):
+    drop = sb.Drop([sb.Ball(mass)], [sb.Spring(stiffness)], impact_speed=speed)
+    assert sb.simulate(drop, compiled=compiled).status is sb.Status.INVALID
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+def test_a_very_slow_ball(compiled):
+    drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], impact_speed=1e-300)
+    assert sb.simulate(drop, compiled=compiled).rebound_speeds.tolist() == [1e-300]
