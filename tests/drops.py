@@ -1,11 +1,14 @@
 """The cases of `reference` as drops of stackbounce, and what the tests compare."""
 
 from collections.abc import Mapping, Sequence
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
+from mpmath import mpf
 
 import stackbounce as sb
+from reference import rigid as rigid_reference
 
 
 def contact(stiffness: float, **law: float) -> sb.Spring | sb.Hysteretic:
@@ -70,3 +73,25 @@ def by_contact(rows: np.ndarray) -> np.ndarray:
     order = np.lexsort((rows["start"], rows["contact"]))
     names = ("contact", "start", "end", "peak_force", "peak_compression", "impulse")
     return np.stack([rows[name][order].astype(float) for name in names], axis=-1)
+
+
+def exact(drop, limit=2000):
+    """Return the exact solution of a drop of rigid balls."""
+    return rigid_reference.run(
+        [Fraction(ball.mass) for ball in drop.balls],
+        [None if law is None else Fraction(law.restitution) for law in drop.contacts],
+        [Fraction(gap) for gap in drop.gaps],
+        [Fraction(v) for v in drop.start_velocities],
+        limit,
+    )
+
+
+def precise(drop, limit=100_000):
+    """Return the solution of a drop of rigid balls to fifty digits."""
+    return rigid_reference.run(
+        [mpf(ball.mass) for ball in drop.balls],
+        [None if law is None else mpf(law.restitution) for law in drop.contacts],
+        [mpf(gap) for gap in drop.gaps],
+        [mpf(v) for v in drop.start_velocities],
+        limit,
+    )
