@@ -32,22 +32,11 @@ _VANISHED = 1e-250  # rates below this part of the impact speed: close to the en
 
 
 @kernel
-def closing_rate(stack: RigidStack, i: int) -> float:
-    """Return the rate at which contact i closes."""
-    below = stack.velocity[i - 1] if i > 0 else 0.0
-    return below - stack.velocity[i]
-
-
-@kernel
 def approach(stack: RigidStack, i: int) -> float:
     """Return the rate at which contact i closes, 0 where it opens or rests within round-off."""
     if stack.law[i] == ABSENT:
         return 0.0
-    noise = stack.velocity_noise[i]
-    if i > 0:
-        noise += stack.velocity_noise[i - 1]
-    rate = closing_rate(stack, i)
-    return rate if rate > noise else 0.0
+    return stack.rate[i] if stack.rate[i] > stack.rate_noise[i] else 0.0
 
 
 @kernel
@@ -65,7 +54,7 @@ def pair_ends(stack: RigidStack, hit: int, other: int) -> float:
 
     Contact ``hit`` has just collided and ``other``, beside it, is closing.
     """
-    x, y = closing_rate(stack, hit), approach(stack, other)
+    x, y = stack.rate[hit], approach(stack, other)
     e1, e2 = stack.restitution[hit], stack.restitution[other]
     if y == 0.0 or stack.law[hit] == ABSENT or e1 * e2 == 1.0:
         return math.inf
@@ -102,7 +91,7 @@ def common_velocity(stack: RigidStack, low: int, high: int) -> float:
 def remember(stack: RigidStack, contact: int, time: float) -> None:
     """Take the present state as the one to compare later ones with."""
     for i in range(len(stack.mass)):
-        stack.kept_rate[i] = closing_rate(stack, i)
+        stack.kept_rate[i] = stack.rate[i]
         stack.kept_gap[i] = stack.compression[i]
         stack.involved[i] = 0
     stack.memory[0] = contact
@@ -127,7 +116,7 @@ def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
     for i in range(low, high + 1):
         if stack.involved[i] == 0:
             return low, high, 0.0
-        size = max(size, abs(closing_rate(stack, i)))
+        size = max(size, abs(stack.rate[i]))
         kept = max(kept, abs(stack.kept_rate[i]))
         gap = max(gap, -stack.compression[i])
         kept_gap = max(kept_gap, -stack.kept_gap[i])
@@ -136,7 +125,7 @@ def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
     if contact != stack.memory[0] or (gap == 0.0) != (kept_gap == 0.0):
         return low, high, 0.0
     for i in range(low, high + 1):
-        if abs(closing_rate(stack, i) / size - stack.kept_rate[i] / kept) > _SAME:
+        if abs(stack.rate[i] / size - stack.kept_rate[i] / kept) > _SAME:
             return low, high, 0.0
         if kept_gap > 0.0 and abs(stack.compression[i] / gap - stack.kept_gap[i] / kept_gap) > 1e-9:
             return low, high, 0.0
@@ -152,7 +141,7 @@ def vanished(stack: RigidStack, contact: int) -> tuple[int, int]:
     """
     limit = _VANISHED * stack.number[2] / stack.number[0]
     size = len(stack.mass)
-    if abs(closing_rate(stack, contact)) >= limit:
+    if abs(stack.rate[contact]) >= limit:
         return contact, contact
     busy = stack.counter[1] - _BUSY * size
     low, high = contact, contact
@@ -161,6 +150,6 @@ def vanished(stack: RigidStack, contact: int) -> tuple[int, int]:
     while high + 1 < size and stack.last_hit[high + 1] > max(busy, 0):
         high += 1
     for i in range(low, high + 1):
-        if abs(closing_rate(stack, i)) >= limit:
+        if abs(stack.rate[i]) >= limit:
             return contact, contact
     return (low, high) if high > low + 1 else (contact, contact)

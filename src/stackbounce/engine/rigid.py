@@ -29,7 +29,6 @@ from stackbounce.engine.codes import (
 )
 from stackbounce.engine.collapse import (
     approach,
-    closing_rate,
     common_velocity,
     pair_ends,
     remember,
@@ -40,6 +39,7 @@ from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.stack import RigidStack, Samples
 
 _NO_TIME = 1e-12  # of the time so far: infinitely many collisions that take no longer are over
+_ALIKE = 8.0  # speeds up to so many times their difference give it with all its digits
 _SMALL = 2.0**-600  # speeds below this are scaled up by its inverse: only ratios count
 
 
@@ -48,8 +48,10 @@ def begin_collisions(stack: RigidStack) -> None:
     """Prepare a new rigid stack for its first collision."""
     stack.number[0] = 1.0
     stack.memory[1] = 1
-    for velocity in stack.velocity:
-        stack.number[2] = max(stack.number[2], abs(velocity))
+    for i in range(len(stack.mass)):
+        stack.number[2] = max(stack.number[2], abs(stack.velocity[i]))
+        below = stack.velocity[i - 1] if i > 0 else 0.0
+        stack.rate[i] = below - stack.velocity[i]
     remember(stack, -1, 0.0)
 
 
@@ -123,7 +125,7 @@ def _fly(stack: RigidStack, duration: float) -> None:
     """Let all balls fly for a time."""
     if duration > 0.0:
         for i in range(len(stack.mass)):
-            stack.compression[i] += closing_rate(stack, i) * duration
+            stack.compression[i] += stack.rate[i] * duration
 
 
 @kernel
@@ -134,26 +136,26 @@ def _collide(stack: RigidStack, i: int, log: Floats) -> None:
     heavier one's plus the reversed rate, so that no error of the relative velocity builds up.
     """
     e = stack.restitution[i]
-    rate = closing_rate(stack, i)
-    upper = stack.mass[i]
+    rate = stack.rate[i]
+    lower, upper = stack.mass[i - 1] if i > 0 else math.inf, stack.mass[i]
+    up = (1.0 + e) * rate * (1.0 / (1.0 + upper / lower))
+    down = (1.0 + e) * rate * (1.0 / (1.0 + lower / upper))
+    impulse = up * upper
+    lower_velocity = 0.0
     if i == 0:
-        impulse = (1.0 + e) * rate * upper
-        stack.velocity_noise[0] = 64.0 * EPSILON * abs(stack.velocity[0])
         stack.velocity[0] = e * rate
-        lower_velocity = 0.0
+    elif upper >= lower:
+        stack.velocity[i] += up
+        stack.velocity[i - 1] = stack.velocity[i] - e * rate
     else:
-        lower = stack.mass[i - 1]
-        impulse = (1.0 + e) * rate * (lower * upper / (lower + upper))
-        noise = 64.0 * EPSILON * max(abs(stack.velocity[i - 1]), abs(stack.velocity[i]))
-        stack.velocity_noise[i - 1] = noise
-        stack.velocity_noise[i] = noise
-        if upper >= lower:
-            stack.velocity[i] += (1.0 + e) * rate * (lower / (lower + upper))
-            stack.velocity[i - 1] = stack.velocity[i] - e * rate
-        else:
-            stack.velocity[i - 1] -= (1.0 + e) * rate * (upper / (lower + upper))
-            stack.velocity[i] = stack.velocity[i - 1] + e * rate
+        stack.velocity[i - 1] -= down
+        stack.velocity[i] = stack.velocity[i - 1] + e * rate
+    stack.rate[i] = -e * rate
+    if i > 0:
         lower_velocity = stack.velocity[i - 1]
+        _change_rate(stack, i - 1, down)
+    if i + 1 < len(stack.mass):
+        _change_rate(stack, i + 1, up)
     stack.compression[i] = 0.0
     factor = stack.number[0]
     at = stack.counter[0] * LOG_COLUMNS
@@ -168,6 +170,22 @@ def _collide(stack: RigidStack, i: int, log: Floats) -> None:
     log[at + IMPULSE] = impulse * factor
     stack.counter[0] += 1
     stack.counter[1] += 1
+
+
+@kernel
+def _change_rate(stack: RigidStack, i: int, change: float) -> None:
+    """Let contact i close faster, by a change that the velocities of its balls hold already.
+
+    Their difference is the better number, except where both are far faster than they part or meet.
+    """
+    largest = max(abs(stack.rate[i]), abs(change))
+    below = stack.velocity[i - 1] if i > 0 else 0.0
+    above = stack.velocity[i]
+    stack.rate_noise[i] = 64.0 * EPSILON * largest
+    if max(abs(below), abs(above)) <= _ALIKE * largest:
+        stack.rate[i] = below - above
+    else:
+        stack.rate[i] += change
 
 
 @kernel
@@ -220,12 +238,11 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float) -> None:
         if _wait(stack, high + 1, rate) < duration:
             return
     centre, mass = 0.0, stack.mass[low - 1] if low > 0 else math.inf
-    height, fastest = 0.0, 0.0
+    height = 0.0
     for i in range(low, high + 1):
         height -= stack.compression[i]
         centre += stack.mass[i] * height
         mass += stack.mass[i]
-        fastest = max(fastest, abs(stack.velocity[i]), abs(closing_rate(stack, i)))
         stack.infinite[i] = 1
         stack.involved[i] = 1
     travel = centre / mass + velocity * duration
@@ -236,11 +253,18 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float) -> None:
     if high + 1 < size:
         flown = stack.velocity[high] * duration
         stack.compression[high + 1] += travel - height - flown
+    slower = stack.velocity[low - 1] - velocity if low > 0 else 0.0
+    faster = velocity - stack.velocity[high]
     for i in range(low, high + 1):
         stack.compression[i] = 0.0
+        stack.rate[i] = 0.0
+        stack.rate_noise[i] = 0.0
     for b in range(max(low - 1, 0), high + 1):
         stack.velocity[b] = velocity
-        stack.velocity_noise[b] = 64.0 * EPSILON * fastest if low > 0 else 0.0
+    if low > 0:
+        _change_rate(stack, low - 1, slower)
+    if high + 1 < size:
+        _change_rate(stack, high + 1, faster)
     stack.clock[0] += duration
 
 
@@ -252,7 +276,8 @@ def _keep_in_range(stack: RigidStack) -> None:
             return
     for i in range(len(stack.mass)):
         stack.velocity[i] /= _SMALL
-        stack.velocity_noise[i] /= _SMALL
+        stack.rate[i] /= _SMALL
+        stack.rate_noise[i] /= _SMALL
         stack.compression[i] /= _SMALL
     stack.number[0] *= _SMALL
     remember(stack, -1, stack.clock[0])
@@ -268,7 +293,7 @@ def _sample(stack: RigidStack, samples: Samples, time: float) -> None:
         at = stack.counter[3] * size
         position = 0.0
         for i in range(size):
-            travel = closing_rate(stack, i) * (now - stack.clock[0])
+            travel = stack.rate[i] * (now - stack.clock[0])
             gap = (stack.compression[i] + travel) * factor
             position -= gap
             samples.position[at + i] = position

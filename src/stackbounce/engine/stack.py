@@ -81,7 +81,8 @@ class RigidStack(NamedTuple):
     law: Integers
     restitution: Floats
     velocity: Floats
-    velocity_noise: Floats  # round-off that the velocity may have gathered
+    rate: Floats  # at which a contact closes, to more digits than the velocities' difference has
+    rate_noise: Floats  # round-off that the rate may have gathered
     compression: Floats  # minus the gap
     infinite: Integers  # 1 where a contact has collided infinitely often
     # what the search for collapse keeps: a state, the contacts hit since, where it was taken
