@@ -1,6 +1,7 @@
 """The audit: every number of the paper is computed, compared, and explained where it differs."""
 
 import re
+from dataclasses import replace
 
 import pytest
 
@@ -17,7 +18,9 @@ from stackbounce.cross2007.checks import (
     run,
     source_of,
 )
+from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.paper import FIGURES, SECTIONS
+from stackbounce.cross2007.stacks import heavier_b1, small_fit, smallest_fit
 from stackbounce.cross2007.style import styled
 from stackbounce.cross2007.tables import table_one, table_two
 from stackbounce.units import quantity
@@ -31,10 +34,15 @@ DROPS_OUT = {
     "II.ten_apart": "models.stiffness_ratio",
     "III.static_ratio": "static.tennis",
     "III.static_duration": "stack.impact_speed",
-    "IV.record_delay": "V.exponent",
+    "IV.record_delay": "V.exponent fig13.ball_stiffness B2.mass",
+    "III.duration": "stack.impact_speed",
+    "III.quiet": "fig9.ball_stiffness tennis.mass",
+    "III.other_duration": "stack.impact_speed",
+    "III.other_release": "stack.impact_speed",
+    "III.fig9_delay": "stack.impact_speed",
     "IV.record_gap": "V.exponent fig13.ball_stiffness fig13.gap B2.mass",
     "IV.record_reversed_gap": "fig13.ball_stiffness B1.mass",
-    "IV.record_B3_delay": "V.exponent B3_fit.ball_stiffness B3.mass",
+    "IV.record_B3_delay": "B3_fit.ball_stiffness B3.mass",
     "IV.record_twin_duration": "superballs.drop_height",
     "V.exponent": "fig13.floor_stiffness",
     "V.restitution": "fig13.floor_stiffness",
@@ -48,6 +56,14 @@ DROPS_OUT = {
 ONLY_SHOWN = re.compile(
     r"(diameter|static_stiffness|duration|late_delay|upper_height)$|^B3_on_B1.mass|^B3.dynamic"
 )
+# The errors that the paper states, by key; that of the static stiffness is relative.
+STATED = {
+    r"B\d\.contact_time": 0.1e-3,
+    r"B\d\.restitution": 0.02,
+    r"B\d\.static_stiffness": 0.05,
+    r"B\d_on_B\d\.(lower|upper)": 0.02,
+    r"stack\.upper_height": 0.03,
+}
 
 
 @pytest.fixture(scope="module")
@@ -58,6 +74,11 @@ def done():
 def value(done, name):
     (row,) = [row for row in done.rows if row.id == name]
     return row.computed
+
+
+def moved(after, before):
+    """Whether a number changed by more than the last digits of a float."""
+    return abs(after - before) > 1e-12 * abs(before)
 
 
 def test_about_ninety_numbers_and_each_has_a_verdict(done):
@@ -103,7 +124,31 @@ def test_the_large_ball_of_105_g_gives_the_ratios_of_table_two(done):
 def test_collisions_of_the_large_ball_on_the_smallest_are_eleven_not_nine(done):
     (row,) = [row for row in done.rows if row.id == "IV.small_count"]
     assert (row.number, row.computed, row.tolerance) == (9.0, 11.0, 0.0)
-    assert [one.computed for one in row.attempts] == [11.0, 11.0, 9.0]
+    assert [one.computed for one in row.attempts] == [9.0, 9.0, 9.0, 11.0, 11.0]
+
+
+def test_three_of_four_fits_are_the_most_that_any_fall_gives():
+    bench = Bench(PAPER)
+    printed = (0.24, 1.83, 0.56, 2.16)
+    counts = []
+    for centimetres in range(20, 32):
+        ratios = []
+        for fit in (small_fit, smallest_fit):
+            drop = fit(bench, heavier_b1(bench))
+            drop = replace(drop, impact_speed=fallen_speed(centimetres / 100.0))
+            ratios += bench.simulate(drop).rebound_ratios.tolist()
+        near = [abs(one - other) <= 0.005 for one, other in zip(ratios, printed, strict=True)]
+        counts.append(sum(near))
+    assert max(counts) == 3
+
+
+def test_a_longer_fall_and_a_smaller_gap_are_the_same():
+    bench = Bench(PAPER)
+    drop = small_fit(bench, heavier_b1(bench))
+    higher = replace(drop, impact_speed=fallen_speed(0.24))
+    nearer = replace(drop, gaps=(drop.gaps[0] * (0.20 / 0.24) ** 0.5,))
+    both = [bench.simulate(one).rebound_ratios for one in (higher, nearer)]
+    assert both[0] == pytest.approx(both[1], rel=1e-9)
 
 
 def test_reads_and_calls_are_recorded(done):
@@ -130,8 +175,8 @@ def test_one_percent_of_an_input_moves_the_rows_that_depend_on_it(check):
     before = check.compute(bench)
     for key in bench.read:
         after = check.compute(Bench(changed(PAPER, key, 0.99)))
-        if key not in DROPS_OUT.get(check.id, "").split() and not check.counted:
-            assert after != before, key
+        if not check.counted:
+            assert moved(after, before) == (key not in DROPS_OUT.get(check.id, "").split()), key
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.id)
@@ -163,9 +208,23 @@ def test_every_other_input_moves_a_row(key):
     for check in CHECKS:
         bench = Bench(PAPER)
         before = check.compute(bench)
-        if key in bench.read and check.compute(Bench(data)) != before:
+        if key in bench.read and moved(check.compute(Bench(data)), before):
             return
     pytest.fail("no row moved")
+
+
+@pytest.mark.parametrize("key", PAPER)
+def test_spreads_follow_one_rule(key):
+    one = PAPER[key]
+    if one.spread == 0.0:
+        assert key.startswith(("textbook.", "models.", "fig5.", "fit.", "stack."))
+        return
+    number = re.search(r"[\d.]+(e\d+)?", one.printed.split("=")[-1])[0]
+    half = half_unit(number) * one.value / float(number)
+    stated = max((error for name, error in STATED.items() if re.fullmatch(name, key)), default=0.0)
+    if key.endswith("static_stiffness"):
+        stated *= one.value
+    assert one.spread == pytest.approx(max(half, stated), rel=1e-9)
 
 
 @pytest.mark.parametrize("key", PAPER)
@@ -199,10 +258,18 @@ def test_verdicts():
     assert row_of("3", 4.0, counted=True).verdict == DIFFERS
 
 
-def test_a_number_that_was_cut_off_is_recognised():
-    (attempt,) = row_of("0.76", 0.7664).attempts
-    assert attempt.verdict == AGREES
-    assert "cut off" in attempt.reading
+def test_an_error_as_large_as_the_number_lets_nothing_pass():
+    assert row_of("1", 2.8, stated=1.7).verdict == DIFFERS
+    assert row_of("2", 2.8, stated=1.7).verdict == WITHIN_ERROR
+
+
+def test_only_two_numbers_are_read_as_cut_off(done):
+    cut = [(row, one) for row in done.rows for one in row.attempts if "cut off" in one.reading]
+    assert [row.id for row, _ in cut] == ["II.second_stop", "II.spring_lower"]
+    for row, one in cut:
+        assert row.verdict == DIFFERS
+        assert one.verdict == AGREES
+        assert "cut(" in one.source
 
 
 def test_errors_are_carried_through():

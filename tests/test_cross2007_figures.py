@@ -14,7 +14,7 @@ from stackbounce.cross2007.curves import (
     rebound_by_mass,
     rebound_by_stiffness,
 )
-from stackbounce.cross2007.drops import force_above, solved, spring_pair
+from stackbounce.cross2007.drops import force_above, peak_times, solved, spring_pair
 from stackbounce.cross2007.paper import FIGURES, pictures
 from stackbounce.cross2007.stacks import (
     early_twins,
@@ -27,7 +27,6 @@ from stackbounce.cross2007.stacks import (
 )
 from stackbounce.cross2007.style import GREY, rendered, styled
 from stackbounce.cross2007.tables import table_one, table_two
-from stackbounce.cross2007.waveforms import peak_times
 
 MASS, TIME, FORCE = "$m_1/m_2$", "$t$ (ms)", "$F$ (N)"
 # per figure: label of the horizontal axis, labels of the vertical ones, curves in each
@@ -171,8 +170,8 @@ def test_measured_delays_and_durations_set_the_gaps(bench):
 
 def test_the_floor_force_shows_the_peaks_that_the_text_counts(bench):
     three = reversed_pair(bench, bench("superballs.gap"))
-    assert len(peak_times(bench, three, 0, 0.011)) == 3
-    assert len(peak_times(bench, early_twins(bench), 0, 0.0095)) == 2
+    assert len(peak_times(bench.simulate(three), 0, 0.011)) == 3
+    assert len(peak_times(bench.simulate(early_twins(bench)), 0, 0.0095)) == 2
     assert list(bench.simulate(late_twins(bench)).collisions) == [2, 1]
 
 

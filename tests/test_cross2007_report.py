@@ -10,6 +10,7 @@ from html.parser import HTMLParser
 import pytest
 
 from stackbounce import __version__, cross2007
+from stackbounce.cross2007 import paper
 from stackbounce.cross2007.report import _nice
 from stackbounce.errors import FileError
 
@@ -79,17 +80,25 @@ def test_it_says_what_it_is_doing(folder, told):
     assert told[-1] == f"writing to {folder}"
 
 
-def test_another_process_writes_the_same_bytes(folder, tmp_path):
+def test_another_process_writes_the_same_bytes(tmp_path, monkeypatch):
+    less = (
+        "paper.FIGURES = {name: paper.FIGURES[name] for name in ('6', '12')};"
+        "paper.SECTIONS = paper.SECTIONS[3:7]"
+    )
+    monkeypatch.setattr(paper, "FIGURES", paper.FIGURES)  # put back at the end
+    monkeypatch.setattr(paper, "SECTIONS", paper.SECTIONS)
+    exec(less, {"paper": paper})
+    cross2007.write(tmp_path / "here")
     code = (
-        "import sys, pathlib; from stackbounce import cross2007;"
-        "cross2007.write(pathlib.Path(sys.argv[1]))"
+        f"import sys, pathlib; from stackbounce.cross2007 import paper, write; {less};"
+        "write(pathlib.Path(sys.argv[1]))"
     )
     subprocess.run(
-        [sys.executable, "-c", code, tmp_path],
+        [sys.executable, "-c", code, tmp_path / "there"],
         check=True,
         env={**os.environ, "PYTHONHASHSEED": "7", "TZ": "Asia/Tokyo"},
     )
-    assert contents(tmp_path) == contents(folder)
+    assert contents(tmp_path / "there") == contents(tmp_path / "here")
 
 
 def test_the_page_loads_nothing(page):
@@ -165,6 +174,13 @@ def test_no_temporary_file_stays_where_a_file_cannot_be_replaced(tmp_path):
         ("5 - sqrt(20)", "5 − √20"),
         ("<b> & e1", "&lt;b&gt; &amp; e<sub>1</sub>"),
         ("1.040 x 101 g", "1.040 × 101 g"),
+        ("2 mm, 30 ms, D (mm), h1/h0", "2 mm, 30 ms, D (mm), h<sub>1</sub>/h<sub>0</sub>"),
+        ("r_k and r_m, k1", "r<sub>k</sub> and r<sub>m</sub>, k<sub>1</sub>"),
+        (
+            "the ball's 'about 20 cm', ('begins')",
+            "the ball\u2019s \u2018about 20 cm\u2019, (\u2018begins\u2019)",
+        ),
+        ("'begins to rise' of the balls' gap", "\u2018begins to rise\u2019 of the balls\u2019 gap"),
     ],
 )
 def test_signs_as_they_are_printed(text, html):

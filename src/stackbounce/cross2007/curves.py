@@ -1,16 +1,13 @@
 """The curves of the paper's figures, as numbers: every value from the library's solver."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.drops import after_meeting, rigid_pair, spring_pair
+from stackbounce.cross2007.drops import Array, after_meeting, rigid_pair, spring_pair
 from stackbounce.model.drop import Drop
 from stackbounce.result import Result
 
 __all__ = ["Array", "after_collision", "forces", "rebound_by_mass", "rebound_by_stiffness"]
-
-Array = NDArray[np.float64]
 
 
 def after_collision(bench: Bench, ratios: Array, restitution: float, count: int) -> Array:

@@ -3,9 +3,11 @@
 Lower ball first everywhere, as in the library: masses (m1, m2), contacts (floor, ball-ball).
 """
 
+import math
 from collections.abc import Callable, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
@@ -13,12 +15,15 @@ from stackbounce.model.laws import ContactLaw, Hysteretic, Rigid, Spring
 from stackbounce.result import Result
 
 __all__ = [
+    "Array",
     "Two",
     "after_meeting",
+    "cut",
     "fallen_speed",
     "force_above",
     "hysteretic_pair",
     "pair",
+    "peak_times",
     "rigid_pair",
     "risen_height",
     "solved",
@@ -26,6 +31,7 @@ __all__ = [
 ]
 
 Two = tuple[float, float]
+Array = NDArray[np.float64]
 
 
 def pair(masses: Two, contacts: Sequence[ContactLaw], *, speed: float, gap: float = 0.0) -> Drop:
@@ -75,6 +81,25 @@ def force_above(result: Result, contact: int, share: float) -> Two:
     rise = np.interp(level, force[first - 1 : first + 1], times[first - 1 : first + 1])
     fall = np.interp(-level, -force[last : last + 2], times[last : last + 2])
     return float(rise), float(fall)
+
+
+def peak_times(result: Result, contact: int, end: float) -> Array:
+    """Return when a contact's force has its maxima, in s, up to `end`."""
+    times = np.linspace(0.0, end, 2001)
+    force = np.asarray(result.sample(times)["force"].isel(contact=contact))
+    peaks: Array = times[1:-1][(force[1:-1] > force[:-2]) & (force[1:-1] >= force[2:])]
+    return peaks
+
+
+def cut(value: float, digits: int) -> float:
+    """Return a number with all decimals after the first `digits` cut off, not rounded.
+
+    Examples
+    --------
+    >>> cut(0.528, 2), cut(-1.19, 1)
+    (0.52, -1.1)
+    """
+    return math.trunc(value * 10.0**digits) / 10.0**digits
 
 
 def fallen_speed(height: float) -> float:

@@ -5,12 +5,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.curves import Array
+from stackbounce.cross2007.drops import Array, peak_times
 from stackbounce.cross2007.stacks import (
+    early_pair,
     early_twins,
     heavier_b1,
     late_pair,
     late_twins,
+    parted_twins,
     reversed_pair,
     small_fit,
     smallest_fit,
@@ -20,7 +22,6 @@ from stackbounce.cross2007.waveforms import (
     in_ms,
     number_contacts,
     one_panel,
-    peak_times,
     two_panels,
 )
 from stackbounce.result import Result
@@ -63,7 +64,7 @@ def figure_10b(bench: Bench) -> Picture:
     duration = 1e3 * bench("B1_on_B2.duration")
     bracket(panels[0], 0.0, duration, f"measured: impact lasts {duration:.1f} ms")
     _delay(bench, panels[1], "superballs.delay")
-    floor, between = (len(peak_times(bench, drop, i, result.end_time)) for i in (0, 1))
+    floor, between = (len(peak_times(result, i, result.end_time)) for i in (0, 1))
     return Picture(
         "10b",
         "Large ball B1 on middle ball B2: forces",
@@ -110,7 +111,11 @@ def figure_11b(bench: Bench) -> Picture:
     result = two_panels(bench, panels, late_pair(bench), np.linspace(0.0, 0.034, 2 * _POINTS))
     number_contacts(panels, result)
     _delay(bench, panels[1], "superballs.late_delay")
-    starts = result.intervals["start"]
+    rows = result.intervals
+    met = np.flatnonzero(rows["contact"] == 1)
+    early = bench.simulate(early_pair(bench))
+    merged = early.intervals[early.intervals["contact"] == 1]
+    subpeaks = len(peak_times(early, 1, early.end_time))
     gap = 1e3 * result.drop.gaps[0]
     return Picture(
         "11b",
@@ -120,13 +125,17 @@ def figure_11b(bench: Bench) -> Picture:
         (
             "Stiffnesses: B3's dynamic one at the floor, section V's between the balls; no loss.",
             f"Separation: {gap:.0f} mm, which gives the measured delay.",
-            "Length of the measured record: 25 ms, where the count of nine would end.",
+            "The nine are counted from the first to the last contact between the balls.",
         ),
         (
-            Feature("contacts", "nine", str(len(starts))),
-            Feature("contacts that begin before 25 ms", "nine", str(int(np.sum(starts < 25e-3)))),
-            Feature("the tenth begins", "", in_ms(starts[9])),
-            Feature("the eleventh begins", "", in_ms(starts[10])),
+            Feature("contacts, first to last ball-ball", "nine", str(met[-1] - met[0] + 1)),
+            Feature("all contacts", "", str(len(rows))),
+            Feature("ball-ball contacts", "a first and four last", str(len(met))),
+            Feature("the tenth contact", "", _begins(rows[9])),
+            Feature("the eleventh contact", "", _begins(rows[10])),
+            Feature("ball-ball contacts, meeting at 2 ms", "one broad peak", str(len(merged))),
+            Feature("its peaks", "four subpeaks", str(subpeaks)),
+            Feature("it ends", "", in_ms(merged[-1]["end"])),
         ),
         figure,
     )
@@ -143,7 +152,7 @@ def figure_12(bench: Bench) -> Picture:
     bracket(panels[0], 0.0, duration, f"measured: impact lasts {duration:.0f} ms")
     note(panels[1], "dashed: touching\nafter 1 ms")
     _contact(panels[2], late, times)
-    merged = len(peak_times(bench, early.drop, 0, early.end_time))
+    parted = bench.simulate(parted_twins(bench))
     gaps = 1e3 * late.drop.gaps[0], 1e3 * early.drop.gaps[0]
     return Picture(
         "12",
@@ -157,11 +166,21 @@ def figure_12(bench: Bench) -> Picture:
             f"Separations: {gaps[0]:.1f} mm (solid), {gaps[1]:.2f} mm (dashed), from 12 and 1 ms.",
         ),
         (
-            Feature("floor contacts, late meeting", "two peaks", str(late.collisions[0])),
+            Feature("floor contacts, 12 ms impact", "two peaks", str(late.collisions[0])),
+            Feature("dip in the second peak", "yes", _dip(late)),
+            Feature(
+                "lower ball off the floor before they touch",
+                "yes (Sec. VI)",
+                f"no: touch {in_ms(late.first_touch[1])}, off {in_ms(late.intervals[0]['end'])}",
+            ),
+            Feature(
+                f"impact ends if it is ({1e3 * parted.drop.gaps[0]:.1f} mm apart)",
+                "12 ms",
+                in_ms(parted.last_release[0]),
+            ),
             Feature("impact ends, meeting after 1 ms", "9 ms", in_ms(early.last_release[0])),
             Feature("floor contacts, meeting after 1 ms", "one peak", str(early.collisions[0])),
-            Feature("its peaks", "two subpeaks", str(merged)),
-            Feature("balls touch, late meeting", "", in_ms(late.first_touch[1])),
+            Feature("its peaks", "two subpeaks", str(len(peak_times(early, 0, early.end_time)))),
         ),
         figure,
     )
@@ -191,6 +210,15 @@ def figure_13(bench: Bench) -> Picture:
         ),
         figure,
     )
+
+
+def _begins(row: np.void) -> str:
+    return f"from {in_ms(row['start'])}, peak {row['peak_force']:.1f} N"
+
+
+def _dip(result: Result) -> str:
+    """Whether the floor's force has more peaks than contact intervals."""
+    return "yes" if len(peak_times(result, 0, result.end_time)) > result.collisions[0] else "no"
 
 
 def _delay(bench: Bench, ax: "Axes", key: str) -> None:

@@ -162,12 +162,13 @@ def _page(done: Audit, drawn: list[tuple[Picture, str]], tables: list[Table]) ->
 
 
 _SIGNS = (
-    (r"\b([mvekhrF])_?([0-4mk])\b", r"\1<sub>\2</sub>"),
+    (r"\b([mvekhrF])_?([0-4]|(?<=r_)[mk])\b", r"\1<sub>\2</sub>"),
     (r"\b1e(\d+)\b", r"10<sup>\1</sup>"),
     (r"(\d)e(\d+)\b", r"\1 × 10<sup>\2</sup>"),
     (r"(\d) x (\d)", r"\1 × \2"),
     (r"sqrt\((\d+)\)", r"√\1"),
     (r" - ", " − "),
+    (r"(?<![^\s(])&#39;(?=\S)", "\N{LEFT SINGLE QUOTATION MARK}"),
     (r"&#39;", "\N{RIGHT SINGLE QUOTATION MARK}"),
 )
 

@@ -10,12 +10,14 @@ from stackbounce.model.laws import Hysteretic
 
 __all__ = [
     "better_fit",
+    "early_pair",
     "early_twins",
     "gap_for_delay",
     "heavier_b1",
     "late_pair",
     "late_twins",
     "other_fit",
+    "parted_twins",
     "reversed_pair",
     "small_fit",
     "smallest_fit",
@@ -92,10 +94,19 @@ def reversed_pair(bench: Bench, gap: float) -> Drop:
 
 def late_pair(bench: Bench) -> Drop:
     """Return B1 on B3 without loss, so far apart that they meet at the measured 7 ms."""
+    return _reversed_smallest(bench, "superballs.late_delay")
+
+
+def early_pair(bench: Bench) -> Drop:
+    """Return the same pair so near each other that they meet at the shortest delay, 2 ms."""
+    return _reversed_smallest(bench, "superballs.delay")
+
+
+def _reversed_smallest(bench: Bench, delay: str) -> Drop:
     stiffnesses = bench("B3.dynamic_stiffness"), bench("B3_fit.ball_stiffness")
     masses = bench("B3.mass"), bench("B1.mass")
     drop = spring_pair(masses, stiffnesses, speed=superball_speed(bench))
-    return replace(drop, gaps=(gap_for_delay(bench, drop, bench("superballs.late_delay")),))
+    return replace(drop, gaps=(gap_for_delay(bench, drop, bench(delay)),))
 
 
 def twin_pair(bench: Bench, gap: float) -> Drop:
@@ -119,6 +130,14 @@ def late_twins(bench: Bench) -> Drop:
         return end - bench("superballs.twin_duration")
 
     return twin_pair(bench, solved(late, 2e-3, 2e-2))
+
+
+def parted_twins(bench: Bench) -> Drop:
+    """Return two large balls that meet just when the lower one leaves the floor."""
+    lower, floor = twin_pair(bench, 0.0).balls[0], twin_pair(bench, 0.0).contacts[0]
+    speed = superball_speed(bench)
+    bounce = bench.simulate(Drop([lower], [floor], impact_speed=speed)).end_time
+    return twin_pair(bench, speed * bounce)
 
 
 def stiffening(bench: Bench, drop: Drop) -> Drop:

@@ -13,7 +13,7 @@ from stackbounce.result import Result
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["in_ms", "number_contacts", "one_panel", "peak_times", "two_panels"]
+__all__ = ["in_ms", "number_contacts", "one_panel", "two_panels"]
 
 _LABELS = ("floor (P1)", "between the balls (P2)")
 
@@ -54,14 +54,6 @@ def one_panel(
         )
     ax.set(xlabel=r"$t$ (ms)", ylabel=r"$F$ (N)", xlim=(0, ms[-1]), ylim=(0, 1.15 * floor.max()))
     return result
-
-
-def peak_times(bench: Bench, drop: Drop, contact: int, end: float) -> Array:
-    """Return when a contact's force has its maxima, in s, up to `end`."""
-    times = np.linspace(0.0, end, 2001)
-    force = forces(bench, drop, times)[0][contact]
-    peaks: Array = times[1:-1][(force[1:-1] > force[:-2]) & (force[1:-1] >= force[2:])]
-    return peaks
 
 
 def number_contacts(panels: "list[Axes]", result: Result) -> None:
