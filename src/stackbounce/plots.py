@@ -17,6 +17,7 @@ __all__ = ["bounce"]
 
 _SAMPLES = 1200
 _BEFORE, _AFTER = 0.15, 0.35  # of the impact's duration shown before and after it
+_LABEL = 0.13  # height of a label in its axes
 _COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")  # Okabe and Ito
 _STYLE: Any = {
     "axes.spines.top": False,
@@ -78,7 +79,8 @@ def bounce(result: Result) -> "Figure":
             _draw_impulses(below, result)
         else:
             _draw_forces(below, result, times)
-        below.set_xlabel("time since the lowest ball touched the floor (ms)")
+        floor = result.drop.contacts[0] is not None
+        below.set_xlabel("time" + floor * " since the lowest ball touched the floor" + " (ms)")
         below.set_xlim(1e3 * times[0], 1e3 * times[-1])
         figure.align_ylabels()
     return figure
@@ -99,25 +101,40 @@ def _draw_positions(axes: "Axes", result: Result, times: NDArray[np.float64]) ->
     drop = result.drop
     flown = result.sample(np.maximum(times, 0.0)).position.values
     early = np.minimum(times, 0.0)
+    ends = []
     for b, (ball, path, start) in enumerate(
         zip(drop.balls, flown, drop.start_velocities, strict=True)
     ):
         fallen = start * early - 0.5 * drop.gravity * early**2
-        ratio = result.rebound_ratios[b]
         axes.plot(1e3 * times, 1e3 * (path + fallen), color=_color(b))
-        label = f"{ball.name or f'ball {b}'}\n{ratio:.3g} v₀"
+        ends.append((1e3 * float(path[-1]), b, f"{ball.name or f'ball {b}'}"))
+    _label_ends(axes, 1e3 * times[-1], ends, result.rebound_ratios)
+    axes.set_ylabel("position (mm)")
+    axes.axhline(0.0, color="#808080", linewidth=0.8)
+    axes.set_title(_summary(result), loc="left", fontsize=10)
+
+
+def _label_ends(
+    axes: "Axes",
+    right: float,
+    ends: list[tuple[float, int, str]],
+    ratios: NDArray[np.float64],
+) -> None:
+    """Write each ball's name and rebound ratio where its path ends, from below, none on another."""
+    low, high = axes.get_ylim()
+    apart = _LABEL * (high - low)
+    place = -math.inf
+    for height, b, name in sorted(ends):
+        place = max(height, place + apart)
         axes.annotate(
-            label,
-            xy=(1e3 * times[-1], 1e3 * (path + fallen)[-1]),
+            f"{name}\n{ratios[b]:.3g} v₀",
+            xy=(right, place),
             xytext=(6, 0),
             textcoords="offset points",
             va="center",
             color=_color(b),
             annotation_clip=False,
         )
-    axes.set_ylabel("position (mm)")
-    axes.axhline(0.0, color="#808080", linewidth=0.8)
-    axes.set_title(_summary(result), loc="left", fontsize=10)
 
 
 def _draw_forces(axes: "Axes", result: Result, times: NDArray[np.float64]) -> None:
@@ -135,7 +152,9 @@ def _draw_forces(axes: "Axes", result: Result, times: NDArray[np.float64]) -> No
 
 def _draw_impulses(axes: "Axes", result: Result) -> None:
     """Draw the impulse of each collision of a rigid stack as a stem."""
-    for i in range(len(result.drop.balls)):
+    for i, law in enumerate(result.drop.contacts):
+        if law is None:
+            continue
         rows = result.intervals[result.intervals["contact"] == i]
         axes.vlines(
             1e3 * rows["start"],
