@@ -286,6 +286,12 @@ def test_json_stays_pure_with_a_picture(run):
             ["B1", "--contact", "Spring stiffness=1kg"],
             "--contact 0.stiffness must be a stiffness (",
         ),
+        (
+            ["B1", "--contact", "Spring stiffness=1 stiffness=2"],
+            "--contact 0 must give each key once, got 'Spring stiffness=1 stiffness=2'",
+        ),
+        (["B1", "--contact", "Spring law=Rigid"], "--contact 0 must give each key once, got 'Spr"),
+        (["B1", "--height", "1e308"], "height must give an impact speed above 0 and finite at 9."),
         (["B1", "B2", "--contact", "Spring stiffness=1"], "contacts must hold one law per ball"),
         (
             ["B1", "B2", "--contact", "Rigid restitution=1", "--contact", "Spring stiffness=1"],
@@ -352,6 +358,51 @@ def test_a_full_disk_is_one_line(run, monkeypatch):
 
     monkeypatch.setattr(sb, "simulate", full)
     assert run("simulate", "B1") == (2, "", "stackbounce: error: x.svg: No space left on device\n")
+
+
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (MemoryError(), "out of memory: ask for fewer balls"),
+        (OverflowError(34, "too\nlarge"), "unexpected OverflowError: (34, 'too\\nlarge')"),
+        (RecursionError("too deep"), "unexpected RecursionError: too deep (please report it)"),
+    ],
+)
+def test_what_nobody_foresaw_is_one_line(run, monkeypatch, error, line):
+    def failing(*_, **__):
+        raise error
+
+    monkeypatch.setattr(sb, "simulate", failing)
+    code, out, err = run("simulate", "B1")
+    assert (code, out) == (1, "")
+    assert err.startswith(f"stackbounce: error: {line}")
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("speed", ["1e200", "1e308", "1e-200", "5e-324"])
+@pytest.mark.parametrize("form", [[], ["--json"]])
+def test_speeds_at_the_ends_of_the_range(run, speed, form):
+    code, out, err = run("simulate", "B1", "B2", "--speed", speed, *form)
+    assert (code, err) == (0, "")
+    assert "nan" not in out.lower()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell closes the streams")
+@pytest.mark.parametrize(
+    ("streams", "line"),
+    [
+        (">&-", "there is no standard output to write to: it is closed"),
+        (">/dev/full", "the disk: No space left on device"),
+        (">&- 2>&-", None),
+    ],
+)
+@pytest.mark.parametrize("arguments", ["--help", "simulate basketball"])
+def test_a_standard_output_that_cannot_be_written_to(arguments, streams, line):
+    code = "import sys; from stackbounce.cli import main; sys.exit(main())"
+    command = ["sh", "-c", f'"$0" -c "{code}" {arguments} {streams}', sys.executable]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode in (1, 2)
+    assert done.stderr == ("" if line is None else f"stackbounce: error: {line}\n")
 
 
 def test_a_reader_that_goes_away_is_no_error():
@@ -448,6 +499,13 @@ def test_an_output_folder_that_cannot_be_written_to(run, folder):
     assert err.count("\n") == 1
     assert Path("file").read_text() == "kept"
     assert list(Path().iterdir()) == [Path("file")]
+
+
+def test_an_output_folder_needs_a_name(run, write):
+    assert run("paper", "--out", "") == (
+        2, "", "stackbounce: error: --out must name a folder, got ''\n",
+    )  # fmt: skip
+    assert write == []
 
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")

@@ -95,6 +95,21 @@ def test_whole_numbers():
             errors.whole("limit", value, 1)
 
 
+def test_whole_numbers_in_a_range():
+    assert errors.whole("limit", 10, 1, 10) == 10
+    with pytest.raises(errors.InvalidValue, match=r"limit must be .* from 1 to 1e\+18, got 18446"):
+        errors.whole("limit", 2**64, 1, 10**18)
+    with pytest.raises(errors.InvalidValue, match=r"got <unprintable int object>$"):
+        errors.whole("limit", 10**5000, 1, 10**18)
+
+
+@pytest.mark.parametrize("value", [np.timedelta64(3, "s"), np.timedelta64(3)])
+def test_a_time_of_numpy_is_no_number(value):
+    for check in (errors.finite, errors.whole):
+        with pytest.raises(errors.InvalidType, match=r"must be a .* number.*, got np.timedelta64"):
+            check("mass", value)
+
+
 def test_nearest_name():
     assert (
         errors.nearest("sprng", ["Rigid", "Spring"]) == "did you mean Spring? Known: Rigid, Spring"
@@ -106,3 +121,25 @@ def test_long_values_are_cut_to_one_line():
     assert errors.shown("a\nb") == "'a\\nb'"
     assert len(errors.shown("x" * 1000)) == 60
     assert "\n" not in errors.shown(np.zeros((4, 4)))
+
+
+class Unprintable:
+    def __repr__(self):
+        raise RuntimeError("no text")
+
+
+@pytest.mark.parametrize(
+    "value",
+    [10**400, 10**5000, -(10**5000), Unprintable(), [Unprintable()], {"a": 10**5000}],
+    ids=lambda value: type(value).__name__,
+)
+def test_no_value_breaks_a_message(value):
+    assert 0 < len(errors.shown(value)) <= 60
+    with pytest.raises(errors.StackbounceError, match=r"^mass must be a positive number, got "):
+        errors.positive("mass", value)
+    assert errors.nearest(value, ["Rigid", "Spring"]) == "known: Rigid, Spring"
+
+
+def test_what_cannot_be_shown_says_its_type():
+    assert errors.shown(10**5000) == "<unprintable int object>"
+    assert errors.shown(Unprintable()) == "<unprintable Unprintable object>"

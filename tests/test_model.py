@@ -60,6 +60,8 @@ def test_a_mass_is_needed():
 def test_names():
     assert message(errors.InvalidType, Ball, 1.0, name=3) == "name must be a string, got 3"
     assert message(errors.InvalidValue, Ball, 1.0, name=" ") == "name must not be empty, got ' '"
+    got = message(errors.InvalidValue, Ball, 1.0, name="a\ud800")
+    assert got == r"name must be text that UTF-8 can write, got 'a\ud800'"
 
 
 # laws
@@ -86,14 +88,23 @@ def test_restitution_lies_from_0_to_1(value):
 def test_only_a_rigid_contact_may_keep_everything():
     assert Rigid(0).restitution == 0.0
     assert "above 0" in message(errors.InvalidValue, Hysteretic, 1.0, restitution=0)
-    assert "above 1e-150" in message(errors.InvalidValue, Hysteretic, 1.0, restitution=1e-200)
+
+
+@pytest.mark.parametrize("value", [0.00141, 1e-200])
+def test_a_small_restitution_is_refused_with_the_least_that_is_not(value):
+    got = message(errors.InvalidValue, Hysteretic, 1.0, restitution=value)
+    assert got == (
+        "restitution must be at least 0.00142 for exponent 1, so that unloading_exponent is at "
+        f"most 1e+06, got {value}"
+    )
+    assert Hysteretic(1.0, restitution=0.00142).unloading_exponent < 1e6
 
 
 def test_restitution_and_unloading_exponent_follow_from_each_other():
     assert Hysteretic(5.6e4, restitution=0.78).unloading_exponent == pytest.approx(
         2.28731, abs=1e-5
     )
-    for p in (0.3, 1.0, 1.5, 3.0):
+    for p in (1.0, 1.5, 3.0):
         for e in (0.01, 0.5, 0.78, 1.0):
             law = Hysteretic(1.0, exponent=p, restitution=e)
             assert law.restitution == e
@@ -106,20 +117,50 @@ def test_restitution_and_unloading_exponent_follow_from_each_other():
 def test_a_hysteretic_law_needs_exactly_one_of_two():
     right = "restitution and unloading_exponent: exactly one of the two must be given, got "
     assert message(errors.InvalidValue, Hysteretic, 1.0) == right + "neither"
-    got = message(errors.InvalidValue, Hysteretic, 1.0, restitution=0.5, unloading_exponent=7)
-    assert got == right + "restitution=0.5 and unloading_exponent=7"
+    got = message(errors.InvalidValue, Hysteretic, 1.0, restitution=0.6, unloading_exponent=7)
+    assert got == (
+        right + "restitution=0.6 and unloading_exponent=7, which disagree: set the other to None"
+    )
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        Hysteretic(1.0, restitution=0.5),
+        Hysteretic(1.0, exponent=1.5, restitution=0.77),
+        Hysteretic(1.0, exponent=1.3, unloading_exponent=5.1),
+    ],
+)
+def test_the_rest_of_a_hysteretic_law_can_be_replaced(law):
+    new = dataclasses.replace(law, stiffness=2.0, reloading="lossy")
+    assert (new.stiffness, new.reloading) == (2.0, "lossy")
+    assert (new.restitution, new.unloading_exponent) == (law.restitution, law.unloading_exponent)
+    assert new.derived == law.derived
+    for changes in ({"restitution": 0.6}, {"unloading_exponent": 8}, {"exponent": 2.0}):
+        got = message(errors.InvalidValue, dataclasses.replace, law, **changes)
+        assert got.endswith("which disagree: set the other to None")
+    new = dataclasses.replace(law, restitution=0.6, unloading_exponent=None)
+    assert new == Hysteretic(1.0, exponent=law.exponent, restitution=0.6)
+
+
+def test_reloading_names_a_rule():
+    for value in (np.array([1, 2]), 3, None):
+        got = message(errors.InvalidType, Hysteretic, 1.0, restitution=0.5, reloading=value)
+        assert got == f"reloading must be a string, got {value!r}"
+    got = message(errors.InvalidValue, Hysteretic, 1.0, restitution=0.5, reloading="fre")
+    assert got == "reloading must name a rule, got 'fre'; did you mean free? Known: free, lossy"
 
 
 @pytest.mark.parametrize("value", [0.5, -1.0, math.nan, math.inf])
 def test_unloading_is_at_least_as_curved_as_loading(value):
     got = message(errors.InvalidValue, Hysteretic, 1.0, unloading_exponent=value)
-    assert got == f"unloading_exponent must be a number, 1 or above, got {value}"
+    assert got == f"unloading_exponent must be a number from 1 to 1e+06, got {value}"
 
 
-@pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf])
-def test_exponent_is_positive(value):
+@pytest.mark.parametrize("value", [0.0, -1.0, 0.99, 1e308, math.nan, math.inf])
+def test_exponent_is_at_least_1(value):
     got = message(errors.InvalidValue, Hysteretic, 1.0, exponent=value, restitution=0.5)
-    assert got == f"exponent must be a positive number, got {value}"
+    assert got == f"exponent must be a number from 1 to 1e+06, got {value}"
 
 
 @pytest.mark.parametrize(
@@ -176,6 +217,15 @@ def test_speed_and_height_are_positive(value):
     assert got == f"impact_speed must be a positive number of m/s, got {value}"
     got = message(errors.InvalidValue, two, impact_speed=None, height=value)
     assert got == f"height must be a positive number of metres, got {value}"
+
+
+@pytest.mark.parametrize(("height", "gravity"), [(1e308, 0.0), (1e-200, 1e-200), (1e200, 1e200)])
+def test_a_height_gives_a_speed(height, gravity):
+    got = message(errors.InvalidValue, two, impact_speed=None, height=height, gravity=gravity)
+    assert got == (
+        "height must give an impact speed above 0 and finite at "
+        f"{gravity or 9.80665} m/s**2, got {height}"
+    )
 
 
 @pytest.mark.parametrize("value", [-1.0, math.nan, math.inf])
@@ -319,6 +369,10 @@ def test_separate_collisions_keep_everything_else():
     assert separate(no_floor).contacts == (None, Rigid(1.0))
     rigid = separate(drop)
     assert separate(rigid) == rigid
+
+
+def test_only_a_drop_has_separate_collisions():
+    assert message(errors.InvalidType, separate, 3) == "drop must be a Drop, got 3"
 
 
 def test_separate_collisions_know_no_gravity():

@@ -83,6 +83,7 @@ def test_units_that_do_not_fit(text, unit, kind):
     [
         "", " ", "mm", "mm 58", "58 58 mm", "1,5 mm", "nan", "inf", "nan m", "0x10 m",
         "1e9999999 m",
+        "1 Ym^9 Ym^9 Ym^9 m^-9 m^-9 m^-8",
         "3 m**", "3 m^", "3 (m)", "3 m;", "3 'm'", "4 lambda", "4 if", "3 m**9**9**9**9", "٣ m",
         "3 dB", "4 degC", "3 " + "m" * 100, "3 " + "m " * 40, "__import__('os')", "3 __class__",
     ],

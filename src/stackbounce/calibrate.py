@@ -61,6 +61,11 @@ def separate(drop: Drop) -> Drop:
         The same drop with every contact `Rigid`, with the restitution of the law that it had, and
         without gravity, which does nothing in a collision that takes no time.
 
+    Raises
+    ------
+    InvalidType
+        If `drop` is no Drop.
+
     Notes
     -----
     Source: R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4.
@@ -72,6 +77,8 @@ def separate(drop: Drop) -> Drop:
     >>> separate(drop).contacts
     (Rigid(restitution=1.0), Rigid(restitution=1.0))
     """
+    if not isinstance(drop, Drop):
+        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
     contacts = [None if law is None else Rigid(restitution(law)) for law in drop.contacts]
     rigid = replace(drop, contacts=contacts)
     if drop.gravity == 0.0:

@@ -130,32 +130,32 @@ def between(name: str, value: object, low: float, high: float = math.inf, of: st
     >>> between("exponent", 1.5, 1.0)
     1.5
     """
-    right = "a number" + _of(of)
-    right += f" from {low:g} to {high:g}" if math.isfinite(high) else f", {low:g} or above"
+    right = "a number" + _of(of) + _range(low, high)
     return _checked(name, value, right, lambda number: low <= number <= high)
 
 
-def whole(name: str, value: object, low: int = 0) -> int:
-    """Return `value` as an int if it is a whole number of at least `low`.
+def whole(name: str, value: object, low: int = 0, high: float = math.inf) -> int:
+    """Return `value` as an int if it is a whole number from `low` to `high`, both included.
 
     Raises
     ------
     InvalidType
         If `value` is not an integer (a bool, a string and 2.0 are none).
     InvalidValue
-        If it lies below `low`.
+        If it lies outside.
 
     Examples
     --------
     >>> whole("event_limit", 100, 1)
     100
     """
-    message = f"{name} must be a whole number, {low} or above, got {shown(value)}"
-    if isinstance(value, bool) or not isinstance(value, Integral):
+    message = f"{name} must be a whole number{_range(low, high)}, got {shown(value)}"
+    if not _is(Integral, value):
         raise InvalidType(message)
-    if value < low:
+    number: int = int(value)  # type: ignore[call-overload]
+    if not low <= number <= high:
         raise InvalidValue(message)
-    return int(value)
+    return number
 
 
 def nearest(name: object, known: Iterable[str]) -> str:
@@ -168,22 +168,24 @@ def nearest(name: object, known: Iterable[str]) -> str:
     """
     names = list(known)
     folded = {one.casefold(): one for one in names}
-    close = difflib.get_close_matches(str(name).casefold(), folded, n=1)
+    word = name[:60] if isinstance(name, str) else shown(name)
+    close = difflib.get_close_matches(word.casefold(), folded, n=1)
     hint = f"did you mean {folded[close[0]]}? " if close else ""
     return f"{hint}Known: {', '.join(names)}" if hint else f"known: {', '.join(names)}"
 
 
 def shown(value: object) -> str:
-    """Return `value` as a message shows it: on one line, and not too long.
+    """Return `value` as a message shows it: on one line, not too long, and whatever it is.
 
     Examples
     --------
     >>> shown("150 g")
     "'150 g'"
     """
-    if isinstance(value, Real) and not isinstance(value, bool):
-        return str(value)
-    text = " ".join(repr(value).split())
+    try:  # an int can have too many digits, and another class's text can fail in any way
+        text = " ".join((str if _is(Real, value) else repr)(value).split())
+    except Exception:
+        text = f"<unprintable {type(value).__name__} object>"
     return text if len(text) <= 60 else text[:57] + "..."
 
 
@@ -191,14 +193,23 @@ def _of(unit: str) -> str:
     return f" of {unit}" if unit else ""
 
 
+def _range(low: float, high: float) -> str:
+    return f" from {low:g} to {high:g}" if math.isfinite(high) else f", {low:g} or above"
+
+
+def _is(kind: type, value: object) -> bool:
+    """Tell whether `value` is a number of a kind; a bool and numpy's timedelta64 are none."""
+    number = isinstance(value, kind) and not isinstance(value, bool)
+    return number and getattr(getattr(value, "dtype", None), "kind", "f") in "iuf"
+
+
 def _checked(name: str, value: object, right: str, holds: Callable[[float], bool]) -> float:
-    message = f"{name} must be {right}, got {shown(value)}"
-    if isinstance(value, bool) or not isinstance(value, Real):
-        raise InvalidType(message)
+    if not _is(Real, value):
+        raise InvalidType(f"{name} must be {right}, got {shown(value)}")
     try:
-        number = float(value)
+        number = float(value)  # type: ignore[arg-type]
     except OverflowError:
         number = math.inf
     if not math.isfinite(number) or not holds(number):
-        raise InvalidValue(message)
+        raise InvalidValue(f"{name} must be {right}, got {shown(value)}")
     return number

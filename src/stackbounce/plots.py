@@ -90,9 +90,10 @@ def _times(result: Result) -> NDArray[np.float64]:
     """Return times in s from a little before the first touch to a little after the last release."""
     ends = result.intervals["end"]
     finite = ends[np.isfinite(ends)]
-    last = max([result.end_time, *finite]) if len(finite) else result.end_time
+    last = max([0.0, *finite, result.end_time])
     span = last if last > 0.0 else 0.010
-    stop = last + _AFTER * span if result.status.name != "TIME_REACHED" else last
+    stopped = result.status.name in ("TIME_REACHED", "EVENT_LIMIT", "INVALID")
+    stop = last if stopped else last + _AFTER * span
     return np.linspace(-_BEFORE * span, stop, _SAMPLES)
 
 

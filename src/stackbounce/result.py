@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.engine import codes
-from stackbounce.errors import InvalidValue
+from stackbounce.errors import InvalidType, InvalidValue, finite, shown
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 
@@ -71,8 +71,8 @@ _ADVICE = {
     Status.COLLAPSED: "infinitely many collisions took place in a finite time and ended at their "
     "limit: their count is given as -1",
     Status.TIME_REACHED: "the time asked for was reached first: raise until to see more",
-    Status.EVENT_LIMIT: "the limit of events was met: raise event_limit, or stop "
-    "earlier with until",
+    Status.EVENT_LIMIT: "the limit of events was met, or nothing came of 100000 looks: "
+    "raise event_limit, or stop earlier with until",
     Status.INVALID: "numbers left the range of floating point: bring masses, stiffnesses and "
     "speeds closer together",
 }
@@ -116,6 +116,10 @@ class Result:
     infinite: Sequence[int] = dataclasses.field(repr=False)
     rerun: Callable[[Sequence[float]], Any] = dataclasses.field(repr=False)
 
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what is derived: arrays would come back writeable."""
+        return {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+
     @functools.cached_property
     def rebound_speeds(self) -> NDArray[np.float64]:
         """(N,) velocity of each ball after the impact, m/s, up-positive."""
@@ -124,7 +128,8 @@ class Result:
     @functools.cached_property
     def rebound_ratios(self) -> NDArray[np.float64]:
         """(N,) rebound speed of each ball over the impact speed v0."""
-        return _frozen(self.rebound_speeds / self.drop.reference_speed)
+        with np.errstate(over="ignore"):
+            return _frozen(self.rebound_speeds / self.drop.reference_speed)
 
     @functools.cached_property
     def collisions(self) -> NDArray[np.int64]:
@@ -182,8 +187,11 @@ class Result:
     def energy_retained(self) -> float:
         """Kinetic energy of all balls at the end as a fraction of the one that came in."""
         mass = np.array([ball.mass for ball in self.drop.balls])
-        before = np.sum(mass * np.square(self.drop.start_velocities))
-        return float(np.sum(mass * np.square(self.rebound_speeds)) / before)
+        start = np.array(self.drop.start_velocities) / self.drop.reference_speed
+        with np.errstate(over="ignore", under="ignore"):
+            share = mass / np.max(mass)
+            after = np.sum(share * np.square(self.rebound_ratios))
+            return float(after / np.sum(share * np.square(start)))
 
     @functools.cached_property
     def apexes(self) -> NDArray[Any]:
@@ -201,8 +209,8 @@ class Result:
         Parameters
         ----------
         times : array_like
-            (T,) times in s, from 0 (the lowest ball's first touch), in any order. Beyond the end of
-            the run the balls fly on.
+            (T,) real numbers of seconds from 0 (the lowest ball's first touch), in any order.
+            Beyond the end of the run the balls fly on.
 
         Returns
         -------
@@ -215,7 +223,9 @@ class Result:
         Raises
         ------
         InvalidValue
-            If a time is negative, not a finite number, or beyond a run that was stopped.
+            If a time is negative, not finite, masked, or beyond a run that was stopped.
+        InvalidType
+            If one is no real number.
 
         Examples
         --------
@@ -261,14 +271,7 @@ class Result:
         return _frozen(out)
 
     def _times(self, times: ArrayLike) -> NDArray[np.float64]:
-        try:
-            wanted = np.atleast_1d(np.asarray(times, dtype=float))
-        except (TypeError, ValueError):
-            raise InvalidValue(f"times must be numbers of seconds, got {times!r}") from None
-        if wanted.ndim != 1:
-            raise InvalidValue(
-                f"times must be a list of numbers, got an array of {wanted.ndim} axes"
-            )
+        wanted = _numbers(times)
         stopped = self.status not in (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
         last = self.end_time if stopped else math.inf
         bad = wanted[~(np.isfinite(wanted) & (wanted >= 0.0) & (wanted <= last))]
@@ -313,6 +316,24 @@ class Result:
         reached = [top for top in tops if not stopped or top <= self.end_time]
         heights = self.sample(reached).position[ball].values
         return [(ball, top, float(height)) for top, height in zip(reached, heights, strict=True)]
+
+
+def _numbers(times: object) -> NDArray[np.float64]:
+    """Return times as an array, if all are real numbers."""
+    if np.ma.isMaskedArray(times):
+        raise InvalidType(f"times must be a list of numbers, got a masked array: {shown(times)}")
+    try:
+        # Without an array's type, numpy would make one of [1.0, True] and of [1.0, "2"].
+        table = np.asarray(times, dtype=None if hasattr(times, "dtype") else object)
+    except Exception:
+        raise InvalidType(f"times must be a list of numbers, got {shown(times)}") from None
+    if table.ndim > 1:
+        raise InvalidValue(f"times must be a list of numbers, got an array of {table.ndim} axes")
+    if table.ndim == 0:
+        return np.array([finite("times", table[()], "seconds")])
+    if table.dtype.kind in "iuf":
+        return table.astype(float)
+    return np.array([finite(f"times.{i}", time, "seconds") for i, time in enumerate(table)])
 
 
 def _frozen(array: NDArray[Any]) -> NDArray[Any]:

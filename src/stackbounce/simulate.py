@@ -19,12 +19,14 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
-from stackbounce.errors import InvalidType, InvalidValue, positive, whole
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown, whole
 from stackbounce.model import Drop, Hysteretic, Rigid
 from stackbounce.result import Result, Status
 
 __all__ = ["simulate"]
 
+_MOST_BALLS = 2000  # their matrices are quadratic
+_MOST_EVENTS = 10**18  # a compiled counter's range
 _LOG_ROWS = 4096
 _PLAIN_BALLS = 20  # up to this size plain Python is done before compiled code has been loaded
 _PLAIN_EVENTS = 2000  # after so many events a run goes on compiled
@@ -52,7 +54,8 @@ def simulate(
         A time in s at which to stop; by default the run ends once all contacts are open and none
         approaches.
     event_limit : int, optional
-        After how many events to give up, with the status EVENT_LIMIT and all that was reached.
+        After how many events (touches, releases, and turns of the force in between) to give up,
+        with the status EVENT_LIMIT and all that was reached.
     compiled : bool, optional
         Whether to run compiled by numba rather than as plain Python; by default where the stack is
         tall or the run long. Both give the same bits.
@@ -64,7 +67,8 @@ def simulate(
     Raises
     ------
     InvalidValue
-        If `until` or `event_limit` is out of its range, or a rigid stack has gravity.
+        If `until` or `event_limit` is out of its range, a rigid stack has gravity, or there are
+        more than 2000 balls.
     InvalidType
         If one of them has the wrong type.
 
@@ -83,9 +87,13 @@ def simulate(
     array([0.7664, 1.1886])
     """
     if not isinstance(drop, Drop):
-        raise InvalidType(f"drop must be a Drop, got {type(drop).__name__}")
+        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
+    if compiled is not None and not isinstance(compiled, bool):
+        raise InvalidType(f"compiled must be True, False or None, got {shown(compiled)}")
+    if len(drop.balls) > _MOST_BALLS:
+        raise InvalidValue(f"balls must be at most {_MOST_BALLS} for a run, got {len(drop.balls)}")
     end = math.inf if until is None else positive("until", until, "seconds")
-    limit = whole("event_limit", event_limit, 1)
+    limit = whole("event_limit", event_limit, 1, _MOST_EVENTS)
     if drop.rigid and drop.gravity > 0.0:
         raise InvalidValue(
             f"gravity must be 0 while all contacts are Rigid, got {drop.gravity!r}: "

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from stackbounce.errors import StackbounceError
+from stackbounce.errors import InvalidValue, StackbounceError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -119,8 +119,7 @@ def balls(as_json: AsJson = False) -> None:
 @app.command()
 def paper(
     out: Annotated[
-        Path,
-        typer.Option(metavar="DIR", readable=False, help="Folder to write to.", show_default=False),
+        str, typer.Option(metavar="DIR", help="Folder to write to.", show_default=False)
     ],
     as_json: AsJson = False,
 ) -> None:
@@ -128,11 +127,14 @@ def paper(
     from stackbounce import cross2007
     from stackbounce.cli import machine, show
 
-    audit = cross2007.write(out, lambda line: typer.echo(line, err=True))
+    if not out:  # as a path it would be this folder
+        raise InvalidValue("--out must name a folder, got ''")
+    folder = Path(out)
+    audit = cross2007.write(folder, lambda line: typer.echo(line, err=True))
     if as_json:
         typer.echo(machine.text(audit.as_dict()))
     else:
-        show.audit(_console(), audit, out / "index.html")
+        show.audit(_console(), audit, folder / "index.html")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -146,7 +148,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0; 2 after an error, which is one line on stderr; 130 after an interruption.
+        0; 2 after an error of the user's and 1 after any other, in one line on stderr; 130 after an
+        interruption.
 
     Examples
     --------
@@ -154,6 +157,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     stackbounce ...
     0
     """
+    if sys.stdout is None:
+        return _failed("there is no standard output to write to: it is closed", 1)
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
@@ -171,15 +176,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _failed(f"{error.format_message()} (see stackbounce --help)")
     except KeyboardInterrupt:
         code = 130
+    except MemoryError:
+        return _failed("out of memory: ask for fewer balls", 1)
+    except Exception as error:
+        return _failed(f"unexpected {type(error).__name__}: {error} (please report it)", 1)
     if code == 130:
         typer.echo("stackbounce: interrupted", err=True)
     return int(code or 0)
 
 
-def _failed(message: str) -> int:
+def _failed(message: str, code: int = 2) -> int:
     line = "".join(c if c.isprintable() else "?" for c in " ".join(message.split()))
     typer.echo(f"stackbounce: error: {line}", err=True)
-    return 2
+    return code
 
 
 def _console() -> "Console":

@@ -100,6 +100,9 @@ def read_contact(text: str, path: str) -> ContactLaw | None:
     if not law or "=" in law or any(not key or not value for key, _, value in pairs):
         right = "'LAW key=value …', such as 'Spring stiffness=2.5kN/m'"
         raise InvalidValue(f"{path} must be {right}, got {shown(text)}")
+    keys = ["law", *(key for key, _, _ in pairs)]
+    if len(set(keys)) < len(keys):
+        raise InvalidValue(f"{path} must give each key once, got {shown(text)}")
     return read_law({"law": law} | {key: value for key, _, value in pairs}, path)
 
 

@@ -209,13 +209,13 @@ def _bounces(result: Result, textbook: Result | None) -> Table:
 
 def _ratios(result: Result, i: int) -> tuple[str, str]:
     ratio = float(result.rebound_ratios[i])
-    return number(ratio), number(ratio**2 if ratio >= 0.0 else math.nan)
+    return number(ratio), number(ratio * ratio if ratio >= 0.0 else math.nan)
 
 
 def _height(result: Result, i: int) -> float:
     speed = float(result.rebound_speeds[i])
     gravity = result.drop.gravity or STANDARD_GRAVITY
-    return speed**2 / (2.0 * gravity) if speed >= 0.0 else math.nan
+    return speed * speed / (2.0 * gravity) if speed >= 0.0 else math.nan
 
 
 def _contacts(result: Result) -> Table:
@@ -269,7 +269,7 @@ def _counts(result: Result) -> str:
 
 
 def _percent(value: float) -> str:
-    return f"{100.0 * value:.1f} %"
+    return f"{100.0 * value:.1f} %" if math.isfinite(value) else number(value)
 
 
 def _sources(sources: Sequence[tuple[str, str]]) -> str:

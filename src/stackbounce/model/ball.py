@@ -25,7 +25,7 @@ class Ball:
     Raises
     ------
     InvalidValue
-        If `mass` or `diameter` is not positive and finite, or `name` is empty.
+        If `mass` or `diameter` is not positive and finite, or `name` is empty or no text.
     InvalidType
         If one of them has the wrong type.
 
@@ -43,7 +43,16 @@ class Ball:
         object.__setattr__(self, "mass", positive("mass", self.mass, "kilograms"))
         if self.diameter is not None:
             object.__setattr__(self, "diameter", positive("diameter", self.diameter, "metres"))
-        if self.name is not None and not isinstance(self.name, str):
-            raise InvalidType(f"name must be a string, got {shown(self.name)}")
-        if self.name is not None and not self.name.strip():
-            raise InvalidValue(f"name must not be empty, got {shown(self.name)}")
+        if self.name is not None:
+            _check_name(self.name)
+
+
+def _check_name(name: object) -> None:
+    if not isinstance(name, str):
+        raise InvalidType(f"name must be a string, got {shown(name)}")
+    if not name.strip():
+        raise InvalidValue(f"name must not be empty, got {shown(name)}")
+    try:
+        name.encode()
+    except UnicodeEncodeError:  # a lone surrogate
+        raise InvalidValue(f"name must be text that UTF-8 can write, got {shown(name)}") from None

@@ -93,6 +93,11 @@ class Drop:
         values["gravity"] = non_negative("gravity", self.gravity, "m/s**2")
         for name, value in (values | self._incidence(len(balls))).items():
             object.__setattr__(self, name, value)
+        if not 0.0 < self.reference_speed < math.inf:  # only a height's is computed
+            raise InvalidValue(
+                "height must give an impact speed above 0 and finite at "
+                f"{self.gravity or STANDARD_GRAVITY!r} m/s**2, got {self.height!r}"
+            )
 
     def _incidence(self, count: int) -> dict[str, Any]:
         given = [name for name in _INCIDENCE if getattr(self, name) is not None]
@@ -186,6 +191,8 @@ class Drop:
 
         Raises
         ------
+        InvalidType
+            If `path` is no path.
         FileError
             If the file cannot be opened.
         ScenarioError

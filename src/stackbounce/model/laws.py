@@ -7,10 +7,21 @@ import math
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Annotated, TypeAlias
 
-from stackbounce.errors import InvalidValue, between, fraction, nearest, positive, shown
+from stackbounce.errors import (
+    InvalidType,
+    InvalidValue,
+    between,
+    fraction,
+    nearest,
+    positive,
+    shown,
+)
 from stackbounce.units import Unit
 
-__all__ = ["LAWS", "ContactLaw", "Hysteretic", "Rigid", "Spring", "law_named"]
+__all__ = ["LAWS", "STEEPEST", "ContactLaw", "Hysteretic", "Rigid", "Spring", "law_named"]
+
+STEEPEST = 1e6
+"""The largest exponent of a loading or unloading curve; beyond it a curve is a step."""
 
 
 @dataclass(frozen=True)
@@ -91,21 +102,22 @@ class Hysteretic:
     ``F = k C**p (c/C)**n``. A contact compressed again before it has opened goes back up its
     unloading curve to the old peak C and on along the loading curve, so that no cycle gains energy.
     (Where `reloading` is lossy and it turns back at a lower peak, it unloads from there along a
-    steeper power law, which gives back e**2 of the work that the reloading took.) The contact ends
-    when force and compression are zero, and the next one starts afresh. The work given back over
-    the work taken is ``e**2 = (p + 1)/(n + 1)``, whatever the speed.
+    steeper power law, at most 10 n, which gives back e**2 of the reloading's work.) The contact
+    ends when force and compression are zero, and the next one starts afresh. The work given back
+    over the work taken is ``e**2 = (p + 1)/(n + 1)``, whatever the speed.
 
     Parameters
     ----------
     stiffness : float
         k, in N/m**exponent, above 0.
     exponent : float, optional
-        p of the loading curve, above 0; 1, a linear spring, is the paper's choice.
+        p of the loading curve, at least 1; 1, a linear spring, is the paper's choice.
     restitution : float, optional
-        e, above 0 and at most 1.
+        e, at most 1, and not so small that n exceeds 1e6: 0.0015 or above for p = 1.
     unloading_exponent : float, optional
-        n of the unloading curve, at least `exponent`. Give exactly one of this and `restitution`;
-        the other is derived, and both can be read.
+        n of the unloading curve, from `exponent` to 1e6. Give one of this and `restitution`; the
+        other is derived, and both can be read. Both can be given where they agree exactly, so that
+        `dataclasses.replace` can change the rest; to change one of them, set the other to None.
     reloading : str, optional
         What it costs to be compressed again before the contact has opened: ``"free"``, nothing up
         to the old peak, or ``"lossy"``, the same share of the work as the first time. Nature's rule
@@ -114,9 +126,10 @@ class Hysteretic:
     Raises
     ------
     InvalidValue
-        If a number is out of its range, or not exactly one of the last two is given.
+        If a number is out of its range, or neither `restitution` nor `unloading_exponent` is given,
+        or both and they disagree.
     InvalidType
-        If one is no number.
+        If one is no number, or `reloading` no string.
 
     Notes
     -----
@@ -141,28 +154,15 @@ class Hysteretic:
     derived: str = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        given = [name for name in _ONE_OF if getattr(self, name) is not None]
-        if len(given) != 1:
-            got = " and ".join(f"{name}={shown(getattr(self, name))}" for name in given)
-            raise InvalidValue(
-                "restitution and unloading_exponent: exactly one of the two must be given, "
-                f"got {got or 'neither'}"
-            )
+        if not isinstance(self.reloading, str):
+            raise InvalidType(f"reloading must be a string, got {shown(self.reloading)}")
         if self.reloading not in _RELOADINGS:
             words = nearest(self.reloading, _RELOADINGS)
             raise InvalidValue(f"reloading must name a rule, got {shown(self.reloading)}; {words}")
-        p = positive("exponent", self.exponent)
-        if given == ["restitution"]:
-            e = fraction("restitution", self.restitution, zero=False)
-            n, derived = (max(p, (p + 1.0) / e / e - 1.0), "unloading_exponent")  # section V
-            if not math.isfinite(n):
-                raise InvalidValue(f"restitution must be above 1e-150 for this law, got {shown(e)}")
-        else:
-            n = between("unloading_exponent", self.unloading_exponent, p)
-            e, derived = math.sqrt((p + 1.0) / (n + 1.0)), "restitution"  # section V
-        object.__setattr__(
-            self, "stiffness", positive("stiffness", self.stiffness, "N/m**exponent")
-        )
+        k = positive("stiffness", self.stiffness, "N/m**exponent")
+        p = between("exponent", self.exponent, 1.0, STEEPEST)
+        e, n, derived = _losses(p, self.restitution, self.unloading_exponent)
+        object.__setattr__(self, "stiffness", k)
         object.__setattr__(self, "exponent", p)
         object.__setattr__(self, "restitution", e)
         object.__setattr__(self, "unloading_exponent", n)
@@ -179,6 +179,33 @@ class Hysteretic:
 
 _ONE_OF = ("restitution", "unloading_exponent")
 _RELOADINGS = ("free", "lossy")
+
+
+def _losses(p: float, restitution: object, unloading: object) -> tuple[float, float, str]:
+    """Return e, n and which of the two is derived: ``e**2 = (p + 1)/(n + 1)``, section V."""
+    e = None if restitution is None else fraction("restitution", restitution, zero=False)
+    n = None if unloading is None else between("unloading_exponent", unloading, p, STEEPEST)
+    if e is not None:
+        from_e = max(p, (p + 1.0) / e / e - 1.0)
+        if n is None and from_e > STEEPEST:
+            least = 1.001 * math.sqrt((p + 1.0) / (STEEPEST + 1.0))
+            raise InvalidValue(
+                f"restitution must be at least {least:.3g} for exponent {p:g}, so that "
+                f"unloading_exponent is at most {STEEPEST:g}, got {shown(restitution)}"
+            )
+        if n is None or n == from_e:
+            return e, from_e, "unloading_exponent"
+    if n is not None:
+        from_n = math.sqrt((p + 1.0) / (n + 1.0))
+        if e is None or e == from_n:
+            return from_n, n, "restitution"
+    values = zip(_ONE_OF, (restitution, unloading), strict=True)
+    got = " and ".join(f"{name}={shown(value)}" for name, value in values if value is not None)
+    raise InvalidValue(
+        "restitution and unloading_exponent: exactly one of the two must be given, "
+        f"got {got + ', which disagree: set the other to None' if got else 'neither'}"
+    )
+
 
 ContactLaw: TypeAlias = Rigid | Spring | Hysteretic
 LAWS: dict[str, type[ContactLaw]] = {law.__name__: law for law in (Rigid, Spring, Hysteretic)}

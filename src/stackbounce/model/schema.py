@@ -4,14 +4,15 @@ The keys are the fields of the dataclasses, the units are those of their ``Unit`
 what a value may be is checked where it always is, in the dataclasses. Reading only adds the path.
 """
 
+import functools
 from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, fields
 from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
-from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, nearest, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, between, nearest, shown
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import Drop
-from stackbounce.model.laws import LAWS, ContactLaw, Hysteretic, law_named
+from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, Hysteretic, law_named
 from stackbounce.units import Unit, quantity
 
 __all__ = ["NO_FLOOR", "read_ball", "read_law", "read_mapping", "write_law", "write_mapping"]
@@ -115,13 +116,13 @@ def _each(read: Any, values: object, path: str) -> list[Any]:
 
 
 def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0) -> Any:
-    unit = _unit(get_type_hints(kind, include_extras=True)[key])
+    unit = _units(kind)[key]
     if unit is None:
         return value
     if isinstance(value, list | tuple):
         return [_quantity(one, unit, f"{_join(path, key)}.{i}") for i, one in enumerate(value)]
     if "exponent" in unit.symbol:
-        _raised(positive, f"{path}.exponent", exponent)
+        _raised(between, f"{path}.exponent", exponent, 1.0, STEEPEST)
         power = "" if exponent == 1.0 else f"**{exponent!r}"
         return _quantity(value, Unit(unit.symbol.replace("**exponent", power)), _join(path, key))
     return _quantity(value, unit, _join(path, key))
@@ -129,6 +130,11 @@ def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0
 
 def _quantity(value: object, unit: Unit, path: str) -> float:
     return float(_raised(quantity, value, unit.symbol, path))
+
+
+@functools.cache
+def _units(kind: type) -> dict[str, Unit | None]:
+    return {key: _unit(hint) for key, hint in get_type_hints(kind, include_extras=True).items()}
 
 
 def _unit(hint: Any) -> Unit | None:

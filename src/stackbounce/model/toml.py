@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from stackbounce.errors import FileError, ScenarioError
+from stackbounce.errors import FileError, InvalidType, ScenarioError, shown
 from stackbounce.model.drop import Drop
 from stackbounce.model.schema import read_mapping
 
@@ -16,9 +16,12 @@ __all__ = ["read_toml", "write_toml"]
 
 def read_toml(path: str | os.PathLike[str]) -> Drop:
     """Return the drop of a scenario file; see `Drop.from_toml`."""
-    name = os.fspath(path)
+    given: object = path
+    name = os.fspath(given) if isinstance(given, str | os.PathLike) else None
+    if not isinstance(name, str):
+        raise InvalidType(f"path must be a string or a path, got {shown(path)}")
     try:
-        content = Path(path).read_bytes()
+        content = Path(name).read_bytes()
     except OSError as error:
         raise FileError(f"{name} cannot be read: {error.strerror or error}") from error
     except ValueError as error:  # a null character in the name

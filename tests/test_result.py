@@ -1,0 +1,162 @@
+"""The borders of simulate and Result: what they refuse, and what they give back."""
+
+import copy
+import datetime as dt
+import math
+import pickle
+from fractions import Fraction
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import stackbounce as sb
+from stackbounce import errors
+
+BALL, SPRING = sb.Ball(1.0), sb.Spring(1.0)
+DROP = sb.Drop([BALL], [SPRING], impact_speed=2.0)
+
+
+@pytest.fixture(scope="module")
+def result():
+    return sb.simulate(DROP)
+
+
+def message(error, make, *arguments, **parameters):
+    with pytest.raises(error) as caught:
+        make(*arguments, **parameters)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+# what simulate refuses
+
+
+def test_only_a_drop_is_run():
+    assert message(errors.InvalidType, sb.simulate, 3) == "drop must be a Drop, got 3"
+
+
+@pytest.mark.parametrize("value", [0, 1, "yes", np.True_, [True]])
+def test_compiled_is_true_false_or_none(value):
+    got = message(errors.InvalidType, sb.simulate, DROP, compiled=value)
+    assert got == f"compiled must be True, False or None, got {errors.shown(value)}"
+
+
+@pytest.mark.parametrize("value", [0, 2**62, 2**64])
+def test_a_limit_that_a_counter_can_hold(value):
+    got = message(errors.InvalidValue, sb.simulate, DROP, event_limit=value)
+    assert got == f"event_limit must be a whole number from 1 to 1e+18, got {value}"
+
+
+def test_the_largest_limit_runs_compiled():
+    assert sb.simulate(DROP, event_limit=10**18, compiled=True).status is sb.Status.FINISHED
+
+
+def test_a_stack_too_tall_to_run():
+    drop = sb.Drop([BALL] * 2001, [SPRING] * 2001, impact_speed=1.0)
+    got = message(errors.InvalidValue, sb.simulate, drop)
+    assert got == "balls must be at most 2000 for a run, got 2001"
+
+
+# times
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        0.5,
+        1,
+        np.float32(0.5),
+        [0.5, 1],
+        (0.5, Fraction(1, 2)),
+        range(3),
+        [],
+        np.array([0, 1], dtype="u1"),
+        np.array([0.5, 1], dtype=object),
+        xr.DataArray([0.5, 1.0]),
+    ],
+)
+def test_times_are_real_numbers_of_any_kind(result, times):
+    expected = np.atleast_1d(np.asarray(times, dtype=float))
+    got = result.sample(times)
+    np.testing.assert_array_equal(got.time, expected)
+    np.testing.assert_allclose(
+        got.position[0], -2.0 * np.sin(np.minimum(expected, math.pi)), atol=1e-14
+    )
+
+
+class Unreadable:
+    def __array__(self, *_, **__):
+        raise RuntimeError("no array")
+
+
+@pytest.mark.parametrize(
+    "times",
+    [
+        True,
+        [0.5, True],
+        np.array([True]),
+        "1",
+        ["1"],
+        [1.0, "2"],
+        b"1",
+        1j,
+        [1j],
+        None,
+        [None],
+        {1.0},
+        {1: 2},
+        [[1], [2, 3]],
+        np.datetime64("2020-01-01"),
+        np.timedelta64(1, "s"),
+        np.array([1, 2], dtype="m8[ns]"),
+        np.array(["2020-01-01"], dtype="M8[s]"),
+        dt.timedelta(seconds=1),
+        np.ma.array([1.0, 2.0], mask=[False, True]),
+        [np.ma.masked, 1.0],
+        Unreadable(),
+    ],
+)
+def test_times_that_are_no_real_numbers(result, times):
+    assert message(errors.InvalidType, result.sample, times).startswith("times")
+
+
+@pytest.mark.parametrize(
+    ("times", "expected"),
+    [
+        (-1, "times must be seconds from 0, got -1"),
+        (math.nan, "times must be a finite number of seconds, got nan"),
+        (np.array([0.5, math.inf]), "times must be seconds from 0, got inf"),
+        ([1, 10**400], f"times.1 must be a finite number of seconds, got 1{'0' * 56}..."),
+        (np.zeros((2, 2)), "times must be a list of numbers, got an array of 2 axes"),
+        ([[1, 2]], "times must be a list of numbers, got an array of 2 axes"),
+    ],
+)
+def test_times_out_of_range(result, times, expected):
+    assert message(errors.InvalidValue, result.sample, times) == expected
+
+
+# what comes back
+
+
+@pytest.mark.parametrize("speed", [5e-324, 1e-200, 1.0, 1e200, 1e307])
+@pytest.mark.parametrize("mass", [1e-308, 1.0, 1e308])
+def test_the_energy_of_any_speed_and_mass(speed, mass):
+    drop = sb.Drop([sb.Ball(mass)] * 2, [sb.Rigid(1.0)] * 2, impact_speed=speed)
+    assert sb.simulate(drop).energy_retained == pytest.approx(1.0, abs=1e-15)
+    drop = sb.Drop([sb.Ball(mass)], [sb.Rigid(0.0)], impact_speed=speed)
+    assert sb.simulate(drop).energy_retained == 0.0
+
+
+@pytest.mark.parametrize(
+    "again", [copy.copy, copy.deepcopy, lambda x: pickle.loads(pickle.dumps(x))]
+)
+def test_copies_cannot_be_written_to_either(again):
+    result = sb.simulate(DROP)
+    names = ("rebound_speeds", "rebound_ratios", "collisions", "intervals", "events", "apexes")
+    arrays = [getattr(result, name) for name in names]
+    other = again(result)
+    for name, array in zip(names, arrays, strict=True):
+        assert not getattr(other, name).flags.writeable
+        np.testing.assert_array_equal(getattr(other, name), array)
+    np.testing.assert_array_equal(other.sample([1.0]).position, result.sample([1.0]).position)
