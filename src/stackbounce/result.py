@@ -49,7 +49,8 @@ class Status(enum.IntEnum):
     Examples
     --------
     >>> Status.EVENT_LIMIT.advice
-    'the limit of events was met: raise event_limit, or stop earlier with until'
+    'the limit of events was met, or nothing came of 100000 looks: raise event_limit, or stop
+    earlier with until'
     """
 
     FINISHED = codes.FINISHED

@@ -250,6 +250,10 @@ def _end(time: float) -> str:
 
 def _closing(console: Console, result: Result, textbook: Result | None) -> None:
     console.print(f"\nEnergy retained: {_percent(result.energy_retained)}")
+    if all(isinstance(law, Spring | None) for law in result.drop.contacts):
+        console.print(
+            "Springs lose nothing. With losses: --contact 'Hysteretic stiffness=K restitution=E'"
+        )
     if textbook is not None:
         values = [law.restitution for law in textbook.drop.contacts if isinstance(law, Rigid)]
         listed = ", ".join(f"{value:.4g}" for value in values)
