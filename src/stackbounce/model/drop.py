@@ -174,7 +174,7 @@ class Drop:
         """
         from stackbounce.model.schema import read_mapping
 
-        return read_mapping(mapping)
+        return read_mapping(cls, mapping)
 
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> "Drop":
@@ -207,7 +207,7 @@ class Drop:
         """
         from stackbounce.model.toml import read_toml
 
-        return read_toml(path)
+        return read_toml(cls, path)
 
     def to_mapping(self) -> dict[str, Any]:
         """Return the drop as plain dicts, lists, strings and numbers, which `from_mapping` reads.

@@ -11,7 +11,6 @@ from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
 from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, between, nearest, shown
 from stackbounce.model.ball import Ball
-from stackbounce.model.drop import Drop
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, Hysteretic, law_named
 from stackbounce.units import Unit, quantity
 
@@ -23,18 +22,18 @@ NO_FLOOR = "none"
 _T = TypeVar("_T")
 
 
-def read_mapping(mapping: object) -> Drop:
-    """Return the drop that a mapping describes; see `Drop.from_mapping`."""
+def read_mapping(kind: type[_T], mapping: object) -> _T:
+    """Return the drop, of class `kind`, that a mapping describes; see `Drop.from_mapping`."""
     table = _table(mapping, "the scenario")
-    _check_keys(Drop, table, "")
+    _check_keys(kind, table, "")
     values = {
-        key: _value(Drop, key, value, "")
+        key: _value(kind, key, value, "")
         for key, value in table.items()
         if key not in ("balls", "contacts")
     }
     values["balls"] = _each(read_ball, table["balls"], "balls")
     values["contacts"] = _each(read_law, table["contacts"], "contacts")
-    return _made(Drop, values, "")
+    return _made(kind, values, "")
 
 
 def read_ball(value: object, path: str) -> Ball:
@@ -64,7 +63,7 @@ def read_law(value: object, path: str) -> ContactLaw | None:
     return _made(kind, values, path)
 
 
-def write_mapping(drop: Drop) -> dict[str, Any]:
+def write_mapping(drop: Any) -> dict[str, Any]:
     """Return the drop as plain values; see `Drop.to_mapping`."""
     plain = {
         name: list(value) if isinstance(value, tuple) else value

@@ -5,17 +5,18 @@ import os
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from stackbounce.errors import FileError, InvalidType, ScenarioError, shown
-from stackbounce.model.drop import Drop
 from stackbounce.model.schema import read_mapping
 
 __all__ = ["read_toml", "write_toml"]
 
+_T = TypeVar("_T")
 
-def read_toml(path: str | os.PathLike[str]) -> Drop:
-    """Return the drop of a scenario file; see `Drop.from_toml`."""
+
+def read_toml(kind: type[_T], path: str | os.PathLike[str]) -> _T:
+    """Return the drop, of class `kind`, of a scenario file; see `Drop.from_toml`."""
     given: object = path
     name = os.fspath(given) if isinstance(given, str | os.PathLike) else None
     if not isinstance(name, str):
@@ -33,7 +34,7 @@ def read_toml(path: str | os.PathLike[str]) -> Drop:
     except (ValueError, RecursionError) as error:
         raise ScenarioError(f"{name} is not TOML: {' '.join(str(error).split())}") from error
     try:
-        return read_mapping(mapping)
+        return read_mapping(kind, mapping)
     except ScenarioError as error:
         raise ScenarioError(f"{name}: {error}") from error
 
