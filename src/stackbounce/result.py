@@ -264,7 +264,9 @@ class Result:
 
     @functools.cached_property
     def _rows(self) -> NDArray[np.float64]:
-        return np.reshape(np.array(self.log, dtype=float), (-1, codes.LOG_COLUMNS))
+        rows = np.reshape(np.array(self.log, dtype=float), (-1, codes.LOG_COLUMNS))
+        # a clipped contact's end is known, and logged, only once its compression is gone
+        return rows[np.argsort(rows[:, codes.TIME], kind="stable")]
 
     def _per_contact(self, field: str, choose: np.ufunc) -> NDArray[np.float64]:
         out = np.full(len(self.drop.balls), math.nan)

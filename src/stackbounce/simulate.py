@@ -9,6 +9,7 @@ from stackbounce.engine import codes
 from stackbounce.engine.kernel import compiled as compile_kernel
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
+from stackbounce.engine.series import ORDER
 from stackbounce.engine.simultaneous import advance, start, write_unfinished
 from stackbounce.engine.stack import (
     RigidStack,
@@ -19,8 +20,19 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
-from stackbounce.errors import InvalidType, InvalidValue, positive, shown, whole
-from stackbounce.model import Drop, Hysteretic, Rigid
+from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown, whole
+from stackbounce.model import (
+    ContactLaw,
+    Dashpot,
+    Drop,
+    Hertz,
+    HuntCrossley,
+    Hysteretic,
+    PowerLaw,
+    Rigid,
+    Spring,
+    Viscoelastic,
+)
 from stackbounce.result import Result, Status
 
 __all__ = ["simulate"]
@@ -29,17 +41,22 @@ _MOST_BALLS = 2000  # their matrices are quadratic
 _MOST_EVENTS = 10**18  # a compiled counter's range
 _LOG_ROWS = 4096
 _PLAIN_BALLS = 20  # up to this size plain Python is done before compiled code has been loaded
-_PLAIN_EVENTS = 2000  # after so many events a run goes on compiled
+_PLAIN_EVENTS = 500  # after so many events, or ten times as many steps, a run goes on compiled
 _Kernel = Callable[..., Any]
 _FINITE_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (start, advance, velocity_at)
 _RIGID_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (begin_collisions, collide_all, rigid_velocity)
-_VELOCITY_TOLERANCE = 1e-16  # per step of a nonlinear cluster, of the reference speed
+_STEP = 0.1  # of the tolerance asked for: what one step of a nonlinear cluster may leave out
+_ROUND_OFF = 1e-16
+_LEAST_ORDER = 6
+_FAINT = 1e-2  # of that again: work of a typical contact below which a power law's chord will do
+_FAINTEST = 1e-18
 
 
 def simulate(
     drop: Drop,
     *,
     until: float | None = None,
+    rtol: float = 1e-12,
     event_limit: int = 1_000_000,
     compiled: bool | None = None,
 ) -> Result:
@@ -53,9 +70,12 @@ def simulate(
     until : float, optional
         A time in s at which to stop; by default the run ends once all contacts are open and none
         approaches.
+    rtol : float, optional
+        From 1e-15 to 1e-3: the relative error to aim at where a contact follows a law that is not
+        linear. Springs and dashpots, and rigid balls, are exact to round-off whatever it is.
     event_limit : int, optional
-        After how many events (touches, releases, and turns of the force in between) to give up,
-        with the status EVENT_LIMIT and all that was reached.
+        After how many events (touches, releases, and turns of the force in between), or ten times
+        as many steps without one, to give up, with the status EVENT_LIMIT and all that was reached.
     compiled : bool, optional
         Whether to run compiled by numba rather than as plain Python; by default where the stack is
         tall or the run long. Both give the same bits.
@@ -67,7 +87,7 @@ def simulate(
     Raises
     ------
     InvalidValue
-        If `until` or `event_limit` is out of its range, a rigid stack has gravity, or there are
+        If `until`, `rtol` or `event_limit` is out of its range, a rigid stack has gravity, or there are
         more than 2000 balls.
     InvalidType
         If one of them has the wrong type.
@@ -99,8 +119,9 @@ def simulate(
             f"gravity must be 0 while all contacts are Rigid, got {drop.gravity!r}: "
             "give the contacts a stiffness, or leave gravity out"
         )
-    status, time, velocities, log, infinite, _ = _run(drop, end, limit, compiled, ())
-    rerun = functools.partial(_samples, drop, end, limit, compiled)
+    tolerance = between("rtol", rtol, 1e-15, 1e-3)
+    status, time, velocities, log, infinite, _ = _run(drop, end, tolerance, limit, compiled, ())
+    rerun = functools.partial(_samples, drop, end, tolerance, limit, compiled)
     return Result(drop, Status(status), time, velocities, log, infinite, rerun)
 
 
@@ -108,31 +129,36 @@ _Run = tuple[int, float, list[float], list[float], list[int], Samples]
 
 
 def _run(
-    drop: Drop, until: float, event_limit: int, compiled: bool | None, times: Sequence[float]
+    drop: Drop,
+    until: float,
+    rtol: float,
+    event_limit: int,
+    compiled: bool | None,
+    times: Sequence[float],
 ) -> _Run:
     """Run an engine; return status, time, velocities, log, infinite contacts and samples."""
     rigid = drop.rigid
     begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
-    stack: Any = _rigid_stack(drop) if rigid else _finite_stack(drop)
+    stack: Any = _rigid_stack(drop) if rigid else _finite_stack(drop, rtol)
     samples = new_samples(times, len(drop.balls))
     log: Any = [0.0] * (max(_LOG_ROWS, len(drop.balls)) * codes.LOG_COLUMNS)
     handle, mode = stack, _as_it_is
-    tall = len(drop.balls) > _PLAIN_BALLS
-    plain = event_limit if compiled is False else 0 if compiled or tall else _PLAIN_EVENTS
+    swift = bool(compiled) or (compiled is None and len(drop.balls) > _PLAIN_BALLS)
     entries: list[float] = []
     try:
         begin(stack)
         status = codes.RUNNING
         while status == codes.RUNNING:
-            if stack.counter[1] >= plain and mode is _as_it_is:
+            if swift and mode is _as_it_is:
                 stack, samples, log, handle = _for_numba(stack, samples, log)
-                mode, plain = compile_kernel, event_limit
+                mode = compile_kernel
             stack.counter[0] = 0
-            limit = min(plain, event_limit)
+            trial = compiled is None and not swift
+            limit = min(_PLAIN_EVENTS, event_limit) if trial else event_limit
             status = int(mode(go_on)(handle, until, limit, log, samples))
             entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
-            if status == codes.EVENT_LIMIT and limit <= stack.counter[1] < event_limit:
-                status = codes.RUNNING
+            if status == codes.EVENT_LIMIT and limit < event_limit:
+                status, swift = codes.RUNNING, True
         time = float(stack.clock[0])
         if status != codes.FINISHED:
             time = until if status == codes.TIME_REACHED else float(max(stack.clock))
@@ -160,10 +186,15 @@ def _for_numba(stack: Any, samples: Samples, log: Any) -> tuple[Any, Samples, An
 
 
 def _samples(
-    drop: Drop, until: float, event_limit: int, compiled: bool | None, times: Sequence[float]
+    drop: Drop,
+    until: float,
+    rtol: float,
+    event_limit: int,
+    compiled: bool | None,
+    times: Sequence[float],
 ) -> Samples:
     """Run an engine once more and return its samples at times in ascending order."""
-    return _run(drop, until, event_limit, compiled, times)[-1]
+    return _run(drop, until, rtol, event_limit, compiled, times)[-1]
 
 
 def _as_it_is(kernel: _Kernel) -> _Kernel:
@@ -188,36 +219,66 @@ def _rigid_stack(drop: Drop) -> RigidStack:
     )
 
 
-def _finite_stack(drop: Drop) -> Stack:
+def _finite_stack(drop: Drop, rtol: float) -> Stack:
     """Return the arrays of a stack on finite contacts at t = 0."""
     size = len(drop.balls)
     mass = [ball.mass for ball in drop.balls]
     speed = drop.reference_speed
-    law, stiffness, exponent, unloading, scale = [], [], [], [], []
-    for i, contact in enumerate(drop.contacts):
-        k = getattr(contact, "stiffness", 1.0)
-        p = getattr(contact, "exponent", 1.0)
-        kind = codes.POWER
-        if isinstance(contact, Hysteretic):
-            kind = codes.LOSSY if contact.reloading == "lossy" else codes.HYSTERETIC
+    constants = [_constants(law) for law in drop.contacts]
+    columns = dict(zip(_CONSTANTS, map(list, zip(*constants, strict=True)), strict=True))
+    scale = []
+    for i, (k, p) in enumerate(zip(columns["stiffness"], columns["exponent"], strict=True)):
         reduced = mass[i] if i == 0 else mass[i - 1] * mass[i] / (mass[i - 1] + mass[i])
-        law.append(codes.ABSENT if contact is None else kind)
-        stiffness.append(k)
-        exponent.append(p)
-        unloading.append(getattr(contact, "unloading_exponent", p))
         # the compression at which a contact alone would hold the energy m v^2/2
         power = 1.0 / (p + 1.0)
         scale.append((0.5 * (p + 1.0) * reduced / k) ** power * speed ** (2.0 * power))
+    nonlinear = [
+        n != 1.0 or q != 0.0
+        for n, q in zip(columns["unloading"], columns["factor_exponent"], strict=True)
+    ]
+    tolerance = max(_STEP * rtol, _ROUND_OFF)
+    order = min(ORDER, max(_LEAST_ORDER, round(1.0 - 0.5 * math.log(tolerance))))
     return new_stack(
         size,
         mass=mass,
-        law=law,
-        stiffness=stiffness,
-        exponent=exponent,
-        unloading=unloading,
         scale=scale,
-        curve_exponent=[1.0] * size,
-        number=[drop.gravity, speed, _VELOCITY_TOLERANCE],
+        number=[drop.gravity, speed, tolerance, max(tolerance * _FAINT, _FAINTEST)],
+        setting=[order, int(any(nonlinear))],
         velocity=drop.start_velocities,
         compression=_compressions(drop),
+        **columns,
     )
+
+
+_CONSTANTS = (
+    "law",
+    "stiffness",
+    "exponent",
+    "unloading",
+    "factor_exponent",
+    "gain_constant",
+    "gain_slope",
+    "gain_rate",
+)
+
+
+def _constants(law: ContactLaw | None) -> tuple[float, ...]:
+    """Return the numbers of `_CONSTANTS` for a law."""
+    match law:
+        case Hysteretic():
+            kind = codes.LOSSY if law.reloading == "lossy" else codes.HYSTERETIC
+            return kind, law.stiffness, law.exponent, law.unloading_exponent, 0.0, 0.0, 0.0, 0.0
+        case Dashpot(k, damping) if damping > 0.0:
+            return codes.DAMPED, k, 1.0, 1.0, 0.0, 0.0, 1.0, damping / k
+        case Viscoelastic(k, time) if time > 0.0:
+            return codes.DAMPED, k, 1.5, 1.5, 0.5, 0.0, 1.0, 1.5 * time
+        case HuntCrossley(k, p, dissipation) if dissipation > 0.0:
+            return codes.DAMPED, k, p, p, p, 1.0, 0.0, dissipation
+        case Spring(k) | Dashpot(k):
+            return codes.POWER, k, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0
+        case Hertz(k) | Viscoelastic(k):
+            return codes.POWER, k, 1.5, 1.5, 0.0, 0.0, 0.0, 0.0
+        case PowerLaw(k, p) | HuntCrossley(k, p):
+            return codes.POWER, k, p, p, 0.0, 0.0, 0.0, 0.0
+        case _:
+            return codes.ABSENT, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0

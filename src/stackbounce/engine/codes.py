@@ -14,11 +14,13 @@ ABSENT = 0  # no floor
 POWER = 1  # F = k c^p, loading and unloading alike
 HYSTERETIC = 2  # F = k c^p loading, k C^p (c/C)^n unloading from the peak C
 LOSSY = 3  # the same, and every reloading loses the share of its work that the first loading lost
+DAMPED = 4  # F = max(0, K c^q (a + b c + d c'))
 
-# phases of a contact
+# phases of a contact; from COMPRESSING on it presses and joins its balls to a cluster
 OPEN = 0
-COMPRESSING = 1
-RELEASING = 2
+SLACK = 1  # compressed still, but its force, which would pull, is cut off at zero
+COMPRESSING = 2  # a damped contact stays here; any other one is above all it was compressed before
+RELEASING = 3  # compressed less than before
 
 # kinds of event
 LOOK = 0  # nothing happened yet: look again at that time
@@ -26,10 +28,12 @@ TOUCH = 1
 RELEASE = 2
 COLLISION = 3
 PEAK = 4  # the compression stops growing
-DIP = 5  # the compression stops falling
+DIP = 5  # the compression of a lossy contact stops falling
 FAINT = 6  # the force sinks below round-off: the power law is continued by its chord
 PRESSED = 7  # ... and rises above it
-RELOADED = 8  # an unloading curve has been climbed back to its old peak
+RELOADED = 8  # a contact is compressed as much as ever before
+CLIPPED = 9  # the force would begin to pull
+RESUMED = 10  # the force would end to pull
 
 # the columns of a log of events
 TIME, CONTACT, KIND, LOWER_VELOCITY, UPPER_VELOCITY = 0, 1, 2, 3, 4

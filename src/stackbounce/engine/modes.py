@@ -12,23 +12,22 @@ import math
 
 from stackbounce.engine.codes import EPSILON
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.stack import Stack
+from stackbounce.engine.stack import WIDTH, Stack
 
 
 @kernel
 def find_modes(stack: Stack, low: int, high: int) -> None:
     """Find the modes of the closed contacts low..high-1 of one cluster, in place."""
-    size = len(stack.mass)
     bottom = max(low - 1, 0)
     for i in range(low, high):
         for b in range(bottom, high):
-            stack.rows[i * size + b] = 0.0
+            stack.rows[i * WIDTH + b - bottom] = 0.0
         for j in range(low, high):
-            stack.shape[i * size + j] = 1.0 if i == j else 0.0
+            stack.shape[i * WIDTH + j - low] = 1.0 if i == j else 0.0
         stack.weight[i] = math.sqrt(stack.rate[i] / stack.rate[low])
         if i > 0:
-            stack.rows[i * size + i - 1] = math.sqrt(stack.rate[i] / stack.mass[i - 1])
-        stack.rows[i * size + i] = -math.sqrt(stack.rate[i] / stack.mass[i])
+            stack.rows[i * WIDTH + i - 1 - bottom] = math.sqrt(stack.rate[i] / stack.mass[i - 1])
+        stack.rows[i * WIDTH + i - bottom] = -math.sqrt(stack.rate[i] / stack.mass[i])
     for _ in range(60):
         turned = False
         for i in range(low, high - 1):
@@ -40,19 +39,19 @@ def find_modes(stack: Stack, low: int, high: int) -> None:
     for i in range(low, high):
         square = 0.0
         for b in range(bottom, high):
-            square += stack.rows[i * size + b] * stack.rows[i * size + b]
+            square += stack.rows[i * WIDTH + b - bottom] * stack.rows[i * WIDTH + b - bottom]
         stack.omega[i] = math.sqrt(square)
 
 
 @kernel
 def _orthogonalise(stack: Stack, i: int, j: int, low: int, high: int) -> bool:
     """Rotate rows i and j of B until they are orthogonal; tell whether they were not."""
-    size = len(stack.mass)
-    bottom = max(low - 1, 0)
+    balls = high - max(low - 1, 0)
+    one, other = i * WIDTH, j * WIDTH
     ii, jj, ij = 0.0, 0.0, 0.0
-    for b in range(bottom, high):
-        x = stack.rows[i * size + b]
-        y = stack.rows[j * size + b]
+    for b in range(balls):
+        x = stack.rows[one + b]
+        y = stack.rows[other + b]
         ii += x * x
         jj += y * y
         ij += x * y
@@ -64,28 +63,27 @@ def _orthogonalise(stack: Stack, i: int, j: int, low: int, high: int) -> bool:
         tangent = -tangent
     cosine = 1.0 / math.sqrt(1.0 + tangent * tangent)
     sine = tangent * cosine
-    for b in range(bottom, high):
-        x = stack.rows[i * size + b]
-        y = stack.rows[j * size + b]
-        stack.rows[i * size + b] = cosine * x - sine * y
-        stack.rows[j * size + b] = sine * x + cosine * y
-    for k in range(low, high):
-        x = stack.shape[i * size + k]
-        y = stack.shape[j * size + k]
-        stack.shape[i * size + k] = cosine * x - sine * y
-        stack.shape[j * size + k] = sine * x + cosine * y
+    for b in range(balls):
+        x = stack.rows[one + b]
+        y = stack.rows[other + b]
+        stack.rows[one + b] = cosine * x - sine * y
+        stack.rows[other + b] = sine * x + cosine * y
+    for k in range(high - low):
+        x = stack.shape[one + k]
+        y = stack.shape[other + k]
+        stack.shape[one + k] = cosine * x - sine * y
+        stack.shape[other + k] = sine * x + cosine * y
     return True
 
 
 @kernel
 def start_modes(stack: Stack, low: int, high: int) -> None:
     """Set the amplitudes of the modes of contacts low..high-1 from compressions and velocities."""
-    size = len(stack.mass)
     gravity = stack.number[0]
     for j in range(low, high):
         start, speed, load = 0.0, 0.0, 0.0
         for i in range(low, high):
-            weight = stack.shape[j * size + i] * stack.weight[i]
+            weight = stack.shape[j * WIDTH + i - low] * stack.weight[i]
             below = stack.velocity[i - 1] if i > 0 else 0.0
             start += weight * stack.compression[i]
             speed += weight * (below - stack.velocity[i])
@@ -104,12 +102,11 @@ def modal_compression(
 
     Returns the bound on the rest (of order s^8), the round-off of the compression and of its rate.
     """
-    size = len(stack.mass)
     for k in range(8):
         out[k] = 0.0
     tail, noise, rate_noise = 0.0, 0.0, 0.0
     for j in range(low, high):
-        weight = stack.shape[j * size + i] / stack.weight[i]
+        weight = stack.shape[j * WIDTH + i - low] / stack.weight[i]
         omega = stack.omega[j]
         cosine, sine = math.cos(omega * s), math.sin(omega * s)
         swing = stack.cosine[j] * cosine + stack.sine[j] * sine / omega
@@ -132,10 +129,9 @@ def modal_compression(
 @kernel
 def modal_impulse(stack: Stack, i: int, low: int, high: int, s: float) -> tuple[float, float]:
     """Return the first and second time integrals of the force of closed contact i over s."""
-    size = len(stack.mass)
     once, twice = 0.0, 0.0
     for j in range(low, high):
-        weight = stack.shape[j * size + i] / stack.weight[i] * stack.rate[i]
+        weight = stack.shape[j * WIDTH + i - low] / stack.weight[i] * stack.rate[i]
         omega = stack.omega[j]
         angle = omega * s
         half = math.sin(0.5 * angle)

@@ -2,32 +2,33 @@
 
 import math
 
-from stackbounce.engine.codes import EPSILON, OPEN
+from stackbounce.engine.codes import COMPRESSING, EPSILON
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.modes import find_modes, modal_compression, modal_impulse, start_modes
+from stackbounce.engine.queue import schedule
 from stackbounce.engine.series import ORDER, TERMS, double_integral, integral, shift, value
-from stackbounce.engine.stack import Stack
-from stackbounce.engine.taylor import expand
+from stackbounce.engine.stack import MODES, WIDTH, Stack
+from stackbounce.engine.taylor import expand, is_linear, record_crests
 
 
 @kernel
-def closed_range(stack: Stack, ball: int) -> tuple[int, int]:
-    """Return the closed contacts (low, high) of a ball's cluster; low = high for one in flight."""
+def pressing_range(stack: Stack, ball: int) -> tuple[int, int]:
+    """Return a cluster's pressing contacts (low, high); low = high for a ball in flight."""
     first = stack.first[ball]
-    low = first if stack.phase[first] != OPEN else first + 1
+    low = first if stack.phase[first] >= COMPRESSING else first + 1
     return low, stack.last[ball] + 1
 
 
 @kernel
 def contact_impulse(stack: Stack, i: int, s: float) -> tuple[float, float]:
-    """Return the first and second time integrals of a closed contact's force since the anchor."""
+    """Return the first and second time integrals of a pressing contact's force since the anchor."""
     first = stack.first[i]
-    if stack.linear[first] == 1:
-        low, high = closed_range(stack, i)
+    if stack.modal[first] == 1:
+        low, high = pressing_range(stack, i)
         return modal_impulse(stack, i, low, high, s)
-    at = i * TERMS
-    once = integral(stack.force_series, at, ORDER, s)
-    twice = double_integral(stack.force_series, at, ORDER, s)
+    at, order = i * TERMS, stack.order[first]
+    once = integral(stack.force_series, at, order, s)
+    twice = double_integral(stack.force_series, at, order, s)
     return once, twice
 
 
@@ -36,11 +37,11 @@ def ball_shift(stack: Stack, b: int, s: float) -> tuple[float, float]:
     """Return displacement and change of velocity of a ball over s from its cluster's anchor."""
     gravity = stack.number[0]
     first = stack.first[b]
-    if stack.linear[first] == 0:
-        at = b * TERMS
-        travel = integral(stack.velocity_series, at, ORDER, s)
-        return travel, value(stack.velocity_series, at, ORDER, s) - stack.velocity[b]
-    low, high = closed_range(stack, b)
+    if stack.modal[first] == 0:
+        at, order = b * TERMS, stack.order[first]
+        travel = integral(stack.velocity_series, at, order, s)
+        return travel, value(stack.velocity_series, at, order, s) - stack.velocity[b]
+    low, high = pressing_range(stack, b)
     once, twice = 0.0, 0.0
     if low <= b:
         once, twice = modal_impulse(stack, b, low, high, s)
@@ -54,42 +55,42 @@ def ball_shift(stack: Stack, b: int, s: float) -> tuple[float, float]:
 
 
 @kernel
-def closed_compression(stack: Stack, i: int, s: float) -> float:
-    """Return the compression of a closed contact at s from the anchor."""
+def pressed(stack: Stack, i: int, s: float) -> float:
+    """Return the compression of a pressing contact at s from the anchor."""
     first = stack.first[i]
-    if stack.linear[first] == 0:
-        return value(stack.compression_series, i * TERMS, ORDER, s)
-    low, high = closed_range(stack, i)
-    size = len(stack.mass)
+    if stack.modal[first] == 0:
+        return value(stack.compression_series, i * TERMS, stack.order[first] + 1, s)
+    low, high = pressing_range(stack, i)
     total = 0.0
     for j in range(low, high):
         omega = stack.omega[j]
         swing = stack.cosine[j] * math.cos(omega * s) + stack.sine[j] * math.sin(omega * s) / omega
-        total += stack.shape[j * size + i] * (stack.static[j] + swing)
+        total += stack.shape[j * WIDTH + i - low] * (stack.static[j] + swing)
     return total / stack.weight[i]
 
 
 @kernel
+def flies(stack: Stack, ball: int) -> bool:
+    """Tell whether a ball touches nothing that presses on it."""
+    first = stack.first[ball]
+    return first == stack.last[ball] and stack.phase[first] < COMPRESSING
+
+
+@kernel
 def fly_alike(stack: Stack, i: int) -> bool:
-    """Tell whether both balls at open contact i are in flight and anchored at one time.
+    """Tell whether both balls at a contact are in flight and anchored at one time.
 
     Their distance then follows from their relative velocity, without their travels' round-off.
     """
-    if i == 0 or stack.phase[i] != OPEN:
-        return False
-    below = stack.first[i - 1] == stack.last[i - 1] and stack.linear[i - 1] == 1
-    above = stack.first[i] == stack.last[i] and stack.linear[i] == 1
-    if not (below and above) or (i == 1 and stack.phase[0] != OPEN):
+    if i == 0 or not (flies(stack, i - 1) and flies(stack, i)):
         return False
     return stack.anchor[i - 1] == stack.anchor[i]
 
 
 @kernel
 def meet_anchors(stack: Stack, i: int) -> None:
-    """Anchor the two balls at open contact i at one time if both are in flight."""
-    if i == 0 or (i == 1 and stack.phase[0] != OPEN):
-        return
-    if stack.first[i - 1] != stack.last[i - 1] or stack.first[i] != stack.last[i]:
+    """Anchor the two balls at a contact at one time if both are in flight."""
+    if i == 0 or not (flies(stack, i - 1) and flies(stack, i)):
         return
     if stack.anchor[i - 1] < stack.anchor[i]:
         advance_cluster(stack, i - 1, stack.anchor[i])
@@ -100,8 +101,8 @@ def meet_anchors(stack: Stack, i: int) -> None:
 @kernel
 def compression_at(stack: Stack, i: int, time: float) -> float:
     """Return the compression of contact i at a time: positive while pressed, minus the gap else."""
-    if stack.phase[i] != OPEN:
-        return closed_compression(stack, i, time - stack.anchor[stack.first[i]])
+    if stack.phase[i] >= COMPRESSING:
+        return pressed(stack, i, time - stack.anchor[stack.first[i]])
     if fly_alike(stack, i):
         rate = stack.velocity[i - 1] - stack.velocity[i]
         return stack.compression[i] + rate * (time - stack.anchor[i])
@@ -121,13 +122,19 @@ def velocity_at(stack: Stack, b: int, time: float) -> float:
 
 
 @kernel
+def rate_at(stack: Stack, i: int, time: float) -> float:
+    """Return the rate at which contact i is being compressed at a time."""
+    below = velocity_at(stack, i - 1, time) if i > 0 else 0.0
+    return below - velocity_at(stack, i, time)
+
+
+@kernel
 def add_ball_series(
     stack: Stack, b: int, sign: float, time: float, out: Floats
 ) -> tuple[int, float, float]:
     """Add sign times a ball's displacement since its anchor, expanded about a time, to ``out``.
 
-    Returns the order of the series, the bound on its rest (order 10 where the order is 9) and its
-    round-off.
+    Returns the order of the series, the bound on its rest (of order 10) and its round-off.
     """
     first = stack.first[b]
     s = time - stack.anchor[first]
@@ -137,13 +144,14 @@ def add_ball_series(
     out[0] += sign * travel
     out[1] += sign * velocity
     part = stack.scratch
-    if stack.linear[first] == 0:
-        shift(stack.velocity_series, b * TERMS, ORDER, s, part)
-        for k in range(1, ORDER + 1):
+    if stack.modal[first] == 0:
+        order = stack.order[first]
+        shift(stack.velocity_series, b * TERMS, order, s, part)
+        for k in range(1, order + 1):
             out[k + 1] += sign * part[k] / (k + 1)
-        return ORDER + 1, 0.0, noise
+        return order + 1, 0.0, noise
     out[2] -= 0.5 * sign * stack.number[0]
-    low, high = closed_range(stack, b)
+    low, high = pressing_range(stack, b)
     tail = 0.0
     for i in range(max(low, b), min(high, b + 2)):
         scale = (sign if i == b else -sign) * stack.rate[i] / stack.mass[b]
@@ -157,21 +165,21 @@ def add_ball_series(
 @kernel
 def compression_series(
     stack: Stack, i: int, time: float, out: Floats
-) -> tuple[int, float, float, float]:
+) -> tuple[int, int, float, float, float]:
     """Expand the compression of contact i about a time.
 
-    Returns the order, the bound on the rest (one order higher), and the round-off of the
-    compression and of its rate.
+    Returns the order, the order of the rest and its bound, and the round-off of the compression and
+    of its rate.
     """
     for k in range(TERMS):
         out[k] = 0.0
     first = stack.first[i]
-    if stack.phase[i] == OPEN:
+    if stack.phase[i] < COMPRESSING:
         noise = 8.0 * EPSILON * abs(stack.compression[i])
         if fly_alike(stack, i):
             out[0] = compression_at(stack, i, time)
             out[1] = stack.velocity[i - 1] - stack.velocity[i]
-            return 2, 0.0, noise, 0.0
+            return 2, 10, 0.0, noise, 0.0
         out[0] = stack.compression[i]
         order, tail, round_off = add_ball_series(stack, i, -1.0, time, out)
         noise += round_off
@@ -180,16 +188,17 @@ def compression_series(
             order = max(order, other)
             tail += rest
             noise += round_off
-        return order, tail, noise, 0.0
+        return order, 10, tail, noise, 0.0
     s = time - stack.anchor[first]
-    if stack.linear[first] == 1:
-        low, high = closed_range(stack, i)
+    if stack.modal[first] == 1:
+        low, high = pressing_range(stack, i)
         tail, noise, rate_noise = modal_compression(stack, i, low, high, s, out)
-        return 7, tail, noise, rate_noise
-    shift(stack.compression_series, i * TERMS, ORDER + 1, s, out)
+        return 7, 8, tail, noise, rate_noise
+    order = stack.order[first] + 1
+    shift(stack.compression_series, i * TERMS, order, s, out)
     noise = 16.0 * EPSILON * abs(stack.compression_series[i * TERMS])
-    speed = stack.number[1] + abs(stack.compression_series[i * TERMS + 1])
-    return ORDER + 1, 0.0, noise + EPSILON * speed * s, 16.0 * EPSILON * speed
+    speed = stack.speed[first] + abs(stack.compression_series[i * TERMS + 1])
+    return order, order + 1, 0.0, noise + EPSILON * speed * s, 16.0 * EPSILON * speed
 
 
 @kernel
@@ -198,7 +207,9 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
     first = stack.first[ball]
     last = stack.last[ball]
     s = time - stack.anchor[first]
-    low, high = closed_range(stack, ball)
+    low, high = pressing_range(stack, ball)
+    if stack.modal[first] == 0:
+        record_crests(stack, low, high, s)
     fastest = 0.0
     for b in range(first, last + 1):
         travel, change = ball_shift(stack, b, s)
@@ -209,12 +220,15 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
             stack.compression[b] -= travel
         if b == last and b + 1 < len(stack.mass):
             stack.compression[b + 1] += travel
+    noise = 64.0 * EPSILON * fastest
+    if stack.modal[first] == 0 and stack.order[first] < ORDER:
+        noise = max(noise, stack.number[2] * stack.number[1])
     for b in range(first, last + 1):
-        stack.velocity_noise[b] = 64.0 * EPSILON * fastest
+        stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)
     for i in range(low, high):
         once, _ = contact_impulse(stack, i, s)
         stack.impulse[i] += once
-        stack.compression[i] = closed_compression(stack, i, s)
+        stack.compression[i] = pressed(stack, i, s)
     stack.anchor[first] = time
 
 
@@ -224,21 +238,26 @@ def form_clusters(stack: Stack, bottom: int, top: int, time: float) -> None:
     size = len(stack.mass)
     first = bottom
     for b in range(bottom, top + 1):
-        stack.due[size + b] = math.inf
-        if b < top and stack.phase[b + 1] != OPEN:
+        if b > first:
+            schedule(stack.due, stack.heap, stack.place, size + b, math.inf)
+        if b < top and stack.phase[b + 1] >= COMPRESSING:
             continue
         for member in range(first, b + 1):
             stack.first[member] = first
             stack.last[member] = b
         stack.anchor[first] = time
-        low, high = closed_range(stack, first)
-        stack.linear[first] = 1
+        low, high = pressing_range(stack, first)
+        stack.modal[first] = 1
+        if high - low > MODES:
+            stack.modal[first] = 0
         for i in range(low, high):
-            if stack.curve_exponent[i] != 1.0 and stack.faint[i] == 0:
-                stack.linear[first] = 0
-        if stack.linear[first] == 0:
-            stack.due[size + first] = time + expand(stack, low, high)
+            if not is_linear(stack, i):
+                stack.modal[first] = 0
+        end = math.inf
+        if stack.modal[first] == 0:
+            end = time + expand(stack, low, high)
         elif low < high:
             find_modes(stack, low, high)
             start_modes(stack, low, high)
+        schedule(stack.due, stack.heap, stack.place, size + first, end)
         first = b + 1

@@ -4,7 +4,7 @@ import math
 
 from stackbounce.engine.kernel import Floats, kernel
 
-ORDER = 18  # of the power series by which nonlinear clusters move
+ORDER = 18  # the highest, of the power series by which clusters move that have no modes
 TERMS = ORDER + 2  # a series in scratch space: one order more for an integrated one
 
 
@@ -81,6 +81,8 @@ def shift(a: Floats, offset: int, n: int, s: float, out: Floats) -> None:
     """Expand that polynomial about s: out[0] + out[1] u + ... + out[n] u^n at s + u."""
     for k in range(n + 1):
         out[k] = a[offset + k]
+    if s == 0.0:
+        return
     for k in range(n):
         for j in range(n - 1, k - 1, -1):
             out[j] += s * out[j + 1]

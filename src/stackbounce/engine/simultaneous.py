@@ -9,6 +9,8 @@ import math
 
 from stackbounce.engine.codes import (
     ABSENT,
+    CLIPPED,
+    COMPRESSING,
     CONTACT,
     EVENT_LIMIT,
     FINISHED,
@@ -23,7 +25,10 @@ from stackbounce.engine.codes import (
     PEAK_COMPRESSION,
     PEAK_FORCE,
     RELEASE,
+    RESUMED,
     RUNNING,
+    SETTLED,
+    SLACK,
     START,
     TIME,
     TIME_REACHED,
@@ -34,6 +39,7 @@ from stackbounce.engine.contacts import (
     begin,
     change_curve,
     changes_curve,
+    clip,
     force,
     look,
     record_peak,
@@ -46,19 +52,25 @@ from stackbounce.engine.motion import (
     compression_at,
     contact_impulse,
     form_clusters,
+    rate_at,
     velocity_at,
 )
+from stackbounce.engine.queue import clear
+from stackbounce.engine.rest import is_bound, lay_down
 from stackbounce.engine.stack import Samples, Stack
+from stackbounce.engine.taylor import record_crests
 
-LOOKS_LIMIT = 100_000  # looks without an event: a state that goes on for ever
+_LOOKS = 10  # times the limit of events: looks without an event, a state that goes on for ever
 
 
 @kernel
 def start(stack: Stack) -> None:
     """Anchor a new stack at time 0 and look at every contact for the first time."""
     size = len(stack.mass)
+    clear(stack.due, stack.heap, stack.place)
     for i in range(size):
         stack.phase[i] = OPEN
+        stack.curve_exponent[i] = 1.0
         stack.touching[i] = 0.0
     form_clusters(stack, 0, size - 1, 0.0)
     for i in range(size):
@@ -74,10 +86,7 @@ def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: 
     room = len(log) // LOG_COLUMNS
     size = len(stack.mass)
     while True:
-        slot = 0
-        for candidate in range(1, 2 * size):
-            if stack.due[candidate] < stack.due[slot]:
-                slot = candidate
+        slot = stack.heap[0]
         time = stack.due[slot]
         if time < 0.0:
             return INVALID
@@ -86,7 +95,7 @@ def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: 
             return TIME_REACHED
         if time == math.inf:
             return _ending(stack)
-        if stack.counter[1] >= event_limit or stack.counter[2] >= LOOKS_LIMIT:
+        if stack.counter[1] >= event_limit or stack.counter[2] // _LOOKS >= event_limit:
             return EVENT_LIMIT
         if stack.counter[0] == room:
             return RUNNING
@@ -94,6 +103,10 @@ def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: 
         if slot >= size:
             stack.counter[2] += 1
             _renew(stack, slot - size, time)
+            if stack.number[0] > 0.0 and stack.counter[4] == size and is_bound(stack):
+                lay_down(stack)
+                _sample(stack, samples, math.inf)
+                return SETTLED
         elif stack.event[slot] == LOOK:
             stack.counter[2] += 1
             look(stack, slot, time)
@@ -111,38 +124,44 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     stack.counter[1] += 1
     stack.counter[2] = 0
     compression = compression_at(stack, i, time)
-    if kind not in (TOUCH, RELEASE):
-        if kind == PEAK:
-            record_peak(stack, i, compression)
-        if not changes_curve(stack, i, kind):
-            turn(stack, i, kind, compression)
-            look(stack, i, time)
-            stack.clock[0] = time
-            return
+    if kind == PEAK:
+        record_peak(stack, i, compression, 0.0)
+    if kind not in (TOUCH, RELEASE) and not changes_curve(stack, i, kind):
+        turn(stack, i, kind, compression)
+        look(stack, i, time)
+        stack.clock[0] = time
+        return
     bottom = stack.first[max(i - 1, 0)]
     top = stack.last[i]
     advance_cluster(stack, i, time)
     if i > 0 and stack.first[i - 1] != stack.first[i]:
         advance_cluster(stack, i - 1, time)
     logical = time
+    was_slack = stack.phase[i] == SLACK
     if kind == TOUCH:
         begin(stack, i, _crossing(stack, i, compression, time))
         logical = stack.start[i]
         stack.compression[i] = max(compression, 0.0)
     elif kind == RELEASE:
-        logical = _crossing(stack, i, compression, time)
+        logical = stack.clip_time[i] if was_slack else _crossing(stack, i, compression, time)
         stack.phase[i] = OPEN
+        stack.counter[4] -= 1
         stack.compression[i] = min(stack.compression[i], 0.0)
+    elif kind == CLIPPED:
+        clip(stack, i, time)
     else:
         change_curve(stack, i, kind)
     form_clusters(stack, bottom, top, time)
+    pushed = kind in (TOUCH, CLIPPED, RESUMED) or (kind == RELEASE and not was_slack)
     for j in range(bottom, min(top + 2, len(stack.mass))):
-        if stack.phase[j] == OPEN and kind in (TOUCH, RELEASE):
+        if stack.phase[j] == OPEN and pushed:
             stack.touching[j] = logical
         look(stack, j, time)
-    stack.clock[0] = logical
+    stack.clock[0] = max(stack.clock[0], logical)
     if kind in (TOUCH, RELEASE):
         _write(stack, i, kind, logical, log)
+        if was_slack:
+            _write_clip(stack, i, log)
 
 
 @kernel
@@ -182,15 +201,27 @@ def _write(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
 
 
 @kernel
+def _write_clip(stack: Stack, i: int, log: Floats) -> None:
+    """Give the log's last entry the velocities of the moment when contact i was clipped."""
+    at = (stack.counter[0] - 1) * LOG_COLUMNS
+    log[at + LOWER_VELOCITY] = stack.clip_lower[i]
+    log[at + UPPER_VELOCITY] = stack.clip_upper[i]
+
+
+@kernel
 def write_unfinished(stack: Stack, time: float, log: Floats) -> None:
     """Append the intervals that are still under way at a time, as releases at infinity."""
     for i in range(len(stack.mass)):
         if stack.phase[i] == OPEN:
             continue
-        compression = compression_at(stack, i, time)
-        record_peak(stack, i, compression)
-        once, _ = contact_impulse(stack, i, time - stack.anchor[stack.first[i]])
-        stack.impulse[i] += once
+        if stack.phase[i] >= COMPRESSING:
+            compression = compression_at(stack, i, time)
+            record_peak(stack, i, compression, rate_at(stack, i, time))
+            since = time - stack.anchor[stack.first[i]]
+            if stack.modal[stack.first[i]] == 0:
+                record_crests(stack, i, i + 1, since)
+            once, _ = contact_impulse(stack, i, since)
+            stack.impulse[i] += once
         _write(stack, i, RELEASE, math.inf, log)
 
 
@@ -206,20 +237,26 @@ def _ending(stack: Stack) -> int:
 @kernel
 def _all_part(stack: Stack) -> bool:
     """Tell, with gravity, whether all contacts are open and no ball approaches what is below it."""
-    if stack.number[0] == 0.0:
-        return False  # nothing brings them back: the run ends when nothing is due any more
-    time = stack.clock[0]
+    if stack.number[0] == 0.0 or stack.counter[4] > 0:
+        return False  # without gravity the run ends when nothing is due any more
+    if _approaches(stack, stack.counter[5]):
+        return False
     for i in range(len(stack.mass)):
-        if stack.law[i] == ABSENT:
-            continue
-        noise = stack.velocity_noise[i]
-        below = 0.0
-        if i > 0:
-            noise += stack.velocity_noise[i - 1]
-            below = velocity_at(stack, i - 1, time)
-        if stack.phase[i] != OPEN or below - velocity_at(stack, i, time) > noise:
+        if _approaches(stack, i):
+            stack.counter[5] = i
             return False
     return True
+
+
+@kernel
+def _approaches(stack: Stack, i: int) -> bool:
+    """Tell whether ball i approaches what is below it."""
+    if stack.law[i] == ABSENT:
+        return False
+    noise = stack.velocity_noise[i]
+    if i > 0:
+        noise += stack.velocity_noise[i - 1]
+    return rate_at(stack, i, stack.clock[0]) > noise
 
 
 @kernel
@@ -236,6 +273,8 @@ def _sample(stack: Stack, samples: Samples, time: float) -> None:
             samples.position[at + i] = position
             samples.velocity[at + i] = velocity_at(stack, i, now)
             samples.compression[at + i] = compression
-            samples.force[at + i] = force(stack, i, compression)
+            rate = samples.velocity[at + i - 1] if i > 0 else 0.0
+            rate -= samples.velocity[at + i]
+            samples.force[at + i] = force(stack, i, compression, rate)
             samples.stored[at + i] = stored_energy(stack, i, compression)
         stack.counter[3] += 1

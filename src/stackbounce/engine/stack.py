@@ -1,11 +1,11 @@
 """The arrays that hold a stack of balls: lists in plain Python, numpy arrays when compiled.
 
 Index b runs over balls from the lowest up, index i over contacts; contact i lies below ball i.
-A *cluster* is a run of balls joined by closed contacts, known by its lowest ball; a ball in flight
+A *cluster* is a run of balls joined by pressing contacts, known by its lowest ball; a ball in flight
 is a cluster of its own. Each cluster is anchored at a time of its own: velocities (and compressions
-of its closed contacts) are those of the anchor. An open contact keeps ``compression[i]`` such that
-its compression at any time is that number plus the displacement of the ball below it less that of
-the ball above it, both since the anchors of their clusters.
+of its pressing contacts) are those of the anchor. A contact between two clusters keeps a
+``compression[i]`` such that its compression at any time is that number plus the displacement of the
+ball below it less that of the ball above it, both since the anchors of their clusters.
 """
 
 from collections.abc import Sequence
@@ -13,6 +13,9 @@ from typing import Any, NamedTuple
 
 from stackbounce.engine.kernel import Floats, Integers
 from stackbounce.engine.series import TERMS
+
+MODES = 8  # linear contacts of one cluster up to which it moves in normal modes
+WIDTH = MODES + 1  # their balls, where there is no floor
 
 
 class Stack(NamedTuple):
@@ -24,8 +27,14 @@ class Stack(NamedTuple):
     stiffness: Floats
     exponent: Floats
     unloading: Floats  # exponent of the unloading curve
+    factor_exponent: Floats  # q of a damped contact's force k c^q (a + b c + d c') ...
+    gain_constant: Floats  # ... a of its gain ...
+    gain_slope: Floats  # ... b ...
+    gain_rate: Floats  # ... and d
     scale: Floats  # a typical compression of the contact
-    number: Floats  # [gravity, reference speed, tolerance of a velocity per step]
+    number: Floats  # [gravity, reference speed, tolerance of a velocity per step, faint work]
+    # [order of the power series by which nonlinear clusters move, 1 where there can be any]
+    setting: Integers
     # the state
     velocity: Floats
     velocity_noise: Floats  # round-off that the velocity may have gathered
@@ -39,6 +48,9 @@ class Stack(NamedTuple):
     faint_below: Floats
     faint: Integers  # 1 where the force follows the chord of its curve below faint_below
     touching: Floats  # since when a contact has been touching without a force; nan if it is not
+    clip_time: Floats  # since when a slack contact has had no force, and both velocities then
+    clip_lower: Floats
+    clip_upper: Floats
     # the interval of each contact that is under way
     start: Floats
     peak_force: Floats
@@ -47,13 +59,17 @@ class Stack(NamedTuple):
     # clusters
     first: Integers  # lowest ball of the cluster that a ball belongs to
     last: Integers
-    linear: Integers  # 1 where the cluster moves in normal modes (entry of its lowest ball)
+    modal: Integers  # 1 where the cluster moves in normal modes or flies (entry of its lowest ball)
+    order: Integers  # of the cluster's power series otherwise
+    speed: Floats  # to which its tolerance refers
     anchor: Floats
-    # when to look: contacts, then ends of the series' validity by lowest ball
+    # when to look: contacts, then ends of the series' validity by lowest ball; a queue of both
     due: Floats
     event: Integers
+    heap: Integers
+    place: Integers
     # normal modes, known by contact index
-    rate: Floats  # effective stiffness F/c of a linear contact
+    rate: Floats  # effective stiffness F/c of a linear contact, or of a faint one's power of c
     weight: Floats  # square root of the rate over that of the cluster's lowest contact
     omega: Floats
     shape: Floats
@@ -66,11 +82,16 @@ class Stack(NamedTuple):
     force_series: Floats
     velocity_series: Floats
     power_series: Floats
+    elastic_series: Floats
+    gain_series: Floats
     # scratch space and counters
     scratch: Floats
     watched: Floats
     margin: Floats
-    counter: Integers  # [rows in the log, events so far, looks since the last one, next sample]
+    changed: Floats
+    # [rows in the log, events so far, looks since the last one, next sample, contacts not open,
+    # a contact that approached when last asked]
+    counter: Integers
     clock: Floats  # [time of the last event, time of the last look]
 
 
@@ -107,12 +128,11 @@ class Samples(NamedTuple):
     stored: Floats
 
 
-_PER_BALL = (
-    "mass law stiffness exponent unloading scale velocity velocity_noise compression phase "
-    "curve_force curve_unit curve_exponent dip_energy top faint_below faint touching start "
-    "peak_force peak_compression impulse first last linear anchor rate weight omega static cosine "
-    "sine"
-).split()
+_PER_STACK = {"number": 4, "setting": 2, "counter": 6, "clock": 2}
+_PER_SERIES = {"scratch": TERMS, "watched": TERMS, "margin": TERMS, "changed": TERMS}
+_PER_SLOT = ("due", "event", "heap", "place")  # two slots for each ball
+_PER_TERM = "compression_series force_series velocity_series power_series elastic_series gain_series".split()
+_PER_MODE = ("shape", "rows")
 _INTEGERS = {
     name
     for record in (Stack, RigidStack)
@@ -123,19 +143,11 @@ _INTEGERS = {
 
 def new_stack(size: int, **given: Sequence[Any]) -> Stack:
     """Return a stack of ``size`` balls as plain lists, all zero but for the fields given."""
-    lengths = dict.fromkeys(_PER_BALL, size)
-    lengths |= {"due": 2 * size, "event": 2 * size, "shape": size * size, "rows": size * size}
-    lengths |= dict.fromkeys(
-        ["compression_series", "force_series", "velocity_series", "power_series"], size * TERMS
-    )
-    lengths |= {
-        "scratch": TERMS,
-        "watched": TERMS,
-        "margin": TERMS,
-        "counter": 4,
-        "clock": 2,
-        "number": 3,
-    }
+    lengths = dict.fromkeys(Stack._fields, size)
+    lengths |= dict.fromkeys(_PER_SLOT, 2 * size)
+    lengths |= dict.fromkeys(_PER_TERM, size * TERMS)
+    lengths |= dict.fromkeys(_PER_MODE, size * WIDTH)
+    lengths |= _PER_STACK | _PER_SERIES
     fields = {name: [0 if name in _INTEGERS else 0.0] * length for name, length in lengths.items()}
     return Stack(**(fields | {name: list(values) for name, values in given.items()}))
 

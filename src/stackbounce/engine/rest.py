@@ -1,0 +1,95 @@
+"""When a stack under gravity has come to rest: decided by its energy, not by a speed.
+
+While all contacts press, the motion has an energy in excess of that of the static state, in which
+contact i carries the weight W_i of all that is above it:
+
+    E = sum m v^2/2 + sum (U_i(c_i) - U_i(s_i) - W_i (c_i - s_i)),   U_i'(s_i) = W_i,
+
+a sum of terms none of which is negative. No law adds to it. To open contact i takes
+W_i s_i - U_i(s_i), and with less than that no contact can ever open again: the stack is bound. What
+is left is a vibration about the static state; a damped one is followed until its speeds are 1e-9 of
+the reference speed, one that the laws do not damp would go on for ever and is left out.
+"""
+
+import math
+
+from stackbounce.engine.codes import COMPRESSING, DAMPED, POWER
+from stackbounce.engine.kernel import kernel
+from stackbounce.engine.series import TERMS
+from stackbounce.engine.stack import Stack
+
+_STILL = 1e-9
+_HYSTERETIC = 0.5  # of that energy at most, where a higher peak can still change the static state
+
+
+@kernel
+def is_bound(stack: Stack) -> bool:
+    """Tell whether a stack, all of whose balls are anchored now, can never open a contact again."""
+    size = len(stack.mass)
+    if stack.first[size - 1] != 0 or stack.phase[0] < COMPRESSING:
+        return False
+    excess, reference = 0.0, 0.0
+    for b in range(size):
+        excess += 0.5 * stack.mass[b] * stack.velocity[b] * stack.velocity[b]
+        reference += 0.5 * stack.mass[b] * stack.number[1] * stack.number[1]
+    damped = False
+    share = 1.0
+    barrier = math.inf
+    weight = 0.0
+    for i in range(size - 1, -1, -1):
+        weight += stack.mass[i] * stack.number[0]
+        rest = static_compression(stack, i, weight)
+        at_rest = _potential(stack, i, rest)
+        c = stack.compression[i]
+        excess += max(0.0, _potential(stack, i, c) - at_rest - weight * (c - rest))
+        barrier = min(barrier, weight * rest - at_rest)
+        if stack.law[i] == DAMPED:
+            damped = True
+        elif stack.law[i] != POWER:
+            if stack.top[i] == math.inf:
+                return False
+            share = _HYSTERETIC if size > 1 else 1.0
+    return excess < share * barrier and (not damped or excess <= _STILL * _STILL * reference)
+
+
+@kernel
+def static_compression(stack: Stack, i: int, weight: float) -> float:
+    """Return the compression of contact i at which it carries a weight."""
+    if stack.law[i] == DAMPED:
+        rest: float = (weight / stack.stiffness[i]) ** (1.0 / stack.exponent[i])
+        return rest
+    if stack.faint[i] == 1 or stack.curve_exponent[i] == 1.0:
+        return weight / stack.rate[i]
+    share: float = (weight / stack.curve_force[i]) ** (1.0 / stack.curve_exponent[i])
+    return stack.curve_unit[i] * share
+
+
+@kernel
+def _potential(stack: Stack, i: int, compression: float) -> float:
+    """Return the elastic force of contact i, on the curve that it follows, integrated from 0."""
+    c = max(0.0, compression)
+    if stack.law[i] == DAMPED:
+        power: float = c ** (stack.exponent[i] + 1.0)
+        return stack.stiffness[i] * power / (stack.exponent[i] + 1.0)
+    if stack.faint[i] == 1 or stack.curve_exponent[i] == 1.0:
+        return 0.5 * stack.rate[i] * c * c
+    exponent = stack.curve_exponent[i] + 1.0
+    share: float = (c / stack.curve_unit[i]) ** exponent
+    return stack.curve_force[i] * stack.curve_unit[i] * share / exponent
+
+
+@kernel
+def lay_down(stack: Stack) -> None:
+    """Put a bound stack into its static state, for all times to come."""
+    size = len(stack.mass)
+    weight = 0.0
+    for i in range(size - 1, -1, -1):
+        weight += stack.mass[i] * stack.number[0]
+        stack.compression[i] = static_compression(stack, i, weight)
+        stack.velocity[i] = 0.0
+        for k in range(TERMS):
+            stack.compression_series[i * TERMS + k] = 0.0
+            stack.velocity_series[i * TERMS + k] = 0.0
+            stack.force_series[i * TERMS + k] = 0.0
+        stack.compression_series[i * TERMS] = stack.compression[i]
+        stack.force_series[i * TERMS] = weight
