@@ -1,7 +1,7 @@
 """From a law to what is measured of it: the restitution and the contact time of one ball."""
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from typing import Any, TypeAlias
 
 from stackbounce.calibrate import dashpot, elastic, hunt_crossley, viscoelastic
@@ -134,9 +134,13 @@ def reduced(mass: object) -> float:
     >>> reduced((1.0, 1.0)), reduced(0.5)
     (0.5, 0.5)
     """
-    if isinstance(mass, str | bytes) or not hasattr(mass, "__len__"):
+    given: Any = mass
+    try:
+        pair = () if isinstance(mass, str | bytes | Mapping | Set) else tuple(given)
+    except TypeError:  # one number
+        pair = ()
+    if not pair:
         return positive("mass", mass, "kilograms")
-    pair: Any = mass
     if len(pair) != 2:
         raise InvalidValue(f"mass must be a number or a pair of numbers, got {shown(mass)}")
     low, high = sorted(positive(f"mass.{i}", pair[i], "kilograms") for i in (0, 1))

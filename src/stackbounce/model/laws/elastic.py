@@ -180,8 +180,8 @@ def _shares(name: str, ball: object) -> tuple[float, float]:
         one for one in ("diameter", "young_modulus", "poisson_ratio") if getattr(ball, one) is None
     ]
     if missing:
-        listed = " and ".join(f"{name}.{one}" for one in missing)
-        raise InvalidValue(f"{listed} must be given for a Hertz contact, got none")
+        listed = ", ".join(f"{name}.{one}" for one in missing)
+        raise InvalidValue(f"{listed} must be given for a Hertz contact, got None")
     assert ball.diameter is not None
     assert ball.young_modulus is not None
     assert ball.poisson_ratio is not None

@@ -74,9 +74,9 @@ def series(law_a: _Law, law_b: _Law) -> _Law:
         changes["damping"] = k * delays[0]
     if isinstance(law_a, HuntCrossley):
         name = "dissipation/stiffness**(1/exponent)"
-        shares = (a.dissipation * share_a, b.dissipation * share_b)
-        _check_same(HuntCrossley, name, *shares)
-        changes["dissipation"] = shares[0]
+        rates = [law.dissipation / law.stiffness ** (1.0 / law.exponent) for law in (a, b)]
+        _check_same(HuntCrossley, name, *rates)
+        changes["dissipation"] = a.dissipation * share_a
     return replace(law_a, **changes)
 
 
