@@ -1,5 +1,6 @@
 """From a drop to its separate collisions."""
 
+import sys
 from dataclasses import replace
 
 from stackbounce.calibrate.measures import reduced, restitution
@@ -69,7 +70,7 @@ def _collisions(drop: Drop) -> list[Rigid | None]:
             below = own
             continue
         moving = mass if i == 0 else reduced((drop.balls[i - 1].mass, mass))
-        closing = below - own
+        closing = min(below - own, sys.float_info.max)
         e = restitution(law, moving, closing if closing > 0.0 else drop.reference_speed)
         contacts.append(Rigid(e))
         # m v' = m v + (1 + e) μ (v_below - v), as eqs 1 and 2
