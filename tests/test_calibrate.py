@@ -404,12 +404,16 @@ def test_a_class_is_calibrated(kind):
     assert got.startswith("law_class must be the class of a contact law (Rigid, Spring, Hertz, ")
 
 
-def test_a_stiffness_out_of_range_is_refused():
+def test_numbers_out_of_range_are_refused():
     given_ = {"mass": 1.0, "contact_time": 1e-3, "impact_speed": 1.0, "exponent": 1e6}
     got = message(errors.InvalidValue, sb.calibrate, sb.PowerLaw, **given_)
     assert got == (
-        "contact_time must give a stiffness in the range of numbers at exponent 1e+06, got 0.001"
+        "what was measured must give a PowerLaw in the range of numbers, "
+        "got mass=1, contact_time=0.001, impact_speed=1, exponent=1e+06"
     )
+    given_ = MEASURED | {"restitution": 5e-324}
+    got = message(errors.InvalidValue, sb.calibrate, sb.HuntCrossley, **given_)
+    assert got.startswith("what was measured must give a HuntCrossley in the range of numbers, got")
 
 
 @pytest.mark.parametrize(

@@ -24,8 +24,10 @@ from stackbounce.calibrate import elastic
 from stackbounce.calibrate.quadrature import integral
 from stackbounce.calibrate.roots import root
 
-__all__ = ["dissipation", "duration", "restitution"]
+__all__ = ["LARGEST", "dissipation", "duration", "restitution"]
 
+LARGEST = 1e300
+"""Of d, for all functions here."""
 _SMALL = 1.0  # the size up to which E(x) is summed
 _FACTORS = tuple(1.0 / math.factorial(n) for n in range(2, 22))
 
@@ -44,6 +46,11 @@ def restitution(d: float) -> float:
 def dissipation(restitution: float) -> float:
     """Return d at which e is `restitution`, from above 0 to 1.
 
+    Raises
+    ------
+    ArithmeticError
+        If it is out of the range of numbers.
+
     Examples
     --------
     >>> round(dissipation(0.593624), 5)
@@ -53,6 +60,8 @@ def dissipation(restitution: float) -> float:
         return 0.0
     # 1 - e is at most q/3, and q - 1 at most 1/e
     low, high = 1.0 - restitution, 1.0 + 1.0 / restitution
+    if high > LARGEST:
+        raise OverflowError
     return _dissipation(root(lambda q: _restitution(q) - restitution, low, high))
 
 

@@ -97,8 +97,13 @@ def calibrate(
             f"that it took, got {shown(restitution)}"
         )
     _check_missing(kind, given)
-    # where the exponent is 1, any speed will do
-    return cast("_Law", _MAKERS[kind]({"impact_speed": 1.0} | given))
+    try:  # where the exponent is 1, any speed will do
+        return cast("_Law", _MAKERS[kind]({"impact_speed": 1.0} | given))
+    except ArithmeticError:
+        raise InvalidValue(
+            f"what was measured must give a {kind.__name__} in the range of numbers, "
+            f"got {', '.join(f'{name}={value:g}' for name, value in given.items())}"
+        ) from None
 
 
 def _checked(
@@ -163,13 +168,7 @@ def _stiffness(given: _Given, duration: float) -> float:
     """Return k of a contact that takes `duration` in units of C/v, see `elastic`."""
     p, speed = given["exponent"], given["impact_speed"]
     peak = given["contact_time"] * speed / duration
-    try:
-        return elastic.stiffness(peak, p, given["mass"], speed)
-    except ArithmeticError:
-        raise InvalidValue(
-            f"contact_time must give a stiffness in the range of numbers at exponent {p:g}, "
-            f"got {given['contact_time']}"
-        ) from None
+    return elastic.stiffness(peak, p, given["mass"], speed)
 
 
 def _rigid(given: _Given) -> Rigid:

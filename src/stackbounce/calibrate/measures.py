@@ -24,8 +24,6 @@ __all__ = ["Mass", "contact_time", "reduced", "restitution"]
 Mass: TypeAlias = float | Sequence[float]
 """In kg: of a ball on a floor, or reduced; or those of two balls, which are reduced."""
 
-_LARGEST = 1e300
-
 
 def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None = None) -> float:
     """Return the restitution of one contact: its relative speed after over that before.
@@ -239,7 +237,7 @@ def _damping_ratio(law: Dashpot, mass: float) -> float:
 
 def _dissipation(law: HuntCrossley, speed: float) -> float:
     d = law.dissipation * speed
-    if d > _LARGEST:
+    if d > hunt_crossley.LARGEST:
         raise OverflowError
     return d
 
