@@ -16,6 +16,7 @@ from stackbounce.calibrate import separate
 from stackbounce.cli import app, main, show
 from stackbounce.cli.scenario import read, read_contact
 from stackbounce.errors import FileError, InvalidValue
+from stackbounce.model import LAWS
 from stackbounce.version import __version__
 
 PAIR = ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"]
@@ -529,6 +530,61 @@ def test_contacts_in_words():
     text = "Hysteretic, stiffness 2000 N/m^1.5, exponent 1.5, restitution 0.5"
     assert show.law_text(law) == text
     assert show.law_text(None) == "none"
+
+
+@pytest.mark.parametrize(
+    ("words", "law", "text"),
+    [
+        ("Rigid restitution=0.5", sb.Rigid(0.5), "Rigid, restitution 0.5"),
+        ("Spring stiffness=2kN/m", sb.Spring(2000.0), "Spring, stiffness 2000 N/m"),
+        ("Hertz stiffness=2e9", sb.Hertz(2e9), "Hertz, stiffness 2e+09 N/m^1.5"),
+        (
+            "powerlaw stiffness=20kN/m^1.3 exponent=1.3", sb.PowerLaw(2e4, 1.3),
+            "PowerLaw, stiffness 20000 N/m^1.3, exponent 1.3",
+        ),
+        (
+            "Dashpot stiffness=20kN/m damping='7 N s/m'", sb.Dashpot(2e4, 7.0),
+            "Dashpot, stiffness 20000 N/m, damping 7 N s/m",
+        ),
+        (
+            "Viscoelastic stiffness=3e6 dissipative_time=0.2ms", sb.Viscoelastic(3e6, 2e-4),
+            "Viscoelastic, stiffness 3e+06 N/m^1.5, dissipative time 0.0002 s",
+        ),
+        (
+            "HuntCrossley stiffness=3e6 exponent=1.5 dissipation=0.15s/m",
+            sb.HuntCrossley(3e6, 1.5, 0.15),
+            "HuntCrossley, stiffness 3e+06 N/m^1.5, exponent 1.5, dissipation 0.15 s/m",
+        ),
+        (
+            "Hysteretic stiffness=1kN/m restitution=0.5", sb.Hysteretic(1000.0, restitution=0.5),
+            "Hysteretic, stiffness 1000 N/m, restitution 0.5",
+        ),
+    ],
+)  # fmt: skip
+def test_every_law_is_read_and_told(words, law, text):
+    assert read_contact(words, "x") == law
+    assert show.law_text(law) == text
+
+
+def test_help_names_every_law(run):
+    _, out, _ = run("simulate", "--help")
+    assert all(name in out for name in LAWS)
+
+
+def test_springs_of_any_exponent_lose_nothing(run):
+    _, out, _ = run("simulate", "B1", "--contact", "Hertz stiffness=1e6")
+    assert "Springs lose nothing." in out
+    _, out, _ = run("simulate", "B1", "--contact", "Dashpot stiffness=1e4 damping=1")
+    assert "Springs lose nothing." not in out
+
+
+def test_a_law_from_the_command_line_has_its_separate_collision(run):
+    contact = "HuntCrossley stiffness=3e6 exponent=1.5 dissipation=0.1"
+    code, out, _ = run("simulate", "B1", "--contact", contact, "--speed", "3", "--json")
+    assert code == 0
+    got = json.loads(out)
+    assert got["drop"]["contacts"][0]["dissipation"] == 0.1
+    assert got["separate"]["rebound_ratios"][0] == pytest.approx(0.832870, abs=5e-7)
 
 
 def test_errors_of_the_parts_are_ours():

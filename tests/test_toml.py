@@ -6,7 +6,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from stackbounce import errors
-from stackbounce.model import Ball, Drop, Hysteretic, Rigid, Spring
+from stackbounce.model import (
+    LAWS,
+    Ball,
+    Dashpot,
+    Drop,
+    Hertz,
+    HuntCrossley,
+    Hysteretic,
+    PowerLaw,
+    Rigid,
+    Spring,
+    Viscoelastic,
+)
+
+KNOWN = ", ".join([*LAWS, "none"])
 
 SCENARIO = """
 height = "63 cm"
@@ -74,10 +88,18 @@ laws = st.one_of(
         restitution=st.floats(0.01, 1.0),
     ),
     st.builds(Hysteretic, numbers, unloading_exponent=st.floats(1.0, 50.0)),
+    st.builds(Hertz, numbers),
+    st.builds(PowerLaw, numbers, st.floats(1.0, 1e6)),
+    st.builds(Dashpot, numbers, numbers | st.just(0.0)),
+    st.builds(Viscoelastic, numbers, numbers | st.just(0.0)),
+    st.builds(HuntCrossley, numbers, st.floats(1.0, 1e6), numbers | st.just(0.0)),
 )
 rigid_laws = st.builds(Rigid, st.floats(0.0, 1.0))
 texts = st.text(st.characters(exclude_categories=["Cs"]), min_size=1).filter(str.strip)
-all_balls = st.builds(Ball, numbers, st.none() | numbers, st.none() | texts)
+ratios = st.floats(-1.0, 0.5, exclude_min=True)
+all_balls = st.builds(
+    Ball, numbers, *(st.none() | one for one in (numbers, texts, numbers, ratios))
+)
 
 
 @st.composite
@@ -149,7 +171,10 @@ def test_null_stands_for_a_key_left_out():
         (
             "mass = 0.057",
             "mas = 0.057",
-            "balls.1.mas is not a known key; did you mean mass? Known: mass, diameter, name",
+            (
+                "balls.1.mas is not a known key; did you mean mass? "
+                "Known: mass, diameter, name, young_modulus, poisson_ratio"
+            ),
         ),
         ('"basketball"', "3", "balls.0.name must be a string, got 3"),
         (
@@ -187,18 +212,18 @@ def test_null_stands_for_a_key_left_out():
             '"Sprong"',
             (
                 "contacts.0.law must be a contact law, got 'Sprong'; did you mean Spring? "
-                "Known: Rigid, Spring, Hysteretic, none"
+                f"Known: {KNOWN}"
             ),
         ),
         (
             '"Spring"',
             "3",
-            "contacts.0.law must be a contact law, got 3; known: Rigid, Spring, Hysteretic, none",
+            f"contacts.0.law must be a contact law, got 3; known: {KNOWN}",
         ),
         (
             'law = "Spring"',
             "",
-            "contacts.0.law is missing; known: Rigid, Spring, Hysteretic, none",
+            f"contacts.0.law is missing; known: {KNOWN}",
         ),
         ('stiffness = "2.5 kN/m"', "", "contacts.0.stiffness is missing"),
         (
@@ -331,3 +356,73 @@ def test_both_numbers_of_a_hysteretic_contact_are_read_where_they_agree(read):
     assert read(text).contacts[1] == Hysteretic(1000.0, restitution=0.5)
     got = refused(errors.ScenarioError, read, text.replace("= 7", "= 8"))
     assert got.startswith("drop.toml: contacts.1.restitution and unloading_exponent: exactly one")
+
+
+@pytest.mark.parametrize(
+    ("text", "law"),
+    [
+        ('law = "hertz"\nstiffness = "1 N/mm^1.5"', Hertz(1000.0**1.5)),
+        ('law = "PowerLaw"\nstiffness = "2 kN/m^1.3"\nexponent = 1.3', PowerLaw(2000.0, 1.3)),
+        ('law = "dashpot"\nstiffness = "20 kN/m"\ndamping = "7 N s/m"', Dashpot(2e4, 7.0)),
+        ('law = "Dashpot"\nstiffness = 2e4\ndamping = "7 kg/s"', Dashpot(2e4, 7.0)),
+        (
+            'law = "Viscoelastic"\nstiffness = 3e6\ndissipative_time = "0.2 ms"',
+            Viscoelastic(3e6, 2e-4),
+        ),
+        (
+            'law = "HuntCrossley"\nstiffness = "3 N/m^2"\nexponent = 2\ndissipation = "2 ms/cm"',
+            HuntCrossley(3.0, 2.0, 0.2),
+        ),
+    ],
+)
+def test_each_law_reads_its_units(read, text, law):
+    lower = SCENARIO[: SCENARIO.rindex("law = ")]
+    got = read(lower + text).contacts[1]
+    assert type(got) is type(law)
+    assert vars(got) == pytest.approx(vars(law), rel=1e-15)
+
+
+def test_a_balls_material_has_units(read):
+    text = SCENARIO.replace("mass = 0.057", 'mass = 0.057\nyoung_modulus = "206 GPa"')
+    ball = read(text.replace("206 GPa", '206 GPa"\npoisson_ratio = "30 %')).balls[1]
+    assert ball == Ball(0.057, young_modulus=206e9, poisson_ratio=0.3)
+    assert refused(errors.ScenarioError, read, text.replace("GPa", "kN")) == (
+        "drop.toml: balls.1.young_modulus must be a pressure (a number of Pa or a string such as "
+        "\"210 GPa\"), got '206 kN'"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (
+            'law = "Dashpot"\nstiffness = 1\ndamping = "7 N"',
+            (
+                'damping must be a damping (a number of N s/m or a string such as "7 N s/m"), '
+                "got '7 N'"
+            ),
+        ),
+        (
+            'law = "HuntCrossley"\nstiffness = 1\nexponent = 1.5\ndissipation = "1 m/s"',
+            (
+                "dissipation must be a dissipation (a number of s/m or a string such as "
+                "\"0.2 s/m\"), got '1 m/s'"
+            ),
+        ),
+        ('law = "HuntCrossley"\nstiffness = 1\ndissipation = 1', "exponent is missing"),
+        (
+            'law = "Hertz"\nstiffness = "1 N/m"',
+            (
+                "stiffness must be a quantity (a number of N/m**1.5 or a string such as "
+                "\"20 N/m**1.5\"), got '1 N/m'"
+            ),
+        ),
+        (
+            'law = "Viscoelastic"\nstiffness = 1\ndissipative_time = -1',
+            "dissipative_time must be a number of seconds, 0 or above, got -1.0",
+        ),
+    ],
+)
+def test_each_law_refuses_other_units(read, text, expected):
+    lower = SCENARIO[: SCENARIO.rindex("law = ")]
+    assert refused(errors.ScenarioError, read, lower + text) == f"drop.toml: contacts.1.{expected}"

@@ -26,6 +26,9 @@ _KINDS = {
     "m/s": ("a speed", "3.53 m/s"),
     "m/s**2": ("an acceleration", "9.81 m/s^2"),
     "N/m": ("a stiffness", "20 kN/m"),
+    "N s/m": ("a damping", "7 N s/m"),
+    "s/m": ("a dissipation", "0.2 s/m"),
+    "Pa": ("a pressure", "210 GPa"),
 }
 
 

@@ -64,7 +64,8 @@ def simulate(
         typer.Option(
             metavar="LAW",
             help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
-            "lowest first.",
+            "lowest first. Laws: Rigid, Spring, Hertz, PowerLaw, Dashpot, Viscoelastic, "
+            "HuntCrossley, Hysteretic; none for no floor.",
         ),
     ] = None,
     gravity: Annotated[

@@ -12,7 +12,17 @@ from rich.table import Table
 from stackbounce.cli.scenario import DEFAULT_HEIGHT, Scenario
 from stackbounce.model.catalogue import BALLS, PAIRS
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
-from stackbounce.model.laws import ContactLaw, Hysteretic, Rigid, Spring
+from stackbounce.model.laws import (
+    ContactLaw,
+    Dashpot,
+    Hertz,
+    HuntCrossley,
+    Hysteretic,
+    PowerLaw,
+    Rigid,
+    Spring,
+    Viscoelastic,
+)
 from stackbounce.result import Result, Status
 
 if TYPE_CHECKING:
@@ -141,16 +151,28 @@ def law_text(law: ContactLaw | None) -> str:
             return "none"
         case Rigid():
             return f"Rigid, restitution {law.restitution:.4g}"
-        case Spring():
-            return f"Spring, stiffness {law.stiffness:.6g} N/m"
+        case Spring() | Hertz():
+            return _stiffness(law)
+        case PowerLaw():
+            return f"{_stiffness(law)}, exponent {law.exponent:g}"
+        case Dashpot():
+            return f"{_stiffness(law)}, damping {law.damping:.6g} N s/m"
+        case Viscoelastic():
+            return f"{_stiffness(law)}, dissipative time {law.dissipative_time:.6g} s"
+        case HuntCrossley():
+            exponent = f"exponent {law.exponent:g}"
+            return f"{_stiffness(law)}, {exponent}, dissipation {law.dissipation:.6g} s/m"
         case Hysteretic():
-            unit = (
-                "N/m" if law.exponent == 1.0 else f"N/m^{law.exponent:g}, exponent {law.exponent:g}"
-            )
-            return (
-                f"Hysteretic, stiffness {law.stiffness:.6g} {unit}, "
-                f"restitution {law.restitution:.4g}"
-            )
+            exponent = "" if law.exponent == 1.0 else f", exponent {law.exponent:g}"
+            return f"{_stiffness(law)}{exponent}, restitution {law.restitution:.4g}"
+
+
+def _stiffness(
+    law: Spring | Hertz | PowerLaw | Dashpot | Viscoelastic | HuntCrossley | Hysteretic,
+) -> str:
+    """Return how a law in words begins: its name, and its stiffness in N/m to the exponent."""
+    unit = "N/m" if law.exponent == 1.0 else f"N/m^{law.exponent:g}"
+    return f"{type(law).__name__}, stiffness {law.stiffness:.6g} {unit}"
 
 
 def _incidence(scenario: Scenario) -> str:
@@ -250,7 +272,7 @@ def _end(time: float) -> str:
 
 def _closing(console: Console, result: Result, textbook: Result | None) -> None:
     console.print(f"\nEnergy retained: {_percent(result.energy_retained)}")
-    if all(isinstance(law, Spring | None) for law in result.drop.contacts):
+    if all(isinstance(law, Spring | Hertz | PowerLaw | None) for law in result.drop.contacts):
         console.print(
             "Springs lose nothing. With losses: --contact 'Hysteretic stiffness=K restitution=E'"
         )

@@ -5,16 +5,35 @@ Frozen values, validated once, without numerics.
 
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
-from stackbounce.model.laws import LAWS, ContactLaw, Hysteretic, Rigid, Spring, law_named
+from stackbounce.model.laws import (
+    LAWS,
+    ContactLaw,
+    Dashpot,
+    Hertz,
+    HuntCrossley,
+    Hysteretic,
+    PowerLaw,
+    Rigid,
+    Spring,
+    Viscoelastic,
+    law_named,
+    series,
+)
 
 __all__ = [
     "LAWS",
     "STANDARD_GRAVITY",
     "Ball",
     "ContactLaw",
+    "Dashpot",
     "Drop",
+    "Hertz",
+    "HuntCrossley",
     "Hysteretic",
+    "PowerLaw",
     "Rigid",
     "Spring",
+    "Viscoelastic",
     "law_named",
+    "series",
 ]

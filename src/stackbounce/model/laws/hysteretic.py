@@ -1,11 +1,8 @@
-"""The contact laws: what the force between two balls, or ball and floor, is while compressed.
-
-Each is a small frozen value with its formula and source. Forces never pull.
-"""
+"""A contact that loses energy by its history: a softer curve on the way out."""
 
 import math
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Annotated, TypeAlias
+from typing import Annotated
 
 from stackbounce.errors import (
     InvalidType,
@@ -16,82 +13,10 @@ from stackbounce.errors import (
     positive,
     shown,
 )
+from stackbounce.model.laws.elastic import STEEPEST
 from stackbounce.units import Unit
 
-__all__ = ["LAWS", "STEEPEST", "ContactLaw", "Hysteretic", "Rigid", "Spring", "law_named"]
-
-STEEPEST = 1e6
-"""The largest exponent of a loading or unloading curve; beyond it a curve is a step."""
-
-
-@dataclass(frozen=True)
-class Rigid:
-    """An instantaneous collision with Newton's restitution.
-
-    The two part at the restitution times the speed at which they met,
-    ``v_upper' - v_lower' = -e (v_upper - v_lower)``, and momentum is conserved; at the floor
-    ``v' = -e v``.
-
-    Parameters
-    ----------
-    restitution : float
-        The ratio e of the relative speeds after and before, from 0 to 1.
-
-    Raises
-    ------
-    InvalidValue
-        If `restitution` lies outside 0 to 1.
-    InvalidType
-        If it is no number.
-
-    Notes
-    -----
-    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4.
-
-    Examples
-    --------
-    >>> Rigid(0.9)
-    Rigid(restitution=0.9)
-    """
-
-    restitution: Annotated[float, Unit()]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "restitution", fraction("restitution", self.restitution))
-
-
-@dataclass(frozen=True)
-class Spring:
-    """A linear spring without loss that can be compressed and cannot pull.
-
-    ``F = k c`` while the compression c is above 0, else 0.
-
-    Parameters
-    ----------
-    stiffness : float
-        k, in N/m, above 0.
-
-    Raises
-    ------
-    InvalidValue
-        If `stiffness` is not positive and finite.
-    InvalidType
-        If it is no number.
-
-    Notes
-    -----
-    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 5 and 6.
-
-    Examples
-    --------
-    >>> Spring(2500)
-    Spring(stiffness=2500.0)
-    """
-
-    stiffness: Annotated[float, Unit("N/m")]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness, "N/m"))
+__all__ = ["Hysteretic"]
 
 
 @dataclass(frozen=True)
@@ -205,36 +130,3 @@ def _losses(p: float, restitution: object, unloading: object) -> tuple[float, fl
         "restitution and unloading_exponent: exactly one of the two must be given, "
         f"got {got + ', which disagree: set the other to None' if got else 'neither'}"
     )
-
-
-ContactLaw: TypeAlias = Rigid | Spring | Hysteretic
-LAWS: dict[str, type[ContactLaw]] = {law.__name__: law for law in (Rigid, Spring, Hysteretic)}
-
-
-def law_named(name: object) -> type[ContactLaw]:
-    """Return the law of a name, such as ``"Spring"``; case does not matter.
-
-    Parameters
-    ----------
-    name : str
-        A key of `LAWS`.
-
-    Returns
-    -------
-    type
-        The law's class.
-
-    Raises
-    ------
-    InvalidValue
-        If no law has this name; the message suggests the nearest and lists all.
-
-    Examples
-    --------
-    >>> law_named("spring").__name__
-    'Spring'
-    """
-    for known, law in LAWS.items():
-        if isinstance(name, str) and name.casefold() == known.casefold():
-            return law
-    raise InvalidValue(f"law must be a contact law, got {shown(name)}; {nearest(name, LAWS)}")

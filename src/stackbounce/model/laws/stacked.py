@@ -1,0 +1,102 @@
+"""Two contacts pressing on each other, as one."""
+
+import math
+from dataclasses import replace
+from typing import Any, TypeVar
+
+from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.model.laws.lossy import Dashpot, HuntCrossley
+from stackbounce.model.laws.rigid import Rigid
+from stackbounce.model.laws.table import LAWS, ContactLaw
+
+__all__ = ["series"]
+
+_Law = TypeVar("_Law", bound=ContactLaw)
+_SHARED = ("exponent", "dissipative_time", "unloading_exponent", "reloading")
+_AGREE = 1e-12  # numbers that agree so well differ by round-off
+
+
+def series(law_a: _Law, law_b: _Law) -> _Law:
+    """Return the one law of two contacts in series: the same force, compressions that add up.
+
+    The contacts of two balls with the floor, in series, make that of the balls with each other.
+
+    Parameters
+    ----------
+    law_a, law_b : ContactLaw
+        Two laws of one class and one exponent, not `Rigid`. Those with losses must share the
+        compression in the same ratio at any rate: see the notes.
+
+    Returns
+    -------
+    ContactLaw
+        Of the same class, with the stiffness ``k**(-1/p) = k1**(-1/p) + k2**(-1/p)``.
+
+    Raises
+    ------
+    InvalidValue
+        If the two in series are no contact of their class.
+    InvalidType
+        If one of them is no contact law.
+
+    Notes
+    -----
+    Without a mass in between ``F1(c1) = F2(c2)`` and ``c = c1 + c2``. The force is of the same form
+    as both exactly where ``c1 = f c`` at all times, with
+    ``f = k1**(-1/p) / (k1**(-1/p) + k2**(-1/p))``. This holds for springs and power laws; for
+    `Dashpot` if b/k is the same; for `Viscoelastic` if A is the same (its force is ``k (s + A ṡ)``
+    with ``s = c**1.5``); for `HuntCrossley` if ``χ1 f = χ2 (1 - f)``, which then is the χ of both
+    in series; for `Hysteretic` if restitution and rule for reloading are the same.
+
+    Springs: R. Cross, Am. J. Phys. 75, 1009 (2007), section V.
+
+    Examples
+    --------
+    >>> from stackbounce.model.laws import HuntCrossley, Spring
+    >>> series(Spring(54000), Spring(36000))
+    Spring(stiffness=21600.0)
+    >>> series(HuntCrossley(2e6, 1.0, 0.1), HuntCrossley(2e6, 1.0, 0.1))
+    HuntCrossley(stiffness=1000000.0, exponent=1.0, dissipation=0.05)
+    """
+    _check_classes(law_a, law_b)
+    a: Any = law_a
+    b: Any = law_b
+    for name in _SHARED:
+        if hasattr(a, name):
+            _check_same(type(a), name, getattr(a, name), getattr(b, name))
+    ratio = (a.stiffness / b.stiffness) ** (1.0 / a.exponent)  # c2/c1
+    share_a, share_b = 1.0 / (1.0 + ratio), ratio / (1.0 + ratio)
+    k = min(a.stiffness, b.stiffness) * max(share_a, share_b) ** a.exponent  # the softer gives more
+    changes = {"stiffness": k}
+    if isinstance(law_a, Dashpot):
+        delays = (a.damping / a.stiffness, b.damping / b.stiffness)
+        _check_same(Dashpot, "damping/stiffness", *delays)
+        changes["damping"] = k * delays[0]
+    if isinstance(law_a, HuntCrossley):
+        name = "dissipation/stiffness**(1/exponent)"
+        rates = [law.dissipation / law.stiffness ** (1.0 / law.exponent) for law in (a, b)]
+        _check_same(HuntCrossley, name, *rates)
+        changes["dissipation"] = a.dissipation * share_a
+    return replace(law_a, **changes)
+
+
+def _check_classes(law_a: object, law_b: object) -> None:
+    for name, law in (("law_a", law_a), ("law_b", law_b)):
+        if not isinstance(law, tuple(LAWS.values())):
+            raise InvalidType(f"{name} must be a contact law, got {shown(law)}")
+        if isinstance(law, Rigid):
+            raise InvalidValue(f"{name} must be a law with a compression, got {shown(law)}")
+    if type(law_a) is not type(law_b):
+        got = f"{type(law_a).__name__} and {type(law_b).__name__}"
+        raise InvalidValue(
+            f"law_a and law_b must be of one class, got {got}: in series they are none of the laws"
+        )
+
+
+def _check_same(kind: type, name: str, one: Any, other: Any) -> None:
+    same = one == other if isinstance(one, str) else math.isclose(one, other, rel_tol=_AGREE)
+    if not same:
+        raise InvalidValue(
+            f"law_a and law_b must have the same {name}, got {shown(one)} and {shown(other)}: "
+            f"in series they are no {kind.__name__}, as their shares of the compression change"
+        )

@@ -1,0 +1,290 @@
+"""The contact laws, Hertz's stiffness from materials, and two contacts in series."""
+
+import dataclasses
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import stackbounce as sb
+from stackbounce import errors
+from stackbounce.model import LAWS
+
+STEEL = {"young_modulus": 206e9, "poisson_ratio": 0.3}
+RUBBER = {"young_modulus": 5e6, "poisson_ratio": 0.5}
+
+positive = st.floats(1e-3, 1e9)
+exponents = st.floats(1.0, 5.0)
+
+
+def message(error, make, *arguments, **parameters):
+    with pytest.raises(error) as caught:
+        make(*arguments, **parameters)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+EXAMPLES = [
+    sb.Rigid(0.5),
+    sb.Spring(2.0),
+    sb.Hertz(2.0),
+    sb.PowerLaw(2.0, 1.3),
+    sb.Dashpot(2.0, 0.3),
+    sb.Viscoelastic(2.0, 0.3),
+    sb.HuntCrossley(2.0, 1.5, 0.3),
+    sb.Hysteretic(2.0, restitution=0.5),
+]
+
+
+def test_every_law_is_named():
+    assert list(LAWS.values()) == [type(law) for law in EXAMPLES]
+    assert all(getattr(sb, name) is law for name, law in LAWS.items())
+
+
+@pytest.mark.parametrize("law", EXAMPLES, ids=lambda law: type(law).__name__)
+def test_a_law_is_a_frozen_value(law):
+    assert eval(repr(law), vars(sb).copy()) == law
+    assert hash(law) == hash(dataclasses.replace(law))
+    name = dataclasses.fields(law)[0].name
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        setattr(law, name, 1.0)
+    numbers = set(vars(law)) - {"reloading", "derived"}
+    assert all(type(getattr(law, one)) is float for one in numbers)
+
+
+def test_numbers_become_floats():
+    law = sb.HuntCrossley(np.float32(2), 1, np.int64(0))
+    assert [type(value) for value in vars(law).values()] == [float] * 3
+
+
+@pytest.mark.parametrize("law", EXAMPLES[1:], ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize("value", [-1.0, 0.0, math.nan, math.inf])
+def test_stiffness_is_positive_and_finite(law, value):
+    got = message(errors.InvalidValue, dataclasses.replace, law, stiffness=value)
+    assert got.startswith("stiffness must be a positive number of N/m")
+    assert message(errors.InvalidType, dataclasses.replace, law, stiffness="1").endswith("got '1'")
+
+
+@pytest.mark.parametrize(
+    ("law", "field", "unit"),
+    [
+        (EXAMPLES[4], "damping", "N s/m"),
+        (EXAMPLES[5], "dissipative_time", "seconds"),
+        (EXAMPLES[6], "dissipation", "s/m"),
+    ],
+)
+def test_losses_are_not_negative(law, field, unit):
+    for value in (-1e-300, math.nan, math.inf):
+        got = message(errors.InvalidValue, dataclasses.replace, law, **{field: value})
+        assert got == f"{field} must be a number of {unit}, 0 or above, got {value}"
+    assert getattr(dataclasses.replace(law, **{field: 0}), field) == 0.0
+
+
+@pytest.mark.parametrize("law", [EXAMPLES[3], EXAMPLES[6]])
+def test_exponents_lie_from_1_to_the_steepest(law):
+    for value in (0.99, 1.1e6, math.nan):
+        got = message(errors.InvalidValue, dataclasses.replace, law, exponent=value)
+        assert got == f"exponent must be a number from 1 to 1e+06, got {value}"
+    assert dataclasses.replace(law, exponent=1e6).exponent == 1e6
+
+
+def test_fixed_exponents_can_be_read_and_not_set():
+    fixed = {sb.Spring: 1.0, sb.Dashpot: 1.0, sb.Hertz: 1.5, sb.Viscoelastic: 1.5}
+    for law in EXAMPLES:
+        if type(law) in fixed:
+            assert law.exponent == fixed[type(law)]
+            with pytest.raises(dataclasses.FrozenInstanceError):
+                law.exponent = 2.0
+
+
+@pytest.mark.parametrize("law", EXAMPLES[1:], ids=lambda law: type(law).__name__)
+def test_extreme_stacks_are_not_refused(law):
+    balls = [sb.Ball(1e12), sb.Ball(1.0), sb.Ball(1e12)]
+    contacts = [law, dataclasses.replace(law, stiffness=2e12), law]
+    assert sb.Drop(balls, contacts, impact_speed=1.0).contacts[1].stiffness == 2e12
+
+
+# Hertz's stiffness from sizes and materials
+
+
+def test_steel_balls_on_each_other():
+    lower, upper = sb.Ball(0.228, 0.0381, **STEEL), sb.Ball(0.081, 0.0270, **STEEL)
+    # k = (E/(1 - ν²)) (2/3) sqrt(R1 R2/(R1 + R2)) for one material (Landau, Lifshitz, eq 9.13)
+    plane = 206e9 / (1.0 - 0.09)
+    r1, r2 = 0.0381 / 2, 0.0270 / 2
+    expected = plane * (2.0 / 3.0) * math.sqrt(r1 * r2 / (r1 + r2))
+    assert sb.Hertz.between(lower, upper).stiffness == pytest.approx(expected, rel=1e-14)
+    on_floor = plane * (4.0 / 3.0) * math.sqrt(r1)
+    assert sb.Hertz.between(lower).stiffness == pytest.approx(on_floor, rel=1e-14)
+
+
+def test_two_materials():
+    a, b = sb.Ball(1.0, 0.1, **STEEL), sb.Ball(1.0, 0.04, **RUBBER)
+    modulus = 1.0 / ((1.0 - 0.3**2) / 206e9 + (1.0 - 0.5**2) / 5e6)
+    expected = 4.0 / 3.0 * modulus * math.sqrt(1.0 / (1.0 / 0.05 + 1.0 / 0.02))
+    assert sb.Hertz.between(a, b).stiffness == pytest.approx(expected, rel=1e-14)
+    assert sb.Hertz.between(b, a) == sb.Hertz.between(a, b)
+
+
+@pytest.mark.parametrize("r", [1.0, 0.5, 0.3])
+def test_stiffness_ratio_of_equal_materials(r):
+    lower, upper = sb.Ball(1.0, 0.06, **STEEL), sb.Ball(r**3, 0.06 * r, **STEEL)
+    ratio = sb.Hertz.between(lower, upper).stiffness / sb.Hertz.between(lower).stiffness
+    assert ratio == pytest.approx(math.sqrt(r / (1.0 + r)) / 2.0, rel=1e-14)
+
+
+def test_a_large_ball_is_a_flat_floor():
+    ball = sb.Ball(1.0, 0.06, **STEEL)
+    floor = sb.Ball(1.0, 1e30, young_modulus=1e30, poisson_ratio=0.0)
+    assert sb.Hertz.between(ball, floor).stiffness == pytest.approx(
+        sb.Hertz.between(ball).stiffness, rel=1e-14
+    )
+
+
+def test_what_a_ball_lacks_is_named():
+    ball = sb.Ball(1.0, 0.06, **STEEL)
+    for name in ("diameter", "young_modulus", "poisson_ratio"):
+        bare = dataclasses.replace(ball, **{name: None})
+        got = message(errors.InvalidValue, sb.Hertz.between, bare)
+        assert got == f"ball_a.{name} must be given for a Hertz contact, got None"
+        got = message(errors.InvalidValue, sb.Hertz.between, ball, bare)
+        assert got == f"ball_b.{name} must be given for a Hertz contact, got None"
+    got = message(errors.InvalidValue, sb.Hertz.between, sb.Ball(1.0))
+    assert got.startswith("ball_a.diameter, ball_a.young_modulus, ball_a.poisson_ratio must be")
+    assert message(errors.InvalidType, sb.Hertz.between, 3) == "ball_a must be a Ball, got 3"
+
+
+def test_materials_are_checked():
+    got = message(errors.InvalidValue, sb.Ball, 1.0, young_modulus=0.0)
+    assert got == "young_modulus must be a positive number of pascals, got 0.0"
+    for value in (-1.1, 0.51, math.nan):
+        got = message(errors.InvalidValue, sb.Ball, 1.0, poisson_ratio=value)
+        assert got == f"poisson_ratio must be a number from -1 to 0.5, got {value}"
+    got = message(errors.InvalidValue, sb.Ball, 1.0, poisson_ratio=-1)
+    assert got == "poisson_ratio must be above -1, got -1"
+    assert sb.Ball(1.0, poisson_ratio=0.5).poisson_ratio == 0.5
+
+
+# two contacts in series
+
+
+def force(law, c, rate):
+    """Return the force of a law, compressed by c > 0 at a rate."""
+    match law:
+        case sb.Dashpot():
+            return law.stiffness * c + law.damping * rate
+        case sb.Viscoelastic():
+            return law.stiffness * (c**1.5 + 1.5 * law.dissipative_time * math.sqrt(c) * rate)
+        case sb.HuntCrossley():
+            return law.stiffness * c**law.exponent * (1.0 + law.dissipation * rate)
+        case _:
+            return law.stiffness * c**law.exponent
+
+
+@st.composite
+def partners(draw):
+    """Draw two laws of one class whose series is of that class."""
+    k1, k2, p, loss = draw(positive), draw(positive), draw(exponents), draw(st.floats(0.0, 10.0))
+    kind = draw(st.sampled_from(EXAMPLES[1:7]))
+    match kind:
+        case sb.Spring() | sb.Hertz():
+            return type(kind)(k1), type(kind)(k2)
+        case sb.PowerLaw():
+            return sb.PowerLaw(k1, p), sb.PowerLaw(k2, p)
+        case sb.Dashpot():
+            return sb.Dashpot(k1, k1 * loss), sb.Dashpot(k2, k2 * loss)
+        case sb.Viscoelastic():
+            return sb.Viscoelastic(k1, loss), sb.Viscoelastic(k2, loss)
+        case sb.HuntCrossley():
+            other = loss * (k2 / k1) ** (1.0 / p)
+            return sb.HuntCrossley(k1, p, loss), sb.HuntCrossley(k2, p, other)
+
+
+@given(partners(), st.floats(0.1, 10.0), st.floats(-1.0, 1.0))
+def test_contacts_in_series_have_one_force_and_compressions_that_add_up(laws, c, rate):
+    a, b = laws
+    both = sb.series(a, b)
+    share = 1.0 / (1.0 + (a.stiffness / b.stiffness) ** (1.0 / a.exponent))  # of a
+    expected = force(both, c, rate)
+    scale = 1e-9 * (abs(expected) + both.stiffness * c**both.exponent)
+    assert force(a, share * c, share * rate) == pytest.approx(expected, abs=scale)
+    rest = 1.0 - share
+    if rest > 1e-3:  # else it has lost its digits
+        assert force(b, rest * c, rest * rate) == pytest.approx(expected, abs=scale)
+
+
+@given(partners())
+def test_series_does_not_depend_on_the_order(laws):
+    one, other = sb.series(*laws), sb.series(*reversed(laws))
+    assert type(one) is type(other)
+    assert vars(one) == pytest.approx(vars(other), rel=1e-9)
+
+
+def test_series_of_springs_and_power_laws():
+    assert sb.series(sb.Spring(3.0), sb.Spring(6.0)).stiffness == pytest.approx(2.0, rel=1e-15)
+    hertz = sb.series(sb.Hertz(2.0), sb.Hertz(5.0)).stiffness
+    assert hertz ** (-2 / 3) == pytest.approx(2.0 ** (-2 / 3) + 5.0 ** (-2 / 3), rel=1e-14)
+    assert sb.series(sb.Spring(1e-200), sb.Spring(1e200)).stiffness == 1e-200
+
+
+def test_hertz_contacts_with_a_rigid_floor_are_not_in_series_as_spheres():
+    lower, upper = sb.Ball(1.0, 0.06, **STEEL), sb.Ball(1.0, 0.06, **STEEL)
+    alone = sb.Hertz.between(lower)
+    assert sb.series(alone, alone).stiffness == pytest.approx(
+        sb.Hertz.between(lower, upper).stiffness, rel=1e-14
+    )
+    small = sb.Ball(1.0, 0.01, **STEEL)
+    both = sb.series(alone, sb.Hertz.between(small)).stiffness
+    assert both != pytest.approx(sb.Hertz.between(lower, small).stiffness, rel=1e-2)
+
+
+def test_series_of_hysteretic_contacts():
+    law = sb.Hysteretic(2.0, exponent=1.5, restitution=0.5, reloading="lossy")
+    both = sb.series(law, dataclasses.replace(law, stiffness=5.0))
+    assert both.stiffness == pytest.approx(sb.series(sb.Hertz(2.0), sb.Hertz(5.0)).stiffness)
+    assert dataclasses.replace(both, stiffness=2.0) == law
+
+
+@pytest.mark.parametrize(
+    ("a", "b", "expected"),
+    [
+        (
+            sb.Spring(1), sb.Hertz(1),
+            "must be of one class, got Spring and Hertz: in series they are none of the laws",
+        ),
+        (sb.PowerLaw(1, 2), sb.PowerLaw(1, 3), "must have the same exponent, got 2.0 and 3.0: "),
+        (
+            sb.Dashpot(1, 1), sb.Dashpot(2, 1),
+            "must have the same damping/stiffness, got 1.0 and 0.5",
+        ),
+        (
+            sb.Viscoelastic(1, 1), sb.Viscoelastic(1, 0),
+            "must have the same dissipative_time, got 1.0 and 0.0",
+        ),
+        (
+            sb.HuntCrossley(1, 1, 1), sb.HuntCrossley(2, 1, 1),
+            "must have the same dissipation/stiffness**(1/exponent), got 1.0 and 0.5",
+        ),
+        (
+            sb.Hysteretic(1, restitution=0.5), sb.Hysteretic(1, restitution=0.6),
+            "must have the same unloading_exponent, got 7.0 and ",
+        ),
+        (
+            sb.Hysteretic(1, restitution=0.5),
+            sb.Hysteretic(1, restitution=0.5, reloading="lossy"),
+            "must have the same reloading, got 'free' and 'lossy': in series they are no Hyst",
+        ),
+    ],
+)  # fmt: skip
+def test_contacts_that_make_no_law_in_series(a, b, expected):
+    assert message(errors.InvalidValue, sb.series, a, b).startswith(f"law_a and law_b {expected}")
+
+
+def test_rigid_contacts_and_others_are_not_in_series():
+    got = message(errors.InvalidValue, sb.series, sb.Spring(1), sb.Rigid(1))
+    assert got == "law_b must be a law with a compression, got Rigid(restitution=1.0)"
+    assert message(errors.InvalidType, sb.series, 3, sb.Rigid(1)) == (
+        "law_a must be a contact law, got 3"
+    )
