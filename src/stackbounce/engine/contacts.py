@@ -139,8 +139,9 @@ def look(stack: Stack, i: int, time: float) -> None:
         if other < wait:
             wait, reached, kind = other, there, upper_kind
     if damped:
-        noise += tick * abs(a[1])
-        rate_noise += tick * abs(2.0 * a[2])
+        noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * abs(a[1])
+        speed = stack.speed[i] + abs(a[1])
+        rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * abs(2.0 * a[2])
         other, there = _gain_wait(stack, i, order, power, tail, noise, rate_noise, horizon)
         turn_kind = RESUMED if phase == SLACK else CLIPPED
     elif phase == COMPRESSING or stack.law[i] == LOSSY:
