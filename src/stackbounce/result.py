@@ -49,7 +49,7 @@ class Status(enum.IntEnum):
     Examples
     --------
     >>> Status.EVENT_LIMIT.advice
-    'the limit of events was met, or nothing came of 100000 looks: raise event_limit, or stop
+    'the limit of events, or of steps between two events, was met: raise event_limit, or stop
     earlier with until'
     """
 
@@ -72,7 +72,7 @@ _ADVICE = {
     Status.COLLAPSED: "infinitely many collisions took place in a finite time and ended at their "
     "limit: their count is given as -1",
     Status.TIME_REACHED: "the time asked for was reached first: raise until to see more",
-    Status.EVENT_LIMIT: "the limit of events was met, or nothing came of 100000 looks: "
+    Status.EVENT_LIMIT: "the limit of events, or of steps between two events, was met: "
     "raise event_limit, or stop earlier with until",
     Status.INVALID: "numbers left the range of floating point: bring masses, stiffnesses and "
     "speeds closer together",

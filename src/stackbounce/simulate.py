@@ -41,7 +41,7 @@ _MOST_BALLS = 2000  # their matrices are quadratic
 _MOST_EVENTS = 10**18  # a compiled counter's range
 _LOG_ROWS = 4096
 _PLAIN_BALLS = 20  # up to this size plain Python is done before compiled code has been loaded
-_PLAIN_EVENTS = 500  # after so many events, or ten times as many steps, a run goes on compiled
+_PLAIN_EVENTS = 2000  # after so many events, or steps without one, a run goes on compiled
 _Kernel = Callable[..., Any]
 _FINITE_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (start, advance, velocity_at)
 _RIGID_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (begin_collisions, collide_all, rigid_velocity)
@@ -74,8 +74,8 @@ def simulate(
         From 1e-15 to 1e-3: the relative error to aim at where a contact follows a law that is not
         linear. Springs and dashpots, and rigid balls, are exact to round-off whatever it is.
     event_limit : int, optional
-        After how many events (touches, releases, and turns of the force in between), or ten times
-        as many steps without one, to give up, with the status EVENT_LIMIT and all that was reached.
+        After how many events (touches, releases, and turns of the force in between), or steps
+        between two of them, to give up, with the status EVENT_LIMIT and all that was reached.
     compiled : bool, optional
         Whether to run compiled by numba rather than as plain Python; by default where the stack is
         tall or the run long. Both give the same bits.

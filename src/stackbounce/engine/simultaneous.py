@@ -60,7 +60,6 @@ from stackbounce.engine.rest import is_bound, lay_down
 from stackbounce.engine.stack import Samples, Stack
 from stackbounce.engine.taylor import record_crests
 
-_LOOKS = 10  # times the limit of events: looks without an event, a state that goes on for ever
 
 
 @kernel
@@ -95,7 +94,7 @@ def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: 
             return TIME_REACHED
         if time == math.inf:
             return _ending(stack)
-        if stack.counter[1] >= event_limit or stack.counter[2] // _LOOKS >= event_limit:
+        if max(stack.counter[1], stack.counter[2]) >= event_limit:
             return EVENT_LIMIT
         if stack.counter[0] == room:
             return RUNNING
