@@ -8,9 +8,11 @@ Powers that are not whole numbers have no Taylor series at c = 0. Where c is so 
 force would change its ball's momentum by less than `NEGLECTED` of the impact's, it is left out
 (`FAINT`); steps towards and away from that place shrink and grow with the distance to it.
 
-An interval starts at the time after which c > 0: when c rises through 0, or, of a contact that rests
-at c = 0, when the force begins that presses it (at t = 0 in a stack without gaps). It ends when c is back at 0, or at the last zero of the force if
-that was clipped from then on. Exponents must be at least 1/2.
+An interval starts at the time after which c > 0: when c rises through 0, or, of a contact that
+rests at c = 0, when the force begins that presses it (at t = 0 in a stack without gaps). It ends
+when c is back at 0, or at the last zero of the force if that was clipped from then on.
+
+Exponents must be at least 1/2.
 """
 
 from collections.abc import Iterator, Mapping, Sequence

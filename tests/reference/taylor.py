@@ -19,9 +19,9 @@ from reference.bernstein import slope, value
 from reference.common import Number
 from reference.laws import Curve
 
-BITS = 200
+BITS = 256
 ONE = 1 << BITS
-DIGITS = 60  # carried outside of the series; BITS are as many
+DIGITS = 70  # carried outside of the series
 TERMS = 56  # of a force; a compression has two more
 PRECISION = -126  # log2 of a step's error, in units of the problem's length and speed
 CONVERGED = -13  # log2 of the last term of a power, over the first
