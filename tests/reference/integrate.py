@@ -23,12 +23,14 @@ from reference.gauss import (
     WEIGHTS,
     crossing,
     dense,
+    evaluate,
     highest,
 )
 
 TOLERANCE = 1e-13  # of a step's last term, in units of the problem's speed and length
 SAMPLES = 12  # places in a step where events are looked for
 NEAR = 1e-9  # how close to zero, in the contact's own scale, makes a count doubtful
+NOISE = 1e-12  # round-off of a compression that has only begun to rise from rest, in that scale
 EQUAL = 1e-12  # rates of approach that are smaller, in units of the largest speed, are none
 
 NONE, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, HYSTERETIC = range(6)
@@ -189,7 +191,7 @@ def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, spe
 
 
 @njit(cache=True)
-def _watch(law, phase, peak, lengths, rates, h, f):
+def _watch(law, phase, peak, lengths, rates, f):
     """Write the first polynomial whose rise above 0 ends the phase; return how many there are."""
     f[:] = 0.0
     code = law[0]
@@ -233,25 +235,31 @@ def _next_phase(phase, which, code):
 
 
 @njit(cache=True)
-def _event(laws, phase, peak, c, rates, acc, h, scales):
-    """Return the first event of a step: place in [-1, 1], contact, number, and what was doubtful."""
+def _event(laws, phase, peak, fresh, c, rates, acc, h, scales):
+    """Return the first event of a step: place, contact, number; and whether it is doubtful."""
     lengths, speeds, f = np.empty(DEGREE + 1), np.empty(DEGREE), np.empty((2, DEGREE + 1))
     best, contact, which, doubtful = 2.0, -1, -1, False
     for i in range(len(c)):
         if laws[i, 0] == NONE:
             continue
         dense(c[i], rates[i], acc[i], h, lengths, speeds)
-        for number in range(_watch(laws[i], phase[i], peak[i], lengths, speeds, h, f)):
+        events = _watch(laws[i], phase[i], peak[i], lengths, speeds, f)
+        if fresh[i]:
+            f[0, 0] -= NOISE * scales[i]
+        resting = phase[i] == OPEN and c[i] == 0.0 and rates[i] == 0.0
+        for number in range(events):
             place, top = crossing(f[number], SAMPLES)
+            if number == 1 and place < best and evaluate(lengths, place) <= 0.0:
+                continue  # round-off where it has just begun
             if place < best:
                 best, contact, which = place, i, number
-            if number == 0 and top > -NEAR * scales[i]:
+            if number == 0 and top > -NEAR * scales[i] and not (resting or fresh[i]):
                 doubtful = True
     return best, contact, which, doubtful
 
 
 @njit(cache=True)
-def _record(laws, phase, peak, c, rates, acc, forces, h, row, log):
+def _record(laws, phase, c, rates, acc, forces, h, row, log):
     """Add a step to the peaks and the impulses of the contacts that are not open."""
     lengths, speeds = np.empty(DEGREE + 1), np.empty(DEGREE)
     for i in range(len(c)):
@@ -337,7 +345,7 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
     scale = np.min(scales)
     phase, row = np.zeros(size, np.int64), np.zeros(size, np.int64)
     peak, clipped, pressed = np.zeros(size), np.zeros(size), np.zeros(size)
-    touching = np.zeros(size, np.bool_)
+    touching, fresh = np.zeros(size, np.bool_), np.zeros(size, np.bool_)
     acc, forces = np.zeros((size, NODES)), np.zeros((size, NODES))
     now, h, rows, doubtful, steps = 0.0, 1e-3 * scale / speed, 0, False, 0
     while now < until:
@@ -354,6 +362,7 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
             if still and not touching[i]:
                 pressed[i] = now
             touching[i] = still
+            fresh[i] = fresh[i] and phase[i] != OPEN and c[i] < NOISE * scales[i]
         h = min(h, until - now)
         steps += 1
         error = _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, speed)
@@ -364,13 +373,13 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
                 return NO_CONVERGENCE, rows, doubtful, steps, rates
             continue
         longer = h * min(3.0, 0.8 * max(error, 1e-9) ** (-1.0 / NODES))
-        place, i, which, near = _event(laws, phase, peak, c, rates, acc, h, scales)
+        place, i, which, near = _event(laws, phase, peak, fresh, c, rates, acc, h, scales)
         if i >= 0:
             h *= 0.5 * (1.0 + place)
             _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, speed)
         else:
             doubtful = doubtful or near
-        _record(laws, phase, peak, c, rates, acc, forces, h, row, log)
+        _record(laws, phase, c, rates, acc, forces, h, row, log)
         for j in range(size):
             c[j] += h * rates[j]
             for k in range(NODES):
@@ -385,6 +394,7 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
             c[i] = 0.0
             row[i], rows = rows, rows + 1
             begun = pressed[i] if touching[i] else now
+            fresh[i] = touching[i]
             if row[i] < len(log):
                 log[row[i]] = 0.0
                 log[row[i], :3] = np.array([float(i), begun, np.nan])
@@ -398,7 +408,7 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
             rates[i], peak[i] = 0.0, c[i]
         elif phase[i] == CLIPPED:
             clipped[i] = now
-        if before == OPEN or before == CLIPPED:
+        if before in (OPEN, CLIPPED):
             for j in range(size):
                 if touching[j] and j != i:
                     pressed[j] = begun if before == OPEN else now
