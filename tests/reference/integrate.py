@@ -31,6 +31,7 @@ TOLERANCE = 1e-13  # of a step's last term, in units of the problem's speed and 
 SAMPLES = 12  # places in a step where events are looked for
 NEAR = 1e-9  # how close to zero, in the contact's own scale, makes a count doubtful
 NOISE = 1e-12  # round-off of a compression that has only begun to rise from rest, in that scale
+PULL = 1e-13  # how far a force must be below zero, in its scale, to be clipped: it may creep to 0
 EQUAL = 1e-12  # rates of approach that are smaller, in units of the largest speed, are none
 
 NONE, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, HYSTERETIC = range(6)
@@ -191,7 +192,7 @@ def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, spe
 
 
 @njit(cache=True)
-def _watch(law, phase, peak, lengths, rates, f):
+def _watch(law, phase, peak, lengths, rates, scale, f):
     """Write the first polynomial whose rise above 0 ends the phase; return how many there are."""
     f[:] = 0.0
     code = law[0]
@@ -211,6 +212,9 @@ def _watch(law, phase, peak, lengths, rates, f):
         else:
             f[1, :DEGREE] = sign * law[4] * rates
             f[1, 0] += sign
+        if phase == LOADING:
+            unit = 1.0 if code == HUNT_CROSSLEY else scale * (law[1] if code == DASHPOT else 1.0)
+            f[1, 0] -= PULL * unit
         return 2
     if code == HYSTERETIC and phase == LOADING:
         f[1, :DEGREE] = -rates
@@ -243,7 +247,7 @@ def _event(laws, phase, peak, fresh, c, rates, acc, h, scales):
         if laws[i, 0] == NONE:
             continue
         dense(c[i], rates[i], acc[i], h, lengths, speeds)
-        events = _watch(laws[i], phase[i], peak[i], lengths, speeds, f)
+        events = _watch(laws[i], phase[i], peak[i], lengths, speeds, scales[i], f)
         if fresh[i]:
             f[0, 0] -= NOISE * scales[i]
         resting = phase[i] == OPEN and c[i] == 0.0 and rates[i] == 0.0
