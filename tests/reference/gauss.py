@@ -29,7 +29,7 @@ def _tables() -> tuple[np.ndarray, ...]:
 PLACES, WEIGHTS, TO_RATE, TO_LENGTH, MONOMIALS, LAST = _tables()
 
 
-@njit(cache=True)
+@njit
 def evaluate(polynomial, x):
     """Return the polynomial at x in [-1, 1]."""
     total = 0.0
@@ -38,7 +38,7 @@ def evaluate(polynomial, x):
     return total
 
 
-@njit(cache=True)
+@njit
 def derivative(polynomial, x):
     """Return the derivative of the polynomial at x in [-1, 1]."""
     total = 0.0
@@ -47,7 +47,7 @@ def derivative(polynomial, x):
     return total
 
 
-@njit(cache=True)
+@njit
 def dense(c, rate, a, h, lengths, rates):
     """Write the polynomials on [-1, 1] of one compression and its rate, from a at the nodes."""
     half = h / 2
@@ -66,7 +66,7 @@ def dense(c, rate, a, h, lengths, rates):
     lengths[0] += c - evaluate(lengths, -1.0)
 
 
-@njit(cache=True)
+@njit
 def crossing(f, samples):
     """Return where f rises above 0 on [-1, 1] (2.0: nowhere), and its highest peak below 0.
 
@@ -90,7 +90,7 @@ def crossing(f, samples):
     return 2.0, peak
 
 
-@njit(cache=True)
+@njit
 def _root(f, left, right, of_slope):
     """Return by halving where f becomes positive, or where its derivative becomes negative."""
     for _ in range(60):
@@ -104,7 +104,7 @@ def _root(f, left, right, of_slope):
     return 0.5 * (left + right) if of_slope else right
 
 
-@njit(cache=True)
+@njit
 def highest(f, samples, best):
     """Return the largest value of f on [-1, 1], or `best` if that is larger."""
     left, slope = -1.0, derivative(f, -1.0)

@@ -12,6 +12,23 @@ from typing import Any, NamedTuple
 import numpy as np
 from numba import njit
 
+from reference.forces import (
+    CLIPPED,
+    DASHPOT,
+    HUNT_CROSSLEY,
+    HYSTERETIC,
+    LOADING,
+    NONE,
+    OPEN,
+    POWER,
+    UNLOADING,
+    VISCOELASTIC,
+    accelerate,
+    force_of,
+    numbers_of,
+    power,
+    turning_lengths,
+)
 from reference.gauss import (
     DEGREE,
     LAST,
@@ -34,8 +51,6 @@ NOISE = 1e-12  # round-off of a compression that has only begun to rise from res
 PULL = 1e-13  # how far a force must be below zero, in its scale, to be clipped: it may creep to 0
 EQUAL = 1e-12  # rates of approach that are smaller, in units of the largest speed, are none
 
-NONE, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, HYSTERETIC = range(6)
-OPEN, LOADING, UNLOADING, CLIPPED = range(4)
 STATUS = ("finished", "time reached", "too long", "no convergence")
 FINISHED, TIME_REACHED, TOO_LONG, NO_CONVERGENCE = range(4)
 COLUMNS = 6  # of an interval: contact, start, end, peak force, peak compression, impulse
@@ -66,7 +81,7 @@ def integrate(
     limit: int = 3_000_000,
 ) -> Solution:
     """Solve a drop, bottom first, in at most `limit` steps; contacts as in `laws.read`."""
-    laws = np.array([_law(**law) if law else (NONE, 0.0, 1.0, 1.0, 0.0) for law in contacts])
+    laws = np.array([numbers_of(**law) if law else (NONE, 0.0, 1.0, 1.0, 0.0) for law in contacts])
     v = np.array(velocities, dtype=float)
     c = -np.array([0.0, *gaps])
     rates = np.array([0.0, *v[:-1]]) - v
@@ -83,79 +98,7 @@ def integrate(
     return Solution(STATUS[status], -np.cumsum(end), counts, rows, bool(doubtful), steps)
 
 
-def _law(
-    law: str,
-    stiffness: float,
-    exponent: float = 1.0,
-    damping: float = 0.0,
-    dissipative_time: float = 0.0,
-    dissipation: float = 0.0,
-    restitution: float | None = None,
-    unloading_exponent: float | None = None,
-) -> tuple[float, ...]:
-    """Return code, stiffness, loading and unloading exponent, and the damping of a law."""
-    if law == "Hysteretic":
-        if restitution is not None:
-            unloading_exponent = (exponent + 1.0) / restitution**2 - 1.0
-        return HYSTERETIC, stiffness, exponent, unloading_exponent, 0.0
-    code, p, b = {
-        "Spring": (POWER, 1.0, 0.0),
-        "Hertz": (POWER, 1.5, 0.0),
-        "PowerLaw": (POWER, exponent, 0.0),
-        "Dashpot": (DASHPOT, 1.0, damping),
-        "Viscoelastic": (VISCOELASTIC, 1.5, dissipative_time),
-        "HuntCrossley": (HUNT_CROSSLEY, exponent, dissipation),
-    }[law]
-    return code, stiffness, p, p, b
-
-
-@njit(cache=True)
-def _power(x, p):
-    if p == 1.0:
-        return x
-    if x <= 0.0:
-        return 0.0
-    return x * np.sqrt(x) if p == 1.5 else x**p
-
-
-@njit(cache=True)
-def _force(law, phase, peak, c, rate):
-    """Return the force of the present curve, which may pull, and the sign-giving factor of it."""
-    code, k, p, n, b = law[0], law[1], law[2], law[3], law[4]
-    if code == POWER:
-        return k * _power(c, p), 1.0
-    if code == DASHPOT:
-        return k * c + b * rate, k * c + b * rate
-    if code == VISCOELASTIC:
-        factor = c + 1.5 * b * rate
-        return k * np.sqrt(max(c, 0.0)) * factor, factor
-    if code == HUNT_CROSSLEY:
-        return k * _power(c, p) * (1.0 + b * rate), 1.0 + b * rate
-    if phase == UNLOADING:
-        return k * _power(peak, p) * _power(c / peak, n), 1.0
-    return k * _power(c, p), 1.0
-
-
-@njit(cache=True)
-def _accelerate(mass, laws, phase, peak, gravity, c, rates, force, a):
-    """Write the forces and the second derivatives of the compressions."""
-    size = len(mass)
-    for i in range(size):
-        active = phase[i] == LOADING or phase[i] == UNLOADING
-        force[i] = _force(laws[i], phase[i], peak[i], c[i], rates[i])[0] if active else 0.0
-    below = 0.0  # the acceleration of the ball below; the floor has none
-    for i in range(size):
-        above = force[i + 1] if i + 1 < size else 0.0
-        own = (force[i] - above) / mass[i] - gravity
-        a[i] = (
-            below - own
-            if i == 0
-            else (-force[i] + force[i - 1]) / mass[i - 1] - (force[i] - above) / mass[i]
-        )
-    return a
-
-
-@njit(cache=True)
+@njit
 def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, speed):
     """Solve the collocation by sweeps; return its error over the tolerance, inf if none is met."""
     size = len(mass)
@@ -170,7 +113,7 @@ def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, spe
                 for k in range(NODES):
                     x[i] += h * h * TO_LENGTH[j, k] * acc[i, k]
                     y[i] += h * TO_RATE[j, k] * acc[i, k]
-            _accelerate(mass, laws, phase, peak, gravity, x, y, force, a)
+            accelerate(mass, laws, phase, peak, gravity, x, y, force, a)
             for i in range(size):
                 change = max(change, h * abs(a[i] - acc[i, j]))
                 acc[i, j] = a[i]
@@ -191,7 +134,7 @@ def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, spe
     return error / TOLERANCE
 
 
-@njit(cache=True)
+@njit
 def _watch(law, phase, peak, lengths, rates, scale, f):
     """Write the first polynomial whose rise above 0 ends the phase; return how many there are."""
     f[:] = 0.0
@@ -226,7 +169,7 @@ def _watch(law, phase, peak, lengths, rates, scale, f):
     return 1
 
 
-@njit(cache=True)
+@njit
 def _next_phase(phase, which, code):
     """Return the phase after the event of that number in `_watch`."""
     if phase == OPEN:
@@ -238,7 +181,7 @@ def _next_phase(phase, which, code):
     return LOADING
 
 
-@njit(cache=True)
+@njit
 def _event(laws, phase, peak, fresh, c, rates, acc, h, scales):
     """Return the first event of a step: place, contact, number; and whether it is doubtful."""
     lengths, speeds, f = np.empty(DEGREE + 1), np.empty(DEGREE), np.empty((2, DEGREE + 1))
@@ -262,7 +205,7 @@ def _event(laws, phase, peak, fresh, c, rates, acc, h, scales):
     return best, contact, which, doubtful
 
 
-@njit(cache=True)
+@njit
 def _record(laws, phase, c, rates, acc, forces, h, row, log):
     """Add a step to the peaks and the impulses of the contacts that are not open."""
     lengths, speeds = np.empty(DEGREE + 1), np.empty(DEGREE)
@@ -277,22 +220,22 @@ def _record(laws, phase, c, rates, acc, forces, h, row, log):
         for j in range(NODES):
             entry[5] += h * WEIGHTS[j] * forces[i, j]
         if laws[i, 0] in (POWER, HYSTERETIC):
-            entry[3] = laws[i, 1] * _power(entry[4], laws[i, 2])
+            entry[3] = laws[i, 1] * power(entry[4], laws[i, 2])
         else:
             _peak_force(laws[i], lengths, speeds, entry)
 
 
-@njit(cache=True)
+@njit
 def _force_at(law, lengths, speeds, x):
     c, rate = 0.0, 0.0
     for k in range(DEGREE, -1, -1):
         c = c * x + lengths[k]
     for k in range(DEGREE - 1, -1, -1):
         rate = rate * x + speeds[k]
-    return _force(law, LOADING, 0.0, c, rate)[0]
+    return force_of(law, LOADING, 0.0, c, rate)[0]
 
 
-@njit(cache=True)
+@njit
 def _peak_force(law, lengths, speeds, entry):
     """Put the largest force of the step into the entry (golden section about the best sample)."""
     top, place = -np.inf, -1.0
@@ -314,19 +257,7 @@ def _peak_force(law, lengths, speeds, entry):
     entry[3] = max(entry[3], top)
 
 
-@njit(cache=True)
-def _scales(mass, laws, speed):
-    """Return the compression of every contact at which its lighter ball would turn."""
-    found = np.full(len(mass), np.inf)
-    for i in range(len(mass)):
-        if laws[i, 0] != NONE:
-            m = mass[i] if i == 0 else min(mass[i], mass[i - 1])
-            p = laws[i, 2]
-            found[i] = ((p + 1.0) * m * speed**2 / (2.0 * laws[i, 1])) ** (1.0 / (p + 1.0))
-    return found
-
-
-@njit(cache=True)
+@njit
 def _parting(laws, phase, rates, speed):
     """Return whether no force acts and no contact approaches, and whether that is doubtful."""
     doubtful = False
@@ -338,14 +269,14 @@ def _parting(laws, phase, rates, speed):
     return True, doubtful
 
 
-@njit(cache=True)
+@njit
 def _run(mass, laws, start, start_rates, gravity, until, limit, log):
     """Step from event to event; return status, rows, doubtful, steps and the last rates."""
     size = len(mass)
     c, rates = start.copy(), start_rates.copy()
     v = -np.cumsum(rates)
     speed = max(np.max(np.abs(v)), 0.0) or gravity * until
-    scales = _scales(mass, laws, speed)
+    scales = turning_lengths(mass, laws, speed)
     scale = np.min(scales)
     phase, row = np.zeros(size, np.int64), np.zeros(size, np.int64)
     peak, clipped, pressed = np.zeros(size), np.zeros(size), np.zeros(size)

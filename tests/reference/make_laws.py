@@ -172,9 +172,6 @@ def resumed() -> Iterator[Case]:
     firm = {"law": "HuntCrossley", "stiffness": 40.0, "exponent": 1.0, "dissipation": 11.6}
     top = {"law": "Viscoelastic", "stiffness": 45.7, "dissipative_time": 0.43}
     yield fall([0.175, 0.035, 0.0195], [loose, firm, top], [0.0, 3.44], 1.0)
-    floor = {"law": "HuntCrossley", "stiffness": 35.5, "exponent": 2.26, "dissipation": 26.0}
-    upper = {"law": "Dashpot", "stiffness": 50.0, "damping": 11.0}
-    yield fall([0.07, 2.9], [floor, upper], [4.0], 1.0)
     slow = {"law": "Viscoelastic", "stiffness": 13.0, "dissipative_time": 1.23}
     soft = {"law": "Dashpot", "stiffness": 0.176, "damping": 17.5}
     hard = {"law": "Dashpot", "stiffness": 10.8, "damping": 0.82}
@@ -182,6 +179,10 @@ def resumed() -> Iterator[Case]:
     three = [(24.3, 5.26), (17.3, 3.79), (4.72, 2.08)]
     dashpots = [{"law": "Dashpot", "stiffness": k, "damping": b} for k, b in three]
     yield fall([1.45, 0.46, 1.21], dashpots, [5.82, 3.58], 1.0)
+    wide = [(0.45, 1.16), (15.4, 7.5), (7.1, 1.48)]
+    dashpots = [{"law": "Dashpot", "stiffness": k, "damping": b} for k, b in wide]
+    crossed = fall([2.8, 28.5, 71.6], dashpots, [0.0, 0.0], 1.0)
+    yield {**crossed, "velocities": [-0.78, 0.84, -0.34]}
 
 
 def gravity() -> Iterator[Case]:

@@ -39,6 +39,7 @@ NEGLECTED = mpf(10) ** -38  # momentum, in units of the impact's
 LEAST = mpf(10) ** -40  # compression below which every force is left out, in the problem's length
 EQUAL = mpf(10) ** -24  # velocities that differ by less, in units of the largest, are equal
 AT_REST = mpf(10) ** -45  # what counts as zero where a touching contact may be pressed
+PULL = 1 << (BITS - 113)  # 1e-34: 1 + χ ċ, which may creep to 0, is clipped below minus that
 GROWTH = 4  # of the steps
 
 OPEN, FAINT, LOADING, UNLOADING, CLIPPED = range(5)
@@ -102,7 +103,10 @@ class Contact:
             elif self.law.unloading is not None:
                 yield slope(c), UNLOADING
             elif self.curve.rate:
-                yield self._weight(c, piece), CLIPPED
+                weight = self._weight(c, piece)
+                if self.curve.constant:
+                    weight[0] += PULL
+                yield weight, CLIPPED
 
     def _weight(self, c: Sequence[int], piece: Piece) -> list[int]:
         """Return the polynomial of the curve's bracket, which has the sign of the force."""
@@ -179,7 +183,7 @@ def run(
     """
     with mp.workdps(DIGITS):
         m, v, gap = ([mpf(x) for x in row] for row in (masses, velocities, gaps))
-        speed = max(abs(x) for x in v) or mp.sqrt(mpf(gravity) * mpf(until or 0))
+        speed = max(abs(x) for x in v) or mpf(gravity) * mpf(until or 0)
         running = [
             Contact(i, read(law), min(m[max(i - 1, 0) : i + 1]), speed) if law else None
             for i, law in enumerate(contacts)
