@@ -78,7 +78,7 @@ def integrate(
     velocities: Sequence[float],
     gravity: float = 0.0,
     until: float = np.inf,
-    limit: int = 3_000_000,
+    limit: int = 1_000_000,
 ) -> Solution:
     """Solve a drop, bottom first, in at most `limit` steps; contacts as in `laws.read`."""
     laws = np.array([numbers_of(**law) if law else (NONE, 0.0, 1.0, 1.0, 0.0) for law in contacts])
@@ -118,7 +118,7 @@ def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, spe
                 change = max(change, h * abs(a[i] - acc[i, j]))
                 acc[i, j] = a[i]
                 forces[i, j] = force[i]
-        if change <= 1e-17 * speed or (change <= 1e-14 * speed and change >= before):
+        if change <= 1e-15 * speed or (change <= 1e-14 * speed and change >= before):
             break
         if not change < 1e6 * speed:
             return np.inf

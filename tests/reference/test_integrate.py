@@ -50,5 +50,5 @@ def test_gravity_until_a_time():
     found = integrate([1.0], [spring], [], [-1.0], gravity=10.0, until=0.71)
     assert found.status == "time reached"
     assert found.counts == [4]
-    heights = found.intervals[:, 4]
+    heights = found.intervals[:3, 4]  # the fourth bounce is not over
     assert heights == pytest.approx(heights[0], rel=1e-12)
