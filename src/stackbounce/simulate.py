@@ -39,13 +39,13 @@ __all__ = ["simulate"]
 
 _MOST_BALLS = 2000  # their matrices are quadratic
 _MOST_EVENTS = 10**18  # a compiled counter's range
-_LOG_ROWS = 4096
+_LOG_ROWS = 512
 _PLAIN_BALLS = 20  # up to this size plain Python is done before compiled code has been loaded
 _PLAIN_EVENTS = 2000  # after so many events, or steps without one, a run goes on compiled
 _Kernel = Callable[..., Any]
 _FINITE_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (start, advance, velocity_at)
 _RIGID_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (begin_collisions, collide_all, rigid_velocity)
-_STEP = 0.1  # of the tolerance asked for: what one step of a nonlinear cluster may leave out
+_STEP = 0.02  # of the tolerance asked for: what one step of a nonlinear cluster may leave out
 _ROUND_OFF = 1e-16
 _LEAST_ORDER = 6
 _FAINT = 1e-2  # of that again: work of a typical contact below which a power law's chord will do
@@ -71,7 +71,7 @@ def simulate(
         A time in s at which to stop; by default the run ends once all contacts are open and none
         approaches.
     rtol : float, optional
-        From 1e-15 to 1e-3: the relative error to aim at where a contact follows a law that is not
+        From 1e-14 to 1e-3: the relative error to aim at where a contact follows a law that is not
         linear. Springs and dashpots, and rigid balls, are exact to round-off whatever it is.
     event_limit : int, optional
         After how many events (touches, releases, and turns of the force in between), or steps
@@ -119,7 +119,7 @@ def simulate(
             f"gravity must be 0 while all contacts are Rigid, got {drop.gravity!r}: "
             "give the contacts a stiffness, or leave gravity out"
         )
-    tolerance = between("rtol", rtol, 1e-15, 1e-3)
+    tolerance = between("rtol", rtol, 1e-14, 1e-3)
     status, time, velocities, log, infinite, _ = _run(drop, end, tolerance, limit, compiled, ())
     rerun = functools.partial(_samples, drop, end, tolerance, limit, compiled)
     return Result(drop, Status(status), time, velocities, log, infinite, rerun)
@@ -141,7 +141,8 @@ def _run(
     begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
     stack: Any = _rigid_stack(drop) if rigid else _finite_stack(drop, rtol)
     samples = new_samples(times, len(drop.balls))
-    log: Any = [0.0] * (max(_LOG_ROWS, len(drop.balls)) * codes.LOG_COLUMNS)
+    rows = max(_LOG_ROWS, len(drop.balls))
+    log: Any = [0.0] * (rows * codes.LOG_COLUMNS)
     handle, mode = stack, _as_it_is
     swift = bool(compiled) or (compiled is None and len(drop.balls) > _PLAIN_BALLS)
     entries: list[float] = []
@@ -150,13 +151,13 @@ def _run(
         status = codes.RUNNING
         while status == codes.RUNNING:
             if swift and mode is _as_it_is:
-                stack, samples, log, handle = _for_numba(stack, samples, log)
+                stack, samples, log, handle = _for_numba(stack, samples, rows)
                 mode = compile_kernel
             stack.counter[0] = 0
             trial = compiled is None and not swift
             limit = min(_PLAIN_EVENTS, event_limit) if trial else event_limit
             status = int(mode(go_on)(handle, until, limit, log, samples))
-            entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
+            entries.extend(_entries(stack, log))
             if status == codes.EVENT_LIMIT and limit < event_limit:
                 status, swift = codes.RUNNING, True
         time = float(stack.clock[0])
@@ -165,24 +166,30 @@ def _run(
         if not rigid and status != codes.FINISHED:
             stack.counter[0] = 0
             mode(write_unfinished)(handle, time, log)
-            entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
+            entries.extend(_entries(stack, log))
         velocities = [float(mode(speed)(handle, b, time)) for b in range(len(drop.balls))]
     except (ArithmeticError, TypeError, ValueError):  # where compiled code has inf, nan or complex
         status, time = codes.INVALID, float(stack.clock[0])
-        entries.extend(log[: stack.counter[0] * codes.LOG_COLUMNS])
+        entries.extend(_entries(stack, log))
         velocities = [float(velocity) for velocity in stack.velocity]
     infinite = list(stack.infinite) if rigid else [0] * len(drop.balls)
     return status, time, velocities, entries, infinite, samples
 
 
-def _for_numba(stack: Any, samples: Samples, log: Any) -> tuple[Any, Samples, Any, Any]:
-    """Return stack, samples and log as arrays, and what compiled kernels take for the stack."""
+def _entries(stack: Any, log: Any) -> list[float]:
+    """Return the log's entries as numbers of Python."""
+    used = log[: stack.counter[0] * codes.LOG_COLUMNS]
+    return used if isinstance(used, list) else used.tolist()
+
+
+def _for_numba(stack: Any, samples: Samples, rows: int) -> tuple[Any, Samples, Any, Any]:
+    """Return stack, samples and a log as arrays, and what compiled kernels take for the stack."""
     import numpy as np
 
     from stackbounce.engine.structure import structure
 
     arrays = as_arrays(stack)
-    return arrays, as_arrays(samples), np.array(log), structure(arrays)
+    return arrays, as_arrays(samples), np.zeros(rows * codes.LOG_COLUMNS), structure(arrays)
 
 
 def _samples(

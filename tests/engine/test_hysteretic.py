@@ -14,7 +14,7 @@ EVENT = 1e-12  # of the contact time
 ROWS = make_data.read("hysteretic")
 SPEED = (2 * 9.80665 * 0.2) ** 0.5
 
-TIGHT = 1e-15  # of the tolerances a user can ask for
+TIGHT = 1e-14  # of the tolerances a user can ask for
 
 
 def one_ball(law, mass=0.101, speed=SPEED):

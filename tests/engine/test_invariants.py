@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import stackbounce as sb
 from drops import masses_of, of_contact
 
-simulate = functools.partial(sb.simulate, rtol=1e-15)
+simulate = functools.partial(sb.simulate, rtol=1e-14)
 MOMENTUM = 1e-12
 ENERGY = 1e-12
 

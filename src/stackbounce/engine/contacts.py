@@ -217,7 +217,10 @@ def _gain_wait(
     clear = slope * noise + rate * rate_noise + 4.0 * EPSILON * stack.gain_constant[i]
     sign = -1.0 if stack.phase[i] == SLACK else 1.0
     level = 0.0
-    if stack.factor_exponent[i] == 0.0:
+    if stack.factor_exponent[i] > 0.0:
+        # a gain may creep towards zero and never fall through it: its own error must not
+        clear += 10.0 * rate * stack.number[2] * stack.number[1]
+    else:
         # an overdamped dashpot can creep apart for ever with no more force than its round-off
         if sign < 0.0:
             level = 2.0 * clear
