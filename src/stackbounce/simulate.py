@@ -52,7 +52,7 @@ def simulate(
         (eqs 1 to 4). None of them: simultaneous contacts (eqs 5, 6 and section V).
     until : float, optional
         A time in s at which to stop; by default the run ends once all contacts are open and none
-        approaches.
+        approaches, or all is at rest.
     event_limit : int, optional
         After how many events (touches, releases, and turns of the force in between) to give up,
         with the status EVENT_LIMIT and all that was reached.
@@ -67,8 +67,7 @@ def simulate(
     Raises
     ------
     InvalidValue
-        If `until` or `event_limit` is out of its range, a rigid stack has gravity, or there are
-        more than 2000 balls.
+        If `until` or `event_limit` is out of its range, or there are more than 2000 balls.
     InvalidType
         If one of them has the wrong type.
 
@@ -94,11 +93,6 @@ def simulate(
         raise InvalidValue(f"balls must be at most {_MOST_BALLS} for a run, got {len(drop.balls)}")
     end = math.inf if until is None else positive("until", until, "seconds")
     limit = whole("event_limit", event_limit, 1, _MOST_EVENTS)
-    if drop.rigid and drop.gravity > 0.0:
-        raise InvalidValue(
-            f"gravity must be 0 while all contacts are Rigid, got {drop.gravity!r}: "
-            "give the contacts a stiffness, or leave gravity out"
-        )
     status, time, velocities, log, infinite, _ = _run(drop, end, limit, compiled, ())
     rerun = functools.partial(_samples, drop, end, limit, compiled)
     return Result(drop, Status(status), time, velocities, log, infinite, rerun)
@@ -185,6 +179,7 @@ def _rigid_stack(drop: Drop) -> RigidStack:
         restitution=[law.restitution if isinstance(law, Rigid) else 0.0 for law in drop.contacts],
         velocity=drop.start_velocities,
         compression=_compressions(drop),
+        number=[1.0, 0.0, 0.0, drop.gravity],
     )
 
 

@@ -30,6 +30,7 @@ DIP = 5  # the compression stops falling
 FAINT = 6  # the force sinks below round-off: the power law is continued by its chord
 PRESSED = 7  # ... and rises above it
 RELOADED = 8  # an unloading curve has been climbed back to its old peak
+JOINED = 20  # the balls at contacts CONTACT to START have come together, at UPPER_VELOCITY
 
 # the columns of a log of events
 TIME, CONTACT, KIND, LOWER_VELOCITY, UPPER_VELOCITY = 0, 1, 2, 3, 4
