@@ -224,11 +224,14 @@ def _sample(stack: RigidStack, samples: Samples, time: float) -> None:
     size = len(stack.mass)
     factor = stack.number[0]
     while stack.counter[3] < len(samples.time) and samples.time[stack.counter[3]] <= time:
-        later = samples.time[stack.counter[3]] - stack.clock[0]
+        moment = samples.time[stack.counter[3]]
+        later = moment - stack.clock[0]
         at = stack.counter[3] * size
         position = 0.0
         for i in range(size):
             compression = compression_after(stack, i, later) * factor
+            if stack.clock[0] + (stack.due[i] - stack.now[0]) == moment:
+                compression = 0.0
             position -= compression
             samples.position[at + i] = position
             samples.velocity[at + i] = velocity_after(stack, i, later) * factor
