@@ -93,7 +93,8 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
     """
     bring_contacts(stack, low - 1, high + 1)
     bring_balls(stack, low - 2, high + 1)
-    velocity = common_velocity(stack, low, high)
+    lower_gain, upper_gain = common_speed_up(stack, low, high)
+    velocity = stack.velocity[low - 1] + lower_gain if low > 0 else 0.0
     size = len(stack.mass)
     pull = stack.number[3] * duration
     lands = pull if low == 0 else 0.0
@@ -131,10 +132,10 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
         stack.velocity[b] = velocity - pull + lands
     if low > 0:
         stack.compression[low - 1] += below * duration - travel
-        change_rate(stack, low - 1, below - velocity)
+        change_rate(stack, low - 1, -lower_gain)
     if high + 1 < size:
         stack.compression[high + 1] += travel - height - above * duration
-        change_rate(stack, high + 1, velocity - above + lands)
+        change_rate(stack, high + 1, upper_gain + lands)
     for i in range(max(low - 1, 0), min(high + 2, size)):
         plan(stack, i)
     _write_joined(stack, low, high, log)
@@ -200,15 +201,19 @@ def pair_ends(stack: RigidStack, hit: int, other: int) -> float:
 
 
 @kernel
-def common_velocity(stack: RigidStack, low: int, high: int) -> float:
-    """Return the velocity that the balls at contacts low..high share in the end."""
-    if low == 0:
-        return 0.0
-    momentum, mass = 0.0, 0.0
-    for b in range(low - 1, high + 1):
-        momentum += stack.mass[b] * stack.velocity[b]
-        mass += stack.mass[b]
-    return momentum / mass
+def common_speed_up(stack: RigidStack, low: int, high: int) -> tuple[float, float]:
+    """Return how much the outer balls of contacts low..high gain on the way to one velocity.
+
+    All are anchored now. The closing rates know the differences to more digits than velocities do.
+    """
+    momentum, relative = 0.0, 0.0
+    mass = stack.mass[low - 1] if low > 0 else math.inf
+    for i in range(low, high + 1):
+        relative -= stack.rate[i]
+        momentum += stack.mass[i] * relative
+        mass += stack.mass[i]
+    gain = momentum / mass
+    return gain, gain - relative
 
 
 @kernel

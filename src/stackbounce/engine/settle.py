@@ -100,13 +100,15 @@ def _bounce_to_the_end(stack: RigidStack, until: float) -> bool:
         return False
     if earliest_other(stack, 0) <= stack.now[0] + duration:
         return False
-    if len(stack.mass) > 1:
-        # from the second bounce on the ball above stays higher than the lower one can come
+    if len(stack.mass) > 1 and duration > 0.0:
+        # from the second bounce on, a parabola: it is above the lower ball's apex at both ends
         gap, velocity = -compression_after(stack, 1, 0.0), velocity_after(stack, 1, 0.0)
-        apex = 0.5 * (e * speed) * (e * speed) / gravity
-        height = gap + (velocity - 0.5 * gravity * duration) * duration
-        if height <= apex or gap + (velocity - 0.5 * gravity * flight) * flight <= apex:
+        apex = 0.25 * e * e * speed  # over the duration of the first flight
+        if gap / flight + velocity - speed <= apex:
             return False
+        if gap / duration + velocity - speed / (1.0 - e) <= apex * (1.0 - e):
+            return False
+        height = gap + (velocity - 0.5 * gravity * duration) * duration
         bring_balls(stack, 1, 1)
         stack.velocity[1] -= gravity * duration
         stack.rate[1] = -stack.velocity[1]
@@ -129,23 +131,28 @@ def _bounce_to_the_end(stack: RigidStack, until: float) -> bool:
 def _faint(stack: RigidStack, low: int) -> int:
     """Return the highest of the balls from ``low`` up that rest after a negligible time.
 
-    It is less than ``low`` where there is none, where another ball meets them before, and where no
-    contact loses energy. The floor's contact alone is left to its exact limit.
+    Negligible against the time so far, but where the next ball meets them soon, against the time
+    until then, or in speed against that ball. It is less than ``low`` where there is none, and
+    where no contact loses energy. Ball 0 alone on a floor that does is left to its exact limit.
     """
     lossy = stack.resting[1]
     if lossy == len(stack.mass):
         return low - 1
     gravity = stack.number[3]
-    limit = _NO_FLIGHT * (1.0 - stack.restitution[lossy]) * stack.clock[0]
-    height, high = 0.0, low - 1
+    part = _NO_FLIGHT * (1.0 - stack.restitution[lossy])
+    limit = part * stack.clock[0]
+    height, longest, high = 0.0, 0.0, low - 1
     for i in range(low, len(stack.mass)):
         height += max(0.0, -compression_after(stack, i, 0.0))
         speed = abs(velocity_after(stack, i, 0.0))
-        if speed + math.sqrt(speed * speed + 2.0 * gravity * height) > gravity * limit:
+        fall = (speed + math.sqrt(speed * speed + 2.0 * gravity * height)) / gravity
+        longest = max(longest, fall)
+        if longest > limit:
             break
-        high = i
-    if high < lossy or high == 0:
-        return low - 1
-    if high + 1 < len(stack.mass) and stack.due[high + 1] <= stack.now[0] + limit:
-        return low - 1
-    return high
+        alone = True
+        if i + 1 < len(stack.mass):
+            quiet = stack.due[i + 1] - stack.now[0]
+            alone = quiet > limit or longest <= part * max(quiet, stack.rate[i + 1] / gravity)
+        if alone:
+            high = i
+    return high if high >= max(lossy, 1) else low - 1
