@@ -116,6 +116,7 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
         centre += stack.mass[i] * height
         mass += stack.mass[i]
         stack.infinite[i] = 1
+        stack.last_hit[i] = stack.counter[1]
     _involve(stack, low, high)
     travel = centre / mass + velocity * duration
     below = stack.velocity[low - 1] if low > 0 else 0.0
