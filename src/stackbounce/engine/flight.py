@@ -88,18 +88,23 @@ def closing_time(stack: RigidStack, i: int, rate: float) -> float:
 
 
 @kernel
+def closing_rate(stack: RigidStack, i: int) -> float:
+    """Return the rate at which a contact that closes with acceleration will have closed."""
+    gap, rate = -stack.compression[i], stack.rate[i]
+    if gap <= 0.0:
+        return abs(rate)
+    return math.sqrt(rate * rate + 2.0 * acceleration(stack, i) * gap)
+
+
+@kernel
 def plan(stack: RigidStack, i: int) -> None:
     """Set the time of the next collision of contact i, which is anchored now."""
     wait = closing_time(stack, i, approach(stack, i))
     pull = acceleration(stack, i)
     if pull > 0.0 and stack.law[i] != ABSENT:
-        gap, rate = max(0.0, -stack.compression[i]), stack.rate[i]
-        speed = math.sqrt(rate * rate + 2.0 * pull * gap) if gap > 0.0 else abs(rate)
-        if rate > 0.0:
-            wait = 2.0 * gap / (rate + speed)
-        else:
-            wait = (speed - rate) / pull
-    if 0.0 < wait and wait * _LATE < stack.now[0]:
+        gap, rate, last = max(0.0, -stack.compression[i]), stack.rate[i], closing_rate(stack, i)
+        wait = 2.0 * gap / (rate + last) if rate > 0.0 else (last - rate) / pull
+    if wait > 0.0 and wait * _LATE < stack.now[0]:
         _move_origin(stack)
     schedule(stack.due, stack.heap, stack.place, i, stack.now[0] + wait)
 

@@ -33,6 +33,7 @@ from stackbounce.engine.flight import (
     bring_balls,
     bring_contacts,
     change_rate,
+    closing_rate,
     compression_after,
     plan,
     rate_after,
@@ -139,12 +140,9 @@ def _ending(stack: RigidStack) -> int:
 @kernel
 def _meet(stack: RigidStack, i: int) -> float:
     """Anchor what a collision of contact i concerns; return the rate at which it has closed."""
-    pull = acceleration(stack, i)
-    if pull > 0.0:
-        gap, rate = max(0.0, -stack.compression[i]), stack.rate[i]
-        speed = math.sqrt(rate * rate + 2.0 * pull * gap) if gap > 0.0 else abs(rate)
-        stack.rate[i] = speed
-        stack.velocity[i] = -speed
+    if acceleration(stack, i) > 0.0:
+        stack.rate[i] = closing_rate(stack, i)
+        stack.velocity[i] = -stack.rate[i]
         stack.anchor[i] = stack.now[0]
         stack.since[i] = stack.now[0]
     bring_contacts(stack, i - 1, i + 1)
