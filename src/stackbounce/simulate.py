@@ -33,6 +33,7 @@ _PLAIN_EVENTS = 2000  # after so many events a run goes on compiled
 _Kernel = Callable[..., Any]
 _FINITE_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (start, advance, velocity_at)
 _RIGID_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (begin_collisions, collide_all, rigid_velocity)
+_LARGEST_EXPONENT = 600
 _VELOCITY_TOLERANCE = 1e-16  # per step of a nonlinear cluster, of the reference speed
 
 
@@ -170,16 +171,22 @@ def _compressions(drop: Drop) -> list[float]:
 
 
 def _rigid_stack(drop: Drop) -> RigidStack:
-    """Return the arrays of a stack of rigid balls at t = 0."""
+    """Return the arrays of a stack of rigid balls at t = 0.
+
+    Lengths and speeds are in units of a power of two near the impact speed, which rounds nothing
+    and keeps squares of speeds in the range of numbers.
+    """
     laws = [codes.ABSENT if law is None else codes.POWER for law in drop.contacts]
+    exponent = math.frexp(drop.reference_speed)[1]
+    unit = 2.0 ** max(-_LARGEST_EXPONENT, min(exponent, _LARGEST_EXPONENT))
     return new_rigid_stack(
         len(drop.balls),
         mass=[ball.mass for ball in drop.balls],
         law=laws,
         restitution=[law.restitution if isinstance(law, Rigid) else 0.0 for law in drop.contacts],
-        velocity=drop.start_velocities,
-        compression=_compressions(drop),
-        number=[1.0, 0.0, 0.0, drop.gravity],
+        velocity=[velocity / unit for velocity in drop.start_velocities],
+        compression=[compression / unit for compression in _compressions(drop)],
+        number=[unit, 0.0, 0.0, drop.gravity / unit],
     )
 
 

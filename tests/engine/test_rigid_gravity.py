@@ -281,6 +281,21 @@ def test_momentum_of_a_column_that_falls():
     assert masses_of(drop) @ velocity == pytest.approx(start - 3.0 * sum(masses), abs=1e-13)
 
 
+@pytest.mark.parametrize(
+    ("speed", "gravity"),
+    [(1e-200, 1.0), (1e200, 1.0), (1.0, 1e250), (1e-160, 1e-10), (1e150, 1e-100)],
+)
+def test_only_ratios_count(speed, gravity):
+    """What happens does not depend on the units, however small or large the numbers get."""
+    expected = sb.simulate(falling([1.0, 3.0, 2.0], 0.5), until=9.0)
+    drop = falling([1.0, 3.0, 2.0], 0.5, gravity=gravity, impact_speed=speed)
+    result = sb.simulate(drop, until=9.0 * speed / gravity)
+    assert result.status is expected.status is sb.Status.SETTLED
+    assert result.end_time == pytest.approx(expected.end_time * speed / gravity, rel=1e-12)
+    counts = [len(run.intervals) for run in (result, expected)]
+    assert counts[0] == pytest.approx(counts[1], rel=0.02)
+
+
 # sampling, apexes, both modes
 
 

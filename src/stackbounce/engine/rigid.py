@@ -53,12 +53,11 @@ _SMALL = 2.0**-600  # speeds below this are scaled up by its inverse: only ratio
 def begin_collisions(stack: RigidStack) -> None:
     """Prepare a new rigid stack for its first collision."""
     size = len(stack.mass)
-    stack.number[0] = 1.0
     stack.memory[1] = 1
     stack.resting[1] = size
     clear(stack.due, stack.heap, stack.place)
     for i in range(size):
-        stack.number[2] = max(stack.number[2], abs(stack.velocity[i]))
+        stack.number[2] = max(stack.number[2], abs(stack.velocity[i]) * stack.number[0])
         below = stack.velocity[i - 1] if i > 0 else 0.0
         stack.rate[i] = below - stack.velocity[i]
         if stack.law[i] != ABSENT and stack.restitution[i] < 1.0:
