@@ -4,7 +4,7 @@ import dataclasses
 import enum
 import functools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -146,7 +146,7 @@ class Result:
         collision has end = start and an infinite peak force; of infinitely many the first ones are
         listed. An interval that had not ended when the run stopped has an infinite end.
         """
-        rows = self._rows[self._rows[:, codes.KIND] != codes.TOUCH]
+        rows = self._rows[np.isin(self._rows[:, codes.KIND], (codes.RELEASE, codes.COLLISION))]
         out = np.empty(len(rows), dtype=INTERVAL)
         out["contact"] = rows[:, codes.CONTACT]
         out["start"] = rows[:, codes.START]
@@ -165,7 +165,8 @@ class Result:
         that of the ball above it; all other balls keep theirs in a collision, so that every
         intermediate velocity of a sequence is here.
         """
-        rows = self._rows[np.isfinite(self._rows[:, codes.TIME])]
+        known = np.isin(self._rows[:, codes.KIND], list(_KINDS))
+        rows = self._rows[known & np.isfinite(self._rows[:, codes.TIME])]
         out = np.empty(len(rows), dtype=EVENT)
         out["time"] = rows[:, codes.TIME]
         out["contact"] = rows[:, codes.CONTACT]
@@ -201,8 +202,23 @@ class Result:
         The height is the ball's position. Only gravity makes an apex; one that a run stopped before
         is not listed.
         """
-        rows = [row for b in range(len(self.drop.balls)) for row in self._apexes_of(b)]
-        return _frozen(np.array(sorted(rows, key=lambda row: row[1]), dtype=APEX))
+        gravity = self.drop.gravity
+        if gravity == 0.0:
+            return _frozen(np.empty(0, dtype=APEX))
+        stopped = self.status in (Status.TIME_REACHED, Status.EVENT_LIMIT, Status.INVALID)
+        last = self.end_time if stopped else math.inf
+        rising = [
+            (start + velocity / gravity, ball, start, 0.5 * velocity**2 / gravity)
+            for ball, start, velocity, end in self._flights()
+            if velocity > 0.0 and start + velocity / gravity < end
+        ]
+        rising = sorted(row for row in rising if row[0] <= last)
+        positions = self.sample([start for _, _, start, _ in rising]).position.values
+        rows = [
+            (ball, top, positions[ball, row] + rise)
+            for row, (top, ball, _, rise) in enumerate(rising)
+        ]
+        return _frozen(np.array(rows, dtype=APEX))
 
     def sample(self, times: ArrayLike) -> "xarray.Dataset":
         """Return where everything is at given times.
@@ -289,36 +305,33 @@ class Result:
         potential = mass * self.drop.gravity * tables["position"]
         return np.asarray(np.sum(kinetic + potential + tables["stored"], axis=0))
 
-    def _apexes_of(self, ball: int) -> list[tuple[int, float, float]]:
-        """Return the apexes of a ball: it flies while the contacts below and above it are open."""
-        gravity = self.drop.gravity
-        if gravity == 0.0:
-            return []
-        closed: set[int] = set()
-        flights: list[tuple[float, float]] = [(0.0, self.drop.start_velocities[ball])]
-        ends: list[float] = []
-        for event in self.events:
-            if event["contact"] not in (ball, ball + 1):
-                continue
-            if event["kind"] == "touch":
-                if not closed:
-                    ends.append(float(event["time"]))
-                closed.add(int(event["contact"]))
-                continue
-            closed.discard(int(event["contact"]))
-            side = "upper_velocity" if event["contact"] == ball else "lower_velocity"
-            if not closed:
-                flights.append((float(event["time"]), float(event[side])))
-        ends.append(math.inf)
-        tops = [
-            start + velocity / gravity
-            for (start, velocity), end in zip(flights, ends, strict=False)
-            if velocity > 0.0 and start + velocity / gravity < end
-        ]
-        stopped = self.status in (Status.TIME_REACHED, Status.EVENT_LIMIT, Status.INVALID)
-        reached = [top for top in tops if not stopped or top <= self.end_time]
-        heights = self.sample(reached).position[ball].values
-        return [(ball, top, float(height)) for top, height in zip(reached, heights, strict=True)]
+    def _flights(self) -> Iterator[tuple[int, float, float, float]]:
+        """Yield the flights of all balls: ball, start, velocity then, end.
+
+        A ball flies while the contacts below and above it are open.
+        """
+        count = len(self.drop.balls)
+        closed: list[set[int]] = [set() for _ in range(count)]
+        under_way = [(0.0, velocity) for velocity in self.drop.start_velocities]
+        for row in self._rows[np.isfinite(self._rows[:, codes.TIME])].tolist():
+            time, contact, kind = row[codes.TIME], int(row[codes.CONTACT]), row[codes.KIND]
+            lower, upper = row[codes.LOWER_VELOCITY], row[codes.UPPER_VELOCITY]
+            sides = [(contact - 1, lower), (contact, upper)]
+            if kind == codes.JOINED:
+                sides = [(b, upper) for b in range(contact - 1, int(row[codes.START]) + 1)]
+            for ball, velocity in sides:
+                if ball < 0:
+                    continue
+                if not closed[ball]:
+                    yield (ball, *under_way[ball], time)
+                if kind == codes.TOUCH:
+                    closed[ball].add(contact)
+                    continue
+                closed[ball].discard(contact)
+                under_way[ball] = (time, velocity)
+        for ball in range(count):
+            if not closed[ball]:
+                yield (ball, *under_way[ball], math.inf)
 
 
 def _numbers(times: object) -> NDArray[np.float64]:

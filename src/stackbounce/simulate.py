@@ -50,6 +50,7 @@ _ROUND_OFF = 1e-16
 _LEAST_ORDER = 6
 _FAINT = 1e-2  # of that again: work of a typical contact below which a power law's chord will do
 _FAINTEST = 1e-18
+_LARGEST_EXPONENT = 600  # of a unit of speed, as a power of two
 
 
 def simulate(
@@ -69,7 +70,7 @@ def simulate(
         (eqs 1 to 4). None of them: simultaneous contacts (eqs 5, 6 and section V).
     until : float, optional
         A time in s at which to stop; by default the run ends once all contacts are open and none
-        approaches.
+        approaches, or all is at rest.
     rtol : float, optional
         From 1e-14 to 1e-3: the relative error to aim at where a contact follows a law that is not
         linear. Springs and dashpots, and rigid balls, are exact to round-off whatever it is.
@@ -87,8 +88,7 @@ def simulate(
     Raises
     ------
     InvalidValue
-        If `until`, `rtol` or `event_limit` is out of its range, a rigid stack has gravity, or there are
-        more than 2000 balls.
+        If `until`, `rtol` or `event_limit` is out of its range, or there are more than 2000 balls.
     InvalidType
         If one of them has the wrong type.
 
@@ -114,11 +114,6 @@ def simulate(
         raise InvalidValue(f"balls must be at most {_MOST_BALLS} for a run, got {len(drop.balls)}")
     end = math.inf if until is None else positive("until", until, "seconds")
     limit = whole("event_limit", event_limit, 1, _MOST_EVENTS)
-    if drop.rigid and drop.gravity > 0.0:
-        raise InvalidValue(
-            f"gravity must be 0 while all contacts are Rigid, got {drop.gravity!r}: "
-            "give the contacts a stiffness, or leave gravity out"
-        )
     tolerance = between("rtol", rtol, 1e-14, 1e-3)
     status, time, velocities, log, infinite, _ = _run(drop, end, tolerance, limit, compiled, ())
     rerun = functools.partial(_samples, drop, end, tolerance, limit, compiled)
@@ -214,15 +209,22 @@ def _compressions(drop: Drop) -> list[float]:
 
 
 def _rigid_stack(drop: Drop) -> RigidStack:
-    """Return the arrays of a stack of rigid balls at t = 0."""
+    """Return the arrays of a stack of rigid balls at t = 0.
+
+    Lengths and speeds are in units of a power of two near the impact speed, which rounds nothing
+    and keeps squares of speeds in the range of numbers.
+    """
     laws = [codes.ABSENT if law is None else codes.POWER for law in drop.contacts]
+    exponent = math.frexp(drop.reference_speed)[1]
+    unit = 2.0 ** max(-_LARGEST_EXPONENT, min(exponent, _LARGEST_EXPONENT))
     return new_rigid_stack(
         len(drop.balls),
         mass=[ball.mass for ball in drop.balls],
         law=laws,
         restitution=[law.restitution if isinstance(law, Rigid) else 0.0 for law in drop.contacts],
-        velocity=drop.start_velocities,
-        compression=_compressions(drop),
+        velocity=[velocity / unit for velocity in drop.start_velocities],
+        compression=[compression / unit for compression in _compressions(drop)],
+        number=[unit, 0.0, 0.0, drop.gravity / unit],
     )
 
 

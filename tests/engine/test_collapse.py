@@ -139,3 +139,13 @@ def test_restitution_zero_that_collapses(masses, restitutions):
     result = sb.simulate(drop)
     assert result.status is sb.Status.COLLAPSED
     assert result.rebound_speeds.tolist() == [0.0, 0.0]
+
+
+def test_a_group_that_joins_again_and_again_comes_to_an_end():
+    """Two balls stick (restitution 0) and are parted by the third, ever less, all in no time."""
+    masses, laws = [0.167, 0.169, 0.74], [None, 0.232, 0.891]
+    for first in (0.0, 0.1):
+        drop = rigid([3.311, *masses], [None, first, *laws[1:]], velocities=[0.64, 0.5, 0.2, -1.0])
+        result = sb.simulate(drop, event_limit=20_000)
+        assert result.status is sb.Status.COLLAPSED
+        assert np.ptp(result.rebound_speeds) <= PRECISION

@@ -274,3 +274,24 @@ def test_ties_lowest_approaching_first():
     assert result.events["contact"][:2].tolist() == [1, 2]
     assert result.events["time"][0] == result.events["time"][1] == 1.0
     assert_same(result, exact(drop), drop)
+
+
+@pytest.mark.parametrize("size", [1, 2, 30, 1000])
+def test_tall_stack_of_equal_elastic_balls(size):
+    """Equal balls swap velocities: each passes each other and all the floor, which adds up."""
+    drop = rigid([1.0] * size, gaps=[1.0] * (size - 1))
+    result = sb.simulate(drop)
+    assert result.status is sb.Status.FINISHED
+    assert result.collisions.tolist() == list(range(size, 0, -1))
+    assert result.rebound_speeds.tolist() == [1.0] * size
+
+
+def test_tall_stack_of_many_masses_keeps_its_energy():
+    random = Random(2)
+    masses = [10 ** random.uniform(-0.5, 0.5) for _ in range(200)]
+    gaps = [random.uniform(0.0, 1.0) for _ in range(199)]
+    result = sb.simulate(rigid(masses, gaps=gaps))
+    assert result.status is sb.Status.FINISHED
+    assert len(result.intervals) > 10_000
+    assert result.energy_retained == pytest.approx(1.0, abs=1e-12)
+    assert (np.diff(result.rebound_speeds) >= 0.0).all()

@@ -4,7 +4,10 @@
 kernel        one source, two modes: plain Python for a few drops, numba for many
 codes         the integers that stand for statuses, laws, phases and kinds of event
 stack         the arrays that hold a stack of balls, and how to fill them
+queue         which of many times comes first
 rigid         sequences of instantaneous collisions (eqs 1 to 4)
+flight        rigid balls between their collisions: straight lines and parabolas
+settle        how rigid balls come to rest under gravity
 collapse      when a sequence of collisions is infinite, decided by theory
 series        Taylor series: how far one surely keeps its sign, powers, shifts
 modes         a cluster whose closed contacts are all linear: normal modes (eqs 5, 6)

@@ -34,6 +34,7 @@ PRESSED = 7  # ... and rises above it
 RELOADED = 8  # a contact is compressed as much as ever before
 CLIPPED = 9  # the force would begin to pull
 RESUMED = 10  # the force would end to pull
+JOINED = 11  # the balls at contacts CONTACT to START have come together, at UPPER_VELOCITY
 
 # the columns of a log of events
 TIME, CONTACT, KIND, LOWER_VELOCITY, UPPER_VELOCITY = 0, 1, 2, 3, 4

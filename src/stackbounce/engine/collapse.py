@@ -22,21 +22,147 @@ the end of the range of numbers, and taken for infinite then.
 
 import math
 
-from stackbounce.engine.codes import ABSENT, EPSILON
-from stackbounce.engine.kernel import kernel
+from stackbounce.engine.codes import (
+    ABSENT,
+    CONTACT,
+    EPSILON,
+    JOINED,
+    KIND,
+    LOG_COLUMNS,
+    START,
+    TIME,
+    UPPER_VELOCITY,
+)
+from stackbounce.engine.flight import (
+    acceleration,
+    approach,
+    bring_balls,
+    bring_contacts,
+    change_rate,
+    closing_time,
+    compression_after,
+    plan,
+    rate_after,
+    wake,
+)
+from stackbounce.engine.kernel import Floats, kernel
+from stackbounce.engine.settle import NO_TIME
 from stackbounce.engine.stack import RigidStack
 
-_SAME = 1e-12  # proportions that agree this well are the same
+_SAME = 1e-12  # rates whose proportions agree this well are the same
+_SAME_GAPS = 1e-9
 _BUSY = 200  # collisions a ball back, up to which a contact belongs to a group
 _VANISHED = 1e-250  # rates below this part of the impact speed: close to the end of the numbers
 
 
 @kernel
-def approach(stack: RigidStack, i: int) -> float:
-    """Return the rate at which contact i closes, 0 where it opens or rests within round-off."""
-    if stack.law[i] == ABSENT:
-        return 0.0
-    return stack.rate[i] if stack.rate[i] > stack.rate_noise[i] else 0.0
+def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) -> None:
+    """Finish infinitely many collisions with their limit, where theory finds that they have begun.
+
+    While their rest still takes time that can be told from none, the next of them is followed.
+    """
+    soon = min(NO_TIME * stack.clock[0], until - stack.clock[0])
+    for other in (contact - 1, contact + 1):
+        if 0 <= other < len(stack.mass):
+            duration = pair_ends(stack, contact, other)
+            if duration <= soon:
+                _merge(stack, min(contact, other), max(contact, other), duration, log)
+    stack.last_hit[contact] = stack.counter[1]
+    low, high = vanished(stack, contact)
+    if low < high:
+        _merge(stack, low, high, 0.0, log)
+    _involve(stack, contact, contact)
+    stack.memory[2] += 1
+    low, high, shrink = repeats(stack, contact)
+    if shrink != 0.0:
+        # the rounds to come last shrink, shrink^2, ... times the one just over
+        ratio = max(shrink, 0.0)
+        round_time = stack.clock[0] - stack.number[1]
+        if ratio < 1.0 and round_time * ratio / (1.0 - ratio) <= soon:
+            _merge(stack, low, high, round_time * ratio / (1.0 - ratio), log)
+    if stack.memory[2] >= stack.memory[1]:
+        remember(stack, contact, stack.clock[0])
+
+
+@kernel
+def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats) -> None:
+    """Let the balls at contacts low..high come together, unless another ball meets them before.
+
+    The outer balls of the group move between their present velocities and the common one; with no
+    floor among them their centre of mass moves on, and all end there.
+    """
+    bring_contacts(stack, low - 1, high + 1)
+    bring_balls(stack, low - 2, high + 1)
+    lower_gain, upper_gain = common_speed_up(stack, low, high)
+    velocity = stack.velocity[low - 1] + lower_gain if low > 0 else 0.0
+    size = len(stack.mass)
+    pull = stack.number[3] * duration
+    lands = pull if low == 0 else 0.0
+    if low > 0:
+        below = stack.velocity[low - 2] if low > 1 else 0.0
+        rate = below - min(velocity, stack.velocity[low - 1])
+        rate += acceleration(stack, low - 1) * duration
+        if stack.law[low - 1] != ABSENT and closing_time(stack, low - 1, rate) <= duration:
+            return
+    if high + 1 < size:
+        rate = max(velocity, stack.velocity[high]) - stack.velocity[high + 1] + lands
+        if closing_time(stack, high + 1, rate) < duration:
+            return
+    wake(stack, max(low - 1, 0))
+    centre, mass = 0.0, stack.mass[low - 1] if low > 0 else math.inf
+    height = 0.0
+    for i in range(low, high + 1):
+        height -= stack.compression[i]
+        centre += stack.mass[i] * height
+        mass += stack.mass[i]
+        stack.infinite[i] = 1
+        stack.last_hit[i] = stack.counter[1]
+    _involve(stack, low, high)
+    travel = centre / mass + velocity * duration
+    below = stack.velocity[low - 1] if low > 0 else 0.0
+    above = stack.velocity[high]
+    stack.clock[0] += duration
+    stack.now[0] += duration
+    bring_contacts(stack, low - 1, high + 1)
+    bring_balls(stack, low - 2, high + 1)
+    for i in range(low, high + 1):
+        stack.compression[i] = 0.0
+        stack.rate[i] = 0.0
+        stack.rate_noise[i] = 0.0
+    for b in range(max(low - 1, 0), high + 1):
+        stack.velocity[b] = velocity - pull + lands
+    if low > 0:
+        stack.compression[low - 1] += below * duration - travel
+        change_rate(stack, low - 1, -lower_gain)
+    if high + 1 < size:
+        stack.compression[high + 1] += travel - height - above * duration
+        change_rate(stack, high + 1, upper_gain + lands)
+    for i in range(max(low - 1, 0), min(high + 2, size)):
+        plan(stack, i)
+    _write_joined(stack, low, high, log)
+
+
+@kernel
+def _write_joined(stack: RigidStack, low: int, high: int, log: Floats) -> None:
+    """Tell the log that the balls at contacts low..high have come together."""
+    at = stack.counter[0] * LOG_COLUMNS
+    for column in range(LOG_COLUMNS):
+        log[at + column] = 0.0
+    log[at + TIME] = stack.clock[0]
+    log[at + KIND] = JOINED
+    log[at + CONTACT] = low
+    log[at + START] = high
+    log[at + UPPER_VELOCITY] = stack.velocity[high] * stack.number[0]
+    stack.counter[0] += 1
+
+
+@kernel
+def _involve(stack: RigidStack, low: int, high: int) -> None:
+    """Note that contacts low..high have collided since the state kept."""
+    for i in range(low, high + 1):
+        stack.involved[i] = 1
+    stack.memory[3] = min(stack.memory[3], low)
+    stack.memory[4] = max(stack.memory[4], high)
 
 
 @kernel
@@ -76,24 +202,30 @@ def pair_ends(stack: RigidStack, hit: int, other: int) -> float:
 
 
 @kernel
-def common_velocity(stack: RigidStack, low: int, high: int) -> float:
-    """Return the velocity that the balls at contacts low..high share in the end."""
-    if low == 0:
-        return 0.0
-    momentum, mass = 0.0, 0.0
-    for b in range(low - 1, high + 1):
-        momentum += stack.mass[b] * stack.velocity[b]
-        mass += stack.mass[b]
-    return momentum / mass
+def common_speed_up(stack: RigidStack, low: int, high: int) -> tuple[float, float]:
+    """Return how much the outer balls of contacts low..high gain on the way to one velocity.
+
+    All are anchored now. The closing rates know the differences to more digits than velocities do.
+    """
+    momentum, relative = 0.0, 0.0
+    mass = stack.mass[low - 1] if low > 0 else math.inf
+    for i in range(low, high + 1):
+        relative -= stack.rate[i]
+        momentum += stack.mass[i] * relative
+        mass += stack.mass[i]
+    gain = momentum / mass
+    return gain, gain - relative
 
 
 @kernel
 def remember(stack: RigidStack, contact: int, time: float) -> None:
     """Take the present state as the one to compare later ones with."""
     for i in range(len(stack.mass)):
-        stack.kept_rate[i] = stack.rate[i]
-        stack.kept_gap[i] = stack.compression[i]
+        stack.kept_rate[i] = rate_after(stack, i, 0.0)
+        stack.kept_gap[i] = compression_after(stack, i, 0.0)
         stack.involved[i] = 0
+    stack.memory[3] = len(stack.mass)
+    stack.memory[4] = -1
     stack.memory[0] = contact
     stack.memory[1] = 2 * stack.memory[1]
     stack.memory[2] = 0
@@ -107,27 +239,24 @@ def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
     The ratio is 0 where the present state is not the kept one on a smaller scale, and -1 where its
     rounds take no time.
     """
-    low, high = -1, -1
+    low, high = stack.memory[3], stack.memory[4]
+    if contact != stack.memory[0] or high < low + 2:
+        return low, high, 0.0
     size, kept, gap, kept_gap = 0.0, 0.0, 0.0, 0.0
-    for i in range(len(stack.mass)):
-        if stack.involved[i] == 1:
-            low = i if low < 0 else low
-            high = i
     for i in range(low, high + 1):
         if stack.involved[i] == 0:
             return low, high, 0.0
-        size = max(size, abs(stack.rate[i]))
+        size = max(size, abs(rate_after(stack, i, 0.0)))
         kept = max(kept, abs(stack.kept_rate[i]))
-        gap = max(gap, -stack.compression[i])
+        gap = max(gap, -compression_after(stack, i, 0.0))
         kept_gap = max(kept_gap, -stack.kept_gap[i])
-    if high < low + 2 or size >= kept or size == 0.0:
-        return low, high, 0.0
-    if contact != stack.memory[0] or (gap == 0.0) != (kept_gap == 0.0):
+    if size >= kept or size == 0.0 or (gap == 0.0) != (kept_gap == 0.0):
         return low, high, 0.0
     for i in range(low, high + 1):
-        if abs(stack.rate[i] / size - stack.kept_rate[i] / kept) > _SAME:
+        if abs(rate_after(stack, i, 0.0) / size - stack.kept_rate[i] / kept) > _SAME:
             return low, high, 0.0
-        if kept_gap > 0.0 and abs(stack.compression[i] / gap - stack.kept_gap[i] / kept_gap) > 1e-9:
+        part = compression_after(stack, i, 0.0) / gap if gap > 0.0 else 0.0
+        if kept_gap > 0.0 and abs(part - stack.kept_gap[i] / kept_gap) > _SAME_GAPS:
             return low, high, 0.0
     shrink = gap / kept_gap * kept / size if kept_gap > 0.0 else 0.0
     return low, high, shrink if shrink > 0.0 else -1.0

@@ -106,13 +106,25 @@ class RigidStack(NamedTuple):
     rate_noise: Floats  # round-off that the rate may have gathered
     compression: Floats  # minus the gap
     infinite: Integers  # 1 where a contact has collided infinitely often
+    # local times: of the velocity of a ball, of the rate and the gap of a contact, of the present
+    since: Floats
+    anchor: Floats
+    now: Floats
+    resting: Integers  # [balls at rest on the floor, lowest contact that loses energy]
+    # when a contact collides next, and a queue of these times
+    due: Floats
+    heap: Integers
+    place: Integers
     # what the search for collapse keeps: a state, the contacts hit since, where it was taken
     kept_rate: Floats
     kept_gap: Floats
     involved: Integers
     last_hit: Integers  # the collision, counted from 1, in which a contact was last hit
-    memory: Integers  # [contact hit then, collisions after which to keep another, those since]
-    number: Floats  # [factor of velocities and gaps, time of the state kept, largest first speed]
+    # [contact hit then, collisions after which to keep another, those since, lowest and highest
+    # contact involved]
+    memory: Integers
+    # [factor of velocities and gaps, time of the state kept, largest first speed, gravity]
+    number: Floats
     counter: Integers  # as in a Stack
     clock: Floats
 
@@ -155,7 +167,7 @@ def new_stack(size: int, **given: Sequence[Any]) -> Stack:
 def new_rigid_stack(size: int, **given: Sequence[Any]) -> RigidStack:
     """Return a stack of ``size`` rigid balls as plain lists, all zero but for the fields given."""
     lengths = dict.fromkeys(RigidStack._fields, size)
-    lengths |= {"memory": 3, "number": 3, "counter": 4, "clock": 2}
+    lengths |= {"memory": 5, "number": 4, "now": 1, "resting": 2, "counter": 4, "clock": 2}
     fields = {name: [0 if name in _INTEGERS else 0.0] * length for name, length in lengths.items()}
     return RigidStack(**(fields | {name: list(values) for name, values in given.items()}))
 

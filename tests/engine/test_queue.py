@@ -1,0 +1,22 @@
+"""The queue of times gives the earliest slot, at a tie the lowest, whatever came before."""
+
+from random import Random
+
+import pytest
+
+from stackbounce.engine.queue import clear, schedule
+
+
+@pytest.mark.parametrize("size", [1, 2, 3, 10, 33])
+def test_the_earliest_slot_comes_first(size):
+    random = Random(size)
+    due, heap, place = [0.0] * size, [0] * size, [0] * size
+    clear(due, heap, place)
+    times = [float("inf")] * size
+    for _ in range(500):
+        slot = random.randrange(size)
+        times[slot] = random.choice([float("inf"), *map(float, range(8))])
+        schedule(due, heap, place, slot, times[slot])
+        assert heap[0] == min(range(size), key=lambda s: (times[s], s))
+        assert due == times
+        assert [heap[place[s]] for s in range(size)] == list(range(size))

@@ -1,0 +1,252 @@
+"""Random drops, a batch at a time: the same numbers for the same seed and batch, whoever asks."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+import stackbounce as sb
+
+NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, HYSTERETIC, LOSSY = range(9)
+RIGID = 9
+NAMES = (
+    "None",
+    "Spring",
+    "Hertz",
+    "PowerLaw",
+    "Dashpot",
+    "Viscoelastic",
+    "HuntCrossley",
+    "Hysteretic",
+    "Hysteretic lossy",
+    "Rigid",
+)
+BATCH = 500
+TALLEST = 6
+RIGID_EVERY = 5  # one batch in so many is of rigid stacks
+STOPS = 3  # times in between at which some of the drops are looked at
+EVENTS = (500, 20_000)  # limits, usual and rare
+RARE = 0.01
+_TOLERANCES = (1e-6, 1e-7, 1e-8, 1e-9, 1e-12, 1e-3, 1e-14)
+_TOLERANCE_ODDS = (0.22, 0.22, 0.22, 0.22, 0.06, 0.03, 0.03)
+
+
+class Drops(NamedTuple):
+    """Drops of one height: rows of drops, columns of balls or of the contacts below them."""
+
+    mass: np.ndarray
+    law: np.ndarray  # by the numbers above
+    stiffness: np.ndarray
+    exponent: np.ndarray
+    extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution
+    gap: np.ndarray  # below each ball; the lowest one's is 0
+    velocity: np.ndarray
+    gravity: np.ndarray
+    until: np.ndarray
+    rtol: np.ndarray
+    limit: np.ndarray  # of events
+    stops: np.ndarray  # (drops, STOPS) parts of the whole time, ascending; 0 where not stopped
+
+
+def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
+    """Return a batch of random drops."""
+    random = np.random.default_rng([seed, batch])
+    balls = 1 + batch % TALLEST
+    rigid = batch // TALLEST % RIGID_EVERY == RIGID_EVERY - 1
+    shape = (count, balls)
+    mass = _masses(random, shape)
+    velocity = _velocities(random, shape)
+    speed = np.max(np.abs(velocity), axis=1, keepdims=True)
+    below = np.column_stack([np.full(count, np.inf), mass[:, :-1]])
+    reduced = mass / (1.0 + mass / below)
+    linear = _linear_stiffnesses(random, shape)
+    length = speed * np.sqrt(reduced / linear)
+    law, exponent, extra = _laws(random, shape)
+    if rigid:
+        law[:] = RIGID
+        extra[:] = _restitutions(random, shape)
+    law[random.random(count) < 0.3, 0] = NONE
+    stiffness = linear * length ** (1.0 - exponent)
+    strength = _decades(random, shape, -6.0, 3.0)
+    strength = np.where(random.random(shape) < 0.1, 1.0, strength)
+    units = {
+        DASHPOT: 2.0 * np.sqrt(linear * reduced),
+        VISCOELASTIC: length / speed,
+        HUNT_CROSSLEY: 1.0 / speed + 0.0 * length,
+    }
+    for kind, unit in units.items():
+        extra = np.where(law == kind, strength * unit, extra)
+    slowest = np.max(np.where(law == NONE, 0.0, length), axis=1)
+    time = np.where(slowest > 0.0, slowest, 1.0) / speed[:, 0]
+    pulled = (random.random(count) < 0.25) & (not rigid)
+    gravity = np.where(pulled, speed[:, 0] / time * _decades(random, count, -4.0, 1.0), 0.0)
+    stopped = random.random(count) < np.where(pulled, 0.3, 0.05)
+    until = np.where(stopped, time * _decades(random, count, -2.0, 3.0), np.inf)
+    stops = np.sort(random.random((count, STOPS)), axis=1)
+    stops[random.random(count) >= 0.1] = 0.0
+    return Drops(
+        mass=mass,
+        law=law,
+        stiffness=stiffness,
+        exponent=exponent,
+        extra=extra,
+        gap=_gaps(random, shape, np.where(law == NONE, slowest[:, None], length)),
+        velocity=velocity,
+        gravity=gravity,
+        until=until,
+        rtol=random.choice(_TOLERANCES, count, p=_TOLERANCE_ODDS),
+        limit=np.where(random.random(count) < RARE, EVENTS[1], EVENTS[0]),
+        stops=stops,
+    )
+
+
+def _decades(
+    random: np.random.Generator, shape: int | tuple[int, ...], low: float, high: float
+) -> np.ndarray:
+    """Return numbers whose logarithms are uniform."""
+    return 10.0 ** random.uniform(low, high, shape)
+
+
+def _spread(
+    random: np.random.Generator, shape: tuple[int, int], widths: list[float], odds: list[float]
+) -> np.ndarray:
+    """Return rows of numbers each within its own number of decades."""
+    width = random.choice(widths, (shape[0], 1), p=odds)
+    return 10.0 ** (width * random.uniform(-0.5, 0.5, shape))
+
+
+def _masses(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+    mass = _spread(random, shape, [0.0, 1.0, 3.0, 6.0, 12.0], [0.15, 0.4, 0.3, 0.14, 0.01])
+    whole = random.choice([1.0, 1.0, 2.0, 3.0, 4.0, 0.5, 0.25, 1.0 / 3.0, 100.0], shape)
+    mass = np.where(random.random((shape[0], 1)) < 0.25, whole, mass)
+    unit = random.choice([1.0, 0.1, 1e-6, 1e6], (shape[0], 1), p=[0.7, 0.1, 0.1, 0.1])
+    return mass * unit
+
+
+def _velocities(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+    """Return common, striking, or individual velocities, some of them equal or zero."""
+    count, balls = shape
+    velocity = np.full(shape, -1.0)
+    kind = random.random(count)
+    own = random.uniform(-1.0, 1.0, shape)
+    own = np.where(random.random(shape) < 0.2, np.round(own), own)
+    own[random.random(count) < 0.2] *= 1e-6
+    own[:, -1] = np.where(random.random(count) < 0.7, -1.0, own[:, -1])
+    own[~np.any(own, axis=1), -1] = -1.0
+    velocity = np.where((kind < 0.3)[:, None], own, velocity)
+    struck = np.zeros(shape)
+    from_below = random.random(count) < 0.5
+    struck[from_below, 0] = 1.0
+    struck[~from_below, balls - 1] = -1.0
+    velocity = np.where((kind > 0.8)[:, None], struck, velocity)
+    unit = random.choice([1.0, 3.53, 1e-3, 1e3], (count, 1), p=[0.7, 0.1, 0.1, 0.1])
+    return velocity * unit
+
+
+def _linear_stiffnesses(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+    """Return the stiffness of the spring that would stop each contact's balls about as well."""
+    linear = _spread(random, shape, [0.0, 1.0, 3.0, 8.0], [0.2, 0.4, 0.3, 0.1])
+    return linear * random.choice([1.0, 1e3, 1e6], (shape[0], 1), p=[0.7, 0.2, 0.1])
+
+
+def _laws(
+    random: np.random.Generator, shape: tuple[int, int]
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return laws, loading exponents and, where they unload otherwise, unloading exponents."""
+    law = random.integers(SPRING, LOSSY + 1, shape)
+    one = random.integers(SPRING, LOSSY + 1, (shape[0], 1))
+    law = np.where(random.random((shape[0], 1)) < 0.3, one, law)
+    exponent = random.choice([1.0, 1.0, 1.5, 1.5, 2.0, 0.0], shape)
+    exponent = np.where(exponent == 0.0, random.uniform(1.0, 4.0, shape), exponent)
+    exponent = np.where(np.isin(law, (SPRING, DASHPOT)), 1.0, exponent)
+    exponent = np.where(np.isin(law, (HERTZ, VISCOELASTIC)), 1.5, exponent)
+    restitution = np.where(random.random(shape) < 0.1, 1.0, random.uniform(0.05, 1.0, shape))
+    unloading = np.maximum(exponent, (exponent + 1.0) / restitution**2 - 1.0)
+    return law, exponent, np.where(law >= HYSTERETIC, unloading, 0.0)
+
+
+def _restitutions(random: np.random.Generator, shape: tuple[int, int]) -> np.ndarray:
+    """Return restitutions, often one for a whole stack, often exactly 0 or 1."""
+    own = random.random(shape)
+    own = np.where(random.random(shape) < 0.1, 0.0, own)
+    own = np.where(random.random(shape) < 0.2, 1.0, own)
+    one = random.choice([0.0, 0.5, 0.8, 0.9, 1.0, 1.0], (shape[0], 1))
+    return np.where(random.random((shape[0], 1)) < 0.5, one, own)
+
+
+def _gaps(
+    random: np.random.Generator, shape: tuple[int, int], length: np.ndarray
+) -> np.ndarray:
+    """Return gaps of 0, tiny, about a contact's length, or huge, in a contact's own length."""
+    count, balls = shape
+    factors = np.select(
+        [random.random(shape) < 0.4, random.random(shape) < 0.2, random.random(shape) < 0.8],
+        [0.0, _decades(random, shape, -14.0, -3.0), _decades(random, shape, -2.0, 1.0)],
+        _decades(random, shape, 1.0, 6.0),
+    )
+    factors[random.random(count) < 0.2] = 0.0
+    gap = factors * length
+    other = factors * np.roll(length, 1, axis=1)
+    gap = np.where(random.random(shape) < 0.3, other, gap)
+    gap[:, 0] = 0.0
+    if balls > 1:
+        equal = random.random(count) < 0.1
+        gap[equal, 1:] = gap[equal, 1:2]
+    return gap
+
+
+def law_of(drops: Drops, row: int, i: int) -> sb.model.ContactLaw | None:
+    """Return the law of a contact."""
+    k, p = float(drops.stiffness[row, i]), float(drops.exponent[row, i])
+    extra = float(drops.extra[row, i])
+    match int(drops.law[row, i]):
+        case 0:
+            return None
+        case 1:
+            return sb.Spring(k)
+        case 2:
+            return sb.Hertz(k)
+        case 3:
+            return sb.PowerLaw(k, p)
+        case 4:
+            return sb.Dashpot(k, extra)
+        case 5:
+            return sb.Viscoelastic(k, extra)
+        case 6:
+            return sb.HuntCrossley(k, p, extra)
+        case 7:
+            return sb.Hysteretic(k, exponent=p, unloading_exponent=extra)
+        case 8:
+            return sb.Hysteretic(k, exponent=p, unloading_exponent=extra, reloading="lossy")
+        case _:
+            return sb.Rigid(extra)
+
+
+def drop_of(drops: Drops, row: int) -> sb.Drop:
+    """Return one drop of a batch as the package's users write it."""
+    balls = drops.mass.shape[1]
+    return sb.Drop(
+        [sb.Ball(mass) for mass in drops.mass[row].tolist()],
+        [law_of(drops, row, i) for i in range(balls)],
+        drops.gap[row, 1:].tolist(),
+        velocities=drops.velocity[row].tolist(),
+        gravity=float(drops.gravity[row]),
+    )
+
+
+def options_of(drops: Drops, row: int) -> dict[str, float]:
+    """Return the arguments of `simulate` with which a drop of a batch is run."""
+    options = {"rtol": float(drops.rtol[row]), "event_limit": int(drops.limit[row])}
+    return options | ({"until": float(drops.until[row])} if drops.until[row] < np.inf else {})
+
+
+def expression(drops: Drops, row: int) -> str:
+    """Return what runs one drop of a batch again, to be pasted after `import stackbounce as sb`."""
+    drop = drop_of(drops, row)
+    balls = ", ".join(f"sb.Ball({ball.mass!r})" for ball in drop.balls)
+    laws = ", ".join("None" if law is None else f"sb.{law!r}" for law in drop.contacts)
+    more = f", gravity={drop.gravity!r}" if drop.gravity else ""
+    options = "".join(f", {name}={value!r}" for name, value in options_of(drops, row).items())
+    return (
+        f"sb.simulate(sb.Drop([{balls}], [{laws}], {list(drop.gaps)!r}, "
+        f"velocities={list(drop.velocities)!r}{more}){options})"
+    )
