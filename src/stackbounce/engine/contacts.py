@@ -56,6 +56,7 @@ from stackbounce.engine.stack import Stack
 
 _NOTHING = 1000.0 * EPSILON**2  # round-off of a motion that is itself round-off
 _STEEPEST = 10.0  # times its first unloading exponent, for a lossy contact reloaded many times
+_LOOSE = 10.0  # times the tolerance of a step: what a touch must stand clear of
 _FAINT_EXIT = 0.9  # the chord is left above 1 and taken below 0.9 of its end
 
 
@@ -116,9 +117,10 @@ def look(stack: Stack, i: int, time: float) -> None:
     horizon -= time
     wait, reached, kind = math.inf, False, LOOK
     if phase == OPEN:
-        loose = _looseness(stack, i)
-        band += loose * stack.scale[i]
-        if a[0] < -band or a[1] < -(rate_band + loose * stack.number[1]):
+        if stack.setting[1] == 1:  # nor than the error that nonlinear motion has by choice
+            band += _LOOSE * stack.number[2] * stack.scale[i]
+            rate_band += _LOOSE * stack.number[2] * stack.number[1]
+        if a[0] < -band or a[1] < -rate_band:
             stack.touching[i] = math.nan
         if not _never_meets(stack, i, a, order):
             kind = TOUCH
@@ -157,18 +159,6 @@ def look(stack: Stack, i: int, time: float) -> None:
     if other < wait:
         wait, reached, kind = other, there, turn_kind
     _note(stack, i, time, wait, reached, kind, horizon)
-
-
-@kernel
-def _looseness(stack: Stack, i: int) -> float:
-    """Return the relative error that the motion of the balls at an open contact may have."""
-    if stack.setting[1] == 0:
-        return 0.0
-    known = stack.number[2] * stack.number[1]
-    loose = stack.modal[stack.first[i]] == 0 or stack.velocity_noise[i] >= known
-    if i > 0 and not loose:
-        loose = stack.modal[stack.first[i - 1]] == 0 or stack.velocity_noise[i - 1] >= known
-    return 10.0 * stack.number[2] + 64.0 * EPSILON if loose else 0.0
 
 
 @kernel
@@ -218,14 +208,13 @@ def _gain_wait(
     sign = -1.0 if stack.phase[i] == SLACK else 1.0
     level = 0.0
     if stack.factor_exponent[i] > 0.0:
-        # a gain may creep towards zero and never fall through it: its own error must not
-        clear += 10.0 * rate * stack.number[2] * stack.number[1]
-    else:
-        # an overdamped dashpot can creep apart for ever with no more force than its round-off
-        if sign < 0.0:
-            level = 2.0 * clear
-        elif gain[0] <= clear and gain[1] < 0.0 and a[1] < 0.0:
-            return 0.0, True
+        clear += rate * stack.number[2] * stack.number[1]
+    if slope == 0.0:
+        clear *= 10.0  # this gain may creep towards zero and never fall through it
+    elif sign < 0.0:
+        level = 2.0 * clear
+    elif gain[0] <= clear and gain[1] < 0.0 and a[1] < 0.0:
+        return 0.0, True  # an overdamped contact would creep apart for ever with no force to tell
     return _wait(
         stack,
         gain,

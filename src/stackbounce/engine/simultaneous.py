@@ -60,6 +60,7 @@ from stackbounce.engine.rest import is_bound, lay_down
 from stackbounce.engine.stack import Samples, Stack
 from stackbounce.engine.taylor import record_crests
 
+_NEWTON = 4  # steps from where a sign is clear to where it changes
 
 
 @kernel
@@ -132,17 +133,20 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         return
     bottom = stack.first[max(i - 1, 0)]
     top = stack.last[i]
+    was_slack = stack.phase[i] == SLACK
+    logical = time
+    if kind == TOUCH or (kind == RELEASE and not was_slack):
+        logical = _crossing(stack, i, time)
     advance_cluster(stack, i, time)
     if i > 0 and stack.first[i - 1] != stack.first[i]:
         advance_cluster(stack, i - 1, time)
-    logical = time
-    was_slack = stack.phase[i] == SLACK
     if kind == TOUCH:
-        begin(stack, i, _crossing(stack, i, compression, time))
+        begin(stack, i, logical)
         logical = stack.start[i]
         stack.compression[i] = max(compression, 0.0)
     elif kind == RELEASE:
-        logical = stack.clip_time[i] if was_slack else _crossing(stack, i, compression, time)
+        if was_slack:
+            logical = stack.clip_time[i]
         stack.phase[i] = OPEN
         stack.counter[4] -= 1
         stack.compression[i] = min(stack.compression[i], 0.0)
@@ -164,13 +168,18 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
 
 
 @kernel
-def _crossing(stack: Stack, i: int, compression: float, time: float) -> float:
-    """Return when the compression of contact i, anchored now and just past zero, was zero."""
-    below = stack.velocity[i - 1] if i > 0 else 0.0
-    rate = below - stack.velocity[i]
-    if compression * rate <= 0.0:
-        return time
-    return max(stack.clock[0], time - compression / rate)
+def _crossing(stack: Stack, i: int, time: float) -> float:
+    """Return when the compression of contact i, just past zero at a time, was zero."""
+    crossing = time
+    for _ in range(_NEWTON):
+        compression = compression_at(stack, i, crossing)
+        rate = rate_at(stack, i, crossing)
+        if compression * rate <= 0.0:
+            break
+        crossing -= compression / rate
+        if crossing < stack.clock[0]:
+            return stack.clock[0]
+    return crossing
 
 
 @kernel
