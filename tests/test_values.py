@@ -131,11 +131,9 @@ def test_dashpot_ends_at_no_force(zeta, restitution, at_zero, time):
 
 
 @pytest.mark.parametrize("exponent", [1.0, 1.5, 2.0])
-@pytest.mark.parametrize(
-    ("d", "restitution"), [(0.1, 0.937476), (0.3, 0.832870), (1.0, 0.593624)]
-)
+@pytest.mark.parametrize(("d", "restitution"), [(0.1, 0.937476), (0.3, 0.832870), (1.0, 0.593624)])
 def test_hunt_crossley(exponent, d, restitution):
-    """d (1+e) = ln[(1+d)/(1-d e)], d = chi v, whatever the exponent (Hunt, Crossley 1975)."""
+    """With d = chi v: d (1+e) = ln[(1+d)/(1-d e)], whatever the exponent (Hunt, Crossley 1975)."""
     law = sb.HuntCrossley(300.0, exponent, d / 2.0)
     e = run([0.1], [law], impact_speed=2.0).rebound_ratios[0]
     assert [e] == printed(restitution, digits=6)

@@ -76,6 +76,10 @@ def simulate(
         str | None,
         typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
     ] = None,
+    rtol: Annotated[
+        float,
+        typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear."),
+    ] = 1e-12,
     plot: Annotated[
         Path | None,
         typer.Option(metavar="FILE", readable=False, help="Draw it: .svg, .png or .pdf."),
@@ -94,7 +98,7 @@ def simulate(
         what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
     )
     end = None if until is None else quantity(until, "s", "--until")
-    result = run(chosen.drop, until=end)
+    result = run(chosen.drop, until=end, rtol=rtol)
     textbook = None if chosen.drop.rigid else run(separate(chosen.drop))
     if plot is not None:
         output.draw(result, plot)

@@ -10,10 +10,12 @@ flight        rigid balls between their collisions: straight lines and parabolas
 settle        how rigid balls come to rest under gravity
 collapse      when a sequence of collisions is infinite, decided by theory
 series        Taylor series: how far one surely keeps its sign, powers, shifts
-modes         a cluster whose closed contacts are all linear: normal modes (eqs 5, 6)
+modes         a small cluster all of whose contacts are springs: normal modes (eqs 5, 6)
 taylor        any other cluster: the power series of its motion, step by step
 motion        displacement, velocity and compression at any time, whatever the cluster
-contacts      what ends the present phase of a contact, and what comes after it
+contacts      the curve that a contact's force follows, and how events change it
+watch         what ends the present phase of a contact, and when: no event is missed
+rest          when soft balls under gravity have come to rest
 simultaneous  the event loop of a stack with finite contacts
 ============= =====================================================================
 """

@@ -41,7 +41,6 @@ from stackbounce.engine.contacts import (
     changes_curve,
     clip,
     force,
-    look,
     record_peak,
     stored_energy,
     turn,
@@ -59,6 +58,7 @@ from stackbounce.engine.queue import clear
 from stackbounce.engine.rest import is_bound, lay_down
 from stackbounce.engine.stack import Samples, Stack
 from stackbounce.engine.taylor import record_crests
+from stackbounce.engine.watch import look
 
 _NEWTON = 4  # steps from where a sign is clear to where it changes
 
@@ -85,6 +85,9 @@ def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: 
     """
     room = len(log) // LOG_COLUMNS
     size = len(stack.mass)
+    if stack.counter[1] == 0 and until == math.inf and _all_part(stack):
+        _sample(stack, samples, math.inf)
+        return _ending(stack)
     while True:
         slot = stack.heap[0]
         time = stack.due[slot]

@@ -1,9 +1,9 @@
 """The arrays that hold a stack of balls: lists in plain Python, numpy arrays when compiled.
 
 Index b runs over balls from the lowest up, index i over contacts; contact i lies below ball i.
-A *cluster* is a run of balls joined by pressing contacts, known by its lowest ball; a ball in flight
-is a cluster of its own. Each cluster is anchored at a time of its own: velocities (and compressions
-of its pressing contacts) are those of the anchor. A contact between two clusters keeps a
+A *cluster* is a run of balls joined by pressing contacts, known by its lowest ball; a ball in
+flight is a cluster of its own. Each cluster is anchored at a time of its own: velocities (and
+compressions of its pressing contacts) are those of the anchor. A contact between two clusters keeps a
 ``compression[i]`` such that its compression at any time is that number plus the displacement of the
 ball below it less that of the ball above it, both since the anchors of their clusters.
 """
@@ -143,7 +143,14 @@ class Samples(NamedTuple):
 _PER_STACK = {"number": 4, "setting": 2, "counter": 6, "clock": 2}
 _PER_SERIES = {"scratch": TERMS, "watched": TERMS, "margin": TERMS, "changed": TERMS}
 _PER_SLOT = ("due", "event", "heap", "place")  # two slots for each ball
-_PER_TERM = "compression_series force_series velocity_series power_series elastic_series gain_series".split()
+_PER_TERM = (
+    "compression_series",
+    "force_series",
+    "velocity_series",
+    "power_series",
+    "elastic_series",
+    "gain_series",
+)
 _PER_MODE = ("shape", "rows")
 _INTEGERS = {
     name
