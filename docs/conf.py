@@ -3,6 +3,9 @@
 import sys
 from pathlib import Path
 
+import matplotlib as mpl
+
+from stackbounce.cross2007.style import styled
 from stackbounce.version import __version__
 
 sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
@@ -13,6 +16,7 @@ copyright = "2026, The stackbounce developers"
 release = version = __version__
 
 extensions = [
+    "matplotlib.sphinxext.plot_directive",
     "mathml",
     "myst_parser",
     "numpydoc",
@@ -20,7 +24,7 @@ extensions = [
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
 ]
-exclude_patterns = ["_extensions"]
+exclude_patterns = ["_extensions", "figures"]
 default_role = "literal"  # docstrings name arguments in single backticks
 
 # References inside the package must resolve; other projects' names are not linked, as that would
@@ -39,6 +43,13 @@ myst_enable_extensions = ["amsmath", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 math_number_all = False
 math_eqref_format = "({number})"
+
+# The figures of docs/figures are drawn while building, in the style of the paper's.
+plot_formats = ["svg"]
+plot_html_show_formats = False
+plot_apply_rcparams = True
+with styled():
+    plot_rcparams = {k: v for k, v in mpl.rcParams.items() if v != mpl.rcParamsDefault[k]}
 
 html_theme = "furo"
 html_title = f"stackbounce {version}"

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 import stackbounce as sb
-from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER
+from stackbounce.cross2007.style import BLACK, FLOOR, UPPER
 
 WIDE = 7.2  # inches
 COLORS = (BLACK, FLOOR, "#009E73", UPPER, "#AA4499")  # of balls 0 to 4
@@ -20,6 +20,12 @@ def steel(mass: float) -> sb.Ball:
     """Return a steel ball of that mass in kg."""
     size = (6.0 * mass / (math.pi * 7800.0)) ** (1.0 / 3.0)
     return sb.Ball(mass, diameter=size, young_modulus=2.1e11, poisson_ratio=0.3)
+
+
+CANNON = [steel(mass) for mass in (0.300, 0.100, 0.050, 0.030, 0.020)]
+CRADLE = [steel(0.040)] * 5
+BEAD = steel(7800.0 * math.pi * 0.008**3 / 6.0)  # 8 mm
+BEADS = 100
 
 
 def contacts(balls: Sequence[sb.Ball], law: str, *, floor: bool) -> list[Any]:
@@ -54,7 +60,7 @@ def label_ends(
     `apart` is the distance of two lines of text over the height of the axes.
     """
     low, high = ax.get_ylim()
-    ends = sorted(ends)
+    ends = sorted(ends, key=lambda end: (round(end[0], 9), end[1]))
     step = apart * (high - low)
     places = np.array([y for y, _, _ in ends])
     for _ in range(400):
@@ -63,6 +69,7 @@ def label_ends(
             if missing > 0.0:
                 places[i] -= 0.5 * missing
                 places[i + 1] += 0.5 * missing
+        places = np.clip(places, low + 0.3 * step, high - 0.3 * step)
     for place, (_, text, color) in zip(places, ends, strict=True):
         ax.annotate(
             text,
@@ -76,11 +83,6 @@ def label_ends(
         )
 
 
-def remark(ax: Axes, text: str) -> None:
-    """Write what a panel shows into its upper left corner."""
-    ax.text(0.03, 0.96, text, transform=ax.transAxes, ha="left", va="top", color=BLACK)
-
-
 def paths(result: sb.Result, times: np.ndarray, name: str) -> np.ndarray:
     """Return positions or velocities at times in s, (ball, time); straight flight before 0."""
     values = result.sample(np.maximum(times, 0.0))[name].values
@@ -92,18 +94,8 @@ def paths(result: sb.Result, times: np.ndarray, name: str) -> np.ndarray:
     return values + np.where(early, fallen, 0.0)
 
 
-__all__ = [
-    "BLACK",
-    "COLORS",
-    "FLOOR",
-    "GREY",
-    "LOSSY",
-    "SPEED",
-    "UPPER",
-    "WIDE",
-    "contacts",
-    "label_ends",
-    "paths",
-    "remark",
-    "steel",
-]
+def chain(law: str, speed: float = SPEED) -> sb.Result:
+    """Return the run of a chain of beads at rest, the first of which has got a speed in m/s."""
+    beads, rest = [BEAD] * BEADS, [0.0] * (BEADS - 1)
+    pair = contacts(beads[:2], law, floor=False)[1]
+    return sb.simulate(sb.Drop(beads, [None] + [pair] * (BEADS - 1), velocities=[speed, *rest]))

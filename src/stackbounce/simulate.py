@@ -1,8 +1,9 @@
 """From a Drop to a Result: picks the engine, in plain Python or compiled."""
 
 import functools
+import itertools
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from stackbounce.engine import codes
@@ -51,6 +52,7 @@ _LEAST_ORDER = 6
 _FAINT = 1e-2  # of that again: work of a typical contact below which a power law's chord will do
 _FAINTEST = 1e-18
 _LARGEST_EXPONENT = 600  # of a unit of speed, as a power of two
+_LONGEST_EXPONENT = 200  # of a unit of time
 
 
 def simulate(
@@ -134,8 +136,10 @@ def _run(
     """Run an engine; return status, time, velocities, log, infinite contacts and samples."""
     rigid = drop.rigid
     begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
-    stack: Any = _rigid_stack(drop) if rigid else _finite_stack(drop, rtol)
-    samples = new_samples(times, len(drop.balls))
+    unit = 1.0 if rigid else _unit_of_time(drop)
+    stack: Any = _rigid_stack(drop) if rigid else _finite_stack(drop, rtol, unit)
+    samples = new_samples([time / unit for time in times], len(drop.balls))
+    until /= unit
     rows = max(_LOG_ROWS, len(drop.balls))
     log: Any = [0.0] * (rows * codes.LOG_COLUMNS)
     handle, mode = stack, _as_it_is
@@ -168,7 +172,39 @@ def _run(
         entries.extend(_entries(stack, log))
         velocities = [float(velocity) for velocity in stack.velocity]
     infinite = list(stack.infinite) if rigid else [0] * len(drop.balls)
-    return status, time, velocities, entries, infinite, samples
+    entries = _in_seconds(entries, _UNITS, unit)
+    samples = samples._replace(
+        velocity=_in_seconds(samples.velocity, ("m/s",), unit),
+        force=_in_seconds(samples.force, ("N",), unit),
+        stored=_in_seconds(samples.stored, ("N",), unit),
+    )
+    return status, time * unit, _in_seconds(velocities, ("m/s",), unit), entries, infinite, samples
+
+
+# of the columns of a log; with kg and m fixed an impulse goes with a speed, an energy with a force
+_UNITS = ("s", "", "", "m/s", "m/s", "s", "N", "", "m/s")
+
+
+def _in_seconds(values: Iterable[float], units: Sequence[str], unit: float) -> list[float]:
+    """Return values of rows with these units, measured with another unit of time, in SI."""
+    factors = {"s": unit, "m/s": 1.0 / unit, "N": 1.0 / unit**2, "": 1.0}
+    columns = itertools.cycle([factors[name] for name in units])
+    return [value * factor for value, factor in zip(values, columns, strict=False)]
+
+
+def _unit_of_time(drop: Drop) -> float:
+    """Return the power of two nearest to the shortest contact time of a drop, in s.
+
+    In this unit no power series leaves the range of numbers, and nothing is rounded by it.
+    """
+    scales = [
+        scale for scale, law in zip(_scales(drop), drop.contacts, strict=True) if law is not None
+    ]
+    shortest = min(scales, default=0.0) / drop.reference_speed
+    if not 0.0 < shortest < math.inf:
+        return 1.0
+    exponent = round(math.log2(shortest))
+    return float(2.0 ** max(-_LONGEST_EXPONENT, min(exponent, _LONGEST_EXPONENT)))
 
 
 def _entries(stack: Any, log: Any) -> list[float]:
@@ -228,32 +264,42 @@ def _rigid_stack(drop: Drop) -> RigidStack:
     )
 
 
-def _finite_stack(drop: Drop, rtol: float) -> Stack:
-    """Return the arrays of a stack on finite contacts at t = 0."""
-    size = len(drop.balls)
+def _scales(drop: Drop) -> list[float]:
+    """Return the compression of each contact at which it alone would hold the energy m v^2/2."""
     mass = [ball.mass for ball in drop.balls]
     speed = drop.reference_speed
-    constants = [_constants(law) for law in drop.contacts]
-    columns = dict(zip(_CONSTANTS, map(list, zip(*constants, strict=True)), strict=True))
-    scale = []
-    for i, (k, p) in enumerate(zip(columns["stiffness"], columns["exponent"], strict=True)):
+    out = []
+    for i, law in enumerate(drop.contacts):
+        _, k, p, *_ = _constants(law)
         reduced = mass[i] if i == 0 else mass[i - 1] * mass[i] / (mass[i - 1] + mass[i])
-        # the compression at which a contact alone would hold the energy m v^2/2
         power = 1.0 / (p + 1.0)
-        scale.append((0.5 * (p + 1.0) * reduced / k) ** power * speed ** (2.0 * power))
+        out.append((0.5 * (p + 1.0) * reduced / k) ** power * speed ** (2.0 * power))
+    return out
+
+
+def _finite_stack(drop: Drop, rtol: float, unit: float) -> Stack:
+    """Return the arrays of a stack on finite contacts at t = 0, with a unit of time in s."""
+    size = len(drop.balls)
+    constants = [_constants(law) for law in drop.contacts]
+    columns: dict[str, list[Any]] = {
+        name: [numbers[at] for numbers in constants] for at, name in enumerate(_CONSTANTS)
+    }
     nonlinear = [
         n != 1.0 or q != 0.0
         for n, q in zip(columns["unloading"], columns["factor_exponent"], strict=True)
     ]
+    columns["stiffness"] = [stiffness * unit**2 for stiffness in columns["stiffness"]]
+    columns["gain_rate"] = [rate / unit for rate in columns["gain_rate"]]
     tolerance = max(_STEP * rtol, _ROUND_OFF)
     order = min(ORDER, max(_LEAST_ORDER, round(1.0 - 0.5 * math.log(tolerance))))
+    faint = max(tolerance * _FAINT, _FAINTEST)
     return new_stack(
         size,
-        mass=mass,
-        scale=scale,
-        number=[drop.gravity, speed, tolerance, max(tolerance * _FAINT, _FAINTEST)],
+        mass=[ball.mass for ball in drop.balls],
+        scale=_scales(drop),
+        number=[drop.gravity * unit**2, drop.reference_speed * unit, tolerance, faint],
         setting=[order, int(any(nonlinear))],
-        velocity=drop.start_velocities,
+        velocity=[velocity * unit for velocity in drop.start_velocities],
         compression=_compressions(drop),
         **columns,
     )

@@ -208,3 +208,157 @@ def test_extreme_ratios_keep_energy(power):
         result = sb.simulate(springs(masses, stiffnesses))
         assert result.status is sb.Status.FINISHED
         assert abs(result.energy_retained - 1) <= 1e-12
+
+
+def every_law(stiffness):
+    """Return one contact of each finite law, for a ball of 1 kg at 1 m/s."""
+    return {
+        "Spring": sb.Spring(stiffness),
+        "Hertz": sb.Hertz(stiffness),
+        "PowerLaw": sb.PowerLaw(stiffness, 2.5),
+        "Dashpot": sb.Dashpot(stiffness, 0.2 * stiffness**0.5),
+        "Viscoelastic": sb.Viscoelastic(stiffness, 0.05),
+        "HuntCrossley": sb.HuntCrossley(stiffness, 1.5, 0.2),
+        "Hysteretic": sb.Hysteretic(stiffness, exponent=1.5, restitution=0.8),
+    }
+
+
+LAWS = sorted(every_law(1.0))
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("masses", [(1.0, 1e-6), (1e-6, 1.0), (1.0, 1e-4, 1.0), (1.0, 1e6, 1.0)])
+def test_masses_of_many_orders(name, masses):
+    law = every_law(1.0)[name]
+    drop = sb.Drop([sb.Ball(m) for m in masses], [law] * len(masses), impact_speed=1.0)
+    result = sb.simulate(drop, rtol=1e-9)
+    assert result.status is sb.Status.FINISHED
+    assert (np.diff(result.rebound_speeds, prepend=0.0) >= -1e-9).all()
+    assert 0.0 < result.energy_retained <= 1.0 + 1e-7
+
+
+@pytest.mark.parametrize("name", ["Spring", "Hertz", "PowerLaw"])
+def test_a_mass_of_twelve_orders_on_a_light_one(name):
+    """The light ball below is only felt as a part of the floor, or the limit is met and said."""
+    light = sb.Drop([sb.Ball(1.0), sb.Ball(1e-12)], [every_law(1.0)[name]] * 2, impact_speed=1.0)
+    result = sb.simulate(light)
+    assert result.status is sb.Status.FINISHED
+    assert result.rebound_ratios[0] == pytest.approx(1.0, abs=1e-6)
+    heavy = sb.Drop([sb.Ball(1e-12), sb.Ball(1.0)], [every_law(1.0)[name]] * 2, impact_speed=1.0)
+    stopped = sb.simulate(heavy, event_limit=20_000)
+    assert stopped.status is sb.Status.EVENT_LIMIT
+    assert "raise event_limit" in stopped.status.advice
+    assert np.isfinite(stopped.rebound_speeds).all()
+    assert np.isinf(stopped.intervals["end"]).any()  # of what was still under way
+    half = stopped.sample([0.5 * stopped.end_time])
+    assert half.energy.item() == pytest.approx(0.5, rel=1e-9)
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("power", [-8, 8])
+def test_stiffnesses_of_many_orders(name, power):
+    """A far stiffer contact above joins the balls to one; a far softer one lets them bounce."""
+    if name == "Dashpot" and power == 8:
+        power = 6  # its damping grows too, and its motion is stiff: see the next test
+    laws = [every_law(1.0)[name], every_law(10.0**power)[name]]
+    result = sb.simulate(sb.Drop([sb.Ball(1.0), sb.Ball(1.0)], laws, impact_speed=1.0), rtol=1e-9)
+    assert result.status is sb.Status.FINISHED
+    if power > 0:
+        together = sb.simulate(sb.Drop([sb.Ball(2.0)], laws[:1], impact_speed=1.0)).rebound_ratios
+        assert result.rebound_ratios == pytest.approx([together[0]] * 2, abs=0.05)
+    else:
+        assert result.collisions.tolist() == [2, 1]
+
+
+@pytest.mark.parametrize("zeta", [10.0, 1e3])
+def test_stiff_dashpots(zeta):
+    """So overdamped a contact holds the two balls together while the other one works."""
+    laws = [sb.Spring(1.0), sb.Dashpot(1.0, 2.0 * zeta)]
+    result = sb.simulate(sb.Drop([sb.Ball(1.0), sb.Ball(1.0)], laws, impact_speed=1.0))
+    assert result.status is sb.Status.FINISHED
+    assert result.rebound_ratios == pytest.approx([1.0, 1.0], abs=0.5 / zeta)
+    assert result.rebound_ratios[1] > result.rebound_ratios[0]
+
+
+@pytest.mark.parametrize("name", LAWS)
+@pytest.mark.parametrize("gap", [1e-12, 1e6])
+def test_gaps_from_none_to_a_million_contacts(name, gap):
+    law = every_law(1.0)[name]
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(0.3)], [law, law], [gap], impact_speed=1.0)
+    result = sb.simulate(drop)
+    assert result.status is sb.Status.FINISHED
+    if gap > 1.0:
+        sequence = sb.simulate(sb.separate(drop))
+        assert result.rebound_ratios == pytest.approx(sequence.rebound_ratios, abs=1e-9)
+    else:
+        closed = sb.simulate(sb.Drop([sb.Ball(1.0), sb.Ball(0.3)], [law, law], impact_speed=1.0))
+        assert result.rebound_ratios == pytest.approx(closed.rebound_ratios, abs=1e-10)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_equal_and_opposite_balls_tie(name):
+    """Two like pairs that meet at one instant do the same, whatever the law."""
+    law = every_law(1.0)[name]
+    drop = sb.Drop(
+        [sb.Ball(1.0)] * 4,
+        [None, law, law, law],
+        [1.0, 9.0, 1.0],
+        velocities=[1.0, -1.0, 1.0, -1.0],
+    )
+    result = sb.simulate(drop)
+    first, last = of_contact(result, 1)[0], of_contact(result, 3)[0]
+    for field in ("start", "end", "peak_force", "impulse"):
+        assert first[field] == pytest.approx(last[field], rel=1e-12)
+
+
+def test_restitution_one_loses_nothing():
+    """Laws with losses set to none are their lossless selves, to the last bit."""
+    pairs = [
+        (sb.Dashpot(2.0, 0.0), sb.Spring(2.0)),
+        (sb.Viscoelastic(2.0, 0.0), sb.Hertz(2.0)),
+        (sb.HuntCrossley(2.0, 1.7, 0.0), sb.PowerLaw(2.0, 1.7)),
+        (sb.PowerLaw(2.0, 1.0), sb.Spring(2.0)),
+        (sb.PowerLaw(2.0, 1.5), sb.Hertz(2.0)),
+    ]
+    for lossy, lossless in pairs:
+        balls = [sb.Ball(1.0), sb.Ball(0.4)]
+        one = sb.simulate(sb.Drop(balls, [lossy] * 2, impact_speed=1.0))
+        other = sb.simulate(sb.Drop(balls, [lossless] * 2, impact_speed=1.0))
+        assert one.rebound_speeds.tolist() == other.rebound_speeds.tolist()
+        assert one.intervals.tolist() == other.intervals.tolist()
+
+
+def test_a_force_that_is_cut_off_resumes_in_the_same_interval():
+    """The floor's dashpot yields too slowly to stay pressed, until the upper ball lands."""
+    hunt = sb.HuntCrossley(1.0, 1.17, 1.08)
+    balls = [sb.Ball(0.2), sb.Ball(2.3)]
+    drop = sb.Drop(balls, [sb.Dashpot(0.06, 5.3), hunt], [0.94], impact_speed=1.0)
+    result = sb.simulate(drop)
+    (interval,) = of_contact(result, 0)
+    sample = result.sample(np.linspace(0.0, interval["end"], 4001)[1:-1])
+    force, compression = sample.force.values[0], sample.compression.values[0]
+    assert (compression > 0.0).all()
+    assert (force >= 0.0).all()
+    (slack,) = np.nonzero(force == 0.0)
+    assert len(slack) > 100
+    assert (np.diff(slack) == 1).all()
+    assert force[slack[0] - 2] > 0.0
+    assert force[slack[-1] + 2] > 0.0
+
+
+def test_a_thousand_contacts_again_and_again():
+    """A light ball between the floor and a heavy one, on stiff Hertz contacts."""
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(1e5)], [sb.Hertz(1e14)] * 2, [0.5], impact_speed=1.0)
+    result = sb.simulate(drop, rtol=1e-9, compiled=True)
+    sequence = sb.simulate(sb.separate(drop))
+    assert result.status is sb.Status.FINISHED
+    assert result.collisions.tolist() == sequence.collisions.tolist() == [497, 496]
+    assert result.energy_retained == pytest.approx(1.0, abs=1e-7)
+
+
+def test_a_fast_ball_on_a_hard_contact_late():
+    """The clock is too coarse to tell when so short a contact's force sinks below round-off."""
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(1e6)], [sb.Hertz(1e16)] * 2, [0.5], impact_speed=1.0)
+    result = sb.simulate(drop, compiled=True)
+    assert result.status is sb.Status.FINISHED
+    assert result.collisions.tolist() == [1571, 1570]

@@ -133,7 +133,7 @@ def test_momentum_and_impulses():
 
 def test_data_file_is_what_the_script_writes():
     stored = make_data.read("laws")
-    assert [row["case"] for row in stored[:29]] == list(make_laws.one_ball())
+    assert [row["case"] for row in stored[:28]] == list(make_laws.one_ball())
     for index in (0, 9, 27):
         row = stored[index]
         assert row == json.loads(make_laws.row(row["case"], make_laws.solve(row["case"])))

@@ -13,6 +13,7 @@ from stackbounce.engine.codes import (
     DAMPED,
     DIP,
     FAINT,
+    HYSTERETIC,
     LOSSY,
     OPEN,
     PEAK,
@@ -26,6 +27,8 @@ from stackbounce.engine.kernel import kernel
 from stackbounce.engine.stack import Stack
 
 _STEEPEST = 10.0  # times its first unloading exponent, for a lossy contact reloaded many times
+
+_BEYOND = 1.0 + 1e-6  # times the old peak: a steepest curve would be 3 times the force there
 
 
 @kernel
@@ -55,10 +58,26 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
         exponent = stack.exponent[i] + 1.0
         power: float = max(0.0, compression) ** exponent
         return stack.stiffness[i] * power / exponent
+    if stack.law[i] == LOSSY and stack.top[i] == math.inf:
+        return _loaded_energy(stack, i, compression)
     exponent = stack.curve_exponent[i]
-    if stack.law[i] != POWER and stack.top[i] == math.inf:
+    if stack.law[i] == HYSTERETIC and stack.top[i] == math.inf:
         exponent = stack.unloading[i]
     return force(stack, i, compression, 0.0) * compression / (exponent + 1.0)
+
+
+@kernel
+def _loaded_energy(stack: Stack, i: int, compression: float) -> float:
+    """Return what a lossy contact on its loading curve would give back.
+
+    That is e^2 of the work done on this curve, on top of what it held where it came onto it.
+    """
+    exponent = stack.exponent[i] + 1.0
+    kept = exponent / (stack.unloading[i] + 1.0)
+    above: float = max(0.0, compression) ** exponent
+    base: float = stack.base[i] ** exponent
+    work = stack.stiffness[i] * (above - base) / exponent
+    return stack.base_energy[i] + kept * max(0.0, work)
 
 
 @kernel
@@ -71,6 +90,8 @@ def begin(stack: Stack, i: int, time: float) -> None:
     stack.peak_force[i] = 0.0
     stack.peak_compression[i] = 0.0
     stack.impulse[i] = 0.0
+    stack.base[i] = 0.0
+    stack.base_energy[i] = 0.0
     _load(stack, i)
     smooth = stack.curve_exponent[i] == 0.0 or stack.curve_exponent[i] == 1.0
     stack.faint[i] = 0 if smooth else 1
@@ -157,12 +178,19 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
         stack.phase[i] = RELEASING
         if stack.top[i] == math.inf:
             pressing = force(stack, i, compression, 0.0)
-            _follow(stack, i, pressing, compression, stack.unloading[i])
+            exponent = stack.unloading[i]
+            if stack.base[i] > 0.0:
+                held = _loaded_energy(stack, i, compression)
+                exponent = min(pressing * compression / held - 1.0, _STEEPEST * exponent)
+            _follow(stack, i, pressing, compression, exponent)
             stack.top[i] = compression
         else:
             _steepen(stack, i, compression)
     elif kind == RELOADED:
         stack.phase[i] = COMPRESSING
+        if stack.law[i] == LOSSY:
+            stack.base_energy[i] = stored_energy(stack, i, compression)
+            stack.base[i] = compression
         _load(stack, i)
     elif kind == RESUMED:
         stack.phase[i] = COMPRESSING
@@ -177,3 +205,20 @@ def clip(stack: Stack, i: int, time: float) -> None:
     stack.clip_time[i] = time
     stack.clip_lower[i] = stack.velocity[i - 1] if i > 0 else 0.0
     stack.clip_upper[i] = stack.velocity[i]
+
+
+@kernel
+def catch_up(stack: Stack, i: int) -> None:
+    """Let contact i, anchored now, be on the curve that its compression belongs to.
+
+    An event is known no better than the clock tells times apart, in which a fast ball may go
+    further than a power law reaches, or past where a steep one ends.
+    """
+    compression = stack.compression[i]
+    exponent = stack.curve_exponent[i]
+    if stack.phase[i] < COMPRESSING or exponent == 0.0 or exponent == 1.0 or stack.faint[i] == 1:
+        return
+    if compression < 0.5 * stack.faint_below[i]:
+        stack.faint[i] = 1
+    elif stack.law[i] != POWER and compression > _BEYOND * stack.top[i]:
+        change_curve(stack, i, RELOADED)

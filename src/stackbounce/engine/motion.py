@@ -3,12 +3,15 @@
 import math
 
 from stackbounce.engine.codes import COMPRESSING, EPSILON
+from stackbounce.engine.contacts import catch_up
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.modes import find_modes, modal_compression, modal_impulse, start_modes
 from stackbounce.engine.queue import schedule
 from stackbounce.engine.series import ORDER, TERMS, double_integral, integral, shift, value
 from stackbounce.engine.stack import MODES, WIDTH, Stack
 from stackbounce.engine.taylor import expand, is_linear, record_crests
+
+_KNOWN = 100.0  # times the tolerance of a step: what a story of many steps makes of it
 
 
 @kernel
@@ -222,7 +225,7 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
             stack.compression[b + 1] += travel
     noise = 64.0 * EPSILON * fastest
     if stack.modal[first] == 0 and stack.order[first] < ORDER:
-        noise = max(noise, stack.number[2] * stack.number[1])
+        noise = max(noise, _KNOWN * stack.number[2] * stack.number[1])
     for b in range(first, last + 1):
         stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)
     for i in range(low, high):
@@ -251,7 +254,9 @@ def form_clusters(stack: Stack, bottom: int, top: int, time: float) -> None:
         if high - low > MODES:
             stack.modal[first] = 0
         for i in range(low, high):
-            if not is_linear(stack, i):
+            catch_up(stack, i)
+            # a faint contact is too soft to carry a weight: no static state to swing about
+            if not is_linear(stack, i) or (stack.faint[i] == 1 and stack.number[0] > 0.0):
                 stack.modal[first] = 0
         end = math.inf
         if stack.modal[first] == 0:

@@ -8,7 +8,8 @@ contact i carries the weight W_i of all that is above it:
 a sum of terms none of which is negative. No law adds to it. To open contact i takes
 W_i s_i - U_i(s_i), and with less than that no contact can ever open again: the stack is bound. What
 is left is a vibration about the static state; a damped one is followed until its speeds are 1e-9 of
-the reference speed, one that the laws do not damp would go on for ever and is left out.
+the reference speed, or the error they may have; one that the laws do not damp would go on for ever
+and is left out.
 """
 
 import math
@@ -49,7 +50,8 @@ def is_bound(stack: Stack) -> bool:
             if stack.top[i] == math.inf:
                 return False
             share = _HYSTERETIC if size > 1 else 1.0
-    return excess < share * barrier and (not damped or excess <= _STILL * _STILL * reference)
+    still = max(_STILL, 100.0 * stack.number[2])
+    return excess < share * barrier and (not damped or excess <= still * still * reference)
 
 
 @kernel

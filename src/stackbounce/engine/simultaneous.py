@@ -50,6 +50,7 @@ from stackbounce.engine.motion import (
     advance_cluster,
     compression_at,
     contact_impulse,
+    flies,
     form_clusters,
     rate_at,
     velocity_at,
@@ -72,6 +73,7 @@ def start(stack: Stack) -> None:
         stack.phase[i] = OPEN
         stack.curve_exponent[i] = 1.0
         stack.touching[i] = 0.0
+        stack.pushed[i] = 0
     form_clusters(stack, 0, size - 1, 0.0)
     for i in range(size):
         look(stack, i, 0.0)
@@ -158,16 +160,29 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     else:
         change_curve(stack, i, kind)
     form_clusters(stack, bottom, top, time)
-    pushed = kind in (TOUCH, CLIPPED, RESUMED) or (kind == RELEASE and not was_slack)
+    changed = kind in (TOUCH, CLIPPED, RESUMED) or (kind == RELEASE and not was_slack)
     for j in range(bottom, min(top + 2, len(stack.mass))):
-        if stack.phase[j] == OPEN and pushed:
-            stack.touching[j] = logical
+        if stack.phase[j] == OPEN and changed:
+            _note_push(stack, j, logical)
         look(stack, j, time)
     stack.clock[0] = max(stack.clock[0], logical)
     if kind in (TOUCH, RELEASE):
         _write(stack, i, kind, logical, log)
         if was_slack:
             _write_clip(stack, i, log)
+
+
+@kernel
+def _note_push(stack: Stack, i: int, time: float) -> None:
+    """Keep since when open contact i, if it is touching, can have been pressed by its neighbours.
+
+    That is since the first of them pressed: what comes later finds it pressed already, though by
+    less than its round-off.
+    """
+    idle = flies(stack, i) and (i == 0 or flies(stack, i - 1))
+    if stack.pushed[i] == 0 or idle or math.isnan(stack.touching[i]):
+        stack.touching[i] = time
+    stack.pushed[i] = 0 if idle else 1
 
 
 @kernel

@@ -3,9 +3,9 @@
 Index b runs over balls from the lowest up, index i over contacts; contact i lies below ball i.
 A *cluster* is a run of balls joined by pressing contacts, known by its lowest ball; a ball in
 flight is a cluster of its own. Each cluster is anchored at a time of its own: velocities (and
-compressions of its pressing contacts) are those of the anchor. A contact between two clusters keeps a
-``compression[i]`` such that its compression at any time is that number plus the displacement of the
-ball below it less that of the ball above it, both since the anchors of their clusters.
+compressions of its pressing contacts) are those of the anchor. A contact between two clusters keeps
+a ``compression[i]`` such that its compression at any time is that number plus the displacement of
+the ball below it less that of the ball above it, both since the anchors of their clusters.
 """
 
 from collections.abc import Sequence
@@ -44,10 +44,13 @@ class Stack(NamedTuple):
     curve_unit: Floats
     curve_exponent: Floats
     dip_energy: Floats  # energy stored when the compression last stopped falling
+    base: Floats  # where a lossy contact came onto its loading curve, and what it held there
+    base_energy: Floats
     top: Floats  # where an unloading curve joins the loading curve; infinite on the latter
     faint_below: Floats
     faint: Integers  # 1 where the force follows the chord of its curve below faint_below
     touching: Floats  # since when a contact has been touching without a force; nan if it is not
+    pushed: Integers  # 1 where a ball at an open contact has been pressed since the last event
     clip_time: Floats  # since when a slack contact has had no force, and both velocities then
     clip_lower: Floats
     clip_upper: Floats
