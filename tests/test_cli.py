@@ -214,6 +214,17 @@ def test_a_rigid_drop_needs_no_textbook_beside_it(run):
     assert rows(out, "B1")[0][3:6] == ["1.000", "0.5000", "0.2500"]
 
 
+def test_highest_points_are_shown(run):
+    contact = "Rigid restitution=0.5"
+    given = ("--height", "1m", "--gravity", "9.81m/s^2", "--until", "60s", "--contact", contact)
+    code, out, _ = run("simulate", "B1", *given)
+    assert code == 0
+    assert "Highest points" in out
+    assert re.search(r"B1 +\d+ +0\.2258 +0\.2500 +0\.5644 +0\.06250", out)
+    assert "Status: SETTLED" in out
+    assert "Highest points" not in run("simulate", "B1")[1]
+
+
 def test_a_run_that_did_not_finish_says_what_to_do(run):
     code, out, _ = run("simulate", "B1", "B2", "--until", "3ms")
     assert code == 0

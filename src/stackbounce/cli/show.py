@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 __all__ = ["audit", "catalogue", "law_text", "number", "simulation"]
 
+_APEXES = 4  # highest points shown for each ball
+
 
 def simulation(
     console: Console, scenario: Scenario, result: Result, textbook: Result | None
@@ -46,6 +48,8 @@ def simulation(
         console.print(f"  gap {i}, {_between(drop, i + 1)}: {gap}  [{source}]")
     console.print(_bounces(result, textbook))
     console.print(_contacts(result))
+    if len(result.apexes):
+        console.print(_apexes(result))
     _closing(console, result, textbook)
 
 
@@ -263,6 +267,21 @@ def _contacts(result: Result) -> Table:
             number(float(rows["peak_compression"].max()) * 1e3),
             number(float(rows["impulse"].sum())),
         )
+    return table
+
+
+def _apexes(result: Result) -> Table:
+    """Return the first highest points of each ball; the rest is a number."""
+    table = _table(f"Highest points, the first {_APEXES} of each ball")
+    table.add_column("\nball")
+    _columns(table, ("how\nmany",))
+    _columns(table, [part for k in range(_APEXES) for part in (f"{k + 1}\ns", "\nm")])
+    for i, ball in enumerate(result.drop.balls):
+        rows = result.apexes[result.apexes["ball"] == i]
+        first = rows[:_APEXES]
+        cells = [number(float(row[name])) for row in first for name in ("time", "height")]
+        cells += ["–"] * (2 * (_APEXES - len(first)))
+        table.add_row(label(ball.name, i), str(len(rows)), *cells)
     return table
 
 
