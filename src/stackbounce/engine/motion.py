@@ -12,6 +12,7 @@ from stackbounce.engine.stack import MODES, WIDTH, Stack
 from stackbounce.engine.taylor import expand, is_linear, record_crests
 
 _KNOWN = 100.0  # times the tolerance of a step: what a story of many steps makes of it
+_SLOWEST = 1e-9  # of the reference speed: faster balls approach, whatever the tolerance
 
 
 @kernel
@@ -225,7 +226,8 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
             stack.compression[b + 1] += travel
     noise = 64.0 * EPSILON * fastest
     if stack.modal[first] == 0 and stack.order[first] < ORDER:
-        noise = max(noise, _KNOWN * stack.number[2] * stack.number[1])
+        known = min(_KNOWN * stack.number[2], _SLOWEST)
+        noise = max(noise, known * stack.number[1])
     for b in range(first, last + 1):
         stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)
     for i in range(low, high):

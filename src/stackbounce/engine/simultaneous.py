@@ -12,6 +12,7 @@ from stackbounce.engine.codes import (
     CLIPPED,
     COMPRESSING,
     CONTACT,
+    EPSILON,
     EVENT_LIMIT,
     FINISHED,
     IMPULSE,
@@ -148,7 +149,7 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     if kind == TOUCH:
         begin(stack, i, logical)
         logical = stack.start[i]
-        stack.compression[i] = max(compression, 0.0)
+        stack.compression[i] = _at_touch(stack, i, compression, time)
     elif kind == RELEASE:
         if was_slack:
             logical = stack.clip_time[i]
@@ -170,6 +171,20 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         _write(stack, i, kind, logical, log)
         if was_slack:
             _write_clip(stack, i, log)
+
+
+@kernel
+def _at_touch(stack: Stack, i: int, compression: float, time: float) -> float:
+    """Return the compression with which contact i, anchored now, begins: next to none.
+
+    Two balls whose approach was lost in the error of their speeds may have come to overlap since.
+    """
+    rate = stack.velocity[i]
+    if i > 0:
+        rate -= stack.velocity[i - 1]
+    known = max(100.0 * stack.number[2], 1e-12) * stack.scale[i]
+    known += 64.0 * EPSILON * time * abs(rate)
+    return max(compression, 0.0) if compression <= known else 0.0
 
 
 @kernel
