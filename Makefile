@@ -7,12 +7,14 @@ BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 # Twice quiet: only errors are shown.
 INSTALL := $(PIP) install --quiet --quiet --constraint constraints.txt
+DROPS ?= 1000000
+SEED ?= 1
 # Two stamps: `make paper` needs only what the package needs to run; the other targets add the developers' tools.
 RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
 .DEFAULT_GOAL := help
-.PHONY: help venv paper test check lint types imports docs format constraints clean distclean
+.PHONY: help venv paper test bench check lint types imports docs format fuzz constraints clean distclean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1|\2/p' $(MAKEFILE_LIST) | \
@@ -25,8 +27,15 @@ paper: $(RUNTIME)  ## recompute the paper: figures, tables and audit, in build/p
 test: $(DEV)  ## run the tests
 	@$(BIN)/python -m pytest
 
+bench: $(DEV)  ## growth, accuracy and speed, in build/bench
+	@$(BIN)/python -m benchmarks --out build/bench
+	@echo "Open $(CURDIR)/build/bench/index.html"
+
 check: lint types imports docs  ## everything: lint, types, import rules, documentation, tests
 	@$(MAKE) --no-print-directory test
+
+fuzz: $(DEV)  ## random drops in great number: make fuzz DROPS=1000000 SEED=1
+	@cd tests && ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
 
 lint: $(DEV)  ## ruff's rules and formatting
 	@$(BIN)/ruff check
@@ -58,7 +67,7 @@ constraints:  ## write constraints.txt anew from the newest versions that fit
 
 clean:  ## remove what was built, keep .venv
 	@rm -rf build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache
-	@find src tests docs -name __pycache__ -type d -prune -exec rm -rf {} +
+	@find src tests docs benchmarks -name __pycache__ -type d -prune -exec rm -rf {} +
 
 distclean: clean  ## remove .venv too
 	@rm -rf $(VENV)

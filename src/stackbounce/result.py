@@ -74,8 +74,8 @@ _ADVICE = {
     Status.TIME_REACHED: "the time asked for was reached first: raise until to see more",
     Status.EVENT_LIMIT: "the limit of events, or of steps between two events, was met: "
     "raise event_limit, or stop earlier with until",
-    Status.INVALID: "numbers left the range of floating point: bring masses, stiffnesses and "
-    "speeds closer together",
+    Status.INVALID: "numbers left the range of floating point, or a contact came too late for the "
+    "clock: bring masses, stiffnesses, gaps and speeds closer together",
 }
 
 

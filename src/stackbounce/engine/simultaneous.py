@@ -56,12 +56,13 @@ from stackbounce.engine.motion import (
     rate_at,
     velocity_at,
 )
-from stackbounce.engine.queue import clear
+from stackbounce.engine.queue import clear, schedule
 from stackbounce.engine.rest import is_bound, lay_down
 from stackbounce.engine.stack import Samples, Stack
 from stackbounce.engine.taylor import record_crests
 from stackbounce.engine.watch import look
 
+_COARSE = 1e-5  # of a contact's time: what the clock must tell apart
 _NEWTON = 4  # steps from where a sign is clear to where it changes
 
 
@@ -167,6 +168,8 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
             _note_push(stack, j, logical)
         look(stack, j, time)
     stack.clock[0] = max(stack.clock[0], logical)
+    if kind == TOUCH and 4.0 * EPSILON * time * stack.number[1] > _COARSE * stack.scale[i]:
+        schedule(stack.due, stack.heap, stack.place, i, -math.inf)
     if kind in (TOUCH, RELEASE):
         _write(stack, i, kind, logical, log)
         if was_slack:

@@ -1,0 +1,148 @@
+"""The report's figures, in the style of the paper's."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from benchmarks.growth import LAWS, SHAPES, Cost
+from benchmarks.work_precision import DROPS, FAMILIES, TOLERANCES, Spread, Work
+from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, styled
+
+GREEN, PURPLE = "#009E73", "#AA4499"
+WIDE = 7.2  # inches
+SMALLEST = 1e-17  # an error of zero is drawn here
+SHOWN = 8  # balls; with fewer, one or a few intervals are hard to time
+COLORS = {"rigid": BLACK, "springs": FLOOR, "Hertz": UPPER}
+STROKES: dict[str, dict[str, Any]] = {
+    "chain": {"linestyle": "-", "marker": "o", "markersize": 4},
+    "gapped": {"linestyle": "--", "marker": "s", "markersize": 4, "markerfacecolor": "white"},
+}
+MARKS = dict(
+    zip(FAMILIES, zip("osD^v", (UPPER, FLOOR, GREEN, PURPLE, BLACK), strict=True), strict=True)
+)
+STYLES = {
+    "stackbounce, compiled": (UPPER, "o", "-"),
+    "stackbounce, plain Python": (FLOOR, "s", "-"),
+    "scipy, DOP853": (BLACK, "D", "--"),
+}
+
+
+def growth(costs: list[Cost]) -> Figure:
+    """Draw time per contact interval, and the size of a cluster, against the number of balls."""
+    with styled():
+        figure = Figure(figsize=(WIDE, 3.3))
+        time, size = figure.subplots(1, 2)
+        for shape in SHAPES:
+            for law in LAWS:
+                row = [c for c in costs if (c.shape, c.law) == (shape, law) and c.balls >= SHOWN]
+                balls = [c.balls for c in row]
+                look = {"color": COLORS[law], "label": f"{shape}, {law}", **STROKES[shape]}
+                if np.isfinite([c.per_interval for c in row]).sum() > 1:
+                    time.loglog(balls, [1e6 * c.per_interval for c in row], **look)
+                if law != "rigid":
+                    size.loglog(balls, [c.cluster for c in row], **look)
+        for ax in (time, size):
+            ax.set_xlim(6.5, 1250)
+            ax.set_xticks([10, 100, 1000], ["10", "100", "1000"])
+            ax.set_xlabel("balls")
+        time.set_ylim(0.5, 500)
+        _plain(time, (1, 10, 100))
+        time.set_ylabel("time per contact interval (µs)")
+        size.set_ylim(0.8, 100)
+        _plain(size, (1, 10, 100))
+        size.set_ylabel("contacts that press at once")
+        _name_all(figure, *time.get_legend_handles_labels())
+        figure.subplots_adjust(left=0.085, right=0.985, top=0.89, bottom=0.145, wspace=0.24)
+    return figure
+
+
+def _plain(ax: Axes, ticks: Iterable[int]) -> None:
+    ticks = list(ticks)
+    ax.set_yticks(ticks, [str(tick) for tick in ticks])
+
+
+def _name_all(figure: Figure, lines: Any, names: Any) -> None:
+    figure.legend(
+        lines,
+        names,
+        frameon=False,
+        fontsize=9.5,
+        ncols=len(names),
+        loc="upper center",
+        borderpad=0.0,
+        columnspacing=1.5,
+    )
+
+
+def accuracy(spreads: list[Spread]) -> Figure:
+    """Draw the errors of the velocities against the tolerance asked for."""
+    with styled():
+        figure = Figure(figsize=(5.2, 3.8))
+        ax = figure.subplots()
+        every = [s for s in spreads if s.family == "all"]
+        asked = [s.rtol for s in every]
+        ax.fill_between(
+            asked,
+            _seen(s.ten for s in every),
+            _seen(s.ninety for s in every),
+            color="#d9d9d9",
+            linewidth=0,
+            label="all: 10 % to 90 %",
+        )
+        ax.loglog(asked, _seen(s.median for s in every), color=GREY, label="all: median")
+        limit = np.array([TOLERANCES[0] * 3, TOLERANCES[-1] / 3])
+        ax.loglog(limit, 10 * limit, color=BLACK, linestyle="--", linewidth=1)
+        ax.text(1e-7, 6e-6, "10 × rtol", rotation=-31, ha="center", va="center")
+        for name, (mark, color) in MARKS.items():
+            worst = [s for s in spreads if s.family == name]
+            ax.loglog(
+                [s.rtol for s in worst],
+                _seen(s.worst for s in worst),
+                mark,
+                color=color,
+                markersize=4.5,
+                markerfacecolor="none",
+                label=f"{name}: worst of {worst[0].rows}",
+            )
+        ax.set_xlim(3e-3, 3e-15)
+        ax.set_ylim(1e-16, 1e-1)
+        ax.set_xlabel("tolerance asked for, rtol")
+        ax.set_ylabel("error of the velocities / $v_0$")
+        ax.legend(frameon=False, fontsize=8.5, loc="lower left")
+        figure.subplots_adjust(left=0.125, right=0.98, top=0.975, bottom=0.125)
+    return figure
+
+
+def _seen(values: Iterable[float]) -> np.ndarray:
+    return np.maximum(list(values), SMALLEST)
+
+
+def work(runs: list[Work]) -> Figure:
+    """Draw the error of two drops against the time that they take."""
+    with styled():
+        figure = Figure(figsize=(WIDE, 3.3))
+        panels = figure.subplots(1, 2, sharex=True, sharey=True)
+        for ax, drop in zip(panels, DROPS, strict=True):
+            for method, (color, mark, stroke) in STYLES.items():
+                row = [r for r in runs if (r.drop, r.method) == (drop, method)]
+                ax.loglog(
+                    [1e3 * r.seconds for r in row],
+                    _seen(r.error for r in row),
+                    color=color,
+                    marker=mark,
+                    linestyle=stroke,
+                    markersize=4,
+                    label=method,
+                )
+            ax.set_xlabel("time per drop (ms)")
+            ax.text(0.97, 0.95, f"two balls, {drop}", transform=ax.transAxes, ha="right", va="top")
+        panels[0].set_xlim(0.15, 70)
+        panels[0].set_ylim(3e-16, 3e-2)
+        panels[0].set_xticks([1, 10], ["1", "10"])
+        panels[0].set_ylabel("error of the velocities / $v_0$")
+        _name_all(figure, *panels[0].get_legend_handles_labels())
+        figure.subplots_adjust(left=0.09, right=0.985, top=0.89, bottom=0.145, wspace=0.06)
+    return figure

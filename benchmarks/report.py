@@ -1,0 +1,187 @@
+"""The benchmarks' page: figures, tables, and what they were measured with."""
+
+import base64
+import math
+import os
+import platform
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+
+import jinja2
+from matplotlib.figure import Figure
+
+from benchmarks import figures, growth, work_precision
+from stackbounce.cross2007.style import rendered
+
+PACKAGES = ("stackbounce", "numpy", "numba", "scipy")
+FROM = 8  # balls; of smaller stacks one or a few intervals are hard to time
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table as text: title, heads, rows; the first `words` columns are words."""
+
+    title: str
+    heads: list[str]
+    rows: list[list[str]]
+    words: int = 1
+
+
+@dataclass(frozen=True)
+class Section:
+    """A figure as SVG and PNG with its caption, and the tables of its numbers."""
+
+    name: str
+    title: str
+    caption: str
+    svg: bytes
+    png: bytes
+    tables: list[Table]
+
+    @property
+    def address(self) -> str:
+        """The figure itself, as an address within the page."""
+        return "data:image/svg+xml;base64," + base64.b64encode(self.svg).decode()
+
+
+def write(out: Path, progress: Callable[[str], None]) -> list[Table]:
+    """Measure, write the page and its figures to a folder, and return the tables."""
+    sections = [_growth(progress), _accuracy(progress), _work(progress)]
+    progress("writing the page")
+    out.mkdir(parents=True, exist_ok=True)
+    for section in sections:
+        (out / f"{section.name}.svg").write_bytes(section.svg)
+        (out / f"{section.name}.png").write_bytes(section.png)
+    (out / "index.html").write_text(_page(sections), encoding="utf-8")
+    return [table for section in sections for table in section.tables]
+
+
+def _growth(progress: Callable[[str], None]) -> Section:
+    costs = growth.measure(progress)
+    sizes = [size for size in growth.SIZES if size >= FROM]
+    kinds = list(dict.fromkeys((c.shape, c.law) for c in costs))
+
+    def table(title: str, number: Callable[[growth.Cost], str]) -> Table:
+        rows = [
+            [*kind, *[number(c) for c in costs if (c.shape, c.law) == kind and c.balls >= FROM]]
+            for kind in kinds
+        ]
+        return Table(title, ["stack", "contacts", *map(str, sizes)], rows, words=2)
+
+    caption = (
+        "Left: what a contact interval costs, the set-up left out. Right: how many contacts in a "
+        "row press on each other on average. A chain is struck by one ball; a gapped stack has "
+        "random masses and gaps and falls on a floor. The cost follows the cluster, not the number "
+        "of balls: the wave in a Hertz chain stays about six contacts long, a gapped stack has "
+        "mostly single contacts, and in a chain of springs the wave spreads, by about the cube "
+        "root of the number of balls. Gapped stacks are stopped after "
+        f"{growth.EVENTS:,} events. A rigid chain is not shown: its collisions take no time "
+        "beside the set-up."
+    )
+    tables = [
+        table("Time per contact interval (µs), by number of balls", _interval),
+        table("Time of the whole run (ms)", lambda c: _three(1e3 * c.seconds)),
+        table("of it to set up (ms)", lambda c: _three(1e3 * c.setup)),
+        table(
+            "Contact intervals (+: stopped there)",
+            lambda c: f"{c.intervals}{'' if c.finished else '+'}",
+        ),
+        table("Contacts that press at once", lambda c: f"{c.cluster:.1f}"),
+    ]
+    return _section(
+        "growth", "From two balls to a thousand", caption, figures.growth(costs), tables
+    )
+
+
+def _accuracy(progress: Callable[[str], None]) -> Section:
+    spreads = work_precision.errors(progress)
+    rows = [
+        [
+            f"{rtol:.0e}",
+            *[f"{s.worst / rtol:.2g}" for s in spreads if s.rtol == rtol and s.family != "all"],
+            *[
+                f"{x / rtol:.2g}"
+                for s in spreads
+                if (s.rtol, s.family) == (rtol, "all")
+                for x in (s.ninety, s.median)
+            ],
+        ]
+        for rtol in work_precision.TOLERANCES
+    ]
+    names = [s.family for s in spreads if s.rtol == work_precision.TOLERANCES[0]]
+    heads = ["rtol", *names[:-1], "90 %", "median"]
+    over = sum(s.worst > 10.0 * s.rtol for s in spreads if s.family == "all")
+    caption = (
+        "Errors of the velocities after the impact, in units of v0, against references of thirty "
+        "digits: all stacks of tests/data/laws.json that have a nonlinear contact. The line is ten "
+        f"times the tolerance; the worst stack is above it at {over} of "
+        f"{len(work_precision.TOLERANCES)} tolerances."
+    )
+    table = Table("Error / rtol: the worst of each family, and quantiles of all", heads, rows)
+    title = "Error against tolerance"
+    return _section("accuracy", title, caption, figures.accuracy(spreads), [table])
+
+
+def _work(progress: Callable[[str], None]) -> Section:
+    runs = work_precision.work(progress)
+    tables = []
+    for drop in work_precision.DROPS:
+        heads, columns = ["rtol"], []
+        for method in work_precision.METHODS:
+            heads += [f"{method}: error", "ms"]
+            found = {r.rtol: r for r in runs if (r.drop, r.method) == (drop, method)}
+            columns.append(found)
+        rows = [
+            [f"{rtol:.0e}", *[text for found in columns for text in _pair(found.get(rtol))]]
+            for rtol in work_precision.TOLERANCES
+        ]
+        tables.append(Table(f"Two balls, {drop}: error / v0 and time per drop", heads, rows))
+    caption = (
+        "Error and time of one drop, from a Drop to its rebound speeds: two balls of 150 g and "
+        "57 g, 2 mm apart, on equal contacts, for tolerances from 1e-3 on. scipy's solve_ivp "
+        "stops at every touch and release, as a careful script would. Of the compiled time, most "
+        "is Python's to set up one drop."
+    )
+    return _section("work", "Error against time", caption, figures.work(runs), tables)
+
+
+def _section(
+    name: str, title: str, caption: str, figure: Figure, tables: Iterable[Table]
+) -> Section:
+    files = rendered(figure)
+    return Section(name, title, caption, files["svg"], files["png"], list(tables))
+
+
+def _interval(cost: growth.Cost) -> str:
+    return "–" if math.isnan(cost.per_interval) else _three(1e6 * cost.per_interval)
+
+
+def _three(value: float) -> str:
+    return f"{value:#.3g}".rstrip(".")
+
+
+def _pair(run: work_precision.Work | None) -> tuple[str, str]:
+    return ("–", "–") if run is None else (f"{run.error:.1e}", _three(1e3 * run.seconds))
+
+
+def _page(sections: list[Section]) -> str:
+    environment = jinja2.Environment(
+        loader=jinja2.ChoiceLoader(
+            [
+                jinja2.FileSystemLoader(Path(__file__).parent),
+                jinja2.PackageLoader("stackbounce.cross2007"),
+            ]
+        ),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    return environment.get_template("report.html.j2").render(
+        sections=sections,
+        versions={"Python": platform.python_version()} | {p: version(p) for p in PACKAGES},
+        cores=os.cpu_count(),
+        machine=platform.machine(),
+    )
