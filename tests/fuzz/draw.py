@@ -1,40 +1,42 @@
 """Random drops, a batch at a time: the same numbers for the same seed and batch, whoever asks."""
 
+import functools
 from typing import NamedTuple
 
 import numpy as np
 
 import stackbounce as sb
-
-NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, HYSTERETIC, LOSSY = range(9)
-RIGID = 9
-NAMES = (
-    "None",
-    "Spring",
-    "Hertz",
-    "PowerLaw",
-    "Dashpot",
-    "Viscoelastic",
-    "HuntCrossley",
-    "Hysteretic",
-    "Hysteretic lossy",
-    "Rigid",
+from fuzz.drive import (
+    DASHPOT,
+    HERTZ,
+    HUNT_CROSSLEY,
+    HYSTERETIC,
+    LOSSY,
+    NONE,
+    RIGID,
+    SPRING,
+    VISCOELASTIC,
 )
+from stackbounce.simulate import _finite_stack
+
 BATCH = 500
-TALLEST = 6
-RIGID_EVERY = 5  # one batch in so many is of rigid stacks
+BALLS = (2, 3, 1, 2, 4, 3, 2, 1, 5, 2, 3, 4, 2, 1, 3, 2, 6, 1, 2, 3, 4, 2, 5, 1, 2)  # by batch
+RIGID_EVERY = 3  # one batch in so many is of rigid stacks
 STOPS = 3  # times in between at which some of the drops are looked at
-EVENTS = (500, 20_000)  # limits, usual and rare
-RARE = 0.01
-_TOLERANCES = (1e-6, 1e-7, 1e-8, 1e-9, 1e-12, 1e-3, 1e-14)
-_TOLERANCE_ODDS = (0.22, 0.22, 0.22, 0.22, 0.06, 0.03, 0.03)
+EVENTS = (300, 10_000)  # limits, usual and rare
+RARE = 0.001
+PULLED = 0.1  # with gravity
+STOPPED = (0.04, 0.5)  # run until a given time, without gravity and with it
+IN_PARTS = 0.05  # run once more, with stops in between
+TOLERANCES = (1e-6, 1e-7, 1e-9, 1e-12, 1e-3, 1e-14)
+TOLERANCE_ODDS = (0.6, 0.1, 0.15, 0.1, 0.03, 0.02)
 
 
 class Drops(NamedTuple):
     """Drops of one height: rows of drops, columns of balls or of the contacts below them."""
 
     mass: np.ndarray
-    law: np.ndarray  # by the numbers above
+    law: np.ndarray  # by the numbers of `drive`
     stiffness: np.ndarray
     exponent: np.ndarray
     extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution
@@ -43,15 +45,27 @@ class Drops(NamedTuple):
     gravity: np.ndarray
     until: np.ndarray
     rtol: np.ndarray
+    tolerance: np.ndarray  # three numbers that `simulate` makes of rtol
+    faint: np.ndarray
+    order: np.ndarray
     limit: np.ndarray  # of events
     stops: np.ndarray  # (drops, STOPS) parts of the whole time, ascending; 0 where not stopped
+
+
+def is_rigid(batch: int) -> bool:
+    """Tell whether a batch is of rigid stacks."""
+    return batch % RIGID_EVERY == RIGID_EVERY - 1
+
+
+def balls_of(batch: int) -> int:
+    """Return the height of a batch's stacks."""
+    return BALLS[batch % len(BALLS)]
 
 
 def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
     """Return a batch of random drops."""
     random = np.random.default_rng([seed, batch])
-    balls = 1 + batch % TALLEST
-    rigid = batch // TALLEST % RIGID_EVERY == RIGID_EVERY - 1
+    balls, rigid = balls_of(batch), is_rigid(batch)
     shape = (count, balls)
     mass = _masses(random, shape)
     velocity = _velocities(random, shape)
@@ -65,9 +79,57 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
         law[:] = RIGID
         extra[:] = _restitutions(random, shape)
     law[random.random(count) < 0.3, 0] = NONE
-    stiffness = linear * length ** (1.0 - exponent)
-    strength = _decades(random, shape, -6.0, 3.0)
-    strength = np.where(random.random(shape) < 0.1, 1.0, strength)
+    extra = _damping(random, law, extra, linear, reduced, length, speed)
+    slowest = np.max(np.where(law == NONE, 0.0, length), axis=1)
+    time = np.where(slowest > 0.0, slowest, 1.0) / speed[:, 0]
+    pulled = random.random(count) < PULLED
+    gravity = np.where(pulled, speed[:, 0] / time * _decades(random, count, -4.0, 1.0), 0.0)
+    stopped = random.random(count) < np.where(pulled, STOPPED[1], STOPPED[0])
+    until = np.where(stopped, time * _decades(random, count, -2.0, 3.0), np.inf)
+    stops = np.sort(random.random((count, STOPS)), axis=1)
+    stops[random.random(count) >= IN_PARTS] = 0.0
+    choice = random.choice(len(TOLERANCES), count, p=TOLERANCE_ODDS)
+    precision = np.array([precision_of(rtol) for rtol in TOLERANCES])[choice]
+    drops = Drops(
+        mass=mass,
+        law=law,
+        stiffness=linear * length ** (1.0 - exponent),
+        exponent=exponent,
+        extra=extra,
+        gap=_gaps(random, shape, np.where(law == NONE, slowest[:, None], length)),
+        velocity=velocity,
+        gravity=gravity,
+        until=until,
+        rtol=np.array(TOLERANCES)[choice],
+        tolerance=precision[:, 0],
+        faint=precision[:, 1],
+        order=precision[:, 2].astype(np.int64),
+        limit=np.where(random.random(count) < RARE, EVENTS[1], EVENTS[0]),
+        stops=stops,
+    )
+    return Drops(*map(np.ascontiguousarray, drops))  # one type of array, compiled once
+
+
+@functools.cache
+def precision_of(rtol: float) -> tuple[float, float, float]:
+    """Return tolerance and faint work of a step, and the series' order, as `simulate` has them."""
+    drop = sb.Drop([sb.Ball(1.0)], [sb.Hertz(1.0)], velocities=[-1.0])
+    stack = _finite_stack(drop, rtol, 1.0)
+    return stack.number[2], stack.number[3], stack.setting[0]
+
+
+def _damping(
+    random: np.random.Generator,
+    law: np.ndarray,
+    extra: np.ndarray,
+    linear: np.ndarray,
+    reduced: np.ndarray,
+    length: np.ndarray,
+    speed: np.ndarray,
+) -> np.ndarray:
+    """Return the laws' last numbers with those of damped ones, from faint to overdamped."""
+    strength = _decades(random, law.shape, -6.0, 3.0)
+    strength = np.where(random.random(law.shape) < 0.1, 1.0, strength)
     units = {
         DASHPOT: 2.0 * np.sqrt(linear * reduced),
         VISCOELASTIC: length / speed,
@@ -75,28 +137,7 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
     }
     for kind, unit in units.items():
         extra = np.where(law == kind, strength * unit, extra)
-    slowest = np.max(np.where(law == NONE, 0.0, length), axis=1)
-    time = np.where(slowest > 0.0, slowest, 1.0) / speed[:, 0]
-    pulled = (random.random(count) < 0.25) & (not rigid)
-    gravity = np.where(pulled, speed[:, 0] / time * _decades(random, count, -4.0, 1.0), 0.0)
-    stopped = random.random(count) < np.where(pulled, 0.3, 0.05)
-    until = np.where(stopped, time * _decades(random, count, -2.0, 3.0), np.inf)
-    stops = np.sort(random.random((count, STOPS)), axis=1)
-    stops[random.random(count) >= 0.1] = 0.0
-    return Drops(
-        mass=mass,
-        law=law,
-        stiffness=stiffness,
-        exponent=exponent,
-        extra=extra,
-        gap=_gaps(random, shape, np.where(law == NONE, slowest[:, None], length)),
-        velocity=velocity,
-        gravity=gravity,
-        until=until,
-        rtol=random.choice(_TOLERANCES, count, p=_TOLERANCE_ODDS),
-        limit=np.where(random.random(count) < RARE, EVENTS[1], EVENTS[0]),
-        stops=stops,
-    )
+    return extra
 
 
 def _decades(
@@ -173,9 +214,7 @@ def _restitutions(random: np.random.Generator, shape: tuple[int, int]) -> np.nda
     return np.where(random.random((shape[0], 1)) < 0.5, one, own)
 
 
-def _gaps(
-    random: np.random.Generator, shape: tuple[int, int], length: np.ndarray
-) -> np.ndarray:
+def _gaps(random: np.random.Generator, shape: tuple[int, int], length: np.ndarray) -> np.ndarray:
     """Return gaps of 0, tiny, about a contact's length, or huge, in a contact's own length."""
     count, balls = shape
     factors = np.select(
@@ -192,61 +231,3 @@ def _gaps(
         equal = random.random(count) < 0.1
         gap[equal, 1:] = gap[equal, 1:2]
     return gap
-
-
-def law_of(drops: Drops, row: int, i: int) -> sb.model.ContactLaw | None:
-    """Return the law of a contact."""
-    k, p = float(drops.stiffness[row, i]), float(drops.exponent[row, i])
-    extra = float(drops.extra[row, i])
-    match int(drops.law[row, i]):
-        case 0:
-            return None
-        case 1:
-            return sb.Spring(k)
-        case 2:
-            return sb.Hertz(k)
-        case 3:
-            return sb.PowerLaw(k, p)
-        case 4:
-            return sb.Dashpot(k, extra)
-        case 5:
-            return sb.Viscoelastic(k, extra)
-        case 6:
-            return sb.HuntCrossley(k, p, extra)
-        case 7:
-            return sb.Hysteretic(k, exponent=p, unloading_exponent=extra)
-        case 8:
-            return sb.Hysteretic(k, exponent=p, unloading_exponent=extra, reloading="lossy")
-        case _:
-            return sb.Rigid(extra)
-
-
-def drop_of(drops: Drops, row: int) -> sb.Drop:
-    """Return one drop of a batch as the package's users write it."""
-    balls = drops.mass.shape[1]
-    return sb.Drop(
-        [sb.Ball(mass) for mass in drops.mass[row].tolist()],
-        [law_of(drops, row, i) for i in range(balls)],
-        drops.gap[row, 1:].tolist(),
-        velocities=drops.velocity[row].tolist(),
-        gravity=float(drops.gravity[row]),
-    )
-
-
-def options_of(drops: Drops, row: int) -> dict[str, float]:
-    """Return the arguments of `simulate` with which a drop of a batch is run."""
-    options = {"rtol": float(drops.rtol[row]), "event_limit": int(drops.limit[row])}
-    return options | ({"until": float(drops.until[row])} if drops.until[row] < np.inf else {})
-
-
-def expression(drops: Drops, row: int) -> str:
-    """Return what runs one drop of a batch again, to be pasted after `import stackbounce as sb`."""
-    drop = drop_of(drops, row)
-    balls = ", ".join(f"sb.Ball({ball.mass!r})" for ball in drop.balls)
-    laws = ", ".join("None" if law is None else f"sb.{law!r}" for law in drop.contacts)
-    more = f", gravity={drop.gravity!r}" if drop.gravity else ""
-    options = "".join(f", {name}={value!r}" for name, value in options_of(drops, row).items())
-    return (
-        f"sb.simulate(sb.Drop([{balls}], [{laws}], {list(drop.gaps)!r}, "
-        f"velocities={list(drop.velocities)!r}{more}){options})"
-    )

@@ -1,92 +1,61 @@
-"""Kernels that load random drops into one stack's arrays, run them, and check what came out."""
+"""Kernels that load random drops into one stack's arrays, run them, and check what came out.
+
+All that numba freezes into them is in this file or in the engine, whose hash names numba's folder:
+what is compiled is never older than its sources.
+"""
 
 import math
 from typing import Any
 
 import numpy as np
 
-from draw import (
-    DASHPOT,
-    HUNT_CROSSLEY,
-    HYSTERETIC,
-    LOSSY,
-    NONE,
-    STOPS,
-    VISCOELASTIC,
-    Drops,
-)
-from stackbounce.engine.codes import (
-    ABSENT,
-    COLLAPSED,
-    CONTACT,
-    DAMPED,
-    EPSILON,
-    FINISHED,
-    INVALID,
-    KIND,
-    LOG_COLUMNS,
-    OPEN,
-    POWER,
-    RELEASE,
-    RUNNING,
-    TIME,
-    TIME_REACHED,
-    TOUCH,
-)
-from stackbounce.engine.codes import HYSTERETIC as ENGINE_HYSTERETIC
-from stackbounce.engine.codes import LOSSY as ENGINE_LOSSY
+from stackbounce.engine import codes
+from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TIME_REACHED
 from stackbounce.engine.contacts import stored_energy
+from stackbounce.engine.flight import compression_after
 from stackbounce.engine.kernel import kernel
 from stackbounce.engine.motion import compression_at, velocity_at
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
-from stackbounce.engine.series import ORDER
 from stackbounce.engine.simultaneous import advance, start
-from stackbounce.simulate import _FAINT, _FAINTEST, _LEAST_ORDER, _ROUND_OFF, _STEP
+
+# laws of random drops
+NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY = range(7)
+HYSTERETIC, LOSSY, RIGID = range(7, 10)
 
 # what can be wrong with a run, as bits
 BAD_NUMBER, GAINS_ENERGY, LOSES_MOMENTUM, OUT_OF_TURN, OUT_OF_ORDER = 1, 2, 4, 8, 16
 STILL_CLOSED, APPROACHES, GAINS_IN_BETWEEN, SPLIT_DIFFERS, IS_INVALID = 32, 64, 128, 256, 512
 FAULTS = {
-    BAD_NUMBER: "a number that is not finite",
+    BAD_NUMBER: "a number is not finite",
     GAINS_ENERGY: "energy rises",
-    LOSES_MOMENTUM: "momentum is not conserved",
+    LOSES_MOMENTUM: "momentum changes",
     OUT_OF_TURN: "touch and release do not alternate",
-    OUT_OF_ORDER: "events of a contact go back in time",
+    OUT_OF_ORDER: "a contact's events go back in time",
     STILL_CLOSED: "finished with a closed contact",
     APPROACHES: "finished while a contact approaches",
     GAINS_IN_BETWEEN: "energy rises in between",
     SPLIT_DIFFERS: "a run stopped in between ends otherwise",
-    IS_INVALID: "invalid",
+    IS_INVALID: "invalid, though the clock could tell",
 }
 STATUS, EVENT_COUNT, END, ENERGY, MOMENTUM, APPROACH, FAULT = range(7)
 COLUMNS = 7  # of what is found, before the balls' velocities and the contacts' counts
-_LOOSE = 10.0  # times rtol: a rise of the energy, or a rate of approach
+_LOOSE = 10.0  # times rtol, and a tenth of it per event: a rise of the energy, a rate of approach
 _ROUND = 1e-12  # and more than that of the first energy
 _SHAKE = 64.0 * EPSILON  # of the largest momentum, per event
+_CLOCK = 4e5 * EPSILON  # of a contact's time, in which a run ends as invalid
 
 
 @kernel
-def load(stack: Any, drops: Drops, row: int) -> None:
-    """Put one drop into a stack's arrays, as `simulate` does, and clear its state."""
+def load(stack: Any, drops: Any, row: int) -> float:
+    """Put one drop into a stack's cleared arrays, as `simulate` does; return its unit of time."""
     size = len(stack.mass)
-    speed = 0.0
+    speed, shortest = 0.0, math.inf
     for i in range(size):
         speed = max(speed, abs(drops.velocity[row, i]))
-    tolerance = max(_STEP * drops.rtol[row], _ROUND_OFF)
-    stack.number[0] = drops.gravity[row]
-    stack.number[1] = speed
-    stack.number[2] = tolerance
-    stack.number[3] = max(tolerance * _FAINT, _FAINTEST)
-    order = int(round(1.0 - 0.5 * math.log(tolerance)))
-    stack.setting[0] = min(ORDER, max(_LEAST_ORDER, order))
-    stack.setting[1] = 0
     for i in range(size):
-        _load_contact(stack, drops, row, i)
         mass = drops.mass[row, i]
         stack.mass[i] = mass
-        stack.velocity[i] = drops.velocity[row, i]
-        stack.velocity_noise[i] = 0.0
-        stack.compression[i] = -drops.gap[row, i] if i > 0 else 0.0
+        _load_law(stack, drops, row, i)
         if i > 0:
             mass = drops.mass[row, i - 1] * mass / (drops.mass[row, i - 1] + mass)
         power = 1.0 / (stack.exponent[i] + 1.0)
@@ -94,180 +63,191 @@ def load(stack: Any, drops: Drops, row: int) -> None:
         stack.scale[i] = energy**power * speed ** (2.0 * power)
         if stack.unloading[i] != 1.0 or stack.factor_exponent[i] != 0.0:
             stack.setting[1] = 1
-    for k in range(len(stack.counter)):
-        stack.counter[k] = 0
-    stack.clock[0] = 0.0
-    stack.clock[1] = 0.0
+        if stack.law[i] != codes.ABSENT:
+            shortest = min(shortest, stack.scale[i] / speed)
+    unit = 1.0 if shortest == math.inf else 2.0 ** round(math.log2(shortest))
+    for i in range(size):
+        stack.stiffness[i] *= unit**2
+        stack.gain_rate[i] /= unit
+        stack.velocity[i] = drops.velocity[row, i] * unit
+        stack.compression[i] = -drops.gap[row, i] if i > 0 else 0.0
+    stack.number[0] = drops.gravity[row] * unit**2
+    stack.number[1] = speed * unit
+    stack.number[2] = drops.tolerance[row]
+    stack.number[3] = drops.faint[row]
+    stack.setting[0] = drops.order[row]
+    return unit
 
 
 @kernel
-def _load_contact(stack: Any, drops: Drops, row: int, i: int) -> None:
+def _load_law(stack: Any, drops: Any, row: int, i: int) -> None:
     law, extra, p = drops.law[row, i], drops.extra[row, i], drops.exponent[row, i]
-    stack.law[i] = POWER
+    stack.law[i] = codes.POWER
     stack.stiffness[i] = drops.stiffness[row, i]
     stack.exponent[i] = p
     stack.unloading[i] = p
-    stack.factor_exponent[i] = 0.0
-    stack.gain_constant[i] = 0.0
-    stack.gain_slope[i] = 0.0
-    stack.gain_rate[i] = 0.0
     if law == NONE:
-        stack.law[i] = ABSENT
+        stack.law[i] = codes.ABSENT
         stack.stiffness[i] = 1.0
         stack.exponent[i] = 1.0
         stack.unloading[i] = 1.0
-    elif law == HYSTERETIC or law == LOSSY:
-        stack.law[i] = ENGINE_LOSSY if law == LOSSY else ENGINE_HYSTERETIC
+    elif law in (HYSTERETIC, LOSSY):
+        stack.law[i] = codes.LOSSY if law == LOSSY else codes.HYSTERETIC
         stack.unloading[i] = extra
     elif law == DASHPOT:
-        stack.law[i] = DAMPED
+        stack.law[i] = codes.DAMPED
         stack.gain_slope[i] = 1.0
         stack.gain_rate[i] = extra / stack.stiffness[i]
     elif law == VISCOELASTIC:
-        stack.law[i] = DAMPED
+        stack.law[i] = codes.DAMPED
         stack.factor_exponent[i] = 0.5
         stack.gain_slope[i] = 1.0
         stack.gain_rate[i] = 1.5 * extra
     elif law == HUNT_CROSSLEY:
-        stack.law[i] = DAMPED
+        stack.law[i] = codes.DAMPED
         stack.factor_exponent[i] = p
         stack.gain_constant[i] = 1.0
         stack.gain_rate[i] = extra
 
 
 @kernel
-def load_rigid(stack: Any, drops: Drops, row: int) -> None:
-    """Put one drop of rigid balls into a stack's arrays and clear its state."""
+def load_rigid(stack: Any, drops: Any, row: int) -> None:
+    """Put one drop of rigid balls into a stack's cleared arrays, as `simulate` does."""
+    fastest = 0.0
     for i in range(len(stack.mass)):
+        fastest = max(fastest, abs(drops.velocity[row, i]))
+    unit = 2.0 ** math.frexp(fastest)[1]
+    for i in range(len(stack.mass)):
+        absent = drops.law[row, i] == NONE
         stack.mass[i] = drops.mass[row, i]
-        stack.law[i] = ABSENT if drops.law[row, i] == NONE else POWER
-        stack.restitution[i] = 0.0 if drops.law[row, i] == NONE else drops.extra[row, i]
-        stack.velocity[i] = drops.velocity[row, i]
-        stack.compression[i] = -drops.gap[row, i] if i > 0 else 0.0
-        stack.rate_noise[i] = 0.0
-        stack.infinite[i] = 0
-        stack.last_hit[i] = 0
-    for k in range(3):
-        stack.number[k] = 0.0
-        stack.memory[k] = 0
-    for k in range(len(stack.counter)):
-        stack.counter[k] = 0
-    stack.clock[0] = 0.0
-    stack.clock[1] = 0.0
+        stack.law[i] = codes.ABSENT if absent else codes.POWER
+        stack.restitution[i] = 0.0 if absent else drops.extra[row, i]
+        stack.velocity[i] = drops.velocity[row, i] / unit
+        stack.compression[i] = -drops.gap[row, i] / unit if i > 0 else 0.0
+    stack.number[0] = unit
+    stack.number[3] = drops.gravity[row] / unit
 
 
 @kernel
-def run(stack: Any, drops: Drops, row: int, samples: Any, log: Any, turns: Any, out: Any) -> None:
+def clear(floats: Any, integers: Any) -> None:
+    """Forget the drop before."""
+    for k in range(len(floats)):
+        floats[k] = 0.0
+    for k in range(len(integers)):
+        integers[k] = 0
+
+
+@kernel
+def run(
+    stack: Any, floats: Any, integers: Any, drops: Any, row: int, samples: Any, log: Any, out: Any
+) -> None:
     """Run one drop of finite contacts and write into ``out`` what is found."""
     size = len(stack.mass)
-    load(stack, drops, row)
+    clear(floats, integers)
+    unit = load(stack, drops, row)
     start(stack)
     first, reference = energy_at(stack, 0.0)
-    begin_turns(turns)
-    status, fault = _go_on(stack, drops, row, samples, log, turns, out)
-    end = _time_of(stack, status, drops.until[row])
-    last, round_off = energy_at(stack, end)
-    allowed = _LOOSE * drops.rtol[row] + _ROUND
-    out[ENERGY] = (last - first - _ROUND * round_off) / reference
+    turns = np.zeros(2 * size)
+    status, fault = RUNNING, 0
+    while status == RUNNING:
+        stack.counter[0] = 0
+        status = advance(stack, drops.until[row] / unit, drops.limit[row], log, samples)
+        fault |= read(log, stack.counter[0], turns, out)
+    if status == codes.INVALID and comes_too_late(stack):
+        out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[1], stack.clock[1] * unit
+        out[FAULT] = fault
+        return
+    end = drops.until[row] / unit
+    if status != TIME_REACHED:
+        end = stack.clock[0] if status == FINISHED else max(stack.clock[0], stack.clock[1])
+    last, terms = energy_at(stack, end)
+    allowed, lossy = _ROUND * (1.0 + 0.1 * stack.counter[1]), False
+    for i in range(size):
+        lossy = lossy or stack.law[i] == codes.LOSSY  # its reloading need not be linear
+    if lossy or stack.setting[1] == 1:
+        allowed += _LOOSE * drops.rtol[row] * (1.0 + 0.1 * stack.counter[1])
+    out[ENERGY] = (last - first) / (reference + terms)
     if not out[ENERGY] <= allowed:
         fault |= GAINS_ENERGY
-    out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[1], end
+    out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[1], end * unit
     for b in range(size):
-        out[COLUMNS + b] = velocity_at(stack, b, end)
-    out[FAULT] = fault | common_faults(stack, drops, row, allowed, out)
-    if status == FINISHED:
-        for i in range(size):
-            if stack.phase[i] != OPEN:
-                out[FAULT] = int(out[FAULT]) | STILL_CLOSED
-    if drops.stops[row, STOPS - 1] > 0.0 and end > 0.0:
-        out[FAULT] = int(out[FAULT]) | _in_parts(
-            stack, drops, row, samples, log, first, allowed * reference, out
-        )
+        out[COLUMNS + b] = velocity_at(stack, b, end) / unit
+        if status == FINISHED and stack.phase[b] != codes.OPEN:
+            fault |= STILL_CLOSED
+    fault |= last_faults(stack, drops, row, allowed, out)
+    if status == codes.INVALID and _CLOCK * end * stack.number[1] <= min(stack.scale):
+        fault |= IS_INVALID  # not because the clock could not tell the times of an event apart
+    if drops.stops[row, 0] > 0.0 and end > 0.0:
+        clear(floats, integers)
+        fault |= in_parts(stack, drops, row, samples, log, allowed * (reference + terms), out)
+    out[FAULT] = fault
 
 
 @kernel
-def _in_parts(
-    stack: Any,
-    drops: Drops,
-    row: int,
-    samples: Any,
-    log: Any,
-    first: float,
-    allowed: float,
-    out: Any,
+def comes_too_late(stack: Any) -> bool:
+    """Tell whether the clock cannot tell a contact's parts apart any more: stated to be invalid."""
+    for i in range(len(stack.mass)):
+        if 4.0 * EPSILON * stack.clock[1] * stack.number[1] > 1e-5 * stack.scale[i]:
+            return True
+    return False
+
+
+@kernel
+def in_parts(
+    stack: Any, drops: Any, row: int, samples: Any, log: Any, allowed: float, out: Any
 ) -> int:
     """Run a drop again, stopping in between: no rise of energy, the same end."""
-    fault = 0
-    load(stack, drops, row)
+    fault, status = 0, TIME_REACHED
+    unit = load(stack, drops, row)
     start(stack)
-    status = RUNNING
-    for k in range(STOPS):
-        stop = drops.stops[row, k] * out[END]
+    before, _ = energy_at(stack, 0.0)
+    stops = drops.stops.shape[1]
+    for k in range(stops + 1):
+        # with gravity a run to a given time need not end with the last release
+        final = k == stops
+        if status != TIME_REACHED or (final and drops.gravity[row] > 0.0):
+            return fault
+        stop = drops.until[row] if final else drops.stops[row, k] * out[END]
         status = RUNNING
         while status == RUNNING:
             stack.counter[0] = 0
-            status = advance(stack, stop, drops.limit[row], log, samples)
-        if status != TIME_REACHED:
-            break
-        energy, round_off = energy_at(stack, stop)
-        if not energy - first <= allowed + _ROUND * round_off:
-            fault |= GAINS_IN_BETWEEN
-        first = min(first, energy)
-    if drops.gravity[row] > 0.0:
-        return fault  # it need not end with the same release
-    while status == RUNNING or status == TIME_REACHED:
-        stack.counter[0] = 0
-        status = advance(stack, drops.until[row], drops.limit[row], log, samples)
+            status = advance(stack, stop / unit, drops.limit[row], log, samples)
         if status == TIME_REACHED:
-            break
+            energy, _ = energy_at(stack, stop / unit)
+            if not energy - before <= allowed:
+                fault |= GAINS_IN_BETWEEN
+            before = min(before, energy)
     same = status == out[STATUS] and stack.counter[1] == out[EVENT_COUNT]
     for b in range(len(stack.mass)):
-        same = same and velocity_at(stack, b, out[END]) == out[COLUMNS + b]
+        same = same and velocity_at(stack, b, out[END] / unit) / unit == out[COLUMNS + b]
     return fault if same else fault | SPLIT_DIFFERS
 
 
 @kernel
-def _go_on(
-    stack: Any, drops: Drops, row: int, samples: Any, log: Any, turns: Any, out: Any
-) -> Any:
-    """Advance to the end, checking the log; return the status and what was wrong with the log."""
+def read(log: Any, lines: int, turns: Any, out: Any) -> int:
+    """Count the touches in a part of a log, and return what is wrong with it."""
     fault = 0
-    size = len(stack.mass)
-    for i in range(size):
-        out[COLUMNS + size + i] = 0.0
-    while True:
-        stack.counter[0] = 0
-        status = advance(stack, drops.until[row], drops.limit[row], log, samples)
-        for line in range(stack.counter[0]):
-            at = line * LOG_COLUMNS
-            i = int(log[at + CONTACT])
-            touches = log[at + KIND] == TOUCH
-            for column in range(LOG_COLUMNS):
-                if not math.isfinite(log[at + column]):
-                    fault |= BAD_NUMBER
-            if touches == (turns[2 * i] == 1.0) or not (touches or log[at + KIND] == RELEASE):
+    size = len(turns) // 2
+    for line in range(lines):
+        at = line * LOG_COLUMNS
+        i = int(log[at + codes.CONTACT])
+        for column in range(LOG_COLUMNS):
+            if math.isnan(log[at + column]):
+                fault |= BAD_NUMBER
+        if log[at + codes.KIND] == codes.JOINED:
+            continue
+        if log[at + codes.KIND] == codes.COLLISION:
+            out[COLUMNS + size + i] += 1.0
+        else:
+            touches = log[at + codes.KIND] == codes.TOUCH
+            if touches == (turns[2 * i] == 1.0):
                 fault |= OUT_OF_TURN
-            if log[at + TIME] < turns[2 * i + 1]:
-                fault |= OUT_OF_ORDER
             turns[2 * i] = 1.0 if touches else 0.0
-            turns[2 * i + 1] = log[at + TIME]
-            out[COLUMNS + size + i] += 1.0 if touches else 0.0
-        if status != RUNNING:
-            return status, fault
-
-
-@kernel
-def _time_of(stack: Any, status: int, until: float) -> float:
-    if status == FINISHED:
-        return float(stack.clock[0])
-    return until if status == TIME_REACHED else float(max(stack.clock[0], stack.clock[1]))
-
-
-@kernel
-def begin_turns(turns: Any) -> None:
-    """Let every contact be open and without an event."""
-    for k in range(len(turns)):
-        turns[k] = 0.0
+            out[COLUMNS + size + i] += turns[2 * i]
+        if log[at + codes.TIME] < turns[2 * i + 1] or log[at + codes.START] > log[at + codes.TIME]:
+            fault |= OUT_OF_ORDER
+        turns[2 * i + 1] = log[at + codes.TIME]
+    return fault
 
 
 @kernel
@@ -280,20 +260,17 @@ def energy_at(stack: Any, time: float) -> Any:
         position -= compression
         kinetic = 0.5 * stack.mass[b] * velocity * velocity
         height = stack.mass[b] * stack.number[0] * position
-        stored = stored_energy(stack, b, compression) if stack.law[b] != ABSENT else 0.0
+        stored = stored_energy(stack, b, compression) if stack.law[b] != codes.ABSENT else 0.0
         total += kinetic + height + stored
         terms += kinetic + abs(height) + stored
     return total, terms
 
 
 @kernel
-def common_faults(stack: Any, drops: Drops, row: int, loose: float, out: Any) -> int:
+def last_faults(stack: Any, drops: Any, row: int, loose: float, out: Any) -> int:
     """Return what is wrong with the last velocities in ``out``."""
-    fault = 0
-    size = len(stack.mass)
+    fault, size = 0, len(stack.mass)
     fastest, before, after, momentum = 0.0, 0.0, 0.0, 0.0
-    if out[STATUS] == INVALID:
-        fault |= IS_INVALID
     for b in range(size):
         velocity = out[COLUMNS + b]
         if not math.isfinite(velocity):
@@ -308,7 +285,7 @@ def common_faults(stack: Any, drops: Drops, row: int, loose: float, out: Any) ->
         if out[MOMENTUM] > _SHAKE * (10.0 + out[EVENT_COUNT]):
             fault |= LOSES_MOMENTUM
     out[APPROACH] = 0.0
-    if out[STATUS] == FINISHED or out[STATUS] == COLLAPSED:
+    if out[STATUS] == FINISHED or out[STATUS] == codes.COLLAPSED:
         for i in range(size):
             below = out[COLUMNS + i - 1] if i > 0 else 0.0
             rate = below - out[COLUMNS + i] if drops.law[row, i] != NONE else 0.0
@@ -319,49 +296,63 @@ def common_faults(stack: Any, drops: Drops, row: int, loose: float, out: Any) ->
 
 
 @kernel
-def run_rigid(stack: Any, drops: Drops, row: int, samples: Any, log: Any, out: Any) -> None:
+def run_rigid(
+    stack: Any, floats: Any, integers: Any, drops: Any, row: int, samples: Any, log: Any, out: Any
+) -> None:
     """Run one drop of rigid balls and write into ``out`` what is found."""
-    size = len(stack.mass)
+    clear(floats, integers)
     load_rigid(stack, drops, row)
     begin_collisions(stack)
-    fault, status, before = 0, RUNNING, 0.0
-    for i in range(size):
-        out[COLUMNS + size + i] = 0.0
+    first, reference = rigid_energy(stack, drops, row, 0.0)
+    turns = np.zeros(2 * len(stack.mass))
+    fault, status = 0, RUNNING
     while status == RUNNING:
         stack.counter[0] = 0
         status = collide_all(stack, drops.until[row], drops.limit[row], log, samples)
-        for line in range(stack.counter[0]):
-            at = line * LOG_COLUMNS
-            out[COLUMNS + size + int(log[at + CONTACT])] += 1.0
-            if not math.isfinite(log[at + TIME]):
-                fault |= BAD_NUMBER
-            if log[at + TIME] < before:
-                fault |= OUT_OF_ORDER
-            before = log[at + TIME]
-    first, last = 0.0, 0.0
-    end = stack.clock[0]
-    for b in range(size):
-        velocity = rigid_velocity(stack, b, end)
-        out[COLUMNS + b] = velocity
-        first += stack.mass[b] * drops.velocity[row, b] * drops.velocity[row, b]
-        last += stack.mass[b] * velocity * velocity
+        fault |= read(log, stack.counter[0], turns, out)
+    end = drops.until[row]
+    if status != TIME_REACHED:
+        end = stack.clock[0] if status == FINISHED else max(stack.clock[0], stack.clock[1])
+    last, terms = rigid_energy(stack, drops, row, end)
+    for b in range(len(stack.mass)):
+        out[COLUMNS + b] = rigid_velocity(stack, b, end)
     out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[1], end
-    out[ENERGY] = last / first - 1.0
+    out[ENERGY] = (last - first) / (reference + terms)
     if not out[ENERGY] <= _ROUND:
         fault |= GAINS_ENERGY
-    out[FAULT] = fault | common_faults(stack, drops, row, _ROUND, out)
+    if status == codes.INVALID:
+        fault |= IS_INVALID
+    out[FAULT] = fault | last_faults(stack, drops, row, _ROUND, out)
 
 
 @kernel
-def run_all(stack: Any, drops: Drops, samples: Any, log: Any, out: np.ndarray) -> None:
+def rigid_energy(stack: Any, drops: Any, row: int, time: float) -> Any:
+    """Return the energy of rigid balls at a time and the sizes of the terms it is made of."""
+    total, terms, position = 0.0, 0.0, 0.0
+    for b in range(len(stack.mass)):
+        velocity = rigid_velocity(stack, b, time)
+        if drops.gravity[row] > 0.0:
+            position -= compression_after(stack, b, time - stack.clock[0]) * stack.number[0]
+        kinetic = 0.5 * stack.mass[b] * velocity * velocity
+        height = stack.mass[b] * drops.gravity[row] * position
+        total += kinetic + height
+        terms += kinetic + abs(height)
+    return total, terms
+
+
+@kernel
+def run_all(
+    stack: Any, floats: Any, integers: Any, drops: Any, samples: Any, log: Any, out: Any
+) -> None:
     """Run all drops of a batch."""
-    turns = np.zeros(2 * len(stack.mass))
     for row in range(len(out)):
-        run(stack, drops, row, samples, log, turns, out[row])
+        run(stack, floats, integers, drops, row, samples, log, out[row])
 
 
 @kernel
-def run_all_rigid(stack: Any, drops: Drops, samples: Any, log: Any, out: np.ndarray) -> None:
+def run_all_rigid(
+    stack: Any, floats: Any, integers: Any, drops: Any, samples: Any, log: Any, out: Any
+) -> None:
     """Run all drops of a batch of rigid stacks."""
     for row in range(len(out)):
-        run_rigid(stack, drops, row, samples, log, out[row])
+        run_rigid(stack, floats, integers, drops, row, samples, log, out[row])

@@ -1,0 +1,110 @@
+"""Random drops once more: as plain Python, and by another method altogether."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+import stackbounce as sb
+from fuzz import drive
+from fuzz.batch import Batch
+from fuzz.draw import EVENTS
+from fuzz.replay import drop_of, options_of
+from reference.integrate import integrate
+from stackbounce.engine import codes
+
+SAME, DIFFERENT, DOUBTFUL, UNFINISHED = "same", "different", "doubtful", "not finished"
+_EVENTS = 100  # with plain Python
+_STEPS = 20_000  # of the reference
+_EQUAL = 1e-9  # velocities, in units of the largest
+_SHIFT = 1e-10  # of all velocities, to see what a rounding error can become
+_LARGER = 30.0  # than what that shift makes of it
+
+
+def plainly(batch: Batch, row: int) -> str:
+    """Tell whether a drop has the same status, velocities and counts as plain Python."""
+    size = batch.drops.mass.shape[1]
+    found = batch.found[row]
+    plain = sb.simulate(drop_of(batch.drops, row), **options_of(batch.drops, row), compiled=False)
+    counts = np.where(plain.collisions < 0, -1, found[drive.COLUMNS + size :])
+    same = (
+        plain.status == found[drive.STATUS]
+        and plain.end_time == found[drive.END]
+        and np.array_equal(plain.rebound_speeds, found[drive.COLUMNS : drive.COLUMNS + size])
+        and np.array_equal(plain.collisions, counts)
+    )
+    return SAME if same else DIFFERENT
+
+
+def can_be_compared_plainly(batch: Batch, row: int) -> bool:
+    """Tell whether a drop is not too long a story for plain Python."""
+    found = batch.found[row]
+    return bool(found[drive.STATUS] != codes.EVENT_LIMIT and found[drive.EVENT_COUNT] < _EVENTS)
+
+
+def can_be_integrated(batch: Batch, row: int) -> bool:
+    """Tell whether the reference knows a drop's laws, and its end."""
+    lossy = np.any(batch.drops.law[row] == drive.LOSSY)
+    ended = batch.found[row, drive.STATUS] in (sb.Status.FINISHED, sb.Status.TIME_REACHED)
+    return bool(ended and not lossy)
+
+
+def otherwise(batch: Batch, row: int) -> str:
+    """Tell whether a drop has the velocities and counts of collocation in short steps.
+
+    Where they differ, the reference begins again with all velocities slightly changed: counts that
+    change with them, or that it doubts itself, are doubtful, and velocities may differ as much.
+    """
+    drop = drop_of(batch.drops, row)
+    options = options_of(batch.drops, row) | {"rtol": 1e-12, "event_limit": EVENTS[1]}
+    ours = sb.simulate(drop, **options, compiled=True)
+    if ours.status not in (sb.Status.FINISHED, sb.Status.TIME_REACHED):
+        return UNFINISHED
+    if drop.gravity > 0.0:
+        options |= {"until": ours.end_time}  # velocities are to be those of one time
+    theirs = _integrated(drop, options, 1.0)
+    if theirs.status not in ("finished", "time reached"):
+        return UNFINISHED
+    speed = drop.reference_speed
+    error = np.max(np.abs(theirs.velocities - ours.rebound_speeds)) / speed
+    alike = theirs.counts == ours.collisions.tolist()
+    if alike and error < _EQUAL:
+        return SAME
+    shifted = _integrated(drop, options, 1.0 + _SHIFT)
+    shift = np.max(np.abs(theirs.velocities - shifted.velocities)) / speed
+    if theirs.doubtful or shifted.counts != theirs.counts:
+        return DOUBTFUL
+    return SAME if alike and error < _LARGER * shift else DIFFERENT
+
+
+def _integrated(drop: sb.Drop, options: Mapping[str, float], factor: float) -> Any:
+    return integrate(
+        [ball.mass for ball in drop.balls],
+        [None if law is None else _fields(law) for law in drop.contacts],
+        drop.gaps,
+        [velocity * factor for velocity in drop.velocities],
+        drop.gravity,
+        options.get("until", np.inf),
+        _STEPS,
+    )
+
+
+def _fields(law: sb.model.ContactLaw) -> dict[str, Any]:
+    """Return a law as the references take it."""
+    fields = {"law": type(law).__name__, "stiffness": law.stiffness}
+    match law:
+        case sb.PowerLaw():
+            return fields | {"exponent": law.exponent}
+        case sb.Dashpot():
+            return fields | {"damping": law.damping}
+        case sb.Viscoelastic():
+            return fields | {"dissipative_time": law.dissipative_time}
+        case sb.HuntCrossley():
+            return fields | {"exponent": law.exponent, "dissipation": law.dissipation}
+        case sb.Hysteretic():
+            return fields | {
+                "exponent": law.exponent,
+                "unloading_exponent": law.unloading_exponent,
+            }
+        case _:
+            return fields

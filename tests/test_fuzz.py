@@ -1,0 +1,54 @@
+"""A few thousand random drops of the million that `make fuzz` runs: nothing may be wrong in any."""
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from fuzz import compare, drive
+from fuzz.batch import run_batch
+from fuzz.draw import BALLS, RIGID_EVERY
+from fuzz.replay import expression
+from fuzz.tally import OTHER, PLAIN, Tally, tally_of
+
+ALL = len(BALLS) * RIGID_EVERY  # batches after which every height was drawn, of both kinds
+
+
+@pytest.fixture(scope="module")
+def total():
+    tally = Tally()
+    for index in range(ALL):
+        tally.add(tally_of(seed=7, index=index, count=50, plain=1, other=1))
+    return tally
+
+
+def test_nothing_is_wrong(total):
+    assert total.drops == 50 * ALL
+    assert not total.violations
+
+
+def test_enough_was_compared(total):
+    assert total.compared[PLAIN, compare.SAME] > 50
+    assert total.compared[OTHER, compare.SAME] > 30
+    assert total.compared[OTHER, compare.SAME] > total.compared[OTHER, compare.DOUBTFUL]
+
+
+def test_the_report_counts_every_drop_and_every_check(total):
+    report = total.report()
+    assert f"{total.drops} drops" in report
+    assert all(name in report for name in drive.FAULTS.values())
+    assert sum(total.statuses.values()) == total.drops
+
+
+def test_a_batch_is_the_same_again():
+    one, other = (tally_of(seed=3, index=5, count=20) for _ in range(2))
+    assert (one.statuses, one.violations) == (other.statuses, other.violations)
+
+
+@pytest.mark.parametrize("index", [0, 2])
+def test_a_printed_drop_runs_as_it_did(index):
+    batch = run_batch(seed=3, index=index, count=20)
+    size = batch.drops.mass.shape[1]
+    for row, found in enumerate(batch.found):
+        again = eval(expression(batch.drops, row), {"sb": sb})
+        assert again.status == found[drive.STATUS]
+        assert np.array_equal(again.rebound_speeds, found[drive.COLUMNS : drive.COLUMNS + size])
