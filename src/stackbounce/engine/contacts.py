@@ -1,9 +1,12 @@
 """The curve that the force of a contact follows in each phase, and how events change it.
 
 A damped contact's force is a power of c times its *gain* a + b c + d c'. It stays compressing until
-the gain falls through 0 (CLIPPED: slack), or c does. Below a compression that holds a negligible
-part of a typical contact's work a power law is continued by its chord (PRESSED, FAINT), because
-c^p has no power series at c = 0.
+the gain falls through 0 (CLIPPED: slack), or c does.
+
+Because c^p has no power series at c = 0, a power law is continued by its chord (FAINT, PRESSED)
+below a compression that holds a negligible part of a typical contact's work, and for no longer than
+the chord has changed no ball's velocity by more than one step may leave out: two balls that are
+pressed together slowly need a shorter chord than two that collide.
 """
 
 import math
@@ -27,6 +30,9 @@ from stackbounce.engine.kernel import kernel
 from stackbounce.engine.stack import Stack
 
 _STEEPEST = 10.0  # times its first unloading exponent, for a lossy contact reloaded many times
+
+_SHORTER = 0.125  # part of the work under a chord that took too long
+_NO_WORK = 1e-50  # of the reference energy: the shortest chord
 
 _BEYOND = 1.0 + 1e-6  # times the old peak: a steepest curve would be 3 times the force there
 
@@ -93,8 +99,8 @@ def begin(stack: Stack, i: int, time: float) -> None:
     stack.base[i] = 0.0
     stack.base_energy[i] = 0.0
     _load(stack, i)
-    smooth = stack.curve_exponent[i] == 0.0 or stack.curve_exponent[i] == 1.0
-    stack.faint[i] = 0 if smooth else 1
+    if stack.curve_exponent[i] != 0.0 and stack.curve_exponent[i] != 1.0:
+        _take_chord(stack, i)
 
 
 @kernel
@@ -119,7 +125,41 @@ def _follow(stack: Stack, i: int, force_at_unit: float, unit: float, exponent: f
     stack.faint[i] = 0
     ratio = stack.number[3] ** (1.0 / (exponent + 1.0))
     stack.faint_below[i] = ratio * unit
-    stack.rate[i] = force_at_unit * ratio ** (exponent - 1.0) / unit
+
+
+@kernel
+def _take_chord(stack: Stack, i: int) -> None:
+    """Let contact i follow the chord of its curve up to where this is faint."""
+    ratio = stack.faint_below[i] / stack.curve_unit[i]
+    stack.faint[i] = 1
+    stack.faint_since[i] = stack.impulse[i]
+    steepness: float = ratio ** (stack.curve_exponent[i] - 1.0)
+    stack.rate[i] = stack.curve_force[i] * steepness / stack.curve_unit[i]
+
+
+@kernel
+def chord_budget(stack: Stack, i: int) -> float:
+    """Return the impulse that contact i may exert along its chord."""
+    mass = stack.mass[i]
+    if i > 0:
+        mass /= 1.0 + mass / stack.mass[i - 1]
+    return stack.number[2] * mass * stack.number[1]
+
+
+@kernel
+def _fade(stack: Stack, i: int) -> None:
+    """Let contact i, anchored now, take the chord on its way out, or later if that is too early."""
+    compression = stack.compression[i]
+    rate = stack.velocity[i]
+    if i > 0:
+        rate -= stack.velocity[i - 1]
+    work = force(stack, i, compression, -rate) * compression
+    budget = chord_budget(stack, i)
+    if work <= rate * budget or work <= _NO_WORK / stack.number[2] * budget * stack.number[1]:
+        _take_chord(stack, i)
+    else:
+        shorter: float = _SHORTER ** (1.0 / (stack.curve_exponent[i] + 1.0))
+        stack.faint_below[i] = shorter * compression
 
 
 @kernel
@@ -194,8 +234,11 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
         _load(stack, i)
     elif kind == RESUMED:
         stack.phase[i] = COMPRESSING
+    elif kind == FAINT:
+        _fade(stack, i)
     else:
-        stack.faint[i] = 1 if kind == FAINT else 0
+        stack.faint[i] = 0
+        stack.faint_below[i] = min(stack.faint_below[i], compression)
 
 
 @kernel
@@ -219,6 +262,6 @@ def catch_up(stack: Stack, i: int) -> None:
     if stack.phase[i] < COMPRESSING or exponent == 0.0 or exponent == 1.0 or stack.faint[i] == 1:
         return
     if compression < 0.5 * stack.faint_below[i]:
-        stack.faint[i] = 1
+        _take_chord(stack, i)
     elif stack.law[i] != POWER and compression > _BEYOND * stack.top[i]:
         change_curve(stack, i, RELOADED)

@@ -42,10 +42,11 @@ from stackbounce.engine.codes import (
     SLACK,
     TOUCH,
 )
+from stackbounce.engine.contacts import chord_budget
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.motion import compression_series, meet_anchors
+from stackbounce.engine.motion import compression_series, contact_impulse, meet_anchors
 from stackbounce.engine.queue import schedule
-from stackbounce.engine.series import parabola_root, safe_step
+from stackbounce.engine.series import TERMS, parabola_root, safe_step, shift
 from stackbounce.engine.stack import Stack
 
 _NOTHING = 1000.0 * EPSILON**2  # round-off of a motion that is itself round-off
@@ -100,6 +101,10 @@ def look(stack: Stack, i: int, time: float) -> None:
         other, there = _wait(stack, a, order, power, tail, 0.0, -1.0, level, band, horizon)
         if other < wait:
             wait, reached, kind = other, there, upper_kind
+    if stack.faint[i] == 1:
+        other, there = _chord_wait(stack, i, time, order, power, tail, horizon)
+        if other < wait:
+            wait, reached, kind = other, there, PRESSED
     if damped:
         noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * abs(a[1])
         speed = stack.speed[i] + abs(a[1])
@@ -142,6 +147,32 @@ def _upper_level(stack: Stack, i: int) -> tuple[float, int]:
     if stack.faint[i] == 1 and stack.faint_below[i] < level:
         level, kind = stack.faint_below[i], PRESSED
     return level, kind
+
+
+@kernel
+def _chord_wait(
+    stack: Stack, i: int, time: float, order: int, power: int, tail: float, horizon: float
+) -> tuple[float, bool]:
+    """Return how long contact i may surely follow its chord; see `_wait`."""
+    spent = stack.changed
+    first = stack.first[i]
+    s = time - stack.anchor[first]
+    once, _ = contact_impulse(stack, i, s)
+    spent[0] = stack.impulse[i] + once - stack.faint_since[i]
+    if stack.modal[first] == 1:
+        order += 1
+        power += 1
+        tail *= stack.rate[i] / power
+        for k in range(order, 0, -1):
+            spent[k] = stack.rate[i] * stack.watched[k - 1] / k
+    else:
+        order = stack.order[first] + 1
+        shift(stack.force_series, i * TERMS, order - 1, s, stack.scratch)
+        for k in range(1, order + 1):
+            spent[k] = stack.scratch[k - 1] / k
+    budget = chord_budget(stack, i)
+    band = 0.1 * budget
+    return _wait(stack, spent, order, power, tail, 0.0, -1.0, budget, band, horizon)
 
 
 @kernel
