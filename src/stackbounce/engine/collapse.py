@@ -93,8 +93,7 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
     """
     bring_contacts(stack, low - 1, high + 1)
     bring_balls(stack, low - 2, high + 1)
-    lower_gain, upper_gain = common_speed_up(stack, low, high)
-    velocity = stack.velocity[low - 1] + lower_gain if low > 0 else 0.0
+    velocity, lower_gain, upper_gain = common_velocity(stack, low, high)
     size = len(stack.mass)
     pull = stack.number[3] * duration
     lands = pull if low == 0 else 0.0
@@ -202,19 +201,33 @@ def pair_ends(stack: RigidStack, hit: int, other: int) -> float:
 
 
 @kernel
-def common_speed_up(stack: RigidStack, low: int, high: int) -> tuple[float, float]:
-    """Return how much the outer balls of contacts low..high gain on the way to one velocity.
+def common_velocity(stack: RigidStack, low: int, high: int) -> tuple[float, float, float]:
+    """Return the velocity to which the balls of contacts low..high come, and the outer balls' gain.
 
-    All are anchored now. The closing rates know the differences to more digits than velocities do.
+    All are anchored now. The closing rates know the differences to more digits than velocities do,
+    and the heaviest ball changes least.
     """
-    momentum, relative = 0.0, 0.0
-    mass = stack.mass[low - 1] if low > 0 else math.inf
-    for i in range(low, high + 1):
-        relative -= stack.rate[i]
-        momentum += stack.mass[i] * relative
+    if low == 0:
+        relative = 0.0
+        for i in range(high + 1):
+            relative -= stack.rate[i]
+        return 0.0, 0.0, -relative
+    heaviest = low - 1
+    for b in range(low, high + 1):
+        if stack.mass[b] > stack.mass[heaviest]:
+            heaviest = b
+    momentum, mass = 0.0, stack.mass[heaviest]
+    lowest, uppermost = 0.0, 0.0
+    for i in range(heaviest, low - 1, -1):
+        lowest += stack.rate[i]
+        momentum += stack.mass[i - 1] * lowest
+        mass += stack.mass[i - 1]
+    for i in range(heaviest + 1, high + 1):
+        uppermost -= stack.rate[i]
+        momentum += stack.mass[i] * uppermost
         mass += stack.mass[i]
     gain = momentum / mass
-    return gain, gain - relative
+    return stack.velocity[heaviest] + gain, gain - lowest, gain - uppermost
 
 
 @kernel

@@ -34,6 +34,9 @@ _STEEPEST = 10.0  # times its first unloading exponent, for a lossy contact relo
 _SHORTER = 0.125  # part of the work under a chord that took too long
 _NO_WORK = 1e-50  # of the reference energy: the shortest chord
 
+_SOFTEST = 1e-60  # times the slope at the curve's unit: what a chord keeps of a very steep curve
+_STEEPER = 1.0 + 1e-12  # times the exponent: round-off of a contact that loses nothing is not
+
 _BEYOND = 1.0 + 1e-6  # times the old peak: a steepest curve would be 3 times the force there
 
 
@@ -134,7 +137,7 @@ def _take_chord(stack: Stack, i: int) -> None:
     stack.faint[i] = 1
     stack.faint_since[i] = stack.impulse[i]
     steepness: float = ratio ** (stack.curve_exponent[i] - 1.0)
-    stack.rate[i] = stack.curve_force[i] * steepness / stack.curve_unit[i]
+    stack.rate[i] = stack.curve_force[i] * max(steepness, _SOFTEST) / stack.curve_unit[i]
 
 
 @kernel
@@ -174,11 +177,13 @@ def _steepen(stack: Stack, i: int, compression: float) -> None:
     reloaded = stored_energy(stack, i, compression)
     energy = stack.dip_energy[i] + kept * (reloaded - stack.dip_energy[i])
     steeper = min(pressing * compression / energy - 1.0, _STEEPEST * stack.unloading[i])
-    if steeper <= stack.curve_exponent[i]:
+    if steeper <= stack.curve_exponent[i] * _STEEPER:
         return
-    meeting = stack.stiffness[i] * compression**exponent / pressing
+    # the steeper curve meets the loading curve before the old one does
+    meeting = max(0.0, math.log(stack.stiffness[i] * compression**exponent / pressing))
+    furthest = math.log(stack.top[i] / compression)
     _follow(stack, i, pressing, compression, steeper)
-    stack.top[i] = compression * meeting ** (1.0 / (steeper - exponent))
+    stack.top[i] = compression * math.exp(min(furthest, meeting / (steeper - exponent)))
 
 
 @kernel
@@ -221,7 +226,8 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
             exponent = stack.unloading[i]
             if stack.base[i] > 0.0:
                 held = _loaded_energy(stack, i, compression)
-                exponent = min(pressing * compression / held - 1.0, _STEEPEST * exponent)
+                given_back = min(pressing * compression / held - 1.0, _STEEPEST * exponent)
+                exponent = max(stack.exponent[i], given_back)  # but never more than it took
             _follow(stack, i, pressing, compression, exponent)
             stack.top[i] = compression
         else:

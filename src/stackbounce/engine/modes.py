@@ -90,8 +90,21 @@ def start_modes(stack: Stack, low: int, high: int) -> None:
             if i == 0:
                 load += weight * gravity
         stack.static[j] = load / (stack.omega[j] * stack.omega[j])
-        stack.cosine[j] = start - stack.static[j]
+        stack.cosine[j] = start
         stack.sine[j] = speed
+
+
+@kernel
+def modal_position(stack: Stack, j: int, s: float) -> float:
+    """Return the coordinate of mode j at s after the anchor.
+
+    It begins at ``cosine`` with the speed ``sine`` and swings about ``static``, which may be far
+    away: nothing is subtracted from that.
+    """
+    angle = stack.omega[j] * s
+    half = math.sin(0.5 * angle)
+    swing = stack.cosine[j] * math.cos(angle) + stack.sine[j] * math.sin(angle) / stack.omega[j]
+    return swing + stack.static[j] * (2.0 * half * half)
 
 
 @kernel
@@ -108,21 +121,24 @@ def modal_compression(
     for j in range(low, high):
         weight = stack.shape[j * WIDTH + i - low] / stack.weight[i]
         omega = stack.omega[j]
+        amplitude = stack.cosine[j] - stack.static[j]
         cosine, sine = math.cos(omega * s), math.sin(omega * s)
-        swing = stack.cosine[j] * cosine + stack.sine[j] * sine / omega
-        speed = stack.sine[j] * cosine - stack.cosine[j] * omega * sine
-        out[0] += weight * stack.static[j]
-        even, odd = weight * swing, weight * speed
-        for k in range(0, 8, 2):
+        position = modal_position(stack, j, s)
+        speed = stack.sine[j] * cosine - amplitude * omega * sine
+        even, odd = weight * (position - stack.static[j]), weight * speed
+        out[0] += weight * position
+        for k in range(2, 8, 2):
+            out[k - 1] += odd
+            even *= -omega * omega / ((k - 1) * k)
+            odd *= -omega * omega / (k * (k + 1))
             out[k] += even
-            out[k + 1] += odd
-            even *= -omega * omega / ((k + 1) * (k + 2))
-            odd *= -omega * omega / ((k + 2) * (k + 3))
-        fastest = abs(weight) * math.hypot(stack.cosine[j] * omega, stack.sine[j])
+        out[7] += odd
+        fastest = abs(weight) * math.hypot(amplitude * omega, stack.sine[j])
         tail += fastest * omega**7 / 40320.0
-        reach = abs(stack.cosine[j]) + abs(stack.sine[j]) * min(s, 1.0 / omega)
-        noise += abs(weight) * (abs(stack.static[j]) + reach)
-        rate_noise += fastest
+        turned = min(omega * s, 1.0)
+        reach = abs(stack.cosine[j]) + abs(stack.sine[j]) * turned / omega
+        noise += abs(weight) * (abs(stack.static[j]) * turned * turned + reach)
+        rate_noise += abs(weight) * (abs(amplitude) * omega * turned + abs(stack.sine[j]))
     return tail, 16.0 * EPSILON * noise, 16.0 * EPSILON * rate_noise
 
 
@@ -137,10 +153,11 @@ def modal_impulse(stack: Stack, i: int, low: int, high: int, s: float) -> tuple[
         half = math.sin(0.5 * angle)
         first = math.sin(angle) / omega
         second = 2.0 * half * half / (omega * omega)
-        third = _sine_rest(angle) / (omega * omega * omega)
+        third = _sine_rest(angle) / omega
+        fourth = _cosine_rest(angle) / (omega * omega)
         static, cosine, sine = stack.static[j], stack.cosine[j], stack.sine[j]
-        once += weight * (static * s + cosine * first + sine * second)
-        twice += weight * (0.5 * static * s * s + cosine * second + sine * third)
+        once += weight * (static * third + cosine * first + sine * second)
+        twice += weight * (static * fourth + cosine * second + sine * third / (omega * omega))
     return once, twice
 
 
@@ -154,3 +171,16 @@ def _sine_rest(x: float) -> float:
     for k in range(16, 3, -2):
         total = 1.0 - square / (k * (k + 1)) * total
     return x * square / 6.0 * total
+
+
+@kernel
+def _cosine_rest(x: float) -> float:
+    """Return x^2/2 - 1 + cos x without cancellation."""
+    square = x * x
+    if x > 0.7:
+        half = math.sin(0.5 * x)
+        return 0.5 * square - 2.0 * half * half
+    total = 1.0
+    for k in range(17, 4, -2):
+        total = 1.0 - square / (k * (k + 1)) * total
+    return square * square / 24.0 * total

@@ -5,7 +5,13 @@ import math
 from stackbounce.engine.codes import COMPRESSING, EPSILON
 from stackbounce.engine.contacts import catch_up
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.modes import find_modes, modal_compression, modal_impulse, start_modes
+from stackbounce.engine.modes import (
+    find_modes,
+    modal_compression,
+    modal_impulse,
+    modal_position,
+    start_modes,
+)
 from stackbounce.engine.queue import schedule
 from stackbounce.engine.series import ORDER, TERMS, double_integral, integral, shift, value
 from stackbounce.engine.stack import MODES, WIDTH, Stack
@@ -67,9 +73,7 @@ def pressed(stack: Stack, i: int, s: float) -> float:
     low, high = pressing_range(stack, i)
     total = 0.0
     for j in range(low, high):
-        omega = stack.omega[j]
-        swing = stack.cosine[j] * math.cos(omega * s) + stack.sine[j] * math.sin(omega * s) / omega
-        total += stack.shape[j * WIDTH + i - low] * (stack.static[j] + swing)
+        total += stack.shape[j * WIDTH + i - low] * modal_position(stack, j, s)
     return total / stack.weight[i]
 
 

@@ -155,6 +155,7 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         if was_slack:
             logical = stack.clip_time[i]
         stack.phase[i] = OPEN
+        stack.released[i] = logical
         stack.counter[4] -= 1
         stack.compression[i] = min(stack.compression[i], 0.0)
     elif kind == CLIPPED:
@@ -211,7 +212,7 @@ def _note_push(stack: Stack, i: int, time: float) -> None:
     """
     idle = flies(stack, i) and (i == 0 or flies(stack, i - 1))
     if stack.pushed[i] == 0 or idle or math.isnan(stack.touching[i]):
-        stack.touching[i] = time
+        stack.touching[i] = max(time, stack.released[i])
     stack.pushed[i] = 0 if idle else 1
 
 

@@ -51,6 +51,7 @@ class Stack(NamedTuple):
     faint: Integers  # 1 where the force follows the chord of its curve below faint_below
     faint_since: Floats  # impulse of the interval when the contact took that chord
     touching: Floats  # since when a contact has been touching without a force; nan if it is not
+    released: Floats  # when a contact last came open
     pushed: Integers  # 1 where a ball at an open contact has been pressed since the last event
     clip_time: Floats  # since when a slack contact has had no force, and both velocities then
     clip_lower: Floats

@@ -4,18 +4,23 @@ Inside a phase of every contact the motion is analytic, so its own Taylor series
 dense output and event search in one. Order by order: forces from compressions and their rates,
 accelerations from forces, velocities and compressions from accelerations. The step is the time for
 which the last two terms of every velocity stay below the tolerance (Jorba and Zou, Exp. Math. 14,
-99, 2005). Where all contacts are springs and dashpots the series is that of the matrix exponential,
-whatever its eigenvalues; the tolerance is then round-off and no choice of the user.
+99, 2005), and in which no power grows beyond what these terms could tell. Where all contacts are
+springs and dashpots the series is that of the matrix exponential, whatever its eigenvalues; the
+tolerance is then round-off and no choice of the user.
 """
 
 import math
 
 from stackbounce.engine.codes import DAMPED
+from stackbounce.engine.contacts import stored_energy
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.series import ORDER, TERMS, power_term, value
 from stackbounce.engine.stack import Stack
 
+_TINY = 1e-300  # keeps a standstill from dividing by zero
 _EXACT = 1e-16  # of its own speed: what a linear cluster's series leaves out per step
+_ROUGH = 1e-3  # of its own speed: what any other, however slow, leaves out at most ...
+_SLOW = 1e-13  # ... though not less than this part of the reference speed
 _PARTS = 4  # of a step, in each of which a force has no more than one crest
 
 
@@ -37,7 +42,8 @@ def expand(stack: Stack, low: int, high: int) -> float:
         if not is_linear(stack, i) and stack.curve_exponent[i] != 0.0:
             exact = False
     order = ORDER if exact else stack.setting[0]
-    speed = _own_speed(stack, low, high) if exact else stack.number[1]
+    own_speed = _own_speed(stack, low, high)
+    speed = own_speed if exact else stack.number[1]
     for b in range(bottom, high):
         stack.velocity_series[b * TERMS] = stack.velocity[b]
         stack.order[b] = order
@@ -62,7 +68,12 @@ def expand(stack: Stack, low: int, high: int) -> float:
     step = 0.0
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[1])
+    for i in range(low, high):
+        if not is_linear(stack, i) and stack.curve_exponent[i] > 0.0:
+            step = min(step, _steep_step(stack, i, order))
     allowed = speed * (_EXACT if exact else stack.number[2])
+    if not exact:
+        allowed = min(allowed, max(_ROUGH * own_speed, _SLOW * speed))
     for b in range(bottom, high):
         for k in range(order - 1, order + 1):
             size = abs(stack.velocity_series[b * TERMS + k])
@@ -72,8 +83,20 @@ def expand(stack: Stack, low: int, high: int) -> float:
 
 
 @kernel
+def _steep_step(stack: Stack, i: int, order: int) -> float:
+    """Return the time in which a power of contact i's compression may change by e^(order/2).
+
+    A steeper force grows from nothing to everything past the terms that a series ends with.
+    """
+    reach = 0.5 * order * stack.compression[i] / max(1.0, stack.curve_exponent[i])
+    first = abs(stack.compression_series[i * TERMS + 1])
+    second = abs(stack.compression_series[i * TERMS + 2])
+    return 2.0 * reach / (first + math.sqrt(first * first + 4.0 * second * reach) + _TINY)
+
+
+@kernel
 def _own_speed(stack: Stack, low: int, high: int) -> float:
-    """Return a speed that a cluster of springs and dashpots has, or could have from what it holds.
+    """Return a speed that a cluster has, or could have from what it holds.
 
     An overdamped contact ends at a far smaller speed than it began: it counts, not the first one.
     """
@@ -82,9 +105,8 @@ def _own_speed(stack: Stack, low: int, high: int) -> float:
         fastest = max(fastest, abs(stack.velocity[b]))
         mass += stack.mass[b]
     for i in range(low, high):
-        stiffness = stack.rate[i] if is_linear(stack, i) else stack.curve_force[i]
-        stored += stiffness * stack.compression[i] * stack.compression[i]
-    return max(fastest, math.sqrt(stored / mass))
+        stored += stored_energy(stack, i, stack.compression[i])
+    return max(fastest, math.sqrt(2.0 * stored / mass))
 
 
 @kernel
