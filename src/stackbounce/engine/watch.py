@@ -101,7 +101,7 @@ def look(stack: Stack, i: int, time: float) -> None:
         other, there = _wait(stack, a, order, power, tail, 0.0, -1.0, level, band, horizon)
         if other < wait:
             wait, reached, kind = other, there, upper_kind
-    if stack.faint[i] == 1:
+    if stack.faint[i] == 1 and phase >= COMPRESSING:
         other, there = _chord_wait(stack, i, time, order, power, tail, horizon)
         if other < wait:
             wait, reached, kind = other, there, PRESSED
