@@ -89,8 +89,8 @@ def _check_classes(law_a: object, law_b: object) -> None:
     if type(law_a) is not type(law_b):
         got = f"{type(law_a).__name__} and {type(law_b).__name__}"
         raise InvalidValue(
-            f"law_a and law_b must be of one class, got {got}: if both are powers with one exponent, "
-            "write them as PowerLaw; otherwise they are none of the laws in series"
+            f"law_a and law_b must be of one class, got {got}: if both are powers with one "
+            "exponent, write them as PowerLaw; otherwise they are none of the laws in series"
         )
 
 
