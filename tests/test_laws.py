@@ -252,7 +252,7 @@ def test_series_of_hysteretic_contacts():
     [
         (
             sb.Spring(1), sb.Hertz(1),
-            "must be of one class, got Spring and Hertz: if both are powers with one exponent, write",
+            "must be of one class, got Spring and Hertz: if both are powers with one exponent",
         ),
         (sb.PowerLaw(1, 2), sb.PowerLaw(1, 3), "must have the same exponent, got 2.0 and 3.0: "),
         (
