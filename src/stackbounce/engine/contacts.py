@@ -32,6 +32,7 @@ from stackbounce.engine.stack import Stack
 _STEEPEST = 10.0  # times its first unloading exponent, for a lossy contact reloaded many times
 
 _SHORTER = 0.125  # part of the work under a chord that took too long
+_AT_ITS_END = 1e-6  # of a chord's length: where it may go on, for it will be over
 _NO_WORK = 1e-50  # of the reference energy: the shortest chord
 
 _SOFTEST = 1e-60  # times the slope at the curve's unit: what a chord keeps of a very steep curve
@@ -143,10 +144,15 @@ def _take_chord(stack: Stack, i: int) -> None:
 @kernel
 def chord_budget(stack: Stack, i: int) -> float:
     """Return the impulse that contact i may exert along its chord."""
-    mass = stack.mass[i]
-    if i > 0:
-        mass /= 1.0 + mass / stack.mass[i - 1]
-    return stack.number[2] * mass * stack.number[1]
+    return stack.number[2] * reduced_mass(stack, i) * stack.number[1]
+
+
+@kernel
+def reduced_mass(stack: Stack, i: int) -> float:
+    """Return the reduced mass of the balls at contact i."""
+    if i == 0:
+        return stack.mass[0]
+    return stack.mass[i] / (1.0 + stack.mass[i] / stack.mass[i - 1])
 
 
 @kernel
@@ -242,6 +248,8 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
         stack.phase[i] = COMPRESSING
     elif kind == FAINT:
         _fade(stack, i)
+    elif compression <= _AT_ITS_END * stack.faint_below[i]:
+        stack.faint_since[i] = stack.impulse[i]
     else:
         stack.faint[i] = 0
         stack.faint_below[i] = min(stack.faint_below[i], compression)

@@ -43,6 +43,7 @@ from stackbounce.engine.contacts import (
     clip,
     force,
     record_peak,
+    reduced_mass,
     stored_energy,
     turn,
 )
@@ -63,6 +64,7 @@ from stackbounce.engine.taylor import record_crests
 from stackbounce.engine.watch import look
 
 _COARSE = 1e-5  # of a contact's time: what the clock must tell apart
+_NOTICED = 1e-3  # of the energy of approach: what a touch may store before it is noticed
 _NEWTON = 4  # steps from where a sign is clear to where it changes
 
 
@@ -193,14 +195,18 @@ def _comes_too_late(stack: Stack, i: int, time: float) -> bool:
 def _at_touch(stack: Stack, i: int, compression: float, time: float) -> float:
     """Return the compression with which contact i, anchored now, begins: next to none.
 
-    Two balls whose approach was lost in the error of their speeds may have come to overlap since.
+    Two balls whose approach was lost in the error of their speeds may have come to overlap since,
+    or touch so slowly that what noticing it takes would store more energy than they bring.
     """
     rate = stack.velocity[i]
     if i > 0:
         rate -= stack.velocity[i - 1]
     known = max(100.0 * stack.number[2], 1e-12) * stack.scale[i]
     known += 64.0 * EPSILON * time * abs(rate)
-    return max(compression, 0.0) if compression <= known else 0.0
+    brought = 0.5 * reduced_mass(stack, i) * rate * rate
+    if compression > known or stored_energy(stack, i, compression) > _NOTICED * brought:
+        return 0.0
+    return max(compression, 0.0)
 
 
 @kernel

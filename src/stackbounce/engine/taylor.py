@@ -69,7 +69,7 @@ def expand(stack: Stack, low: int, high: int) -> float:
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[1])
     for i in range(low, high):
-        if not is_linear(stack, i) and stack.curve_exponent[i] > 0.0:
+        if stack.faint[i] == 0 and stack.curve_exponent[i] > 1.0:
             step = min(step, _steep_step(stack, i, order))
     allowed = speed * (_EXACT if exact else stack.number[2])
     if not exact:
@@ -88,7 +88,7 @@ def _steep_step(stack: Stack, i: int, order: int) -> float:
 
     A steeper force grows from nothing to everything past the terms that a series ends with.
     """
-    reach = 0.5 * order * stack.compression[i] / max(1.0, stack.curve_exponent[i])
+    reach = 0.5 * order * stack.compression[i] / stack.curve_exponent[i]
     first = abs(stack.compression_series[i * TERMS + 1])
     second = abs(stack.compression_series[i * TERMS + 2])
     return 2.0 * reach / (first + math.sqrt(first * first + 4.0 * second * reach) + _TINY)
