@@ -36,6 +36,7 @@ _AT_ITS_END = 1e-6  # of a chord's length: where it may go on, for it will be ov
 _NO_WORK = 1e-50  # of the reference energy: the shortest chord
 
 _SOFTEST = 1e-60  # times the slope at the curve's unit: what a chord keeps of a very steep curve
+_GRAZE = 1e-30  # of a typical compression: the peak of a contact that opens where it closes
 _STEEPER = 1.0 + 1e-12  # times the exponent: round-off of a contact that loses nothing is not
 
 _BEYOND = 1.0 + 1e-6  # times the old peak: a steepest curve would be 3 times the force there
@@ -224,7 +225,7 @@ def turn(stack: Stack, i: int, kind: int, compression: float) -> None:
 @kernel
 def change_curve(stack: Stack, i: int, kind: int) -> None:
     """Let contact i, anchored now, follow the curve that an event inside its interval leads to."""
-    compression = stack.compression[i]
+    compression = max(stack.compression[i], _GRAZE * stack.scale[i])
     if kind == PEAK:
         stack.phase[i] = RELEASING
         if stack.top[i] == math.inf:
