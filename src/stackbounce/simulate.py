@@ -6,16 +6,13 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from stackbounce.engine import codes
+from stackbounce.engine import codes, prepare
 from stackbounce.engine.kernel import compiled as compile_kernel
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
-from stackbounce.engine.series import ORDER
 from stackbounce.engine.simultaneous import advance, start, write_unfinished
 from stackbounce.engine.stack import (
-    RigidStack,
     Samples,
-    Stack,
     as_arrays,
     new_rigid_stack,
     new_samples,
@@ -46,13 +43,6 @@ _PLAIN_EVENTS = 2000  # after so many events, or steps without one, a run goes o
 _Kernel = Callable[..., Any]
 _FINITE_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (start, advance, velocity_at)
 _RIGID_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (begin_collisions, collide_all, rigid_velocity)
-_STEP = 0.02  # of the tolerance asked for: what one step of a nonlinear cluster may leave out
-_ROUND_OFF = 1e-16
-_LEAST_ORDER = 6
-_FAINT = 1e-2  # of that again: work of a typical contact below which a power law's chord will do
-_FAINTEST = 1e-18
-_LARGEST_EXPONENT = 600  # of a unit of speed, as a power of two
-_LONGEST_EXPONENT = 200  # of a unit of time
 
 
 def simulate(
@@ -136,8 +126,7 @@ def _run(
     """Run an engine; return status, time, velocities, log, infinite contacts and samples."""
     rigid = drop.rigid
     begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
-    unit = 1.0 if rigid else _unit_of_time(drop)
-    stack: Any = _rigid_stack(drop) if rigid else _finite_stack(drop, rtol, unit)
+    stack, unit = _prepared(drop, rtol)
     samples = new_samples([time / unit for time in times], len(drop.balls))
     until /= unit
     rows = max(_LOG_ROWS, len(drop.balls))
@@ -192,21 +181,6 @@ def _in_seconds(values: Iterable[float], units: Sequence[str], unit: float) -> l
     return [value * factor for value, factor in zip(values, columns, strict=False)]
 
 
-def _unit_of_time(drop: Drop) -> float:
-    """Return the power of two nearest to the shortest contact time of a drop, in s.
-
-    In this unit no power series leaves the range of numbers, and nothing is rounded by it.
-    """
-    scales = [
-        scale for scale, law in zip(_scales(drop), drop.contacts, strict=True) if law is not None
-    ]
-    shortest = min(scales, default=0.0) / drop.reference_speed
-    if not 0.0 < shortest < math.inf:
-        return 1.0
-    exponent = round(math.log2(shortest))
-    return float(2.0 ** max(-_LONGEST_EXPONENT, min(exponent, _LONGEST_EXPONENT)))
-
-
 def _entries(stack: Any, log: Any) -> list[float]:
     """Return the log's entries as numbers of Python."""
     used = log[: stack.counter[0] * codes.LOG_COLUMNS]
@@ -239,101 +213,42 @@ def _as_it_is(kernel: _Kernel) -> _Kernel:
     return kernel
 
 
-def _compressions(drop: Drop) -> list[float]:
-    """Return the compression of each contact at the start: minus the gap."""
-    return [0.0] + [-gap for gap in drop.gaps]
-
-
-def _rigid_stack(drop: Drop) -> RigidStack:
-    """Return the arrays of a stack of rigid balls at t = 0.
-
-    Lengths and speeds are in units of a power of two near the impact speed, which rounds nothing
-    and keeps squares of speeds in the range of numbers.
-    """
-    laws = [codes.ABSENT if law is None else codes.POWER for law in drop.contacts]
-    exponent = math.frexp(drop.reference_speed)[1]
-    unit = 2.0 ** max(-_LARGEST_EXPONENT, min(exponent, _LARGEST_EXPONENT))
-    return new_rigid_stack(
-        len(drop.balls),
-        mass=[ball.mass for ball in drop.balls],
-        law=laws,
-        restitution=[law.restitution if isinstance(law, Rigid) else 0.0 for law in drop.contacts],
-        velocity=[velocity / unit for velocity in drop.start_velocities],
-        compression=[compression / unit for compression in _compressions(drop)],
-        number=[unit, 0.0, 0.0, drop.gravity / unit],
-    )
-
-
-def _scales(drop: Drop) -> list[float]:
-    """Return the compression of each contact at which it alone would hold the energy m v^2/2."""
-    mass = [ball.mass for ball in drop.balls]
-    speed = drop.reference_speed
-    out = []
-    for i, law in enumerate(drop.contacts):
-        _, k, p, *_ = _constants(law)
-        reduced = mass[i] if i == 0 else mass[i - 1] * mass[i] / (mass[i - 1] + mass[i])
-        power = 1.0 / (p + 1.0)
-        out.append((0.5 * (p + 1.0) * reduced / k) ** power * speed ** (2.0 * power))
-    return out
-
-
-def _finite_stack(drop: Drop, rtol: float, unit: float) -> Stack:
-    """Return the arrays of a stack on finite contacts at t = 0, with a unit of time in s."""
-    size = len(drop.balls)
-    constants = [_constants(law) for law in drop.contacts]
-    columns: dict[str, list[Any]] = {
-        name: [numbers[at] for numbers in constants] for at, name in enumerate(_CONSTANTS)
-    }
-    nonlinear = [
-        n != 1.0 or q != 0.0
-        for n, q in zip(columns["unloading"], columns["factor_exponent"], strict=True)
-    ]
-    columns["stiffness"] = [stiffness * unit**2 for stiffness in columns["stiffness"]]
-    columns["gain_rate"] = [rate / unit for rate in columns["gain_rate"]]
-    tolerance = max(_STEP * rtol, _ROUND_OFF)
-    order = min(ORDER, max(_LEAST_ORDER, round(1.0 - 0.5 * math.log(tolerance))))
-    faint = max(tolerance * _FAINT, _FAINTEST)
-    return new_stack(
-        size,
-        mass=[ball.mass for ball in drop.balls],
-        scale=_scales(drop),
-        number=[drop.gravity * unit**2, drop.reference_speed * unit, tolerance, faint],
-        setting=[order, int(any(nonlinear))],
-        velocity=[velocity * unit for velocity in drop.start_velocities],
-        compression=_compressions(drop),
-        **columns,
-    )
-
-
-_CONSTANTS = (
-    "law",
-    "stiffness",
-    "exponent",
-    "unloading",
-    "factor_exponent",
-    "gain_constant",
-    "gain_slope",
-    "gain_rate",
-)
-
-
-def _constants(law: ContactLaw | None) -> tuple[float, ...]:
-    """Return the numbers of `_CONSTANTS` for a law."""
+def contact_numbers(law: ContactLaw | None) -> tuple[int, float, float, float]:
+    """Return kind, stiffness, exponent and the last number of a law; see `engine.prepare`."""
     match law:
+        case Spring(k):
+            return prepare.POWER_LAW, k, 1.0, 0.0
+        case Hertz(k):
+            return prepare.POWER_LAW, k, 1.5, 0.0
+        case PowerLaw(k, p):
+            return prepare.POWER_LAW, k, p, 0.0
+        case Dashpot(k, damping):
+            return prepare.DASHPOT, k, 1.0, damping
+        case Viscoelastic(k, time):
+            return prepare.VISCOELASTIC, k, 1.5, time
+        case HuntCrossley(k, p, dissipation):
+            return prepare.HUNT_CROSSLEY, k, p, dissipation
         case Hysteretic():
-            kind = codes.LOSSY if law.reloading == "lossy" else codes.HYSTERETIC
-            return kind, law.stiffness, law.exponent, law.unloading_exponent, 0.0, 0.0, 0.0, 0.0
-        case Dashpot(k, damping) if damping > 0.0:
-            return codes.DAMPED, k, 1.0, 1.0, 0.0, 0.0, 1.0, damping / k
-        case Viscoelastic(k, time) if time > 0.0:
-            return codes.DAMPED, k, 1.5, 1.5, 0.5, 0.0, 1.0, 1.5 * time
-        case HuntCrossley(k, p, dissipation) if dissipation > 0.0:
-            return codes.DAMPED, k, p, p, p, 1.0, 0.0, dissipation
-        case Spring(k) | Dashpot(k):
-            return codes.POWER, k, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0
-        case Hertz(k) | Viscoelastic(k):
-            return codes.POWER, k, 1.5, 1.5, 0.0, 0.0, 0.0, 0.0
-        case PowerLaw(k, p) | HuntCrossley(k, p):
-            return codes.POWER, k, p, p, 0.0, 0.0, 0.0, 0.0
+            kind = prepare.LOSSY if law.reloading == "lossy" else prepare.HYSTERETIC
+            return kind, law.stiffness, law.exponent, law.unloading_exponent
+        case Rigid(restitution):
+            return prepare.RIGID, 1.0, 1.0, restitution
         case _:
-            return codes.ABSENT, 1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0
+            return prepare.NO_CONTACT, 1.0, 1.0, 0.0
+
+
+def _prepared(drop: Drop, rtol: float) -> tuple[Any, float]:
+    """Return a drop's stack at t = 0, of lists, and its unit of time in s."""
+    size = len(drop.balls)
+    mass = [ball.mass for ball in drop.balls]
+    rows = zip(*map(contact_numbers, drop.contacts), strict=True)
+    kind, stiffness, exponent, extra = map(list, rows)
+    gap = [0.0, *drop.gaps]
+    velocity = list(drop.start_velocities)
+    if drop.rigid:
+        rigid = new_rigid_stack(size)
+        prepare.prepare_rigid(rigid, mass, kind, extra, gap, velocity, drop.gravity)
+        return rigid, 1.0
+    stack = new_stack(size)
+    numbers = (mass, kind, stiffness, exponent, extra, gap, velocity, drop.gravity, rtol)
+    return stack, prepare.prepare(stack, *numbers)

@@ -1,11 +1,9 @@
 """Random drops, a batch at a time: the same numbers for the same seed and batch, whoever asks."""
 
-import functools
 from typing import NamedTuple
 
 import numpy as np
 
-import stackbounce as sb
 from fuzz.drive import (
     DASHPOT,
     HERTZ,
@@ -17,7 +15,7 @@ from fuzz.drive import (
     SPRING,
     VISCOELASTIC,
 )
-from stackbounce.simulate import _finite_stack
+from stackbounce.engine import prepare
 
 BATCH = 500
 BALLS = (2, 3, 1, 2, 4, 3, 2, 1, 5, 2, 3, 4, 2, 1, 3, 2, 6, 1, 2, 3, 4, 2, 5, 1, 2)  # by batch
@@ -29,6 +27,18 @@ PULLED = 0.1  # with gravity
 STOPPED = (0.04, 0.5)  # run until a given time, without gravity and with it
 IN_PARTS = 0.05  # run once more, with stops in between
 TOLERANCES = (1e-6, 1e-7, 1e-9, 1e-12, 1e-3, 1e-14)
+KINDS = (  # of the laws by their numbers in `drive`
+    prepare.NO_CONTACT,
+    prepare.POWER_LAW,
+    prepare.POWER_LAW,
+    prepare.POWER_LAW,
+    prepare.DASHPOT,
+    prepare.VISCOELASTIC,
+    prepare.HUNT_CROSSLEY,
+    prepare.HYSTERETIC,
+    prepare.LOSSY,
+    prepare.RIGID,
+)
 TOLERANCE_ODDS = (0.6, 0.1, 0.15, 0.1, 0.03, 0.02)
 
 
@@ -37,6 +47,7 @@ class Drops(NamedTuple):
 
     mass: np.ndarray
     law: np.ndarray  # by the numbers of `drive`
+    kind: np.ndarray  # by those of `engine.prepare`
     stiffness: np.ndarray
     exponent: np.ndarray
     extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution
@@ -45,9 +56,6 @@ class Drops(NamedTuple):
     gravity: np.ndarray
     until: np.ndarray
     rtol: np.ndarray
-    tolerance: np.ndarray  # three numbers that `simulate` makes of rtol
-    faint: np.ndarray
-    order: np.ndarray
     limit: np.ndarray  # of events
     stops: np.ndarray  # (drops, STOPS) parts of the whole time, ascending; 0 where not stopped
 
@@ -89,10 +97,10 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
     stops = np.sort(random.random((count, STOPS)), axis=1)
     stops[random.random(count) >= IN_PARTS] = 0.0
     choice = random.choice(len(TOLERANCES), count, p=TOLERANCE_ODDS)
-    precision = np.array([precision_of(rtol) for rtol in TOLERANCES])[choice]
     drops = Drops(
         mass=mass,
         law=law,
+        kind=np.array(KINDS)[law],
         stiffness=linear * length ** (1.0 - exponent),
         exponent=exponent,
         extra=extra,
@@ -101,21 +109,10 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
         gravity=gravity,
         until=until,
         rtol=np.array(TOLERANCES)[choice],
-        tolerance=precision[:, 0],
-        faint=precision[:, 1],
-        order=precision[:, 2].astype(np.int64),
         limit=np.where(random.random(count) < RARE, EVENTS[1], EVENTS[0]),
         stops=stops,
     )
     return Drops(*map(np.ascontiguousarray, drops))  # one type of array, compiled once
-
-
-@functools.cache
-def precision_of(rtol: float) -> tuple[float, float, float]:
-    """Return tolerance and faint work of a step, and the series' order, as `simulate` has them."""
-    drop = sb.Drop([sb.Ball(1.0)], [sb.Hertz(1.0)], velocities=[-1.0])
-    stack = _finite_stack(drop, rtol, 1.0)
-    return stack.number[2], stack.number[3], stack.setting[0]
 
 
 def _damping(

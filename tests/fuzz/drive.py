@@ -15,6 +15,7 @@ from stackbounce.engine.contacts import stored_energy
 from stackbounce.engine.flight import compression_after
 from stackbounce.engine.kernel import kernel
 from stackbounce.engine.motion import compression_at, velocity_at
+from stackbounce.engine.prepare import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance, start
 
@@ -47,84 +48,19 @@ _SHAKE = 64.0 * EPSILON  # of the largest momentum, per event
 @kernel
 def load(stack: Any, drops: Any, row: int) -> float:
     """Put one drop into a stack's cleared arrays, as `simulate` does; return its unit of time."""
-    size = len(stack.mass)
-    speed, shortest = 0.0, math.inf
-    for i in range(size):
-        speed = max(speed, abs(drops.velocity[row, i]))
-    for i in range(size):
-        mass = drops.mass[row, i]
-        stack.mass[i] = mass
-        _load_law(stack, drops, row, i)
-        if i > 0:
-            mass = drops.mass[row, i - 1] * mass / (drops.mass[row, i - 1] + mass)
-        power = 1.0 / (stack.exponent[i] + 1.0)
-        energy = 0.5 * (stack.exponent[i] + 1.0) * mass / stack.stiffness[i]
-        stack.scale[i] = energy**power * speed ** (2.0 * power)
-        if stack.unloading[i] != 1.0 or stack.factor_exponent[i] != 0.0:
-            stack.setting[1] = 1
-        if stack.law[i] != codes.ABSENT:
-            shortest = min(shortest, stack.scale[i] / speed)
-    unit = 1.0 if shortest == math.inf else 2.0 ** round(math.log2(shortest))
-    for i in range(size):
-        stack.stiffness[i] *= unit**2
-        stack.gain_rate[i] /= unit
-        stack.velocity[i] = drops.velocity[row, i] * unit
-        stack.compression[i] = -drops.gap[row, i] if i > 0 else 0.0
-    stack.number[0] = drops.gravity[row] * unit**2
-    stack.number[1] = speed * unit
-    stack.number[2] = drops.tolerance[row]
-    stack.number[3] = drops.faint[row]
-    stack.setting[0] = drops.order[row]
+    unit: float = prepare(
+        stack,
+        drops.mass[row],
+        drops.kind[row],
+        drops.stiffness[row],
+        drops.exponent[row],
+        drops.extra[row],
+        drops.gap[row],
+        drops.velocity[row],
+        drops.gravity[row],
+        drops.rtol[row],
+    )
     return unit
-
-
-@kernel
-def _load_law(stack: Any, drops: Any, row: int, i: int) -> None:
-    law, extra, p = drops.law[row, i], drops.extra[row, i], drops.exponent[row, i]
-    stack.law[i] = codes.POWER
-    stack.stiffness[i] = drops.stiffness[row, i]
-    stack.exponent[i] = p
-    stack.unloading[i] = p
-    if law == NONE:
-        stack.law[i] = codes.ABSENT
-        stack.stiffness[i] = 1.0
-        stack.exponent[i] = 1.0
-        stack.unloading[i] = 1.0
-    elif law in (HYSTERETIC, LOSSY):
-        stack.law[i] = codes.LOSSY if law == LOSSY else codes.HYSTERETIC
-        stack.unloading[i] = extra
-    elif law == DASHPOT:
-        stack.law[i] = codes.DAMPED
-        stack.gain_slope[i] = 1.0
-        stack.gain_rate[i] = extra / stack.stiffness[i]
-    elif law == VISCOELASTIC:
-        stack.law[i] = codes.DAMPED
-        stack.factor_exponent[i] = 0.5
-        stack.gain_slope[i] = 1.0
-        stack.gain_rate[i] = 1.5 * extra
-    elif law == HUNT_CROSSLEY:
-        stack.law[i] = codes.DAMPED
-        stack.factor_exponent[i] = p
-        stack.gain_constant[i] = 1.0
-        stack.gain_rate[i] = extra
-
-
-@kernel
-def load_rigid(stack: Any, drops: Any, row: int) -> None:
-    """Put one drop of rigid balls into a stack's cleared arrays, as `simulate` does."""
-    fastest = 0.0
-    for i in range(len(stack.mass)):
-        fastest = max(fastest, abs(drops.velocity[row, i]))
-    unit = 2.0 ** math.frexp(fastest)[1]
-    for i in range(len(stack.mass)):
-        absent = drops.law[row, i] == NONE
-        stack.mass[i] = drops.mass[row, i]
-        stack.law[i] = codes.ABSENT if absent else codes.POWER
-        stack.restitution[i] = 0.0 if absent else drops.extra[row, i]
-        stack.velocity[i] = drops.velocity[row, i] / unit
-        stack.compression[i] = -drops.gap[row, i] / unit if i > 0 else 0.0
-    stack.number[0] = unit
-    stack.number[3] = drops.gravity[row] / unit
 
 
 @kernel
@@ -301,7 +237,15 @@ def run_rigid(
 ) -> None:
     """Run one drop of rigid balls and write into ``out`` what is found."""
     clear(floats, integers)
-    load_rigid(stack, drops, row)
+    prepare_rigid(
+        stack,
+        drops.mass[row],
+        drops.kind[row],
+        drops.extra[row],
+        drops.gap[row],
+        drops.velocity[row],
+        drops.gravity[row],
+    )
     begin_collisions(stack)
     first, reference = rigid_energy(stack, drops, row, 0.0)
     turns = np.zeros(2 * len(stack.mass))

@@ -3,7 +3,8 @@
 ============= =====================================================================
 kernel        one source, two modes: plain Python for a few drops, numba for many
 codes         the integers that stand for statuses, laws, phases and kinds of event
-stack         the arrays that hold a stack of balls, and how to fill them
+stack         the arrays that hold a stack of balls
+prepare       from a drop's own numbers to a stack at t = 0
 queue         which of many times comes first
 rigid         sequences of instantaneous collisions (eqs 1 to 4)
 flight        rigid balls between their collisions: straight lines and parabolas

@@ -165,23 +165,25 @@ _INTEGERS = {
 }
 
 
-def new_stack(size: int, **given: Sequence[Any]) -> Stack:
-    """Return a stack of ``size`` balls as plain lists, all zero but for the fields given."""
+def new_stack(size: int) -> Stack:
+    """Return an empty stack of ``size`` balls as plain lists of zeros."""
     lengths = dict.fromkeys(Stack._fields, size)
     lengths |= dict.fromkeys(_PER_SLOT, 2 * size)
     lengths |= dict.fromkeys(_PER_TERM, size * TERMS)
     lengths |= dict.fromkeys(_PER_MODE, size * WIDTH)
     lengths |= _PER_STACK | _PER_SERIES
-    fields = {name: [0 if name in _INTEGERS else 0.0] * length for name, length in lengths.items()}
-    return Stack(**(fields | {name: list(values) for name, values in given.items()}))
+    return Stack(**_zeros(lengths))
 
 
-def new_rigid_stack(size: int, **given: Sequence[Any]) -> RigidStack:
-    """Return a stack of ``size`` rigid balls as plain lists, all zero but for the fields given."""
+def new_rigid_stack(size: int) -> RigidStack:
+    """Return an empty stack of ``size`` rigid balls as plain lists of zeros."""
     lengths = dict.fromkeys(RigidStack._fields, size)
     lengths |= {"memory": 5, "number": 4, "now": 1, "resting": 2, "counter": 4, "clock": 2}
-    fields = {name: [0 if name in _INTEGERS else 0.0] * length for name, length in lengths.items()}
-    return RigidStack(**(fields | {name: list(values) for name, values in given.items()}))
+    return RigidStack(**_zeros(lengths))
+
+
+def _zeros(lengths: dict[str, int]) -> dict[str, Any]:
+    return {name: [0 if name in _INTEGERS else 0.0] * length for name, length in lengths.items()}
 
 
 def new_samples(times: Sequence[float], size: int) -> Samples:
