@@ -17,6 +17,7 @@ from stackbounce.model import (
 )
 from stackbounce.result import Result, Status
 from stackbounce.simulate import simulate
+from stackbounce.sweep import sweep
 from stackbounce.version import __version__
 
 __all__ = [
@@ -40,4 +41,5 @@ __all__ = [
     "separate",
     "series",
     "simulate",
+    "sweep",
 ]

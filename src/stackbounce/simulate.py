@@ -4,7 +4,7 @@ import functools
 import itertools
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 from stackbounce.engine import codes, prepare
 from stackbounce.engine.kernel import compiled as compile_kernel
@@ -98,32 +98,41 @@ def simulate(
     >>> sb.simulate(sb.Drop(balls, springs, impact_speed=1.0)).rebound_ratios.round(4)
     array([0.7664, 1.1886])
     """
-    if not isinstance(drop, Drop):
-        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
+    options = run_options(drop, until, rtol, event_limit)
     if compiled is not None and not isinstance(compiled, bool):
         raise InvalidType(f"compiled must be True, False or None, got {shown(compiled)}")
+    status, time, velocities, log, infinite, _ = _run(drop, options, compiled, ())
+    rerun = functools.partial(_samples, drop, options, compiled)
+    return Result(drop, Status(status), time, velocities, log, infinite, rerun)
+
+
+class Options(NamedTuple):
+    """How to run a drop: until when (s), to which tolerance, for how many events."""
+
+    until: float
+    rtol: float
+    event_limit: int
+
+
+def run_options(drop: object, until: object, rtol: object, event_limit: object) -> Options:
+    """Return the options of a run, checked; see `simulate`."""
+    if not isinstance(drop, Drop):
+        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
     if len(drop.balls) > _MOST_BALLS:
         raise InvalidValue(f"balls must be at most {_MOST_BALLS} for a run, got {len(drop.balls)}")
-    end = math.inf if until is None else positive("until", until, "seconds")
-    limit = whole("event_limit", event_limit, 1, _MOST_EVENTS)
-    tolerance = between("rtol", rtol, 1e-14, 1e-3)
-    status, time, velocities, log, infinite, _ = _run(drop, end, tolerance, limit, compiled, ())
-    rerun = functools.partial(_samples, drop, end, tolerance, limit, compiled)
-    return Result(drop, Status(status), time, velocities, log, infinite, rerun)
+    return Options(
+        until=math.inf if until is None else positive("until", until, "seconds"),
+        rtol=between("rtol", rtol, 1e-14, 1e-3),
+        event_limit=whole("event_limit", event_limit, 1, _MOST_EVENTS),
+    )
 
 
 _Run = tuple[int, float, list[float], list[float], list[int], Samples]
 
 
-def _run(
-    drop: Drop,
-    until: float,
-    rtol: float,
-    event_limit: int,
-    compiled: bool | None,
-    times: Sequence[float],
-) -> _Run:
+def _run(drop: Drop, options: Options, compiled: bool | None, times: Sequence[float]) -> _Run:
     """Run an engine; return status, time, velocities, log, infinite contacts and samples."""
+    until, rtol, event_limit = options
     rigid = drop.rigid
     begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
     stack, unit = _prepared(drop, rtol)
@@ -198,15 +207,10 @@ def _for_numba(stack: Any, samples: Samples, rows: int) -> tuple[Any, Samples, A
 
 
 def _samples(
-    drop: Drop,
-    until: float,
-    rtol: float,
-    event_limit: int,
-    compiled: bool | None,
-    times: Sequence[float],
+    drop: Drop, options: Options, compiled: bool | None, times: Sequence[float]
 ) -> Samples:
     """Run an engine once more and return its samples at times in ascending order."""
-    return _run(drop, until, rtol, event_limit, compiled, times)[-1]
+    return _run(drop, options, compiled, times)[-1]
 
 
 def _as_it_is(kernel: _Kernel) -> _Kernel:

@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidType, UnitError, finite, shown
 if TYPE_CHECKING:
     import pint
 
-__all__ = ["Unit", "quantity"]
+__all__ = ["Unit", "factor", "quantity"]
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
@@ -98,6 +98,17 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     factor = _factor(written, unit, _message(name, value, unit))
     # In decimals, so that "24.8 g" is 0.0248 to the last digit.
     return finite(name, float(Decimal(number) * Decimal(repr(factor))), unit)
+
+
+def factor(written: str, unit: str, name: str = "value") -> float:
+    """Return how much of an SI unit one of another unit is; see `quantity`.
+
+    Examples
+    --------
+    >>> factor("g", "kg")
+    0.001
+    """
+    return _factor(written, unit, _message(name, written, unit))
 
 
 def _factor(written: str, unit: str, message: str) -> float:

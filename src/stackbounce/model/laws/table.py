@@ -8,7 +8,7 @@ from stackbounce.model.laws.hysteretic import Hysteretic
 from stackbounce.model.laws.lossy import Dashpot, HuntCrossley, Viscoelastic
 from stackbounce.model.laws.rigid import Rigid
 
-__all__ = ["LAWS", "ContactLaw", "law_named"]
+__all__ = ["FORMULAS", "LAWS", "ContactLaw", "law_named"]
 
 ContactLaw: TypeAlias = (
     Rigid | Spring | Hertz | PowerLaw | Dashpot | Viscoelastic | HuntCrossley | Hysteretic
@@ -17,6 +17,19 @@ LAWS: dict[str, type[ContactLaw]] = {
     law.__name__: law
     for law in (Rigid, Spring, Hertz, PowerLaw, Dashpot, Viscoelastic, HuntCrossley, Hysteretic)
 }
+
+FORMULAS: dict[type[ContactLaw], str] = {
+    Rigid: "v' = -restitution v",
+    Spring: "F = stiffness c",
+    Hertz: "F = stiffness c**1.5",
+    PowerLaw: "F = stiffness c**exponent",
+    Dashpot: "F = max(0, stiffness c + damping c')",
+    Viscoelastic: "F = max(0, stiffness (c**1.5 + 1.5 dissipative_time c**0.5 c'))",
+    HuntCrossley: "F = max(0, stiffness c**exponent (1 + dissipation c'))",
+    Hysteretic: "F = stiffness c**exponent; from the peak C on, "
+    "F = stiffness C**exponent (c/C)**unloading_exponent",
+}
+"""The force of each law at a compression c with the rate c', as plain text."""
 
 
 def law_named(name: object) -> type[ContactLaw]:

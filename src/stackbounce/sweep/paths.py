@@ -1,0 +1,171 @@
+"""The numbers of a drop by their paths: ``balls.0.mass``, ``contacts.1.stiffness``, ``gaps.0``."""
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+
+from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.model import Ball, Drop, Hysteretic
+from stackbounce.units import Unit
+
+__all__ = ["Number", "drop_at", "number_at", "numbers_of"]
+
+_LOSSES = {"restitution": "unloading_exponent", "unloading_exponent": "restitution"}
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number of a drop.
+
+    Parameters
+    ----------
+    path : str
+        Such as ``contacts.1.stiffness``.
+    part : str
+        ``balls``, ``contacts``, ``gaps``, ``velocities``, or empty for the drop itself.
+    index : int
+        Which of them; 0 for the drop itself.
+    field : str
+        Its name there; empty for a gap or a velocity.
+    unit : str
+        Its SI unit.
+
+    Examples
+    --------
+    >>> Number("balls.0.mass", "balls", 0, "mass", "kg").unit
+    'kg'
+    """
+
+    path: str
+    part: str
+    index: int
+    field: str
+    unit: str
+
+
+def numbers_of(drop: Drop) -> dict[str, Number]:
+    """Return all numbers of a drop that can vary, by their paths.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Spring
+    >>> list(numbers_of(Drop([Ball(1.0)], [Spring(1.0)], height=1.0)))[-3:]
+    ['contacts.0.stiffness', 'height', 'gravity']
+    """
+    found = []
+    for i in range(len(drop.balls)):
+        found += [
+            Number(f"balls.{i}.{name}", "balls", i, name, unit)
+            for name, unit in _units(Ball).items()
+        ]
+    for i, law in enumerate(drop.contacts):
+        exponent = getattr(law, "exponent", 1.0)
+        found += [
+            Number(
+                f"contacts.{i}.{name}",
+                "contacts",
+                i,
+                name,
+                unit.replace("exponent", f"{exponent:g}"),
+            )
+            for name, unit in _units(law.__class__).items()
+        ]
+    found += [Number(f"gaps.{i}", "gaps", i, "", "m") for i in range(len(drop.gaps))]
+    if drop.velocities is not None:
+        count = len(drop.velocities)
+        found += [Number(f"velocities.{i}", "velocities", i, "", "m/s") for i in range(count)]
+    for name, unit in _units(Drop).items():
+        if getattr(drop, name) is not None:
+            found.append(Number(name, "", 0, name, unit))
+    return {number.path: number for number in found}
+
+
+def number_at(drop: Drop, path: object) -> Number:
+    """Return the number of a drop at a path.
+
+    Raises
+    ------
+    InvalidType
+        If the path is no string.
+    InvalidValue
+        If the drop has no such number; the message names the nearest and lists all.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Spring
+    >>> number_at(Drop([Ball(1.0)], [Spring(1.0)], height=1.0), "contacts.0.stiffness").unit
+    'N/m'
+    """
+    if not isinstance(path, str):
+        raise InvalidType(f"a path must be a string, got {shown(path)}")
+    known = numbers_of(drop)
+    if path not in known:
+        raise InvalidValue(f"{path[:60]} is no number of this drop; {nearest(path, known)}")
+    return known[path]
+
+
+def drop_at(drop: Drop, values: Mapping[Number, float]) -> Drop:
+    """Return the drop with other numbers in place.
+
+    Raises
+    ------
+    InvalidValue, InvalidType
+        As the parts of a `Drop` do; the message begins with the path.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Spring
+    >>> drop = Drop([Ball(1.0)], [Spring(1.0)], height=1.0)
+    >>> drop_at(drop, {number_at(drop, "balls.0.mass"): 2.0}).balls[0].mass
+    2.0
+    """
+    changes: dict[str, Any] = {}
+    parts: dict[str, Any] = {
+        name: list(getattr(drop, name)) for name in ("balls", "contacts", "gaps")
+    }
+    parts["velocities"] = None if drop.velocities is None else list(drop.velocities)
+    within: dict[tuple[str, int], dict[str, float]] = {}
+    for number, value in values.items():
+        if not number.part:
+            changes[number.field] = value
+        elif number.field:
+            within.setdefault((number.part, number.index), {})[number.field] = value
+        else:
+            parts[number.part][number.index] = value
+    for (part, index), chosen in within.items():
+        parts[part][index] = _changed(parts[part][index], chosen, f"{part}.{index}")
+    return replace(drop, **parts, **changes)
+
+
+def _changed(part: Any, chosen: Mapping[str, float], path: str) -> Any:
+    others: dict[str, Any] = {}
+    if isinstance(part, Hysteretic):
+        given = [name for name in _LOSSES if name in chosen] or [
+            name for name in _LOSSES if name != part.derived
+        ]
+        others = {_LOSSES[name]: None for name in given if _LOSSES[name] not in chosen}
+    try:
+        return replace(part, **(others | dict(chosen)))
+    except (InvalidValue, InvalidType) as error:
+        raise type(error)(f"{path}.{error}") from error
+
+
+@functools.cache
+def _units(kind: Any) -> dict[str, str]:
+    """Return the fields of a class that are single numbers, with their units; None's are none."""
+    if kind is type(None):
+        return {}
+    hints = get_type_hints(kind, include_extras=True)
+    found = {one.name: _unit(hints[one.name]) for one in fields(kind)}
+    return {name: unit.symbol for name, unit in found.items() if unit is not None}
+
+
+def _unit(hint: Any) -> Unit | None:
+    """Return the unit of a number or of an optional one; None for anything else."""
+    optional = get_origin(hint) in (Union, UnionType)
+    for choice in get_args(hint) if optional else (hint,):
+        if get_origin(choice) is Annotated and get_args(choice)[0] is float:
+            return next((note for note in choice.__metadata__ if isinstance(note, Unit)), None)
+    return None
