@@ -148,6 +148,8 @@ def _dataset(
     import xarray as xr
 
     dims = tuple(dict.fromkeys(dim for array in arrays for dim in array.dims))
+    if any(array.chunks is not None for array in arrays):
+        dims = ()  # a chunk does not know where it lies
     size = len(drop.balls)
     own = [[dim] if dim else [] for dim, *_ in _OUTPUTS.values()]
 
@@ -175,6 +177,11 @@ def _dataset(
     return data.assign_coords(coordinates | index).assign_attrs(_provenance(drop, numbers, options))
 
 
+def check_axis(drop: Drop, path: str, values: NDArray[np.float64]) -> None:
+    """Raise for the first value that a number of a drop, all others as they are, cannot have."""
+    check(drop, {number_at(drop, path): values}, lambda row: f"(at {path} {row})")
+
+
 def run_block(
     drop: Drop,
     numbers: Sequence[Number],
@@ -191,7 +198,7 @@ def run_block(
         return {one: values.flat[start:stop] for one, values in zip(numbers, wide, strict=True)}
 
     def where(row: int) -> str:
-        index = zip(dims, np.unravel_index(row, shape), strict=True)
+        index = zip(dims, np.unravel_index(row, shape), strict=False)
         place = ", ".join(f"{dim} {i}" for dim, i in index)
         there = ", ".join(
             f"{n.path} = {values.item():.10g}" for n, values in rows(row, row + 1).items()

@@ -7,7 +7,7 @@ from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
-from stackbounce.model import Ball, Drop, Hysteretic
+from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic
 from stackbounce.units import Unit
 
 __all__ = ["Number", "drop_at", "number_at", "numbers_of"]
@@ -70,7 +70,7 @@ def numbers_of(drop: Drop) -> dict[str, Number]:
                 name,
                 unit.replace("exponent", f"{exponent:g}"),
             )
-            for name, unit in _units(law.__class__).items()
+            for name, unit in _fields_of(law).items()
         ]
     found += [Number(f"gaps.{i}", "gaps", i, "", "m") for i in range(len(drop.gaps))]
     if drop.velocities is not None:
@@ -152,11 +152,14 @@ def _changed(part: Any, chosen: Mapping[str, float], path: str) -> Any:
         raise type(error)(f"{path}.{error}") from error
 
 
+def _fields_of(law: ContactLaw | None) -> dict[str, str]:
+    kind: Any = type(law)
+    return {} if law is None else _units(kind)
+
+
 @functools.cache
 def _units(kind: Any) -> dict[str, str]:
-    """Return the fields of a class that are single numbers, with their units; None's are none."""
-    if kind is type(None):
-        return {}
+    """Return the fields of a class that are single numbers, with their units."""
     hints = get_type_hints(kind, include_extras=True)
     found = {one.name: _unit(hints[one.name]) for one in fields(kind)}
     return {name: unit.symbol for name, unit in found.items() if unit is not None}
