@@ -69,7 +69,7 @@ def test_every_public_name_is_documented():
     api = read("docs/api.md")
     public = set(stackbounce.__all__) - {"__version__"}
     entries = re.findall(r"^.. auto(?:class|function|exception|data):: (\w+)$", api, re.MULTILINE)
-    assert set(entries) == public | {"bounce"}  # of stackbounce.plots
+    assert set(entries) == public | {"bounce", "heatmap", "lines"}  # of stackbounce.plots
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

@@ -39,54 +39,62 @@ def stackbounce(
         typer.echo(context.get_help())
 
 
+What = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="SCENARIO|BALLS",
+        help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
+        show_default=False,
+    ),
+]
+Height = Annotated[
+    str | None, typer.Option(metavar="LENGTH", help="Height fallen from rest, such as 0.63m.")
+]
+Speed = Annotated[str | None, typer.Option(metavar="SPEED", help="Impact speed, such as 3.53m/s.")]
+Gap = Annotated[
+    list[str] | None,
+    typer.Option(metavar="LENGTH", help="Gap between two balls; once per pair, lowest first."),
+]
+Contact = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="LAW",
+        help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
+        "lowest first. Laws: Rigid, Spring, Hertz, PowerLaw, Dashpot, Viscoelastic, "
+        "HuntCrossley, Hysteretic; none for no floor.",
+    ),
+]
+Gravity = Annotated[
+    str | None,
+    typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
+]
+Until = Annotated[
+    str | None,
+    typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
+]
+Tolerance = Annotated[
+    float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")
+]
+Plot = Annotated[
+    Path | None, typer.Option(metavar="FILE", readable=False, help="Draw it: .svg, .png or .pdf.")
+]
+
+
 @app.command(epilog="For example: stackbounce simulate basketball tennis --height 0.63m --gap 2mm")
 def simulate(
-    what: Annotated[
-        list[str],
-        typer.Argument(
-            metavar="SCENARIO|BALLS",
-            help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
-            show_default=False,
-        ),
-    ],
-    height: Annotated[
-        str | None, typer.Option(metavar="LENGTH", help="Height fallen from rest, such as 0.63m.")
-    ] = None,
-    speed: Annotated[
-        str | None, typer.Option(metavar="SPEED", help="Impact speed, such as 3.53m/s.")
-    ] = None,
-    gap: Annotated[
-        list[str] | None,
-        typer.Option(metavar="LENGTH", help="Gap between two balls; once per pair, lowest first."),
-    ] = None,
-    contact: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="LAW",
-            help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
-            "lowest first. Laws: Rigid, Spring, Hertz, PowerLaw, Dashpot, Viscoelastic, "
-            "HuntCrossley, Hysteretic; none for no floor.",
-        ),
-    ] = None,
-    gravity: Annotated[
-        str | None,
-        typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
-    ] = None,
-    until: Annotated[
-        str | None,
-        typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
-    ] = None,
-    rtol: Annotated[
-        float,
-        typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear."),
-    ] = 1e-12,
-    plot: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", readable=False, help="Draw it: .svg, .png or .pdf."),
-    ] = None,
+    what: What,
+    height: Height = None,
+    speed: Speed = None,
+    gap: Gap = None,
+    contact: Contact = None,
+    gravity: Gravity = None,
+    until: Until = None,
+    rtol: Tolerance = 1e-12,
+    plot: Plot = None,
     as_json: AsJson = False,
 ) -> None:
     """Drop a stack of balls and tell how each one bounces."""
+    from stackbounce import plots
     from stackbounce import simulate as run
     from stackbounce.calibrate import separate
     from stackbounce.cli import machine, output, scenario, show
@@ -101,13 +109,73 @@ def simulate(
     result = run(chosen.drop, until=end, rtol=rtol)
     textbook = None if chosen.drop.rigid else run(separate(chosen.drop))
     if plot is not None:
-        output.draw(result, plot)
+        output.draw(lambda: plots.bounce(result), plot)
     if as_json:
         typer.echo(machine.text(machine.simulation(chosen, result, textbook)))
     else:
         show.simulation(_console(), chosen, result, textbook)
         if plot is not None:
             typer.echo(f"Picture: {plot}")
+
+
+@app.command(
+    epilog="For example: stackbounce sweep basketball tennis --over balls.0.mass=50g:500g:100:log "
+    "--over gaps.0=0mm:5mm:50 --out map.zarr --plot map.png"
+)
+def sweep(
+    what: What,
+    over: Annotated[
+        list[str],
+        typer.Option(
+            metavar="PATH=VALUES",
+            help="A number that varies, such as contacts.0.stiffness=1kN/m:1MN/m:400:log "
+            "(start, stop, how many, even ratios) or gaps.0=0mm,1mm,5mm; once per number.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        Path,
+        typer.Option(
+            metavar="STORE",
+            readable=False,
+            help="The Zarr store to write. Stopped, the same command goes on where it was.",
+            show_default=False,
+        ),
+    ],
+    height: Height = None,
+    speed: Speed = None,
+    gap: Gap = None,
+    contact: Contact = None,
+    gravity: Gravity = None,
+    until: Until = None,
+    rtol: Tolerance = 1e-12,
+    cluster: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Solve on this cluster: its dask scheduler."),
+    ] = None,
+    show: Annotated[
+        str, typer.Option(metavar="NAME", help="What --plot draws, such as collisions.")
+    ] = "rebound_ratio",
+    plot: Plot = None,
+    as_json: AsJson = False,
+) -> None:
+    """Drop a stack for all combinations of other numbers in it, into a Zarr store."""
+    from stackbounce.cli import machine, output, scenario, swept
+    from stackbounce.units import quantity
+
+    if plot is not None:
+        output.check_picture(plot)
+    chosen = scenario.read(
+        what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
+    )
+    end = None if until is None else quantity(until, "s", "--until")
+    done = swept.run(chosen.drop, over, out, cluster=cluster, until=end, rtol=rtol)
+    if plot is not None:
+        output.draw(lambda: swept.picture(done, show), plot)
+    if as_json:
+        typer.echo(machine.text(swept.summary(done, out)))
+    else:
+        swept.tell(_console(), done, out, plot)
 
 
 @app.command()

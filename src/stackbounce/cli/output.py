@@ -1,9 +1,13 @@
 """Pictures, to files that are checked before anything is computed."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from stackbounce.errors import FileError, InvalidValue
-from stackbounce.result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 __all__ = ["SUFFIXES", "check_picture", "draw"]
 
@@ -29,18 +33,16 @@ def check_picture(path: Path) -> None:
         raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
 
 
-def draw(result: Result, path: Path) -> None:
-    """Write the picture of a result, in the format that the file's suffix names.
+def draw(make: Callable[[], "Figure"], path: Path) -> None:
+    """Write a picture, in the format that the file's suffix names.
 
     Raises
     ------
     FileError
         If the file cannot be written.
     """
-    from stackbounce.plots import bounce
-
-    figure = bounce(result)
+    figure = make()
     try:
-        figure.savefig(path)
+        figure.savefig(path, dpi=150)
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}") from error

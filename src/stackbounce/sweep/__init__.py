@@ -1,13 +1,17 @@
 """A Drop and the numbers that vary -> xarray, in chunks and lazily where they are dask's.
 
-======= ===================================================================
+======= ==========================================================================
 paths   the numbers of a drop by their paths
 columns rows of numbers -> what the engine takes for many drops, checked
 solve   many drops at once, in blocks and threads
-dataset the numbers that vary as named dimensions, and the Dataset that is returned
-======= ===================================================================
+dataset the numbers that vary as named dimensions, and the Dataset that comes of them
+store   a sweep larger than memory, block by block in a Zarr store, resumed
+axes    texts such as those of ``--over`` -> numbers and their values
+======= ==========================================================================
 """
 
+from stackbounce.sweep.axes import grid
 from stackbounce.sweep.dataset import sweep
+from stackbounce.sweep.store import write
 
-__all__ = ["sweep"]
+__all__ = ["grid", "sweep", "write"]

@@ -1,12 +1,13 @@
 """Pictures of a result: where the balls go, and what presses them."""
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType
+from stackbounce.plots.style import STYLE, color_of
 from stackbounce.result import Result
 
 if TYPE_CHECKING:
@@ -18,19 +19,6 @@ __all__ = ["bounce"]
 _SAMPLES = 1200
 _BEFORE, _AFTER = 0.15, 0.35  # of the impact's duration shown before and after it
 _LABEL = 0.13  # height of a label in its axes
-_COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")  # Okabe and Ito
-_STYLE: Any = {
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#e4e4e4",
-    "grid.linewidth": 0.6,
-    "axes.axisbelow": True,
-    "lines.linewidth": 1.8,
-    "svg.fonttype": "none",
-    "svg.hashsalt": "stackbounce",
-    "figure.constrained_layout.use": True,
-}
 
 
 def bounce(result: Result) -> "Figure":
@@ -70,7 +58,7 @@ def bounce(result: Result) -> "Figure":
     from matplotlib.figure import Figure
 
     with mpl.rc_context():
-        mpl.rcParams.update(_STYLE)
+        mpl.rcParams.update(STYLE)
         figure = Figure(figsize=(7.2, 5.6))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = _times(result)
@@ -107,7 +95,7 @@ def _draw_positions(axes: "Axes", result: Result, times: NDArray[np.float64]) ->
         zip(drop.balls, flown, drop.start_velocities, strict=True)
     ):
         fallen = start * early - 0.5 * drop.gravity * early**2
-        axes.plot(1e3 * times, 1e3 * (path + fallen), color=_color(b))
+        axes.plot(1e3 * times, 1e3 * (path + fallen), color=color_of(b))
         ends.append((1e3 * float(path[-1]), b, f"{ball.name or f'ball {b}'}"))
     _label_ends(axes, 1e3 * times[-1], ends, result.rebound_ratios)
     axes.set_ylabel("position (mm)")
@@ -133,7 +121,7 @@ def _label_ends(
             xytext=(6, 0),
             textcoords="offset points",
             va="center",
-            color=_color(b),
+            color=color_of(b),
             annotation_clip=False,
         )
 
@@ -144,8 +132,8 @@ def _draw_forces(axes: "Axes", result: Result, times: NDArray[np.float64]) -> No
     for i, force in enumerate(forces):
         if result.drop.contacts[i] is None:
             continue
-        axes.plot(1e3 * times, force, color=_color(i), label=_between(result, i))
-        axes.fill_between(1e3 * times, force, color=_color(i), alpha=0.12, linewidth=0)
+        axes.plot(1e3 * times, force, color=color_of(i), label=_between(result, i))
+        axes.fill_between(1e3 * times, force, color=color_of(i), alpha=0.12, linewidth=0)
     axes.set_ylabel("force (N)")
     axes.set_ylim(bottom=0.0)
     axes.legend(frameon=False, loc="upper right")
@@ -161,7 +149,7 @@ def _draw_impulses(axes: "Axes", result: Result) -> None:
             1e3 * rows["start"],
             0.0,
             rows["impulse"],
-            color=_color(i),
+            color=color_of(i),
             linewidth=3.0 if i == 0 else 1.6,
             label=_between(result, i) + f" ({_count(int(result.collisions[i]))})",
         )
@@ -191,7 +179,3 @@ def _summary(result: Result) -> str:
     if math.isfinite(kept):
         words += f", kinetic energy kept {100.0 * kept:.0f} %"
     return words
-
-
-def _color(index: int) -> str:
-    return _COLORS[index % len(_COLORS)]

@@ -1,0 +1,123 @@
+"""``stackbounce sweep``: a grid into a store, with its progress, and what came of it."""
+
+import contextlib
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.errors import InvalidValue, shown
+from stackbounce.model import Drop
+from stackbounce.result import Status
+from stackbounce.sweep import grid, write
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from rich.console import Console
+
+__all__ = ["picture", "run", "summary", "tell"]
+
+_SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
+
+
+def run(
+    drop: Drop, over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
+) -> "xr.Dataset":
+    """Sweep a drop over what ``--over`` names, into a store, showing how far it is; return it."""
+    import xarray as xr
+
+    values = grid(drop, over)
+    with _client(cluster) as client, _bar() as progress:
+        write(out, drop, values, client=client, progress=progress, **options)
+    data: xr.Dataset = xr.open_zarr(out)
+    return data
+
+
+def picture(data: "xr.Dataset", show: str) -> "Figure":
+    """Return the lines or the map of a sweep over one number or two."""
+    from stackbounce import plots
+
+    dims = data.status.dims
+    if len(dims) not in (1, 2):
+        raise InvalidValue(f"--plot needs one or two numbers that vary, got {len(dims)}")
+    loaded = data.load()
+    return plots.lines(loaded, show) if len(dims) == 1 else plots.heatmap(loaded, show)
+
+
+def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
+    """Return what came of a sweep, for machines."""
+    statuses, counts = np.unique(data.status.values, return_counts=True)
+    return {
+        "store": str(out),
+        "drops": data.status.size,
+        "over": {str(dim): data.sizes[dim] for dim in data.status.dims},
+        "status": {Status(s).name: int(n) for s, n in zip(statuses, counts, strict=True)},
+        "ranges": {name: _range(data[name]) for name in _SPOKEN},
+    }
+
+
+def tell(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -> None:
+    """Print what came of a sweep, for people."""
+    found = summary(data, out)
+    sizes = " x ".join(f"{size} of {dim}" for dim, size in found["over"].items())
+    console.print(f"{found['drops']} drops: {sizes}")
+    for name, ranges in found["ranges"].items():
+        for part, (low, high) in ranges.items():
+            console.print(f"  {name} {part}".rstrip() + f": {low:.6g} to {high:.6g}")
+    for name, count in found["status"].items():
+        console.print(f"  {count} {name}: {Status[name].advice}")
+    console.print(f"Store: {out}")
+    if plot is not None:
+        console.print(f"Picture: {plot}")
+
+
+def _range(array: Any) -> dict[str, tuple[float, float]]:
+    """Return the smallest and largest number, of each ball or contact."""
+    part = next((name for name in ("ball", "contact") if name in array.dims), "")
+    if not part:
+        return {"": (float(array.min()), float(array.max()))}
+    low, high = (values.values for values in _extremes(array, part))
+    return {f"{part} {k}": (float(low[k]), float(high[k])) for k in range(len(low))}
+
+
+def _extremes(array: Any, part: str) -> tuple[Any, Any]:
+    others = [dim for dim in array.dims if dim != part]
+    return array.min(others), array.max(others)
+
+
+@contextlib.contextmanager
+def _client(address: str | None) -> Iterator[Any]:
+    """Connect to a cluster, if any."""
+    if address is None:
+        yield None
+        return
+    try:
+        import distributed
+    except ImportError as error:
+        raise InvalidValue(
+            "--cluster needs dask's distributed: pip install stackbounce[cluster]"
+        ) from error
+    connect: Any = distributed.Client
+    try:
+        client = connect(address, timeout="10s")
+    except (OSError, ValueError, TimeoutError) as error:
+        raise InvalidValue(
+            f"--cluster must be the address of a dask scheduler, got {shown(address)}"
+        ) from error
+    with client:
+        yield client
+
+
+@contextlib.contextmanager
+def _bar() -> Iterator[Any]:
+    """Show how many drops are done on stderr, if that is a terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
+        task = bar.add_task("drops", total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

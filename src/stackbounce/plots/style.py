@@ -1,0 +1,33 @@
+"""The look that all pictures share."""
+
+from typing import Any
+
+__all__ = ["COLORS", "STYLE", "color_of"]
+
+COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+"""Okabe and Ito's: told apart by everybody."""
+
+STYLE: Any = {
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e4e4e4",
+    "grid.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.8,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "stackbounce",
+    "figure.constrained_layout.use": True,
+}
+"""Matplotlib's settings."""
+
+
+def color_of(index: int) -> str:
+    """Return the color of a ball, or of the contact below it.
+
+    Examples
+    --------
+    >>> color_of(0)
+    '#0072B2'
+    """
+    return COLORS[index % len(COLORS)]
