@@ -23,6 +23,7 @@ _TITLES = {
     "last_release": "last release (s)",
 }
 _MOST_COUNTS = 12  # colors of a map of collisions
+_INFINITE = (0.75, 0.75, 0.75, 1.0)
 _LEVELS = 8  # contours
 
 
@@ -155,23 +156,28 @@ def _draw_levels(axes: "Axes", x: Any, y: Any, values: NDArray[Any]) -> None:
 
 
 def _draw_counts(axes: "Axes", x: Any, y: Any, values: NDArray[Any]) -> None:
-    """Give each count a color of its own; many counts share the last one."""
+    """Give each count a color of its own; high ones share the last, infinity is grey on top."""
     from matplotlib import colormaps
     from matplotlib.colors import BoundaryNorm, ListedColormap
 
-    low, high = int(values.min()), int(values.max())
-    shown_high = min(high, low + _MOST_COUNTS - 1)
-    counts = np.arange(low, shown_high + 1)
-    colors = ListedColormap(colormaps["viridis"](np.linspace(0.0, 1.0, len(counts))))
-    norm = BoundaryNorm(np.arange(low, shown_high + 2) - 0.5, len(counts))
-    drawn = np.minimum(values, shown_high)
-    mesh = axes.pcolormesh(x, y, drawn, cmap=colors, norm=norm, shading="nearest", rasterized=True)
-    assert axes.figure is not None
-    bar = axes.figure.colorbar(mesh, ax=axes, ticks=counts)
-    names = ["∞" if count < 0 else f"{count}" for count in counts]
-    if high > shown_high:
+    finite = values[values >= 0]
+    low, high = (int(finite.min()), int(finite.max())) if finite.size else (0, 0)
+    last = min(high, low + _MOST_COUNTS - 1)
+    names = [f"{count}" for count in range(low, last + 1)]
+    if high > last:
         names[-1] += " and more"
+    colors = list(colormaps["viridis"](np.linspace(0.0, 1.0, len(names))))
+    if finite.size < values.size:
+        names.append("∞")
+        colors.append(_INFINITE)
+    drawn = np.where(values < 0, last + 1, np.minimum(values, last))
+    norm = BoundaryNorm(low - 0.5 + np.arange(len(names) + 1), len(names))
+    look: Any = {"cmap": ListedColormap(colors), "norm": norm, "shading": "nearest"}
+    mesh = axes.pcolormesh(x, y, drawn, rasterized=True, **look)
+    assert axes.figure is not None
+    bar = axes.figure.colorbar(mesh, ax=axes, ticks=low + np.arange(len(names)))
     bar.ax.set_yticklabels(names)
+    bar.ax.minorticks_off()
 
 
 def _dimensions(data: Any, show: str, count: int) -> tuple[Any, ...]:

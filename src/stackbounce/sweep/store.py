@@ -153,6 +153,8 @@ def _begin(partial: Path, log: Path, template: "xr.Dataset") -> set[int]:
                 f"{partial} is part of another sweep: remove it and {log.name}, "
                 "or choose another name"
             )
+        for leftover in partial.rglob("*.partial"):  # of a chunk that was being written
+            leftover.unlink()
         lines = log.read_text("ascii").splitlines(keepends=True)
         return {int(line) for line in lines if line.endswith("\n")}
     if partial.exists():  # stopped before it was all there
