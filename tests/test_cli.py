@@ -614,3 +614,50 @@ def test_errors_of_the_parts_are_ours():
 )  # fmt: skip
 def test_numbers_for_people(value, text):
     assert show.number(value) == text.removesuffix(".")
+
+
+# sweep
+
+
+def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
+    over = ["--over", "balls.0.mass=50g:500g:4:log", "--over", "gaps.0=0mm,2mm"]
+    files = ["--out", "map.zarr", "--plot", "map.png"]
+    code, out, err = run("sweep", "basketball", "tennis", *over, *files)
+    assert (code, err) == (0, "")
+    assert "8 drops: 4 of balls.0.mass x 2 of gaps.0" in out
+    assert "8 FINISHED" in out
+    assert (tmp_path / "map.png").stat().st_size > 5000
+    again = run("sweep", "basketball", "tennis", *over, "--out", "map.zarr", "--json")
+    found = json.loads(again[1])
+    assert found["status"] == {"FINISHED": 8}
+    assert found["over"] == {"balls.0.mass": 4, "gaps.0": 2}
+    low, high = found["ranges"]["rebound_ratio"]["ball 1"]
+    assert 1.0 < low < high < 3.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--over", "balls.0.mass=1:2"], "--over must be PATH=START:STOP:COUNT"),
+        (["--over", "balls.7.mass=1:2:3"], "balls.7.mass is no number of this drop"),
+        (["--over", "balls.0.mass=-1kg,1kg"], "balls.0.mass must be a positive number"),
+        (["--over", "gaps.0=0,1", "--cluster", "nowhere"], "--cluster must be the address"),
+        (["--over", "gaps.0=0,1", "--plot", "map.txt"], "--plot must end in"),
+        ([], "Missing option '--over'"),
+    ],
+)
+def test_sweep_says_what_is_wrong_in_one_line(run, tmp_path, arguments, message):
+    code, out, err = run("sweep", "basketball", "tennis", *arguments, "--out", "map.zarr")
+    assert code == 2
+    assert out == ""
+    assert err.count("\n") == 1
+    assert message in err
+    assert not list(tmp_path.iterdir())
+
+
+def test_sweep_does_not_touch_another_store(run, tmp_path):
+    assert run("sweep", "basketball", "tennis", "--over", "gaps.0=0,1", "--out", "map.zarr")[0] == 0
+    code, _, err = run("sweep", "tennis", "--over", "balls.0.mass=1,2", "--out", "map.zarr")
+    assert code == 2
+    assert "map.zarr exists, and is not this sweep" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]
