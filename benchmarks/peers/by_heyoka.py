@@ -15,6 +15,7 @@ from benchmarks.random_drops import Drops
 
 LANES = 8
 WINDOW = LONGEST_CONTACT  # of time; a straight flight is a single step to its end, in
+COOLDOWN = 1e-9  # time for which an event is not seen again; its own choice, longer the slower
 FURTHER = 1e3  # times as long a window if it is not over: roots are found on that scale only
 CLOSED, FLOOR, UPPER, LIFT = (0, 1), 2, 3, 4  # the parameters: 0 or 1, k0/m0, k1/m0, k1/m1
 PARAMETERS = 5
@@ -51,10 +52,8 @@ class Lanes:
         self.lanes = lanes
         equations, compressions = system(hy)
         event = hy.t_event if lanes == 1 else hy.t_event_batch
-        events = [
-            event(c, callback=Callback(self, i), direction=hy.event_direction.negative)
-            for i, c in enumerate(compressions)
-        ]
+        kind = {"direction": hy.event_direction.negative, "cooldown": COOLDOWN}
+        events = [event(c, callback=Callback(self, i), **kind) for i, c in enumerate(compressions)]
         make = hy.taylor_adaptive if lanes == 1 else hy.taylor_adaptive_batch
         shape = () if lanes == 1 else (lanes,)
         self.integrator = make(
@@ -82,7 +81,6 @@ class Lanes:
             self.integrator.time = 0.0
         else:
             self.integrator.set_time(0.0)
-        self.integrator.reset_cooldowns()
 
     def replace(self, lane: int) -> None:
         """Keep what came of the drop in a lane, and start the next one there."""

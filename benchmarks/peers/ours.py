@@ -1,4 +1,4 @@
-"""This package: one `simulate` per drop, compiled."""
+"""Our own entry: one `simulate` per drop, compiled."""
 
 from typing import Any
 
