@@ -23,10 +23,7 @@ FEW = 12  # contacts; beyond, changes crowd
 
 @dataclass(frozen=True)
 class Drops:
-    """Drops of two balls: mass ratios, stiffness ratios and gaps, an array of shape (n, 3).
-
-    Of a million of them nothing but numbers is kept; `ratios` has the columns m0/m1, k0/k1, gap.
-    """
+    """Drops of two balls on springs; `ratios`, shape (n, 3), has the columns m0/m1, k0/k1, gap."""
 
     ratios: np.ndarray
 

@@ -12,10 +12,12 @@ from pathlib import Path
 import jinja2
 from matplotlib.figure import Figure
 
-from benchmarks import figures, growth, work_precision
+from benchmarks import figures, growth, race, work_precision
+from benchmarks.peers import common
 from stackbounce.cross2007.style import rendered
 
 PACKAGES = ("stackbounce", "numpy", "numba", "scipy")
+NOT_INSTALLED = "not installed"
 FROM = 8  # balls; of smaller stacks one or a few intervals are hard to time
 
 
@@ -48,7 +50,7 @@ class Section:
 
 def write(out: Path, progress: Callable[[str], None]) -> list[Table]:
     """Measure, write the page and its figures to a folder, and return the tables."""
-    sections = [_growth(progress), _accuracy(progress), _work(progress)]
+    sections = [_growth(progress), _accuracy(progress), _work(progress), _peers(progress)]
     progress("writing the page")
     out.mkdir(parents=True, exist_ok=True)
     for section in sections:
@@ -147,6 +149,55 @@ def _work(progress: Callable[[str], None]) -> Section:
     return _section("work", "Error against time", caption, figures.work(runs), tables)
 
 
+def _peers(progress: Callable[[str], None]) -> Section:
+    given = race.sets(progress)
+    check = race.check(given, progress)
+    entries = race.race(given, progress)
+    hard = [key for key in given.drops if key]
+    heads = ["solver", "µs per drop", "ratio", "drops", "median error", "worst error"]
+    heads += ["wrong, random", *[f"wrong, {key:.0e}" for key in hard]]
+    rows = [peer_row(entry, entries[0], check) for entry in entries]
+    skipped = [entry.peer.name for entry in entries if not entry.rounds]
+    caption = (
+        "Two balls on springs: mass ratios from 0.05 to 50 and stiffness ratios from 0.02 to 50, "
+        f"log-uniform, half with zero gap, half with gaps to 2 v0/ω. {len(given.drops[0.0]):,} "
+        "random drops; a peer gets as many of them as fit in "
+        f"{race.SECONDS:g} s. Times are medians of {race.ROUNDS} rounds, one thread, compilation "
+        f"left out; ratios are to {entries[0].peer.name}, errors in units of v0. Hard drops, "
+        f"{len(given.drops[hard[0]])} at each offset, lie that far, relative, below and above a "
+        "gap, mass ratio or stiffness ratio where the number of contacts changes; a count is "
+        "wrong where that of either contact is. The truth is sb.simulate's, which on "
+        f"{check.drops} of the drops differs from a reference of fifty digits by "
+        f"{check.errors.max():.1e} at most, with {check.wrong} wrong counts; "
+        f"{entries[0].peer.name}'s own errors here are these. "
+        f"SciPy, CyRK and CVODE have rtol = atol = {common.RTOL:g}, heyoka its default."
+        + (f" Not installed and skipped: {', '.join(skipped)}." if skipped else "")
+    )
+    solvers = [[e.peer.name, e.peer.version() or NOT_INSTALLED, e.peer.how] for e in entries]
+    tables = [
+        Table("Drops of two balls: time, errors / v0, shares of wrong counts", heads, rows),
+        Table("What was compared", ["solver", "version", "how"], solvers, words=3),
+    ]
+    title = "Next to other solvers"
+    return _section("peers", title, caption, figures.peers(entries, check), tables)
+
+
+def peer_row(entry: race.Entry, ours: race.Entry, check: race.Check) -> list[str]:
+    """Return a solver's row of the table; it says so if the solver is not installed."""
+    if not entry.rounds:
+        return [entry.peer.name, NOT_INSTALLED, *["–"] * (4 + len(ours.wrong))]
+    middle, worst = race.shown_errors(entry, check)
+    return [
+        entry.peer.name,
+        _three(1e6 * entry.seconds),
+        _three(entry.seconds / ours.seconds),
+        f"{entry.drops:,}",
+        f"{middle:.1e}",
+        f"{worst:.1e}",
+        *[f"{100.0 * share:.2g} %" for share in entry.wrong.values()],
+    ]
+
+
 def _section(
     name: str, title: str, caption: str, figure: Figure, tables: Iterable[Table]
 ) -> Section:
@@ -159,7 +210,7 @@ def _interval(cost: growth.Cost) -> str:
 
 
 def _three(value: float) -> str:
-    return f"{value:#.3g}".rstrip(".")
+    return f"{value:#.3g}".rstrip(".") if value < 1e3 else f"{value:,.0f}"
 
 
 def _pair(run: work_precision.Work | None) -> tuple[str, str]:

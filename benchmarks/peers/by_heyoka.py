@@ -133,4 +133,9 @@ def prepare(lanes: int) -> Any:
 
 
 SCALAR = Peer("heyoka", "heyoka", "taylor_adaptive, terminal events", partial(prepare, 1))
-BATCH = Peer(f"heyoka, {LANES} at once", "heyoka", "taylor_adaptive_batch", partial(prepare, LANES))
+BATCH = Peer(
+    "heyoka, batch",
+    "heyoka",
+    f"taylor_adaptive_batch, terminal events, {LANES} drops at once",
+    partial(prepare, LANES),
+)
