@@ -154,9 +154,6 @@ def _peers(progress: Callable[[str], None]) -> Section:
     check = race.check(given, progress)
     entries = race.race(given, progress)
     hard = [key for key in given.drops if key]
-    heads = ["solver", "µs per drop", "ratio", "drops", "median error", "worst error"]
-    heads += ["wrong, random", *[f"wrong, {key:.0e}" for key in hard]]
-    rows = [peer_row(entry, entries[0], check) for entry in entries]
     skipped = [entry.peer.name for entry in entries if not entry.rounds]
     caption = (
         "Two balls on springs: mass ratios from 0.05 to 50 and stiffness ratios from 0.02 to 50, "
@@ -173,28 +170,44 @@ def _peers(progress: Callable[[str], None]) -> Section:
         f"SciPy, CyRK and CVODE have rtol = atol = {common.RTOL:g}, heyoka its default."
         + (f" Not installed and skipped: {', '.join(skipped)}." if skipped else "")
     )
-    solvers = [[e.peer.name, e.peer.version() or NOT_INSTALLED, e.peer.how] for e in entries]
+    times = ["solver", "version", "µs per drop", "ratio", "drops", "median error", "worst error"]
+    shares = ["solver", "random", *[f"hard, {key:.0e}" for key in hard]]
+    hows = [[entry.peer.name, entry.peer.how] for entry in entries]
     tables = [
-        Table("Drops of two balls: time, errors / v0, shares of wrong counts", heads, rows),
-        Table("What was compared", ["solver", "version", "how"], solvers, words=3),
+        Table("Two balls on springs: time, and errors / v0", times, peer_times(entries, check), 2),
+        Table("Drops with a wrong count", shares, peer_counts(entries, len(given.drops))),
+        Table("How each was used", ["solver", "how"], hows, words=2),
     ]
     title = "Next to other solvers"
     return _section("peers", title, caption, figures.peers(entries, check), tables)
 
 
-def peer_row(entry: race.Entry, ours: race.Entry, check: race.Check) -> list[str]:
-    """Return a solver's row of the table; it says so if the solver is not installed."""
-    if not entry.rounds:
-        return [entry.peer.name, NOT_INSTALLED, *["–"] * (4 + len(ours.wrong))]
-    middle, worst = race.shown_errors(entry, check)
+def peer_times(entries: list[race.Entry], check: race.Check) -> list[list[str]]:
+    """Return the solvers' times and errors, in words where one is not installed."""
+    rows = []
+    for entry in entries:
+        if not entry.rounds:
+            rows.append([entry.peer.name, NOT_INSTALLED, *["–"] * 5])
+            continue
+        rows.append(
+            [
+                entry.peer.name,
+                entry.peer.version() or "–",
+                _three(1e6 * entry.seconds),
+                _three(entry.seconds / entries[0].seconds),
+                f"{entry.drops:,}",
+                *[f"{error:.1e}" for error in race.shown_errors(entry, check)],
+            ]
+        )
+    return rows
+
+
+def peer_counts(entries: list[race.Entry], sets: int) -> list[list[str]]:
+    """Return the solvers' shares of wrong counts in each set."""
+    shares = [[f"{100.0 * share:.2g} %" for share in entry.wrong.values()] for entry in entries]
     return [
-        entry.peer.name,
-        _three(1e6 * entry.seconds),
-        _three(entry.seconds / ours.seconds),
-        f"{entry.drops:,}",
-        f"{middle:.1e}",
-        f"{worst:.1e}",
-        *[f"{100.0 * share:.2g} %" for share in entry.wrong.values()],
+        [entry.peer.name, *(share or ["–"] * sets)]
+        for entry, share in zip(entries, shares, strict=True)
     ]
 
 

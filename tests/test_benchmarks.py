@@ -85,7 +85,9 @@ def test_a_missing_peer_is_skipped_with_a_word(small):
     assert ours.wrong == dict.fromkeys(small.drops, 0.0)
     assert steps.wrong[1e-10] > 0.0
     assert not nobody.rounds
-    check = race.Check(1, np.zeros(1), 0)
-    rows = [report.peer_row(entry, ours, check) for entry in (ours, steps, nobody)]
-    assert rows[2][:2] == ["nobody", "not installed"]
-    assert {len(row) for row in rows} == {10}
+    entries, check = [ours, steps, nobody], race.Check(1, np.zeros(1), 0)
+    times, counts = report.peer_times(entries, check), report.peer_counts(entries, 4)
+    assert times[2] == ["nobody", "not installed", *["–"] * 5]
+    assert counts[2] == ["nobody", *["–"] * 4]
+    assert {len(row) for row in times} == {7}
+    assert {len(row) for row in counts} == {5}
