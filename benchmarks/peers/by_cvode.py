@@ -8,7 +8,7 @@ from benchmarks.peers.common import RTOL, Leg, Peer, State, one_by_one
 
 
 def prepare() -> Any:
-    """Return the function that solves drops; one solver serves them all."""
+    """Return the function that solves drops."""
     from sksundae.cvode import CVODE
 
     def slope(_: float, y: np.ndarray, rates: np.ndarray, data: list[float]) -> None:
@@ -27,19 +27,20 @@ def prepare() -> Any:
         values[0], values[1] = data[3] * y[0], data[4] * y[1]
 
     compressions.terminal, compressions.direction = [True, True], [-1, -1]
-    data = [0.0] * 5
-    solver = CVODE(
-        slope,
-        method="Adams",
-        rtol=RTOL,
-        atol=RTOL,
-        jacfn=jacobian,
-        eventsfn=compressions,
-        num_events=2,
-        userdata=data,
-    )
 
     def leg_of(*numbers: float) -> Leg:
+        data = [0.0] * 5
+        solver = CVODE(  # one for each drop: it keeps all events that it has seen, and gets slow
+            slope,
+            method="Adams",
+            rtol=RTOL,
+            atol=RTOL,
+            jacfn=jacobian,
+            eventsfn=compressions,
+            num_events=2,
+            userdata=data,
+        )
+
         def leg(state: State, closed: list[bool], end: float) -> tuple[State, list[int]]:
             signs = [1.0 if c else -1.0 for c in closed]  # all that is watched falls through zero
             springs = numbers[0] * closed[0], numbers[1] * closed[1], numbers[2] * closed[1]
