@@ -14,9 +14,9 @@ from benchmarks.peers.common import HORIZON, LONGEST_CONTACT, Answer, Peer, stif
 from benchmarks.random_drops import Drops
 
 LANES = 8
-WINDOW = LONGEST_CONTACT  # of time; a straight flight is a single step to its end, in
-COOLDOWN = 1e-9  # time for which an event is not seen again; its own choice, longer the slower
-FURTHER = 1e3  # times as long a window if it is not over: roots are found on that scale only
+WINDOW = LONGEST_CONTACT  # of time, to whose end a straight flight is one step
+COOLDOWN = 1e-9  # of time; heyoka's own, after a slow event, would outlast the next drop
+FURTHER = 1e3  # times as long the next, if a flight is not over; in far longer ones roots are lost
 CLOSED, FLOOR, UPPER, LIFT = (0, 1), 2, 3, 4  # the parameters: 0 or 1, k0/m0, k1/m0, k1/m1
 PARAMETERS = 5
 
