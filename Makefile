@@ -27,7 +27,7 @@ paper: $(RUNTIME)  ## recompute the paper: figures, tables and audit, in build/p
 test: $(DEV)  ## run the tests
 	@$(BIN)/python -m pytest
 
-bench: $(DEV)  ## growth, accuracy and speed, in build/bench
+bench: $(DEV)  ## growth, accuracy and speed, also of other solvers (extra: bench), in build/bench
 	@$(BIN)/python -m benchmarks --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
 

@@ -1,5 +1,6 @@
 """The report's figures, in the style of the paper's."""
 
+import math
 from collections.abc import Iterable
 from typing import Any
 
@@ -8,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.growth import LAWS, SHAPES, Cost
+from benchmarks.race import PEERS, Check, Entry, shown_errors
 from benchmarks.work_precision import DROPS, FAMILIES, TOLERANCES, Spread, Work
 from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, styled
 
@@ -28,6 +30,13 @@ STYLES = {
     "stackbounce, plain Python": (FLOOR, "s", "-"),
     "scipy, DOP853": (BLACK, "D", "--"),
 }
+LINEUP = dict(
+    zip(
+        (peer.name for peer in PEERS),
+        zip((UPPER, FLOOR, "#56B4E9", GREEN, PURPLE, BLACK, GREY), "osD^vDX", strict=True),
+        strict=True,
+    )
+)
 
 
 def growth(costs: list[Cost]) -> Figure:
@@ -64,17 +73,16 @@ def _plain(ax: Axes, ticks: Iterable[int]) -> None:
     ax.set_yticks(ticks, [str(tick) for tick in ticks])
 
 
-def _name_all(figure: Figure, lines: Any, names: Any) -> None:
-    figure.legend(
-        lines,
-        names,
-        frameon=False,
-        fontsize=9.5,
-        ncols=len(names),
-        loc="upper center",
-        borderpad=0.0,
-        columnspacing=1.5,
-    )
+def _name_all(figure: Figure, lines: Any, names: Any, **look: Any) -> None:
+    kept = {
+        "frameon": False,
+        "fontsize": 9.5,
+        "ncols": len(names),
+        "loc": "upper center",
+        "borderpad": 0.0,
+        "columnspacing": 1.5,
+    }
+    figure.legend(lines, names, **(kept | look))
 
 
 def accuracy(spreads: list[Spread]) -> Figure:
@@ -145,4 +153,39 @@ def work(runs: list[Work]) -> Figure:
         panels[0].set_ylabel("error of the velocities / $v_0$")
         _name_all(figure, *panels[0].get_legend_handles_labels())
         figure.subplots_adjust(left=0.09, right=0.985, top=0.89, bottom=0.145, wspace=0.06)
+    return figure
+
+
+def peers(entries: list[Entry], check: Check) -> Figure:
+    """Draw errors against time, median to worst, and the shares of wrong counts."""
+    with styled():
+        figure = Figure(figsize=(WIDE, 3.6))
+        work, wrong = figure.subplots(1, 2)
+        shown = [entry for entry in entries if entry.rounds]
+        for place, entry in enumerate(shown):
+            color, mark = LINEUP[entry.peer.name]
+            time, errors = 1e6 * entry.seconds, _seen(shown_errors(entry, check))
+            look = {"color": color, "marker": mark, "markersize": 5}
+            work.loglog([time, time], errors, linewidth=1, markevery=[0], **look)
+            work.loglog(time, errors[1], color=color, marker="_", markersize=7)
+            work.plot([], [], linestyle="", label=entry.peer.name, **look)
+            sets = np.arange(len(entry.wrong))
+            shares = [100.0 * share for share in entry.wrong.values()]
+            wide = 0.84 / len(shown)
+            left = sets - 0.42 + (place + 0.5) * wide
+            wrong.bar(left, shares, 0.9 * wide, color=color)
+        work.set_ylim(1e-17, 1e-1)
+        work.margins(x=0.1)
+        work.set_xlabel("time per drop (µs)")
+        work.set_ylabel("error of the velocities / $v_0$, median to worst")
+        keys = list(entries[0].wrong)
+        names = [f"$10^{{{math.log10(key):.0f}}}$" if key else "random" for key in keys]
+        wrong.set_xticks(range(len(keys)), names)
+        wrong.tick_params(axis="x", which="minor", bottom=False, top=False)
+        wrong.set_xlim(-0.5, len(keys) - 0.5)
+        wrong.set_ylim(0.0, 60.0)
+        wrong.set_xlabel("drops: random, or so far from a change")
+        wrong.set_ylabel("drops with a wrong count (%)")
+        _name_all(figure, *work.get_legend_handles_labels(), handletextpad=0.1, columnspacing=1.0)
+        figure.subplots_adjust(left=0.09, right=0.985, top=0.89, bottom=0.135, wspace=0.2)
     return figure

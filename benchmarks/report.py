@@ -12,10 +12,12 @@ from pathlib import Path
 import jinja2
 from matplotlib.figure import Figure
 
-from benchmarks import figures, growth, work_precision
+from benchmarks import figures, growth, race, work_precision
+from benchmarks.peers import common
 from stackbounce.cross2007.style import rendered
 
 PACKAGES = ("stackbounce", "numpy", "numba", "scipy")
+NOT_INSTALLED = "not installed"
 FROM = 8  # balls; of smaller stacks one or a few intervals are hard to time
 
 
@@ -48,7 +50,7 @@ class Section:
 
 def write(out: Path, progress: Callable[[str], None]) -> list[Table]:
     """Measure, write the page and its figures to a folder, and return the tables."""
-    sections = [_growth(progress), _accuracy(progress), _work(progress)]
+    sections = [_growth(progress), _accuracy(progress), _work(progress), _peers(progress)]
     progress("writing the page")
     out.mkdir(parents=True, exist_ok=True)
     for section in sections:
@@ -147,6 +149,68 @@ def _work(progress: Callable[[str], None]) -> Section:
     return _section("work", "Error against time", caption, figures.work(runs), tables)
 
 
+def _peers(progress: Callable[[str], None]) -> Section:
+    given = race.sets(progress)
+    check = race.check(given, progress)
+    entries = race.race(given, progress)
+    hard = [key for key in given.drops if key]
+    skipped = [entry.peer.name for entry in entries if not entry.rounds]
+    caption = (
+        "Two balls on springs: mass ratios from 0.05 to 50 and stiffness ratios from 0.02 to 50, "
+        f"log-uniform, half with zero gap, half with gaps to 2 v0/ω. {len(given.drops[0.0]):,} "
+        "random drops; a peer gets as many of them as fit in "
+        f"{race.SECONDS:g} s. Times are medians of {race.ROUNDS} rounds, one thread, compilation "
+        f"left out; ratios are to {entries[0].peer.name}, errors in units of v0. Hard drops, "
+        f"{len(given.drops[hard[0]])} at each offset, lie that far, relative, below and above a "
+        "gap, mass ratio or stiffness ratio where the number of contacts changes; a count is "
+        "wrong where that of either contact is. The truth is sb.simulate's, which on "
+        f"{check.drops} of the drops differs from a reference of fifty digits by "
+        f"{check.errors.max():.1e} at most, with {check.wrong} wrong counts; "
+        f"{entries[0].peer.name}'s own errors here are these. "
+        f"SciPy, CyRK and CVODE have rtol = atol = {common.RTOL:g}, heyoka its default."
+        + (f" Not installed and skipped: {', '.join(skipped)}." if skipped else "")
+    )
+    times = ["solver", "version", "µs per drop", "ratio", "drops", "median error", "worst error"]
+    shares = ["solver", "random", *[f"hard, {key:.0e}" for key in hard]]
+    hows = [[entry.peer.name, entry.peer.how] for entry in entries]
+    tables = [
+        Table("Two balls on springs: time, and errors / v0", times, peer_times(entries, check), 2),
+        Table("Drops with a wrong count", shares, peer_counts(entries, len(given.drops))),
+        Table("How each was used", ["solver", "how"], hows, words=2),
+    ]
+    title = "Next to other solvers"
+    return _section("peers", title, caption, figures.peers(entries, check), tables)
+
+
+def peer_times(entries: list[race.Entry], check: race.Check) -> list[list[str]]:
+    """Return the solvers' times and errors, in words where one is not installed."""
+    rows = []
+    for entry in entries:
+        if not entry.rounds:
+            rows.append([entry.peer.name, NOT_INSTALLED, *["–"] * 5])
+            continue
+        rows.append(
+            [
+                entry.peer.name,
+                entry.peer.version() or "–",
+                _three(1e6 * entry.seconds),
+                _three(entry.seconds / entries[0].seconds),
+                f"{entry.drops:,}",
+                *[f"{error:.1e}" for error in race.shown_errors(entry, check)],
+            ]
+        )
+    return rows
+
+
+def peer_counts(entries: list[race.Entry], sets: int) -> list[list[str]]:
+    """Return the solvers' shares of wrong counts in each set."""
+    shares = [[f"{100.0 * share:.2g} %" for share in entry.wrong.values()] for entry in entries]
+    return [
+        [entry.peer.name, *(share or ["–"] * sets)]
+        for entry, share in zip(entries, shares, strict=True)
+    ]
+
+
 def _section(
     name: str, title: str, caption: str, figure: Figure, tables: Iterable[Table]
 ) -> Section:
@@ -159,7 +223,7 @@ def _interval(cost: growth.Cost) -> str:
 
 
 def _three(value: float) -> str:
-    return f"{value:#.3g}".rstrip(".")
+    return f"{value:#.3g}".rstrip(".") if value < 1e3 else f"{value:,.0f}"
 
 
 def _pair(run: work_precision.Work | None) -> tuple[str, str]:

@@ -1,0 +1,93 @@
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+from benchmarks import race, random_drops, report
+from benchmarks.peers import by_scipy, by_steps
+from benchmarks.peers.common import Peer
+from benchmarks.random_drops import Drops
+
+EASY = Drops(np.array([[1.0, 1.0, 0.0], [3.0, 0.5, 0.3], [0.4, 2.0, 0.0]]))
+NONE = Peer("nobody", "a-solver-that-nobody-has", "by magic", lambda: pytest.fail("prepared"))
+
+
+def quiet(_):
+    pass
+
+
+@pytest.fixture(scope="module")
+def small():
+    return race.sets(quiet, most=40, changes=3)
+
+
+def test_random_drops_are_what_they_say():
+    drops = random_drops.random(1000, seed=3)
+    mass, stiffness, gap = drops.ratios.T
+    for ratio, limits in [
+        (mass, random_drops.MASS_RATIOS),
+        (stiffness, random_drops.STIFFNESS_RATIOS),
+    ]:
+        assert limits[0] <= ratio.min() < 2 * limits[0]
+        assert limits[1] / 2 < ratio.max() <= limits[1]
+        assert abs(np.median(np.log(ratio)) - np.log(limits).mean()) < 0.5
+    assert np.count_nonzero(gap == 0.0) == 500
+    assert 1.9 < gap.max() <= 2.0
+    assert np.array_equal(drops.masses[:, 0] / drops.masses[:, 1], 1.0 / (1.0 / mass))
+
+
+def test_same_seed_same_drops():
+    one, other = (random_drops.random(50, seed=seed).ratios for seed in (4, 5))
+    assert np.array_equal(one, random_drops.random(50, seed=4).ratios)
+    assert not np.array_equal(one, other)
+    assert random_drops.changes(2, seed=4) == random_drops.changes(2, seed=4)
+
+
+def test_counts_change_between_the_hard_drops(small):
+    columns = set()
+    for offset in random_drops.OFFSETS:
+        ratios, counts = small.drops[offset].ratios, small.truth[offset][1]
+        for below, above in zip(ratios[::2], ratios[1::2], strict=True):
+            (column,) = np.flatnonzero(below != above)
+            columns.add(int(column))
+            assert above[column] / below[column] - 1.0 == pytest.approx(2.0 * offset, rel=1e-3)
+        assert (counts[::2] != counts[1::2]).any(axis=1).all()
+    assert columns == {0, 1, 2}
+
+
+def test_the_truth_agrees_with_fifty_digits(small):
+    check = race.check(small, quiet, sample=4, hard=2)
+    assert check.drops == 4 + 2 * len(random_drops.OFFSETS)
+    assert check.errors.max() < 1e-13
+    assert check.wrong == 0
+
+
+@pytest.mark.parametrize(
+    ("peer", "tolerance"), [(by_scipy.PEER, 1e-8), (by_steps.PEER, 1e-5)], ids=["scipy", "steps"]
+)
+def test_a_peer_is_right_on_easy_drops(peer, tolerance):
+    velocities, counts = peer.solve(EASY)
+    assert velocities[0] == pytest.approx([0.7664, 1.1886], abs=1e-4)
+    for row, velocity, count in zip(EASY.ratios, velocities, counts, strict=True):
+        result = random_drops.simulated(row)
+        assert result.status is sb.Status.FINISHED
+        assert velocity == pytest.approx(result.rebound_speeds, abs=tolerance)
+        assert count.tolist() == result.collisions.tolist()
+
+
+def test_a_missing_peer_is_skipped_with_a_word(small):
+    assert not NONE.available()
+    ours, steps, nobody = race.race(small, quiet, (race.OURS, by_steps.PEER, NONE), seconds=0.1)
+    assert ours.wrong == dict.fromkeys(small.drops, 0.0)
+    assert steps.wrong[1e-10] > 0.0
+    assert not nobody.rounds
+    entries, check = [ours, steps, nobody], race.Check(1, np.zeros(1), 0)
+    times, counts = report.peer_times(entries, check), report.peer_counts(entries, 4)
+    assert times[2] == ["nobody", "not installed", *["–"] * 5]
+    assert counts[2] == ["nobody", *["–"] * 4]
+    assert {len(row) for row in times} == {7}
+    assert {len(row) for row in counts} == {5}
