@@ -45,19 +45,22 @@ SLIM, C2, S2, A2, B2, V2, X2, REACH2 = (k * LANES for k in range(16, 24))
 C1, S1, A1, V1, REACH1 = (k * LANES for k in range(24, 29))
 _DROP = 29
 
-# The slots of a look: the rotation of the present regime, where its modes are, and a lane in doubt.
-C, S, YA, YB, ZA, ZB, DOUBT = (k * LANES for k in range(29, 36))
-# Double slots, with the floor's contact in the first half and the balls' contact in the second: how
-# far it is from an event (a compression or a gap), that distance's rate, the shares of the modes in
-# both, a, b, the longest look, what the contact sees of the modes; how long nothing happens, and
-# whether (1 or 0) it happens then.
-P0, P1, GA, GB, HA, HB, A, B, REACH, FA, FB, UNTIL, HAPPENS = (
-    k * LANES for k in range(36, 62, 2)
-)
-UPPER = LANES
+# The slots of a look: the rotation of the present regime, the step taken, what the contact that ends
+# it sees of the modes, and whether (1 or 0) it is the floor's, it changes then, and is in doubt.
+C, S, SEES_A, SEES_B, LOWER, CHANGES, DOUBT = (k * LANES for k in range(29, 36))
+# Double slots, of mode a in the first half and of mode b in the second: frequency, position,
+# velocity, and the step.
+OMEGA, Y, Z, STEP = (k * LANES for k in range(36, 44, 2))
+# Double slots, of the floor's contact and of the balls': how far it is from an event (a compression
+# or a gap) as a series, half a bound of the third derivative, the shares of the modes in distance
+# and rate, a, b, the longest look, what it sees of the modes; how long nothing happens, and whether
+# (1 or 0) it happens then.
+P0, P1, P2, P3, P4, P5, THIRD, GA, GB, HA, HB = (k * LANES for k in range(44, 66, 2))
+A, B, REACH, FA, FB, SAFE, UNTIL, HAPPENS = (k * LANES for k in range(66, 82, 2))
+OTHER = LANES  # the second half of a double slot
 
 # The drops that wait: the slots of a drop, and what was given.
-NEXT = 62 * LANES
+NEXT = 82 * LANES
 MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(29, 35))
 SCRATCH = NEXT + 35 * LANES
 
@@ -139,7 +142,10 @@ def two_springs(
                 x[k * LANES + i] = x[k * LANES + source]
         _expand(x, lanes)
         _watch(x, lanes)
-        _move(x, lanes)
+        _aim(x, lanes)
+        _choose(x, lanes)
+        _swing(x, lanes)
+        _land(x, lanes)
         _happen(x, lanes, event_limit)
 
 
@@ -222,9 +228,11 @@ def _expand(x: Floats, lanes: int) -> None:
         o = (x2 if floor else 0.0) if balls else -slim
         reach = (reach2 if floor else reach1) if balls else (WIDEST if floor else _NEVER)
         ya, yb, za, zb = c * w0 + s * w1, c * w1 - s * w0, c * u0 + s * u1, c * u1 - s * u0
-        x[C + i], x[S + i], x[YA + i], x[YB + i], x[ZA + i], x[ZB + i] = c, s, ya, yb, za, zb
+        x[C + i], x[S + i] = c, s
+        x[OMEGA + i], x[Y + i], x[Z + i] = a, ya, za
+        x[OMEGA + OTHER + i], x[Y + OTHER + i], x[Z + OTHER + i] = b, yb, zb
         x[A + i], x[B + i], x[REACH + i] = a, b, reach
-        x[A + UPPER + i], x[B + UPPER + i], x[REACH + UPPER + i] = a, b, reach
+        x[A + OTHER + i], x[B + OTHER + i], x[REACH + OTHER + i] = a, b, reach
         # the floor's contact: pressed by -q0
         sign = -1.0 if floor else 1.0
         fa, fb = sign * c, -sign * s
@@ -233,22 +241,22 @@ def _expand(x: Floats, lanes: int) -> None:
         # the balls' contact: pressed by q0 - q1
         sign = 1.0 if balls else -1.0
         fa, fb, rate = sign * v, sign * o, sign * (u0 - u1 * slim)
-        x[P0 + UPPER + i] = sign * (w0 - w1 * slim)
-        x[P1 + UPPER + i] = rate if abs(rate) > _NOISE else 0.0
-        x[FA + UPPER + i], x[FB + UPPER + i] = fa, fb
-        x[GA + UPPER + i], x[GB + UPPER + i] = fa * ya, fb * yb
-        x[HA + UPPER + i], x[HB + UPPER + i] = fa * za, fb * zb
+        x[P0 + OTHER + i] = sign * (w0 - w1 * slim)
+        x[P1 + OTHER + i] = rate if abs(rate) > _NOISE else 0.0
+        x[FA + OTHER + i], x[FB + OTHER + i] = fa, fb
+        x[GA + OTHER + i], x[GB + OTHER + i] = fa * ya, fb * yb
+        x[HA + OTHER + i], x[HB + OTHER + i] = fa * za, fb * zb
 
 
 @kernel
 def _watch(x: Floats, lanes: int) -> None:
-    """Find for each contact how long it surely keeps its phase, or when it ends it.
+    """Find for each contact a time before which it surely keeps its phase.
 
     Its distance p(t) from the event is known to order 5, with a bound of the rest. Horner's nested
-    lower bounds, as in `series.safe_step`, go down to a parabola here, whose root is safe. If p
-    falls all the way from now to the root of its series, this is the first event.
+    lower bounds, as in `series.safe_step`, go down to a parabola here: p is positive before its
+    root.
     """
-    for i in range(UPPER + lanes):
+    for i in range(OTHER + lanes):
         p0, p1, ga, gb, ha, hb = x[P0 + i], x[P1 + i], x[GA + i], x[GB + i], x[HA + i], x[HB + i]
         a, b, reach = x[A + i], x[B + i], x[REACH + i]
         aa, bb = -a * a, -b * b
@@ -256,11 +264,11 @@ def _watch(x: Floats, lanes: int) -> None:
         a4, b4 = aa * aa, bb * bb
         p4, p5 = (a4 * ga + b4 * gb) * (1.0 / 24.0), (a4 * ha + b4 * hb) * (1.0 / 120.0)
         ra, rb = a * (a * abs(ga) + abs(ha)), b * (b * abs(gb) + abs(hb))
-        tail = (a4 * ra + b4 * rb) * (1.0 / 720.0)
-        third = (a * ra + b * rb) * 0.5
+        x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i] = p2, p3, p4, p5
+        x[THIRD + i] = (a * ra + b * rb) * 0.5
         # zero gap: p0 = p1 = p2 = 0, and no parabola but a short one is below a cubic
         s = reach if p0 > _CLOSE or abs(p1) > 0.0 else 0.25 * reach
-        h = p5 - tail * s
+        h = p5 - (a4 * ra + b4 * rb) * (1.0 / 720.0) * s
         h = p4 + (h if h < 0.0 else 0.0) * s
         h = p3 + (h if h < 0.0 else 0.0) * s
         h = p2 + (h if h < 0.0 else 0.0) * s
@@ -271,7 +279,15 @@ def _watch(x: Floats, lanes: int) -> None:
         under = (q if square >= 0.0 else 0.0) if p1 < 0.0 else -2.0 * h
         root = over / (under if under > 0.0 else 1.0)
         root = root if under > 0.0 else s
-        safe = root if root < s else s
+        x[SAFE + i] = root if root < s else s
+
+
+@kernel
+def _aim(x: Floats, lanes: int) -> None:
+    """Find for each contact the root of its distance, if it falls all the way from now to there."""
+    for i in range(OTHER + lanes):
+        p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
+        third, reach, safe = x[THIRD + i], x[REACH + i], x[SAFE + i]
         t = safe
         f = p0 + t * (p1 + t * (p2 + t * (p3 + t * (p4 + t * p5))))
         g = p1 + t * (2.0 * p2 + t * (3.0 * p3 + t * (4.0 * p4 + t * (5.0 * p5))))
@@ -292,38 +308,53 @@ def _watch(x: Floats, lanes: int) -> None:
 
 
 @kernel
-def _move(x: Floats, lanes: int) -> None:
-    """Move each lane onto its first event, or as far as there surely is none."""
+def _choose(x: Floats, lanes: int) -> None:
+    """Find each lane's step: to the first event, or as far as there surely is none."""
     for i in range(lanes):
-        one, other = x[UNTIL + i], x[UNTIL + UPPER + i]
+        one, other = x[UNTIL + i], x[UNTIL + OTHER + i]
         lower = 1.0 if one <= other else 0.0
         upper = 1.0 - lower
         step = one if one <= other else other
-        happens = lower * x[HAPPENS + i] + upper * x[HAPPENS + UPPER + i]
-        fa, fb = lower * x[FA + i] + upper * x[FA + UPPER + i], lower * x[FB + i] + upper * x[FB + UPPER + i]
-        doubt = 1.0 if happens <= 0.0 and step <= 0.0 else 0.0
-        a, b, ya, yb, za, zb = x[A + i], x[B + i], x[YA + i], x[YB + i], x[ZA + i], x[ZB + i]
+        changes = lower * x[HAPPENS + i] + upper * x[HAPPENS + OTHER + i]
+        x[SEES_A + i] = lower * x[FA + i] + upper * x[FA + OTHER + i]
+        x[SEES_B + i] = lower * x[FB + i] + upper * x[FB + OTHER + i]
+        x[STEP + i], x[STEP + OTHER + i] = step, step
+        x[LOWER + i], x[CHANGES + i] = lower, changes
+        x[DOUBT + i] = 1.0 if changes <= 0.0 and step <= 0.0 else 0.0
+        x[TIME + i] = x[TIME + i] + step
+
+
+@kernel
+def _swing(x: Floats, lanes: int) -> None:
+    """Move each mode on by a step."""
+    for i in range(OTHER + lanes):
+        omega, step, y, z = x[OMEGA + i], x[STEP + i], x[Y + i], x[Z + i]
+        square = omega * omega
+        angle = square * (step * step)
+        cos, sin = cosine(angle), sinc(angle) * step
+        x[Y + i], x[Z + i] = y * cos + z * sin, z * cos - square * (y * sin)
+
+
+@kernel
+def _land(x: Floats, lanes: int) -> None:
+    """Move each lane whose step was to end at an event right onto it, and back to the balls."""
+    for i in range(lanes):
+        a, b, ya, yb, za, zb = x[OMEGA + i], x[OMEGA + OTHER + i], x[Y + i], x[Y + OTHER + i], x[Z + i], x[Z + OTHER + i]
+        sees_a, sees_b, lower, changes = x[SEES_A + i], x[SEES_B + i], x[LOWER + i], x[CHANGES + i]
         aa, bb = -a * a, -b * b
-        square = step * step
-        cos, sin = cosine(-aa * square), sinc(-aa * square) * step
-        ya, za = ya * cos + za * sin, za * cos + aa * (ya * sin)
-        cos, sin = cosine(-bb * square), sinc(-bb * square) * step
-        yb, zb = yb * cos + zb * sin, zb * cos + bb * (yb * sin)
-        # what is left to the event, by Halley again; the event is there once this is next to none
         ua, ub = aa * ya, bb * yb
-        f, g, h = fa * ya + fb * yb, fa * za + fb * zb, 0.5 * (fa * ua + fb * ub)
+        f, g, h = sees_a * ya + sees_b * yb, sees_a * za + sees_b * zb, 0.5 * (sees_a * ua + sees_b * ub)
         inverse = 1.0 / (g if g < 0.0 else -1.0)
         d = f * inverse
-        happens = happens if -aa * d * d <= -_LANDED * g else 0.0
-        d = -happens * d * (1.0 + d * h * inverse)
+        changes = changes if -aa * d * d <= -_LANDED * g else 0.0
+        d = -changes * d * (1.0 + d * h * inverse)
         ya, yb = ya + d * (za + 0.5 * d * ua), yb + d * (zb + 0.5 * d * ub)
         za, zb = za + d * (ua + 0.5 * d * (aa * za)), zb + d * (ub + 0.5 * d * (bb * zb))
         c, s = x[C + i], x[S + i]
         x[W0 + i], x[W1 + i] = c * ya - s * yb, s * ya + c * yb
         x[U0 + i], x[U1 + i] = c * za - s * zb, s * za + c * zb
-        x[TIME + i] = x[TIME + i] + (step + d)
-        x[HAPPENS + i], x[HAPPENS + UPPER + i] = happens * lower, happens * upper
-        x[DOUBT + i] = doubt
+        x[TIME + i] = x[TIME + i] + d
+        x[HAPPENS + i], x[HAPPENS + OTHER + i] = changes * lower, changes * (1.0 - lower)
 
 
 @kernel
@@ -331,7 +362,7 @@ def _happen(x: Floats, lanes: int, event_limit: float) -> None:
     """Let contacts touch and release, and tell what is over."""
     for i in range(lanes):
         floor, balls, now = x[FLOOR + i], x[BALLS + i], x[TIME + i]
-        lower, upper = x[HAPPENS + i], x[HAPPENS + UPPER + i]
+        lower, upper = x[HAPPENS + i], x[HAPPENS + OTHER + i]
         first, last0, last1 = x[FIRST + i], x[LAST0 + i], x[LAST1 + i]
         touch = upper * (1.0 - balls)
         x[N0 + i] = x[N0 + i] + lower * (1.0 - floor)
