@@ -55,12 +55,12 @@ OMEGA, Y, Z, STEP = (k * LANES for k in range(36, 44, 2))
 # or a gap) as a series, half a bound of the third derivative, the shares of the modes in distance
 # and rate, a, b, the longest look, what it sees of the modes; how long nothing happens, and whether
 # (1 or 0) it happens then.
-P0, P1, P2, P3, P4, P5, THIRD, GA, GB, HA, HB = (k * LANES for k in range(44, 66, 2))
-A, B, REACH, FA, FB, SAFE, UNTIL, HAPPENS = (k * LANES for k in range(66, 82, 2))
+P0, P1, P2, P3, P4, P5, THIRD, TAIL, GA, GB, HA, HB = (k * LANES for k in range(44, 68, 2))
+A, B, REACH, FA, FB, SAFE, UNTIL, HAPPENS = (k * LANES for k in range(68, 84, 2))
 OTHER = LANES  # the second half of a double slot
 
 # The drops that wait: the slots of a drop, and what was given.
-NEXT = 82 * LANES
+NEXT = 84 * LANES
 MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(29, 35))
 SCRATCH = NEXT + 35 * LANES
 
@@ -141,6 +141,7 @@ def two_springs(
             for k in range(_DROP):
                 x[k * LANES + i] = x[k * LANES + source]
         _expand(x, lanes)
+        _differentiate(x, lanes)
         _watch(x, lanes)
         _aim(x, lanes)
         _choose(x, lanes)
@@ -249,6 +250,20 @@ def _expand(x: Floats, lanes: int) -> None:
 
 
 @kernel
+def _differentiate(x: Floats, lanes: int) -> None:
+    """Find for each contact the series of its distance from an event, and a bound of the rest."""
+    for i in range(OTHER + lanes):
+        ga, gb, ha, hb, a, b = x[GA + i], x[GB + i], x[HA + i], x[HB + i], x[A + i], x[B + i]
+        aa, bb = -a * a, -b * b
+        x[P2 + i], x[P3 + i] = (aa * ga + bb * gb) * (1.0 / 2.0), (aa * ha + bb * hb) * (1.0 / 6.0)
+        ra, rb = a * (a * abs(ga) + abs(ha)), b * (b * abs(gb) + abs(hb))
+        x[THIRD + i] = (a * ra + b * rb) * 0.5
+        aa, bb = aa * aa, bb * bb
+        x[P4 + i], x[P5 + i] = (aa * ga + bb * gb) * (1.0 / 24.0), (aa * ha + bb * hb) * (1.0 / 120.0)
+        x[TAIL + i] = (aa * ra + bb * rb) * (1.0 / 720.0)
+
+
+@kernel
 def _watch(x: Floats, lanes: int) -> None:
     """Find for each contact a time before which it surely keeps its phase.
 
@@ -257,18 +272,11 @@ def _watch(x: Floats, lanes: int) -> None:
     root.
     """
     for i in range(OTHER + lanes):
-        p0, p1, ga, gb, ha, hb = x[P0 + i], x[P1 + i], x[GA + i], x[GB + i], x[HA + i], x[HB + i]
-        a, b, reach = x[A + i], x[B + i], x[REACH + i]
-        aa, bb = -a * a, -b * b
-        p2, p3 = (aa * ga + bb * gb) * (1.0 / 2.0), (aa * ha + bb * hb) * (1.0 / 6.0)
-        a4, b4 = aa * aa, bb * bb
-        p4, p5 = (a4 * ga + b4 * gb) * (1.0 / 24.0), (a4 * ha + b4 * hb) * (1.0 / 120.0)
-        ra, rb = a * (a * abs(ga) + abs(ha)), b * (b * abs(gb) + abs(hb))
-        x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i] = p2, p3, p4, p5
-        x[THIRD + i] = (a * ra + b * rb) * 0.5
+        p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
+        tail, reach = x[TAIL + i], x[REACH + i]
         # zero gap: p0 = p1 = p2 = 0, and no parabola but a short one is below a cubic
-        s = reach if p0 > _CLOSE or abs(p1) > 0.0 else 0.25 * reach
-        h = p5 - (a4 * ra + b4 * rb) * (1.0 / 720.0) * s
+        s = reach if p0 > _CLOSE or abs(p1) > 0.0 else 0.5 * reach
+        h = p5 - tail * s
         h = p4 + (h if h < 0.0 else 0.0) * s
         h = p3 + (h if h < 0.0 else 0.0) * s
         h = p2 + (h if h < 0.0 else 0.0) * s
