@@ -125,8 +125,7 @@ def two_springs(
                 i += 1
                 continue
             if x[ROW + i] >= 0.0:
-                _leave(mass, stiffness, speed, velocity, collisions, energy, status, x, i)
-                _leave_times(mass, stiffness, first_touch, last_release, x, i)
+                _leave(velocity, collisions, first_touch, last_release, status, x, i)
             if waiting == 0 and row < rows:
                 waiting = min(LANES, rows - row)
                 _line_up(mass, stiffness, gap, speed, row, waiting, x)
@@ -148,6 +147,7 @@ def two_springs(
         _swing(x, lanes)
         _land(x, lanes)
         _happen(x, lanes, event_limit)
+    _to_si(mass, stiffness, speed, velocity, first_touch, last_release, energy, status)
 
 
 @kernel
@@ -393,32 +393,46 @@ def _happen(x: Floats, lanes: int, event_limit: float) -> None:
 
 @kernel
 def _leave(
-    mass: Any,
-    stiffness: Any,
-    speed: Any,
     velocity: Any,
     collisions: Any,
-    energy: Any,
+    first_touch: Any,
+    last_release: Any,
     status: Any,
     x: Floats,
     i: int,
 ) -> None:
-    """Write down how the drop in lane i has ended."""
+    """Write down how the drop in lane i has ended, in its own units."""
     r = int(x[ROW + i])
-    u0, u1 = x[U0 + i], x[U1 + i]
     status[r] = int(x[STATUS + i])
-    known = 1.0 if status[r] == FINISHED or status[r] == EVENT_LIMIT else math.nan
-    velocity[r, 0], velocity[r, 1] = known * u0 * speed[r], known * u1 * x[SLIM + i] * speed[r]
+    velocity[r, 0], velocity[r, 1] = x[U0 + i], x[U1 + i]
     collisions[r, 0], collisions[r, 1] = int(x[N0 + i]), int(x[N1 + i])
-    energy[r] = known * (u0 * u0 + u1 * u1) / (1.0 + mass[r, 1] / mass[r, 0])
+    first_touch[r, 1] = x[FIRST + i]
+    last_release[r, 0], last_release[r, 1] = x[LAST0 + i], x[LAST1 + i]
 
 
 @kernel
-def _leave_times(
-    mass: Any, stiffness: Any, first_touch: Any, last_release: Any, x: Floats, i: int
+def _to_si(
+    mass: Any,
+    stiffness: Any,
+    speed: Any,
+    velocity: Any,
+    first_touch: Any,
+    last_release: Any,
+    energy: Any,
+    status: Any,
 ) -> None:
-    """Write down when the contacts in lane i touched first and released last."""
-    r = int(x[ROW + i])
-    unit = math.sqrt(mass[r, 0] / stiffness[r, 0])
-    first_touch[r, 0], first_touch[r, 1] = 0.0, x[FIRST + i] * unit
-    last_release[r, 0], last_release[r, 1] = x[LAST0 + i] * unit, x[LAST1 + i] * unit
+    """Turn the results of all drops into SI units; what is not known becomes nan."""
+    for r in range(len(speed)):
+        if status[r] != FINISHED and status[r] != EVENT_LIMIT:
+            velocity[r, 0] = velocity[r, 1] = energy[r] = math.nan
+            first_touch[r, 0] = first_touch[r, 1] = math.nan
+            last_release[r, 0] = last_release[r, 1] = math.nan
+            continue
+        m1, v0 = float(mass[r, 0]), float(speed[r])
+        mu, unit = float(mass[r, 1]) / m1, math.sqrt(m1 / float(stiffness[r, 0]))
+        u0, u1 = float(velocity[r, 0]), float(velocity[r, 1])
+        energy[r] = (u0 * u0 + u1 * u1) / (1.0 + mu)
+        velocity[r, 0], velocity[r, 1] = v0 * u0, v0 * (u1 / math.sqrt(mu))
+        first_touch[r, 0], first_touch[r, 1] = 0.0, unit * first_touch[r, 1]
+        last_release[r, 0] = unit * last_release[r, 0]
+        last_release[r, 1] = unit * last_release[r, 1]
