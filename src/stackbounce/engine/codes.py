@@ -8,6 +8,7 @@ COLLAPSED = 3
 TIME_REACHED = 4
 EVENT_LIMIT = 5
 INVALID = 6
+ASK = 7  # a fast form of the engine is not sure of a drop: ask the general one
 
 # laws of a contact
 ABSENT = 0  # no floor
