@@ -41,8 +41,13 @@ def as_simulated(drop, **options):
 
 
 def assert_same(element, drop, **options):
+    """Bit for bit, but for two balls on springs, which have an engine of their own."""
+    own = len(drop.balls) == 2 and all(isinstance(law, sb.Spring) for law in drop.contacts)
     for name, expected in as_simulated(drop, **options).items():
-        assert np.array_equal(element[name].values, expected, equal_nan=True), name
+        if own and np.asarray(expected).dtype.kind == "f":
+            assert element[name].values == pytest.approx(expected, rel=1e-12, abs=1e-14), name
+        else:
+            assert np.array_equal(element[name].values, expected, equal_nan=True), name
 
 
 @pytest.mark.parametrize("count", [3, 30], ids=["plain", "compiled"])
@@ -194,14 +199,17 @@ def test_an_error_tells_all_numbers_of_the_element():
         sb.sweep(drop, {"contacts.1.restitution": [0.5], "contacts.1.unloading_exponent": [5.0]})
 
 
-def test_order_and_number_of_rows_change_no_bit():
-    drop = sb.Drop(TWO, LAWS["losses"], impact_speed=3.53)
-    mass = np.random.default_rng(1).uniform(0.05, 1.0, 2100)
+@pytest.mark.parametrize("laws", [LAWS["springs"], LAWS["losses"]], ids=["springs", "losses"])
+def test_order_and_number_of_rows_change_no_bit(laws):
+    drop = sb.Drop(TWO, laws, [0.001], impact_speed=3.53)
+    mass = np.random.default_rng(1).uniform(0.05, 1.0, 5000)
     ds = sb.sweep(drop, {"balls.0.mass": mass}, rtol=1e-6)
     back = sb.sweep(drop, {"balls.0.mass": mass[::-1]}, rtol=1e-6).isel(
         {"balls.0.mass": slice(None, None, -1)}
     )
     part = sb.sweep(drop, {"balls.0.mass": mass[1000:1040]}, rtol=1e-6)
+    few = sb.sweep(drop, {"balls.0.mass": mass[1000:1005]}, rtol=1e-6)
     for name in OUTPUTS:
         assert np.array_equal(ds[name], back[name])
         assert np.array_equal(ds[name][1000:1040], part[name])
+        assert np.array_equal(ds[name][1000:1005], few[name])

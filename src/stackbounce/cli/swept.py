@@ -5,8 +5,6 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.result import Status
@@ -19,6 +17,7 @@ if TYPE_CHECKING:
 
 __all__ = ["picture", "run", "summary", "tell"]
 
+_PARTS = ("ball", "contact")
 _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
 
 
@@ -47,14 +46,22 @@ def picture(data: "xr.Dataset", show: str) -> "Figure":
 
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
-    """Return what came of a sweep, for machines."""
-    statuses, counts = np.unique(data.status.values, return_counts=True)
+    """Return what came of a sweep, for machines; a store larger than memory is read in chunks."""
+    import dask.base
+
+    lazy = {
+        "counts": {status.name: (data.status == status).sum() for status in Status},
+        "low": {name: _over_drops(data[name], "min") for name in _SPOKEN},
+        "high": {name: _over_drops(data[name], "max") for name in _SPOKEN},
+    }
+    compute: Any = dask.base.compute
+    (found,) = compute(lazy)
     return {
         "store": str(out),
         "drops": data.status.size,
         "over": {str(dim): data.sizes[dim] for dim in data.status.dims},
-        "status": {Status(s).name: int(n) for s, n in zip(statuses, counts, strict=True)},
-        "ranges": {name: _range(data[name]) for name in _SPOKEN},
+        "status": {name: int(count) for name, count in found["counts"].items() if count},
+        "ranges": {name: _ranges(found["low"][name], found["high"][name]) for name in _SPOKEN},
     }
 
 
@@ -73,18 +80,17 @@ def tell(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -
         console.print(f"Picture: {plot}")
 
 
-def _range(array: Any) -> dict[str, tuple[float, float]]:
-    """Return the smallest and largest number, of each ball or contact."""
-    part = next((name for name in ("ball", "contact") if name in array.dims), "")
-    if not part:
-        return {"": (float(array.min()), float(array.max()))}
-    low, high = (values.values for values in _extremes(array, part))
-    return {f"{part} {k}": (float(low[k]), float(high[k])) for k in range(len(low))}
+def _over_drops(array: "xr.DataArray", what: str) -> "xr.DataArray":
+    """Return the smallest or largest number of each ball or contact."""
+    reduced: xr.DataArray = getattr(array, what)([dim for dim in array.dims if dim not in _PARTS])
+    return reduced
 
 
-def _extremes(array: Any, part: str) -> tuple[Any, Any]:
-    others = [dim for dim in array.dims if dim != part]
-    return array.min(others), array.max(others)
+def _ranges(low: "xr.DataArray", high: "xr.DataArray") -> dict[str, tuple[float, float]]:
+    if not low.dims:
+        return {"": (float(low), float(high))}
+    pairs = zip(low.values.tolist(), high.values.tolist(), strict=True)
+    return {f"{low.dims[0]} {k}": (float(one), float(two)) for k, (one, two) in enumerate(pairs)}
 
 
 @contextlib.contextmanager

@@ -259,7 +259,10 @@ def _differentiate(x: Floats, lanes: int) -> None:
         ra, rb = a * (a * abs(ga) + abs(ha)), b * (b * abs(gb) + abs(hb))
         x[THIRD + i] = (a * ra + b * rb) * 0.5
         aa, bb = aa * aa, bb * bb
-        x[P4 + i], x[P5 + i] = (aa * ga + bb * gb) * (1.0 / 24.0), (aa * ha + bb * hb) * (1.0 / 120.0)
+        x[P4 + i], x[P5 + i] = (
+            (aa * ga + bb * gb) * (1.0 / 24.0),
+            (aa * ha + bb * hb) * (1.0 / 120.0),
+        )
         x[TAIL + i] = (aa * ra + bb * rb) * (1.0 / 720.0)
 
 
@@ -347,11 +350,22 @@ def _swing(x: Floats, lanes: int) -> None:
 def _land(x: Floats, lanes: int) -> None:
     """Move each lane whose step was to end at an event right onto it, and back to the balls."""
     for i in range(lanes):
-        a, b, ya, yb, za, zb = x[OMEGA + i], x[OMEGA + OTHER + i], x[Y + i], x[Y + OTHER + i], x[Z + i], x[Z + OTHER + i]
+        a, b, ya, yb, za, zb = (
+            x[OMEGA + i],
+            x[OMEGA + OTHER + i],
+            x[Y + i],
+            x[Y + OTHER + i],
+            x[Z + i],
+            x[Z + OTHER + i],
+        )
         sees_a, sees_b, lower, changes = x[SEES_A + i], x[SEES_B + i], x[LOWER + i], x[CHANGES + i]
         aa, bb = -a * a, -b * b
         ua, ub = aa * ya, bb * yb
-        f, g, h = sees_a * ya + sees_b * yb, sees_a * za + sees_b * zb, 0.5 * (sees_a * ua + sees_b * ub)
+        f, g, h = (
+            sees_a * ya + sees_b * yb,
+            sees_a * za + sees_b * zb,
+            0.5 * (sees_a * ua + sees_b * ub),
+        )
         inverse = 1.0 / (g if g < 0.0 else -1.0)
         d = f * inverse
         changes = changes if -aa * d * d <= -_LANDED * g else 0.0

@@ -77,8 +77,10 @@ def sweep(
 
     Notes
     -----
-    Every drop is solved as `simulate` solves it, and depends on its own numbers only: the results
-    are the same bit for bit whatever the chunks, blocks or threads.
+    Every drop is solved as `simulate` solves it, but for two balls on springs: these have a faster
+    engine, which differs by round-off, and asks the general one where it is not sure. A drop
+    depends on its own numbers only: the results are the same bit for bit whatever the chunks,
+    blocks or threads.
 
     Examples
     --------
