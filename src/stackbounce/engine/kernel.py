@@ -48,7 +48,7 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     clone.__qualname__ = function.__qualname__
     clone.__module__ = function.__module__
     with caching() as cached:
-        result: Callable[..., Any] = njit(cache=cached, error_model="numpy")(clone)
+        result: Callable[..., Any] = njit(cache=cached, error_model="numpy", nogil=True)(clone)
     return result
 
 
