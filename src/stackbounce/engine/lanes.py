@@ -46,19 +46,21 @@ C1, S1, A1, V1, REACH1 = (k * LANES for k in range(24, 29))
 DROP = 29  # so many
 
 # The slots of a look: the rotation of the present regime; what the contact that ends the look sees
-# of the modes; whether (1 or 0) it is the floor's, whether it changes its phase, and any doubt.
+# of the modes; whether (1 or 0) it is the floor's, whether it changes its phase, any doubt, and
+# which contact has changed.
 C, S, SEES_A, SEES_B, LOWER, CHANGES, DOUBT = (k * LANES for k in range(29, 36))
+FLOOR_TURNS, BALLS_TURN = 36 * LANES, 37 * LANES
 # Double slots, of mode a in the first half and of mode b in the second: frequency, position,
 # velocity, and the step.
-OMEGA, Y, Z, STEP = (k * LANES for k in range(36, 44, 2))
+OMEGA, Y, Z, STEP = (k * LANES for k in range(38, 46, 2))
 # Double slots, of the floor's contact and of the balls': how far it is from an event (a compression
-# or a gap) as a series, half a bound of the third derivative, the shares of the modes in distance
-# and rate, a, b, the longest look, what it sees of the modes; how long nothing happens, and whether
-# (1 or 0) it happens then.
-P0, P1, P2, P3, P4, P5, THIRD, TAIL, GA, GB, HA, HB = (k * LANES for k in range(44, 68, 2))
-A, B, REACH, FA, FB, SAFE, UNTIL, HAPPENS = (k * LANES for k in range(68, 84, 2))
+# or a gap) as a series, bounds of the third derivative over 2 and of the sixth over 6!, the shares
+# of the modes in distance and rate, a, b, the longest look, what it sees of the modes, and how long
+# nothing happens.
+P0, P1, P2, P3, P4, P5, THIRD, TAIL, GA, GB, HA, HB = (k * LANES for k in range(46, 70, 2))
+A, B, REACH, FA, FB, SAFE = (k * LANES for k in range(70, 82, 2))
 OTHER = LANES  # the second half of a double slot
-SLOTS = 84
+SLOTS = 82
 
 _SLOW = 1e-5  # of the impact speed: whether anything so slow happens is left to the general engine
 _CLOSE = 1e-10  # of v0/omega: so is what comes so close to happening
@@ -75,7 +77,6 @@ def look(x: Floats, lanes: int, event_limit: float) -> None:
     _differentiate(x, lanes)
     _watch(x, lanes)
     _aim(x, lanes)
-    _choose(x, lanes)
     _swing(x, lanes)
     _land(x, lanes)
     _happen(x, lanes, event_limit)
@@ -164,10 +165,23 @@ def _watch(x: Floats, lanes: int) -> None:
 
 @kernel
 def _aim(x: Floats, lanes: int) -> None:
-    """Find for each contact the root of its distance, if it falls all the way from now to there."""
-    for i in range(OTHER + lanes):
-        p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
-        third, reach, safe = x[THIRD + i], x[REACH + i], x[SAFE + i]
+    """Find each lane's step: to its first event if this is known, or as far as there is none.
+
+    If the distance of the contact that is the first in danger falls all the way from now to a root
+    of its series, this is its event; and the first one if the other contact is safe until then.
+    """
+    for i in range(lanes):
+        one, other = x[SAFE + i], x[SAFE + OTHER + i]
+        lower = 1.0 if one <= other else 0.0
+        upper = 1.0 - lower
+        p0, p1 = lower * x[P0 + i], lower * x[P1 + i]
+        p2, p3 = lower * x[P2 + i], lower * x[P3 + i]
+        p4, p5 = lower * x[P4 + i], lower * x[P5 + i]
+        p0, p1 = p0 + upper * x[P0 + OTHER + i], p1 + upper * x[P1 + OTHER + i]
+        p2, p3 = p2 + upper * x[P2 + OTHER + i], p3 + upper * x[P3 + OTHER + i]
+        p4, p5 = p4 + upper * x[P4 + OTHER + i], p5 + upper * x[P5 + OTHER + i]
+        third, reach = lower * x[THIRD + i] + upper * x[THIRD + OTHER + i], x[REACH + i]
+        safe, limit = min(one, other), max(one, other)
         t = safe
         f = p0 + t * (p1 + t * (p2 + t * (p3 + t * (p4 + t * p5))))
         g = p1 + t * (2.0 * p2 + t * (3.0 * p3 + t * (4.0 * p4 + t * (5.0 * p5))))
@@ -178,24 +192,12 @@ def _aim(x: Floats, lanes: int) -> None:
         d = d * (1.0 + d * h * inverse)
         t = t - d
         far = abs(t)
-        happens = 1.0 if p1 < -_SLOW else 0.0
-        happens = happens if (2.0 * abs(p2) + third * far) * far < -0.9 * p1 else 0.0
-        happens = happens if far <= reach else 0.0
-        happens = happens if abs(d) <= 0.1 * reach else 0.0
-        happens = happens if t >= safe or p0 <= _CLOSE else 0.0
-        x[UNTIL + i] = t if happens > 0.0 else safe
-        x[HAPPENS + i] = happens
-
-
-@kernel
-def _choose(x: Floats, lanes: int) -> None:
-    """Find each lane's step: to the first event, or as far as there surely is none."""
-    for i in range(lanes):
-        one, other = x[UNTIL + i], x[UNTIL + OTHER + i]
-        lower = 1.0 if one <= other else 0.0
-        upper = 1.0 - lower
-        step = min(one, other)
-        changes = lower * x[HAPPENS + i] + upper * x[HAPPENS + OTHER + i]
+        changes = 1.0 if p1 < -_SLOW else 0.0
+        changes = changes if (2.0 * abs(p2) + third * far) * far < -0.9 * p1 else 0.0
+        changes = changes if t <= limit and far <= reach else 0.0
+        changes = changes if abs(d) <= 0.1 * reach else 0.0
+        changes = changes if t >= safe or p0 <= _CLOSE else 0.0
+        step = t if changes > 0.0 else safe
         x[SEES_A + i] = lower * x[FA + i] + upper * x[FA + OTHER + i]
         x[SEES_B + i] = lower * x[FB + i] + upper * x[FB + OTHER + i]
         x[STEP + i], x[STEP + OTHER + i] = step, step
@@ -245,7 +247,7 @@ def _land(x: Floats, lanes: int) -> None:
         x[W0 + i], x[W1 + i] = c * ya - s * yb, s * ya + c * yb
         x[U0 + i], x[U1 + i] = c * za - s * zb, s * za + c * zb
         x[TIME + i] = x[TIME + i] + d
-        x[HAPPENS + i], x[HAPPENS + OTHER + i] = changes * lower, changes * (1.0 - lower)
+        x[FLOOR_TURNS + i], x[BALLS_TURN + i] = changes * lower, changes * (1.0 - lower)
 
 
 @kernel
@@ -253,7 +255,7 @@ def _happen(x: Floats, lanes: int, event_limit: float) -> None:
     """Let contacts touch and release, and tell what is over."""
     for i in range(lanes):
         floor, balls, now = x[FLOOR + i], x[BALLS + i], x[TIME + i]
-        lower, upper = x[HAPPENS + i], x[HAPPENS + OTHER + i]
+        lower, upper = x[FLOOR_TURNS + i], x[BALLS_TURN + i]
         first, last0, last1 = x[FIRST + i], x[LAST0 + i], x[LAST1 + i]
         touch = upper * (1.0 - balls)
         x[N0 + i] = x[N0 + i] + lower * (1.0 - floor)

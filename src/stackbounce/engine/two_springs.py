@@ -156,26 +156,28 @@ def _enter(x: Floats, count: int) -> None:
         x[NEXT + STATUS + i] = (0.0 if fair else ASK) if valid else INVALID
         root = math.sqrt(mu)
         # both: K = ((1 + kappa, corner), (corner, kappa/mu)) (eqs 5 and 6)
-        corner = -kappa / root
-        half = 0.5 * (1.0 + kappa - kappa / mu)
+        slim = 1.0 / root
+        corner, upper = -kappa * slim, kappa * (slim * slim)
+        half = 0.5 * (1.0 + kappa - upper)
         spread = math.sqrt(half * half + corner * corner)
-        fast = 0.5 * (1.0 + kappa + kappa / mu) + spread
-        slow = kappa / mu / fast
+        fast = 0.5 * (1.0 + kappa + upper) + spread
+        slow = upper / fast
         lean = abs(half) + spread
         unit = 1.0 / math.sqrt(lean * lean + corner * corner)
         c, s = (lean if half >= 0.0 else corner) * unit, (corner if half >= 0.0 else lean) * unit
         x[NEXT + C2 + i], x[NEXT + S2 + i] = c, s
         x[NEXT + A2 + i], x[NEXT + B2 + i] = math.sqrt(fast), math.sqrt(slow)
+        inverse = 1.0 / corner
         # eq 6: the compression of the balls' contact is what moves the upper ball
-        x[NEXT + V2 + i], x[NEXT + X2 + i] = fast * s / corner, slow * c / corner
+        x[NEXT + V2 + i], x[NEXT + X2 + i] = fast * s * inverse, slow * c * inverse
         x[NEXT + REACH2 + i] = WIDEST / math.sqrt(fast)
         # balls only: K = ((kappa, corner), (corner, kappa/mu))
         unit = 1.0 / math.sqrt(1.0 + mu)
-        single = kappa * (1.0 + 1.0 / mu)
+        single = kappa + upper
         x[NEXT + C1 + i], x[NEXT + S1 + i] = root * unit, -unit
-        x[NEXT + A1 + i], x[NEXT + V1 + i] = math.sqrt(single), -single * unit / corner
+        x[NEXT + A1 + i], x[NEXT + V1 + i] = math.sqrt(single), -single * unit * inverse
         x[NEXT + REACH1 + i] = WIDEST / math.sqrt(single)
-        x[NEXT + SLIM + i] = 1.0 / root
+        x[NEXT + SLIM + i] = slim
         x[NEXT + W0 + i], x[NEXT + W1 + i] = 0.0, distance * root
         x[NEXT + U0 + i], x[NEXT + U1 + i] = -1.0, -root
         together = 1.0 if distance == 0.0 else 0.0
