@@ -84,7 +84,11 @@ def look(x: Floats, lanes: int, event_limit: float) -> None:
 
 @kernel
 def _expand(x: Floats, lanes: int) -> None:
-    """Find each lane's modes and, for each contact, the series of how far it is from an event."""
+    """Find each lane's modes (eqs 5 and 6), and what each contact sees of them.
+
+    A slot of a contact holds how far it is from its next event: a pressed one its compression, an
+    open one its gap.
+    """
     for i in range(lanes):
         floor, balls = x[FLOOR + i] > 0.0, x[BALLS + i] > 0.0
         c2, s2, a2, b2, v2 = x[C2 + i], x[S2 + i], x[A2 + i], x[B2 + i], x[V2 + i]
@@ -129,10 +133,8 @@ def _differentiate(x: Floats, lanes: int) -> None:
         ra, rb = a * (a * abs(ga) + abs(ha)), b * (b * abs(gb) + abs(hb))
         x[THIRD + i] = (a * ra + b * rb) * 0.5
         aa, bb = aa * aa, bb * bb
-        x[P4 + i], x[P5 + i] = (
-            (aa * ga + bb * gb) * (1.0 / 24.0),
-            (aa * ha + bb * hb) * (1.0 / 120.0),
-        )
+        x[P4 + i] = (aa * ga + bb * gb) * (1.0 / 24.0)
+        x[P5 + i] = (aa * ha + bb * hb) * (1.0 / 120.0)
         x[TAIL + i] = (aa * ra + bb * rb) * (1.0 / 720.0)
 
 
@@ -148,11 +150,11 @@ def _watch(x: Floats, lanes: int) -> None:
         p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
         tail, reach = x[TAIL + i], x[REACH + i]
         # zero gap: p0 = p1 = p2 = 0, and no parabola but a short one is below a cubic
-        s = reach if p0 > _CLOSE or abs(p1) > 0.0 else 0.5 * reach
+        s = reach if p0 > _CLOSE or p1 != 0.0 else 0.5 * reach
         h = p5 - tail * s
-        h = p4 + (min(0.0, h)) * s
-        h = p3 + (min(0.0, h)) * s
-        h = p2 + (min(0.0, h)) * s
+        h = p4 + min(0.0, h) * s
+        h = p3 + min(0.0, h) * s
+        h = p2 + min(0.0, h) * s
         start = p0 - _CLOSE if p0 > _CLOSE else 0.0
         square = p1 * p1 - 4.0 * h * start
         q = abs(p1) + math.sqrt(max(0.0, square))
@@ -174,6 +176,7 @@ def _aim(x: Floats, lanes: int) -> None:
         one, other = x[SAFE + i], x[SAFE + OTHER + i]
         lower = 1.0 if one <= other else 0.0
         upper = 1.0 - lower
+        # sums, as a choice between two slots would be compiled to a slow one between addresses
         p0, p1 = lower * x[P0 + i], lower * x[P1 + i]
         p2, p3 = lower * x[P2 + i], lower * x[P3 + i]
         p4, p5 = lower * x[P4 + i], lower * x[P5 + i]
@@ -221,25 +224,17 @@ def _swing(x: Floats, lanes: int) -> None:
 def _land(x: Floats, lanes: int) -> None:
     """Move each lane whose step was to end at an event right onto it, and back to the balls."""
     for i in range(lanes):
-        a, b, ya, yb, za, zb = (
-            x[OMEGA + i],
-            x[OMEGA + OTHER + i],
-            x[Y + i],
-            x[Y + OTHER + i],
-            x[Z + i],
-            x[Z + OTHER + i],
-        )
+        a, ya, za = x[OMEGA + i], x[Y + i], x[Z + i]
+        b, yb, zb = x[OMEGA + OTHER + i], x[Y + OTHER + i], x[Z + OTHER + i]
         sees_a, sees_b, lower, changes = x[SEES_A + i], x[SEES_B + i], x[LOWER + i], x[CHANGES + i]
         aa, bb = -a * a, -b * b
         ua, ub = aa * ya, bb * yb
-        f, g, h = (
-            sees_a * ya + sees_b * yb,
-            sees_a * za + sees_b * zb,
-            0.5 * (sees_a * ua + sees_b * ub),
-        )
+        # what is left, and its first two derivatives; Halley's step again
+        f, g = sees_a * ya + sees_b * yb, sees_a * za + sees_b * zb
+        h = 0.5 * (sees_a * ua + sees_b * ub)
         inverse = 1.0 / (g if g < 0.0 else -1.0)
         d = f * inverse
-        changes = changes if -aa * d * d <= -_LANDED * g else 0.0
+        changes = changes if g <= -_SLOW and -aa * d * d <= -_LANDED * g else 0.0
         d = -changes * d * (1.0 + d * h * inverse)
         ya, yb = ya + d * (za + 0.5 * d * ua), yb + d * (zb + 0.5 * d * ub)
         za, zb = za + d * (ua + 0.5 * d * (aa * za)), zb + d * (ub + 0.5 * d * (bb * zb))
