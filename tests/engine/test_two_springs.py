@@ -215,7 +215,7 @@ def test_zero_gap_begins_at_once():
         *((2.0, 3.0, g) for g in (1e-300, 1e-15, 1e-12, 1e-9, 1e-6, 1e6)),
         (3.0, 1.0, np.pi),  # the lower ball stops
         (1.0, 1.0, np.pi),
-        *((m, k, g) for m in (2e-4, 5e3) for k in (2e-4, 5e3) for g in (0.0, 1e-3, 0.9, 500.0)),
+        *((m, k, g) for m in (5e-3, 200.0) for k in (5e-3, 200.0) for g in (0.0, 1e-3, 0.9, 500.0)),
     ],
 )
 def test_extremes_are_right_or_left_to_the_general_engine(ratio, softness, gap):
@@ -225,7 +225,7 @@ def test_extremes_are_right_or_left_to_the_general_engine(ratio, softness, gap):
         np.array([gap]),
         np.ones(1),
     )
-    compare(drops, solve(*drops), loose=100.0)  # up to forty contacts: errors grow
+    compare(drops, solve(*drops), loose=10.0)  # up to forty contacts: errors grow
 
 
 @pytest.mark.parametrize("wrong", [np.nan, np.inf, -1.0, 0.0])

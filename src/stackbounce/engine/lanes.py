@@ -66,7 +66,7 @@ _SLOW = 1e-5  # of the impact speed: whether anything so slow happens is left to
 _CLOSE = 1e-10  # of v0/omega: so is what comes so close to happening
 _NOISE = 1e-13  # of the impact speed: balls that move together
 _LANDED = 1e-11  # what keeps the error of Halley's step below 1e-16
-_LOOKS = 1000.0
+_LOOKS = 200.0  # longer stories gather round-off
 _NEVER = 1e300
 
 

@@ -51,7 +51,7 @@ NEXT = SLOTS * LANES
 MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(29, 35))
 SCRATCH = NEXT + 35 * LANES
 
-_RATIO = 1e4  # of masses and of stiffnesses, at most, and at least one over it
+_RATIO = 256.0  # of masses and of stiffnesses, at most, and at least one over it
 _GAP = 1e3  # in v0/omega, at most
 _OMEGA = 1e100  # in 1/s, at most, and at least one over it
 
