@@ -1,28 +1,7 @@
-"""Two balls on springs (eqs 5 and 6), many drops at once, in lock step.
+"""Two balls on springs (eqs 5 and 6) without gravity: many drops, fast.
 
-Every drop has a lane in one flat array: slot ``N`` of lane i is ``x[N + i]``. All lanes take a look
-at the same time, and what a look does is written without branches, so that a compiler makes vectors
-of it. Lanes never see each other. One that is done goes to the next drop that waits.
-
-In units of the lower ball's mass m1, of 1/omega = sqrt(m1/k1) and of the impact speed, with
-mu = m2/m1 and kappa = k2/k1, and in the coordinates w0 = q0, w1 = sqrt(mu) q1, eqs 5 and 6 read
-w'' = -K w, with another K in each of four regimes. A rotation by (c, s) gives two modes of the
-frequencies a and b:
-
-============ ========= ========= ==================================================================
-regime       floor     balls     modes
-============ ========= ========= ==================================================================
-both         pressed   pressed   those of eqs 5 and 6
-balls only   open      pressed   the two balls against each other, and their centre in flight
-floor only   pressed   open      the lower ball on the floor, and the upper ball in flight
-none         open      open      both balls in flight
-============ ========= ========= ==================================================================
-
-A mode y'' = -a^2 y moves as y cos(a t) + y' t sinc(a t), in flight too: there a is 0.
-
-A look goes no further than no contact can have changed its phase, or right onto the first change.
-Where a change is not clear of round-off, or a drop is out of the ordinary, the lane ends with the
-status ASK: the general engine has a rule for everything.
+The drops go through the lanes of `lanes`: one that is done makes room for the next that waits. A
+drop that is out of the ordinary is left to the general engine, with the status ASK.
 """
 
 import math
@@ -30,49 +9,51 @@ from typing import Any
 
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED, INVALID
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.waves import WIDEST, cosine, sinc
-
-LANES = 32
-
-# The slots of a drop. Its state: positions, velocities, time, and which contacts press (1 or 0).
-W0, W1, U0, U1, TIME, FLOOR, BALLS = (k * LANES for k in range(7))
-# Its story: how it ended, looks, events, intervals of each contact, the balls' first touch, last
-# releases. And which row it is.
-STATUS, LOOKS, EVENTS, N0, N1, FIRST, LAST0, LAST1, ROW = (k * LANES for k in range(7, 16))
-# 1/sqrt(mu); with both contacts pressed c, s, a, b, what the balls' contact sees of the modes, and
-# the longest look; the same for the balls only.
-SLIM, C2, S2, A2, B2, V2, X2, REACH2 = (k * LANES for k in range(16, 24))
-C1, S1, A1, V1, REACH1 = (k * LANES for k in range(24, 29))
-_DROP = 29
-
-# The slots of a look: the rotation of the present regime, the step taken, what the contact that ends
-# it sees of the modes, and whether (1 or 0) it is the floor's, it changes then, and is in doubt.
-C, S, SEES_A, SEES_B, LOWER, CHANGES, DOUBT = (k * LANES for k in range(29, 36))
-# Double slots, of mode a in the first half and of mode b in the second: frequency, position,
-# velocity, and the step.
-OMEGA, Y, Z, STEP = (k * LANES for k in range(36, 44, 2))
-# Double slots, of the floor's contact and of the balls': how far it is from an event (a compression
-# or a gap) as a series, half a bound of the third derivative, the shares of the modes in distance
-# and rate, a, b, the longest look, what it sees of the modes; how long nothing happens, and whether
-# (1 or 0) it happens then.
-P0, P1, P2, P3, P4, P5, THIRD, TAIL, GA, GB, HA, HB = (k * LANES for k in range(44, 68, 2))
-A, B, REACH, FA, FB, SAFE, UNTIL, HAPPENS = (k * LANES for k in range(68, 84, 2))
-OTHER = LANES  # the second half of a double slot
+from stackbounce.engine.lanes import (
+    A1,
+    A2,
+    B2,
+    BALLS,
+    C1,
+    C2,
+    DROP,
+    EVENTS,
+    FIRST,
+    FLOOR,
+    LANES,
+    LAST0,
+    LAST1,
+    LOOKS,
+    N0,
+    N1,
+    REACH1,
+    REACH2,
+    ROW,
+    S1,
+    S2,
+    SLIM,
+    SLOTS,
+    STATUS,
+    TIME,
+    U0,
+    U1,
+    V1,
+    V2,
+    W0,
+    W1,
+    X2,
+    look,
+)
+from stackbounce.engine.waves import WIDEST
 
 # The drops that wait: the slots of a drop, and what was given.
-NEXT = 84 * LANES
+NEXT = SLOTS * LANES
 MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(29, 35))
 SCRATCH = NEXT + 35 * LANES
 
-_SLOW = 1e-5  # of the impact speed: whether anything so slow happens is not for this engine
-_CLOSE = 1e-10  # of v0/omega: nor is what comes so close to happening
-_NOISE = 1e-13  # of the impact speed: balls that move together
-_LANDED = 1e-11
-_RATIO = 1e4  # of masses and of stiffnesses, at most, and at least one over it
+_RATIO = 256.0  # of masses and of stiffnesses, at most, and at least one over it
 _GAP = 1e3  # in v0/omega, at most
 _OMEGA = 1e100  # in 1/s, at most, and at least one over it
-_LOOKS = 1000.0
-_NEVER = 1e300
 
 
 @kernel
@@ -137,16 +118,9 @@ def two_springs(
             else:
                 lanes -= 1
                 source = lanes
-            for k in range(_DROP):
+            for k in range(DROP):
                 x[k * LANES + i] = x[k * LANES + source]
-        _expand(x, lanes)
-        _differentiate(x, lanes)
-        _watch(x, lanes)
-        _aim(x, lanes)
-        _choose(x, lanes)
-        _swing(x, lanes)
-        _land(x, lanes)
-        _happen(x, lanes, event_limit)
+        look(x, lanes, event_limit)
     _to_si(mass, stiffness, speed, velocity, first_touch, last_release, energy, status)
 
 
@@ -169,39 +143,41 @@ def _enter(x: Floats, count: int) -> None:
     for i in range(count):
         m1, m2, k1, k2 = x[MASS1 + i], x[MASS2 + i], x[STIFFNESS1 + i], x[STIFFNESS2 + i]
         gap, speed = x[GAP + i], x[SPEED + i]
-        most = max(m1, m2, k1, k2, gap, speed)
-        valid = min(m1, m2, k1, k2, speed) > 0.0 and gap >= 0.0 and most < math.inf
+        valid = 0.0 < m1 < math.inf and 0.0 < m2 < math.inf and 0.0 <= gap < math.inf
+        valid = valid and 0.0 < k1 < math.inf and 0.0 < k2 < math.inf and 0.0 < speed < math.inf
         m1, m2, speed = m1 if valid else 1.0, m2 if valid else 1.0, speed if valid else 1.0
         k1, k2, gap = k1 if valid else 1.0, k2 if valid else 1.0, gap if valid else 0.0
         mu, kappa, omega = m2 / m1, k2 / k1, math.sqrt(k1 / m1)
         distance = gap * omega / speed
-        fair = 1.0 / _RATIO < mu and mu < _RATIO and 1.0 / _RATIO < kappa and kappa < _RATIO
-        fair = fair and 1.0 / _OMEGA < omega and omega < _OMEGA and distance < _GAP
+        fair = mu > 1.0 / _RATIO and mu < _RATIO and kappa > 1.0 / _RATIO and kappa < _RATIO
+        fair = fair and omega > 1.0 / _OMEGA and omega < _OMEGA and distance < _GAP
         mu, kappa = mu if fair else 1.0, kappa if fair else 1.0
         distance = distance if fair else 0.0
         x[NEXT + STATUS + i] = (0.0 if fair else ASK) if valid else INVALID
         root = math.sqrt(mu)
         # both: K = ((1 + kappa, corner), (corner, kappa/mu)) (eqs 5 and 6)
-        corner = -kappa / root
-        half = 0.5 * (1.0 + kappa - kappa / mu)
+        slim = 1.0 / root
+        corner, upper = -kappa * slim, kappa * (slim * slim)
+        half = 0.5 * (1.0 + kappa - upper)
         spread = math.sqrt(half * half + corner * corner)
-        fast = 0.5 * (1.0 + kappa + kappa / mu) + spread
-        slow = kappa / mu / fast
+        fast = 0.5 * (1.0 + kappa + upper) + spread
+        slow = upper / fast
         lean = abs(half) + spread
         unit = 1.0 / math.sqrt(lean * lean + corner * corner)
         c, s = (lean if half >= 0.0 else corner) * unit, (corner if half >= 0.0 else lean) * unit
         x[NEXT + C2 + i], x[NEXT + S2 + i] = c, s
         x[NEXT + A2 + i], x[NEXT + B2 + i] = math.sqrt(fast), math.sqrt(slow)
+        inverse = 1.0 / corner
         # eq 6: the compression of the balls' contact is what moves the upper ball
-        x[NEXT + V2 + i], x[NEXT + X2 + i] = fast * s / corner, slow * c / corner
+        x[NEXT + V2 + i], x[NEXT + X2 + i] = fast * s * inverse, slow * c * inverse
         x[NEXT + REACH2 + i] = WIDEST / math.sqrt(fast)
         # balls only: K = ((kappa, corner), (corner, kappa/mu))
         unit = 1.0 / math.sqrt(1.0 + mu)
-        single = kappa * (1.0 + 1.0 / mu)
+        single = kappa + upper
         x[NEXT + C1 + i], x[NEXT + S1 + i] = root * unit, -unit
-        x[NEXT + A1 + i], x[NEXT + V1 + i] = math.sqrt(single), -single * unit / corner
+        x[NEXT + A1 + i], x[NEXT + V1 + i] = math.sqrt(single), -single * unit * inverse
         x[NEXT + REACH1 + i] = WIDEST / math.sqrt(single)
-        x[NEXT + SLIM + i] = 1.0 / root
+        x[NEXT + SLIM + i] = slim
         x[NEXT + W0 + i], x[NEXT + W1 + i] = 0.0, distance * root
         x[NEXT + U0 + i], x[NEXT + U1 + i] = -1.0, -root
         together = 1.0 if distance == 0.0 else 0.0
@@ -210,199 +186,6 @@ def _enter(x: Floats, count: int) -> None:
         x[NEXT + N0 + i], x[NEXT + N1 + i] = 1.0, together
         x[NEXT + FIRST + i] = 0.0 if distance == 0.0 else math.nan
         x[NEXT + LAST0 + i], x[NEXT + LAST1 + i] = math.nan, math.nan
-
-
-@kernel
-def _expand(x: Floats, lanes: int) -> None:
-    """Find each lane's modes and, for each contact, the series of how far it is from an event."""
-    for i in range(lanes):
-        floor, balls = x[FLOOR + i] > 0.0, x[BALLS + i] > 0.0
-        c2, s2, a2, b2, v2 = x[C2 + i], x[S2 + i], x[A2 + i], x[B2 + i], x[V2 + i]
-        c1, s1, a1, v1 = x[C1 + i], x[S1 + i], x[A1 + i], x[V1 + i]
-        x2, reach2, reach1, slim = x[X2 + i], x[REACH2 + i], x[REACH1 + i], x[SLIM + i]
-        w0, w1, u0, u1 = x[W0 + i], x[W1 + i], x[U0 + i], x[U1 + i]
-        c = (c2 if floor else c1) if balls else 1.0
-        s = (s2 if floor else s1) if balls else 0.0
-        a = (a2 if floor else a1) if balls else (1.0 if floor else 0.0)
-        b = b2 if floor and balls else 0.0
-        v = (v2 if floor else v1) if balls else 1.0
-        o = (x2 if floor else 0.0) if balls else -slim
-        reach = (reach2 if floor else reach1) if balls else (WIDEST if floor else _NEVER)
-        ya, yb, za, zb = c * w0 + s * w1, c * w1 - s * w0, c * u0 + s * u1, c * u1 - s * u0
-        x[C + i], x[S + i] = c, s
-        x[OMEGA + i], x[Y + i], x[Z + i] = a, ya, za
-        x[OMEGA + OTHER + i], x[Y + OTHER + i], x[Z + OTHER + i] = b, yb, zb
-        x[A + i], x[B + i], x[REACH + i] = a, b, reach
-        x[A + OTHER + i], x[B + OTHER + i], x[REACH + OTHER + i] = a, b, reach
-        # the floor's contact: pressed by -q0
-        sign = -1.0 if floor else 1.0
-        fa, fb = sign * c, -sign * s
-        x[P0 + i], x[P1 + i], x[FA + i], x[FB + i] = sign * w0, sign * u0, fa, fb
-        x[GA + i], x[GB + i], x[HA + i], x[HB + i] = fa * ya, fb * yb, fa * za, fb * zb
-        # the balls' contact: pressed by q0 - q1
-        sign = 1.0 if balls else -1.0
-        fa, fb, rate = sign * v, sign * o, sign * (u0 - u1 * slim)
-        x[P0 + OTHER + i] = sign * (w0 - w1 * slim)
-        x[P1 + OTHER + i] = rate if abs(rate) > _NOISE else 0.0
-        x[FA + OTHER + i], x[FB + OTHER + i] = fa, fb
-        x[GA + OTHER + i], x[GB + OTHER + i] = fa * ya, fb * yb
-        x[HA + OTHER + i], x[HB + OTHER + i] = fa * za, fb * zb
-
-
-@kernel
-def _differentiate(x: Floats, lanes: int) -> None:
-    """Find for each contact the series of its distance from an event, and a bound of the rest."""
-    for i in range(OTHER + lanes):
-        ga, gb, ha, hb, a, b = x[GA + i], x[GB + i], x[HA + i], x[HB + i], x[A + i], x[B + i]
-        aa, bb = -a * a, -b * b
-        x[P2 + i], x[P3 + i] = (aa * ga + bb * gb) * (1.0 / 2.0), (aa * ha + bb * hb) * (1.0 / 6.0)
-        ra, rb = a * (a * abs(ga) + abs(ha)), b * (b * abs(gb) + abs(hb))
-        x[THIRD + i] = (a * ra + b * rb) * 0.5
-        aa, bb = aa * aa, bb * bb
-        x[P4 + i], x[P5 + i] = (
-            (aa * ga + bb * gb) * (1.0 / 24.0),
-            (aa * ha + bb * hb) * (1.0 / 120.0),
-        )
-        x[TAIL + i] = (aa * ra + bb * rb) * (1.0 / 720.0)
-
-
-@kernel
-def _watch(x: Floats, lanes: int) -> None:
-    """Find for each contact a time before which it surely keeps its phase.
-
-    Its distance p(t) from the event is known to order 5, with a bound of the rest. Horner's nested
-    lower bounds, as in `series.safe_step`, go down to a parabola here: p is positive before its
-    root.
-    """
-    for i in range(OTHER + lanes):
-        p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
-        tail, reach = x[TAIL + i], x[REACH + i]
-        # zero gap: p0 = p1 = p2 = 0, and no parabola but a short one is below a cubic
-        s = reach if p0 > _CLOSE or abs(p1) > 0.0 else 0.5 * reach
-        h = p5 - tail * s
-        h = p4 + (h if h < 0.0 else 0.0) * s
-        h = p3 + (h if h < 0.0 else 0.0) * s
-        h = p2 + (h if h < 0.0 else 0.0) * s
-        start = p0 - _CLOSE if p0 > _CLOSE else 0.0
-        square = p1 * p1 - 4.0 * h * start
-        q = abs(p1) + math.sqrt(square if square > 0.0 else 0.0)
-        over = 2.0 * start if p1 < 0.0 else q
-        under = (q if square >= 0.0 else 0.0) if p1 < 0.0 else -2.0 * h
-        root = over / (under if under > 0.0 else 1.0)
-        root = root if under > 0.0 else s
-        x[SAFE + i] = root if root < s else s
-
-
-@kernel
-def _aim(x: Floats, lanes: int) -> None:
-    """Find for each contact the root of its distance, if it falls all the way from now to there."""
-    for i in range(OTHER + lanes):
-        p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
-        third, reach, safe = x[THIRD + i], x[REACH + i], x[SAFE + i]
-        t = safe
-        f = p0 + t * (p1 + t * (p2 + t * (p3 + t * (p4 + t * p5))))
-        g = p1 + t * (2.0 * p2 + t * (3.0 * p3 + t * (4.0 * p4 + t * (5.0 * p5))))
-        h = p2 + t * (3.0 * p3 + t * (6.0 * p4 + t * (10.0 * p5)))
-        # Halley's step, to second order
-        inverse = 1.0 / (g if g < 0.0 else -1.0)
-        d = f * inverse
-        d = d * (1.0 + d * h * inverse)
-        t = t - d
-        far = abs(t)
-        happens = 1.0 if p1 < -_SLOW else 0.0
-        happens = happens if (2.0 * abs(p2) + third * far) * far < -0.9 * p1 else 0.0
-        happens = happens if far <= reach else 0.0
-        happens = happens if abs(d) <= 0.1 * reach else 0.0
-        happens = happens if t >= safe or p0 <= _CLOSE else 0.0
-        x[UNTIL + i] = t if happens > 0.0 else safe
-        x[HAPPENS + i] = happens
-
-
-@kernel
-def _choose(x: Floats, lanes: int) -> None:
-    """Find each lane's step: to the first event, or as far as there surely is none."""
-    for i in range(lanes):
-        one, other = x[UNTIL + i], x[UNTIL + OTHER + i]
-        lower = 1.0 if one <= other else 0.0
-        upper = 1.0 - lower
-        step = one if one <= other else other
-        changes = lower * x[HAPPENS + i] + upper * x[HAPPENS + OTHER + i]
-        x[SEES_A + i] = lower * x[FA + i] + upper * x[FA + OTHER + i]
-        x[SEES_B + i] = lower * x[FB + i] + upper * x[FB + OTHER + i]
-        x[STEP + i], x[STEP + OTHER + i] = step, step
-        x[LOWER + i], x[CHANGES + i] = lower, changes
-        x[DOUBT + i] = 1.0 if changes <= 0.0 and step <= 0.0 else 0.0
-        x[TIME + i] = x[TIME + i] + step
-
-
-@kernel
-def _swing(x: Floats, lanes: int) -> None:
-    """Move each mode on by a step."""
-    for i in range(OTHER + lanes):
-        omega, step, y, z = x[OMEGA + i], x[STEP + i], x[Y + i], x[Z + i]
-        square = omega * omega
-        angle = square * (step * step)
-        cos, sin = cosine(angle), sinc(angle) * step
-        x[Y + i], x[Z + i] = y * cos + z * sin, z * cos - square * (y * sin)
-
-
-@kernel
-def _land(x: Floats, lanes: int) -> None:
-    """Move each lane whose step was to end at an event right onto it, and back to the balls."""
-    for i in range(lanes):
-        a, b, ya, yb, za, zb = (
-            x[OMEGA + i],
-            x[OMEGA + OTHER + i],
-            x[Y + i],
-            x[Y + OTHER + i],
-            x[Z + i],
-            x[Z + OTHER + i],
-        )
-        sees_a, sees_b, lower, changes = x[SEES_A + i], x[SEES_B + i], x[LOWER + i], x[CHANGES + i]
-        aa, bb = -a * a, -b * b
-        ua, ub = aa * ya, bb * yb
-        f, g, h = (
-            sees_a * ya + sees_b * yb,
-            sees_a * za + sees_b * zb,
-            0.5 * (sees_a * ua + sees_b * ub),
-        )
-        inverse = 1.0 / (g if g < 0.0 else -1.0)
-        d = f * inverse
-        changes = changes if -aa * d * d <= -_LANDED * g else 0.0
-        d = -changes * d * (1.0 + d * h * inverse)
-        ya, yb = ya + d * (za + 0.5 * d * ua), yb + d * (zb + 0.5 * d * ub)
-        za, zb = za + d * (ua + 0.5 * d * (aa * za)), zb + d * (ub + 0.5 * d * (bb * zb))
-        c, s = x[C + i], x[S + i]
-        x[W0 + i], x[W1 + i] = c * ya - s * yb, s * ya + c * yb
-        x[U0 + i], x[U1 + i] = c * za - s * zb, s * za + c * zb
-        x[TIME + i] = x[TIME + i] + d
-        x[HAPPENS + i], x[HAPPENS + OTHER + i] = changes * lower, changes * (1.0 - lower)
-
-
-@kernel
-def _happen(x: Floats, lanes: int, event_limit: float) -> None:
-    """Let contacts touch and release, and tell what is over."""
-    for i in range(lanes):
-        floor, balls, now = x[FLOOR + i], x[BALLS + i], x[TIME + i]
-        lower, upper = x[HAPPENS + i], x[HAPPENS + OTHER + i]
-        first, last0, last1 = x[FIRST + i], x[LAST0 + i], x[LAST1 + i]
-        touch = upper * (1.0 - balls)
-        x[N0 + i] = x[N0 + i] + lower * (1.0 - floor)
-        x[N1 + i] = x[N1 + i] + touch
-        x[FIRST + i] = now if touch > 0.0 and math.isnan(first) else first
-        x[LAST0 + i] = now if lower * floor > 0.0 else last0
-        x[LAST1 + i] = now if upper * balls > 0.0 else last1
-        floor, balls = abs(floor - lower), abs(balls - upper)
-        x[FLOOR + i], x[BALLS + i] = floor, balls
-        events, looks = x[EVENTS + i] + lower + upper, x[LOOKS + i] + 1.0
-        x[EVENTS + i], x[LOOKS + i] = events, looks
-        u0, u1, status, doubt = x[U0 + i], x[U1 + i] * x[SLIM + i], x[STATUS + i], x[DOUBT + i]
-        parting = u0 if u0 < u1 - u0 else u1 - u0  # the slower one of the two contacts
-        result = EVENT_LIMIT if events >= event_limit else 0.0
-        result = ASK if doubt > 0.0 or looks >= _LOOKS else result
-        result = ASK if floor + balls == 0.0 and parting > -_SLOW else result
-        result = FINISHED if floor + balls == 0.0 and parting >= _SLOW else result
-        x[STATUS + i] = result if status == 0.0 else status
 
 
 @kernel

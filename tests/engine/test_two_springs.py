@@ -1,0 +1,250 @@
+"""Two balls on springs in lock step: against the general engine and the fifty-digit reference."""
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from reference import make_data
+from stackbounce.engine import codes
+from stackbounce.engine.kernel import compiled
+from stackbounce.engine.two_springs import SCRATCH, two_springs
+
+SPEED = 1e-12
+TIME = 1e-11
+ENERGY = 1e-12
+NAMES = ("velocity", "collisions", "first_touch", "last_release", "energy", "status")
+
+
+def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
+    n = len(gap)
+    out = {
+        "velocity": np.empty((n, 2)),
+        "collisions": np.empty((n, 2), np.int64),
+        "first_touch": np.empty((n, 2)),
+        "last_release": np.empty((n, 2)),
+        "energy": np.empty(n),
+        "status": np.empty(n, np.int64),
+    }
+    run = two_springs if plain else compiled(two_springs)
+    scratch = [0.0] * SCRATCH if plain else np.zeros(SCRATCH)
+    run(mass, stiffness, gap, speed, event_limit, *(out[name] for name in NAMES), scratch)
+    return out
+
+
+def log_uniform(random, low, high, n):
+    return low * (high / low) ** random.random(n)
+
+
+def sweep(n, seed):
+    """Mass ratios 0.05 to 50, stiffness ratios 0.02 to 50, half of the gaps up to 2 v0/omega."""
+    random = np.random.default_rng(seed)
+    lower, floor = log_uniform(random, 0.01, 1.0, n), log_uniform(random, 1e3, 1e5, n)
+    mass = np.stack([lower, lower / log_uniform(random, 0.05, 50.0, n)], axis=1)
+    stiffness = np.stack([floor, floor / log_uniform(random, 0.02, 50.0, n)], axis=1)
+    speed = log_uniform(random, 0.1, 10.0, n)
+    reach = 2.0 * random.random(n) * (random.random(n) < 0.5)
+    return mass, stiffness, reach * speed * np.sqrt(lower / floor), speed
+
+
+def simulated(mass, stiffness, gap, speed):
+    balls, springs = [sb.Ball(m) for m in mass], [sb.Spring(k) for k in stiffness]
+    return sb.simulate(sb.Drop(balls, springs, [gap], impact_speed=speed))
+
+
+def compare(drops, out, loose=1.0):
+    """Compare with the general engine; return how many drops were left to it."""
+    left = 0
+    for r, (mass, stiffness, gap, speed) in enumerate(zip(*drops, strict=True)):
+        if out["status"][r] == codes.ASK:
+            left += 1
+            continue
+        assert out["status"][r] == codes.FINISHED
+        result = simulated(mass, stiffness, gap, speed)
+        assert out["collisions"][r].tolist() == result.collisions.tolist()
+        fastest = speed * max(1.0, np.sqrt(mass[1] / mass[0]))
+        assert np.abs(out["velocity"][r] - result.rebound_speeds).max() <= loose * SPEED * fastest
+        assert abs(out["energy"][r] - 1.0) <= ENERGY
+        for i in (0, 1):
+            mine = result.intervals[result.intervals["contact"] == i]
+            found = np.array([out["first_touch"][r, i], out["last_release"][r, i]])
+            if not len(mine):
+                assert np.isnan(found).all()
+                continue
+            expected = np.array([mine["start"].min(), mine["end"].max()])
+            unit = np.sqrt(mass[0] / stiffness[0])
+            assert (np.abs(found - expected) <= loose * TIME * (unit + flight(result))).all()
+    return left
+
+
+def flight(result):
+    """Return how long the balls fly apart, which a rounding error of slow speeds changes much."""
+    times = np.sort(result.intervals, order="start")
+    longest = np.maximum(times["start"][1:] - np.maximum.accumulate(times["end"])[:-1], 0.0)
+    return 100.0 * longest.max(initial=0.0)
+
+
+def same(one, other, rows=slice(None)):
+    for name in NAMES:
+        assert one[name][rows].tobytes() == other[name].tobytes(), name
+
+
+def test_random_drops():
+    drops = sweep(2000, 1)
+    assert compare(drops, solve(*drops)) <= 10
+
+
+def test_a_million_events_keep_energy():
+    out = solve(*sweep(200_000, 2))
+    done = out["status"] == codes.FINISHED
+    assert set(out["status"]) <= {codes.FINISHED, codes.ASK}
+    assert done.mean() > 0.999
+    assert np.abs(out["energy"][done] - 1.0).max() <= ENERGY
+
+
+def two_balls():
+    for row in make_data.read("springs"):
+        case = row["case"]
+        together = len(set(case["velocities"])) == 1
+        sprung = all(contact and set(contact) == {"stiffness"} for contact in case["contacts"])
+        if len(case["masses"]) == 2 and together and sprung:
+            yield row
+
+
+def test_reference():
+    rows = list(two_balls())
+    assert len(rows) > 200
+    cases = [row["case"] for row in rows]
+    mass = np.array([case["masses"] for case in cases])
+    stiffness = np.array([[k["stiffness"] for k in case["contacts"]] for case in cases])
+    gap = np.array([case["gaps"][0] for case in cases])
+    speed = -np.array([case["velocities"][0] for case in cases])
+    out = solve(mass, stiffness, gap, speed)
+    known = out["status"] == codes.FINISHED
+    assert known.mean() > 0.9
+    for r in np.flatnonzero(known):
+        intervals = np.array(sorted(rows[r]["intervals"]))
+        counts = np.bincount(intervals[:, 0].astype(int), minlength=2)
+        assert out["collisions"][r].tolist() == counts.tolist()
+        error = np.abs(out["velocity"][r] - rows[r]["rebound_speeds"])
+        assert error.max() <= SPEED * speed[r] * max(1.0, np.sqrt(mass[r, 1] / mass[r, 0]))
+        unit = np.sqrt(mass[r, 0] / stiffness[r, 0])
+        for i in (0, 1):
+            mine = intervals[intervals[:, 0] == i]
+            found = np.array([out["first_touch"][r, i], out["last_release"][r, i]])
+            expected = np.array([mine[:, 1].min(), mine[:, 2].max()])
+            assert (np.abs(found - expected) <= TIME * np.maximum(unit, expected)).all()
+
+
+def counts(ratio, stiffness, gap):
+    return simulated((1.0, 1.0 / ratio), (1.0, 1.0 / stiffness), gap, 1.0).collisions.tolist()
+
+
+def changes(random, tries):
+    """Yield drops at which the number of contacts changes, found by halving a random line."""
+    for _ in range(tries):
+        ends = [
+            np.array([*np.log(log_uniform(random, 0.05, 50.0, 2)), 2.0 * random.random()])
+            for _ in range(2)
+        ]
+        for end in ends:
+            end[2] *= random.random() < 0.7
+
+        def at(where, ends=ends):
+            ratio, stiffness, gap = ends[0] + where * (ends[1] - ends[0])
+            return float(np.exp(ratio)), float(np.exp(stiffness)), float(gap)
+
+        low, high = 0.0, 1.0
+        first = counts(*at(low))
+        if first == counts(*at(high)):
+            continue
+        while high - low > 1e-15:
+            middle = 0.5 * (low + high)
+            low, high = (middle, high) if counts(*at(middle)) == first else (low, middle)
+        yield at, low
+
+
+@pytest.mark.parametrize(("distance", "most"), [(1e-4, 0.2), (1e-7, 0.7), (1e-10, 1.0)])
+def test_where_the_number_of_contacts_changes(distance, most):
+    random = np.random.default_rng(3)
+    points = [at(here + s * distance) for at, here in changes(random, 60) for s in (-1.0, 1.0)]
+    assert len(points) > 40
+    ratio, softness, gap = (np.array(column) for column in zip(*points, strict=True))
+    mass = np.stack([np.ones_like(gap), 1.0 / ratio], axis=1)
+    stiffness = np.stack([np.ones_like(gap), 1.0 / softness], axis=1)
+    drops = mass, stiffness, gap, np.ones_like(gap)
+    assert compare(drops, solve(*drops)) <= most * len(points)
+
+
+def test_units_change_no_bit():
+    mass, stiffness, gap, speed = sweep(2000, 4)
+    one = solve(mass, stiffness, gap, speed)
+    kg, m, s = 2.0**-5, 2.0**7, 2.0**-9
+    other = solve(mass * kg, stiffness * kg / s**2, gap * m, speed * m / s)
+    other["velocity"] *= s / m
+    other["first_touch"] /= s
+    other["last_release"] /= s
+    same(one, other)
+
+
+def test_plain_python_gives_the_same_bits():
+    drops = sweep(60, 5)
+    same(solve(*drops), solve(*drops, plain=True))
+
+
+def test_neither_order_nor_company_changes_a_bit():
+    drops = sweep(500, 6)
+    whole = solve(*drops)
+    order = np.random.default_rng(7).permutation(500)
+    same(whole, solve(*(values[order] for values in drops)), order)
+    for start, size in ((0, 1), (17, 2), (100, 31), (200, 33), (300, 64), (0, 0)):
+        rows = slice(start, start + size)
+        same(whole, solve(*(values[rows] for values in drops)), rows)
+
+
+def test_zero_gap_begins_at_once():
+    out = solve(np.ones((1, 2)), np.ones((1, 2)), np.zeros(1), np.ones(1))
+    assert out["velocity"][0].round(4).tolist() == [0.7664, 1.1886]
+    assert out["collisions"].tolist() == [[1, 1]]
+    assert out["first_touch"].tolist() == [[0.0, 0.0]]
+
+
+@pytest.mark.parametrize(
+    ("ratio", "softness", "gap"),
+    [
+        *((m, k, g) for m in (1e-12, 1.0, 1e12) for k in (1e-8, 1.0, 1e8) for g in (0.0, 0.5)),
+        *((2.0, 3.0, g) for g in (1e-300, 1e-15, 1e-12, 1e-9, 1e-6, 1e6)),
+        (3.0, 1.0, np.pi),  # the lower ball stops
+        (1.0, 1.0, np.pi),
+        *((m, k, g) for m in (5e-3, 200.0) for k in (5e-3, 200.0) for g in (0.0, 1e-3, 0.9, 500.0)),
+    ],
+)
+def test_extremes_are_right_or_left_to_the_general_engine(ratio, softness, gap):
+    drops = (
+        np.array([[1.0, 1.0 / ratio]]),
+        np.array([[1.0, 1.0 / softness]]),
+        np.array([gap]),
+        np.ones(1),
+    )
+    compare(drops, solve(*drops), loose=10.0)  # up to forty contacts: errors grow
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -1.0, 0.0])
+@pytest.mark.parametrize("which", range(6))
+@pytest.mark.parametrize("plain", [False, True])
+def test_what_is_no_drop_is_invalid(wrong, which, plain):
+    values = [1.0, 0.5, 1.0, 0.3, 0.2, 1.0]
+    good = list(values)
+    values[which] = wrong
+    rows = np.array([values, good])
+    out = solve(rows[:, :2], rows[:, 2:4], rows[:, 4], rows[:, 5], plain=plain)
+    zero_gap = which == 4 and wrong == 0.0
+    assert out["status"].tolist() == [codes.FINISHED if zero_gap else codes.INVALID, codes.FINISHED]
+    assert np.isnan(out["velocity"][0]).all() == (not zero_gap)
+
+
+def test_event_limit():
+    drops = sweep(50, 8)
+    full = solve(*drops)
+    out = solve(*drops, event_limit=5)
+    events = 2 * full["collisions"].sum(axis=1)
+    assert (out["status"] == np.where(events > 5, codes.EVENT_LIMIT, codes.FINISHED)).all()
