@@ -641,7 +641,10 @@ def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
         (["--over", "balls.0.mass=1:2"], "--over must be PATH=START:STOP:COUNT"),
         (["--over", "balls.7.mass=1:2:3"], "balls.7.mass is no number of this drop"),
         (["--over", "balls.0.mass=-1kg,1kg"], "balls.0.mass must be a positive number"),
-        (["--over", "gaps.0=0,1", "--cluster", "nowhere"], "--cluster must be the address"),
+        (
+            ["--over", "gaps.0=0,1", "--cluster", "tcp://127.0.0.1:9"],
+            "--cluster must be the address",
+        ),
         (["--over", "gaps.0=0,1", "--plot", "map.txt"], "--plot must end in"),
         ([], "Missing option '--over'"),
     ],
