@@ -1,6 +1,7 @@
 """``stackbounce sweep``: a grid into a store, with its progress, and what came of it."""
 
 import contextlib
+import socket
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -102,18 +103,24 @@ def _client(address: str | None) -> Iterator[Any]:
     try:
         import distributed
     except ImportError as error:
-        raise InvalidValue(
-            "--cluster needs dask's distributed: pip install stackbounce[cluster]"
-        ) from error
+        words = "--cluster needs dask's distributed: pip install stackbounce[cluster]"
+        raise InvalidValue(words) from error
+    wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
     connect: Any = distributed.Client
     try:
+        _knock(address)
         client = connect(address, timeout="10s")
-    except (OSError, ValueError, TimeoutError) as error:
-        raise InvalidValue(
-            f"--cluster must be the address of a dask scheduler, got {shown(address)}"
-        ) from error
+    except (OSError, ValueError) as error:
+        raise InvalidValue(wrong) from error
     with client:
         yield client
+
+
+def _knock(address: str) -> None:
+    """Raise OSError or ValueError where nobody listens: a client would try again for long."""
+    host, _, port = address.rpartition("://")[2].rpartition(":")
+    with socket.create_connection((host, int(port)), timeout=5.0):
+        pass
 
 
 @contextlib.contextmanager
