@@ -18,6 +18,7 @@ contacts      the curve that a contact's force follows, and how events change it
 watch         what ends the present phase of a contact, and when: no event is missed
 rest          when soft balls under gravity have come to rest
 simultaneous  the event loop of a stack with finite contacts
+many          many drops one after the other in the arrays of one stack
 two_springs   two balls on springs without gravity: many drops, fast
 lanes         one look at each of many such drops, in lock step
 waves         cosine and (sin x)/x without branches
