@@ -92,7 +92,7 @@ def sweep(
     >>> ds = sb.sweep(drop, {"balls.0.mass": [1.0, 10.0]})
     >>> ds.rebound_ratio.values.round(4)
     array([[0.7664, 1.1886],
-           [0.9772, 1.1273]])
+           [0.9864, 1.1269]])
     """
     options = run_options(drop, until, rtol, event_limit)
     if not isinstance(values, Mapping):

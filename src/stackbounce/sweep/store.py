@@ -78,6 +78,7 @@ def write(
     Examples
     --------
     >>> import stackbounce as sb
+    >>> import xarray as xr
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
     >>> folder = getfixture("tmp_path")
     >>> path = write(folder / "map.zarr", drop, {"balls.0.mass": np.linspace(1.0, 2.0, 5)})
