@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.growth import LAWS, SHAPES, Cost
-from benchmarks.race import PEERS, Check, Entry, shown_errors
+from benchmarks.race import PEERS, Entry
 from benchmarks.work_precision import DROPS, FAMILIES, TOLERANCES, Spread, Work
 from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, styled
 
@@ -156,7 +156,7 @@ def work(runs: list[Work]) -> Figure:
     return figure
 
 
-def peers(entries: list[Entry], check: Check) -> Figure:
+def peers(entries: list[Entry]) -> Figure:
     """Draw errors against time, median to worst, and the shares of wrong counts."""
     with styled():
         figure = Figure(figsize=(WIDE, 3.6))
@@ -164,7 +164,7 @@ def peers(entries: list[Entry], check: Check) -> Figure:
         shown = [entry for entry in entries if entry.rounds]
         for place, entry in enumerate(shown):
             color, mark = LINEUP[entry.peer.name]
-            time, errors = 1e6 * entry.seconds, _seen(shown_errors(entry, check))
+            time, errors = 1e6 * entry.seconds, _seen((entry.median_error, entry.worst_error))
             look = {"color": color, "marker": mark, "markersize": 5}
             work.loglog([time, time], errors, linewidth=1, markevery=[0], **look)
             work.loglog(time, errors[1], color=color, marker="_", markersize=7)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from statistics import median
-from time import thread_time
+from time import process_time
 
 import numpy as np
 
@@ -141,18 +141,11 @@ def race(
     ]
 
 
-def shown_errors(entry: Entry, check: Check) -> tuple[float, float]:
-    """Return median and worst error: against the truth; the truth's own, for this package."""
-    if entry.peer is OURS:
-        return float(np.median(check.errors)), float(check.errors.max())
-    return entry.median_error, entry.worst_error
-
-
 def _timed(peer: Peer, drops: Drops) -> tuple[float, Answer]:
-    """Return the time in s, and the answer."""
-    start = thread_time()
+    """Return the processor time in s, of all threads, and the answer."""
+    start = process_time()
     answer = peer.solve(drops)
-    return thread_time() - start, answer
+    return process_time() - start, answer
 
 
 def _entry(

@@ -85,8 +85,8 @@ def test_a_missing_peer_is_skipped_with_a_word(small):
     assert ours.wrong == dict.fromkeys(small.drops, 0.0)
     assert steps.wrong[1e-10] > 0.0
     assert not nobody.rounds
-    entries, check = [ours, steps, nobody], race.Check(1, np.zeros(1), 0)
-    times, counts = report.peer_times(entries, check), report.peer_counts(entries, 4)
+    entries = [ours, steps, nobody]
+    times, counts = report.peer_times(entries), report.peer_counts(entries, 4)
     assert times[2] == ["nobody", "not installed", *["–"] * 5]
     assert counts[2] == ["nobody", *["–"] * 4]
     assert {len(row) for row in times} == {7}
