@@ -1,7 +1,6 @@
-"""How long a drop of two balls on springs takes in a sweep: `python -m benchmarks.two_springs`.
+"""How long the engine for two springs takes on the random drops of `random_drops`.
 
-Random drops with mass ratios from 0.05 to 50 and stiffness ratios from 0.02 to 50, logarithms
-uniform; half of them without a gap, half with gaps up to 2 v0/omega.
+Run `python -m benchmarks.two_springs`.
 """
 
 from collections.abc import Callable
@@ -12,6 +11,7 @@ from typing import Any
 import numpy as np
 from rich.console import Console
 
+from benchmarks.random_drops import random
 from stackbounce.engine import codes
 from stackbounce.engine.kernel import compiled
 from stackbounce.engine.two_springs import SCRATCH, two_springs
@@ -19,23 +19,10 @@ from stackbounce.engine.two_springs import SCRATCH, two_springs
 _LIMIT = 10**6
 
 
-def draw(count: int, seed: int = 1) -> tuple[Any, Any, Any, Any]:
-    """Return masses, stiffnesses, gaps and speeds of random drops, in SI units."""
-    random = np.random.default_rng(seed)
-
-    def log_uniform(low: float, high: float) -> Any:
-        return low * (high / low) ** random.random(count)
-
-    lower, floor, speed = log_uniform(0.01, 1.0), log_uniform(1e3, 1e5), log_uniform(0.1, 10.0)
-    mass = np.stack([lower, lower / log_uniform(0.05, 50.0)], axis=1)
-    stiffness = np.stack([floor, floor / log_uniform(0.02, 50.0)], axis=1)
-    reach = 2.0 * random.random(count) * (random.random(count) < 0.5)
-    return mass, stiffness, reach * speed * np.sqrt(lower / floor), speed
-
-
 def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     """Return what solves random drops when it is called, and where their statuses will be."""
-    drops = draw(count, seed)
+    drops = random(count, seed)
+    given = drops.masses, drops.stiffnesses, np.ascontiguousarray(drops.gaps), np.ones(count)
     pairs = [np.empty((count, 2)) for _ in range(3)]
     collisions, status = np.empty((count, 2), np.int64), np.empty(count, np.int64)
     out = pairs[0], collisions, *pairs[1:], np.empty(count), status
@@ -43,7 +30,7 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     solve = compiled(two_springs)
 
     def call() -> None:
-        solve(*drops, _LIMIT, *out, scratch)
+        solve(*given, _LIMIT, *out, scratch)
 
     return call, status
 

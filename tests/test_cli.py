@@ -646,6 +646,11 @@ def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
             "--cluster must be the address",
         ),
         (["--over", "gaps.0=0,1", "--plot", "map.txt"], "--plot must end in"),
+        (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "colisions"], "did you mean coll"),
+        (
+            ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"],
+            "--plot needs one or two numbers that vary, got 3",
+        ),
         ([], "Missing option '--over'"),
     ],
 )

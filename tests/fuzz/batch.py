@@ -10,7 +10,13 @@ from fuzz import drive
 from fuzz.draw import BATCH, Drops, balls_of, drops_of, is_rigid
 from stackbounce.engine.codes import LOG_COLUMNS
 from stackbounce.engine.kernel import compiled
-from stackbounce.engine.stack import as_arrays, new_rigid_stack, new_samples, new_stack
+from stackbounce.engine.stack import (
+    as_arrays,
+    in_one_room,
+    new_rigid_stack,
+    new_samples,
+    new_stack,
+)
 from stackbounce.engine.structure import structure
 
 _LOG_ROWS = 256
@@ -26,17 +32,10 @@ class Batch(NamedTuple):
 
 
 @functools.cache
-def _room(balls: int, rigid: bool) -> tuple[Any, ...]:
-    """Return a stack whose arrays lie in one of floats and one of integers, and these two."""
-    given = as_arrays((new_rigid_stack if rigid else new_stack)(balls))
-    rooms = {}
-    for kind in (np.float64, np.int64):
-        sizes = [len(array) for array in given if array.dtype == kind]
-        room = np.zeros(sum(sizes), dtype=kind)
-        rooms[kind] = room, iter(np.split(room, np.cumsum(sizes)[:-1]))
-    stack = type(given)(*(next(rooms[array.dtype.type][1]) for array in given))
-    samples = as_arrays(new_samples([], balls))
-    return structure(stack), rooms[np.float64][0], rooms[np.int64][0], samples
+def _arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
+    """Return a stack, the arrays that its own lie in, and no samples."""
+    stack, room = in_one_room((new_rigid_stack if rigid else new_stack)(balls))
+    return structure(stack), room, as_arrays(new_samples([], balls))
 
 
 def run_batch(seed: int, index: int, count: int = BATCH) -> Batch:
@@ -44,9 +43,9 @@ def run_batch(seed: int, index: int, count: int = BATCH) -> Batch:
     begun = time.perf_counter()
     drops = drops_of(seed, index, count)
     balls, rigid = balls_of(index), is_rigid(index)
-    stack, floats, integers, samples = _room(balls, rigid)
+    stack, room, samples = _arrays(balls, rigid)
     found = np.zeros((count, drive.COLUMNS + 2 * balls))
     log = np.zeros(_LOG_ROWS * LOG_COLUMNS)
     go = compiled(drive.run_all_rigid if rigid else drive.run_all)
-    go(stack, floats, integers, drops, samples, log, found)
+    go(stack, room, drops, samples, log, found)
     return Batch(index, drops, found, time.perf_counter() - begun)

@@ -14,6 +14,7 @@ from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TI
 from stackbounce.engine.contacts import stored_energy
 from stackbounce.engine.flight import compression_after
 from stackbounce.engine.kernel import kernel
+from stackbounce.engine.many import clear
 from stackbounce.engine.motion import compression_at, velocity_at
 from stackbounce.engine.prepare import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
@@ -64,21 +65,10 @@ def load(stack: Any, drops: Any, row: int) -> float:
 
 
 @kernel
-def clear(floats: Any, integers: Any) -> None:
-    """Forget the drop before."""
-    for k in range(len(floats)):
-        floats[k] = 0.0
-    for k in range(len(integers)):
-        integers[k] = 0
-
-
-@kernel
-def run(
-    stack: Any, floats: Any, integers: Any, drops: Any, row: int, samples: Any, log: Any, out: Any
-) -> None:
+def run(stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, out: Any) -> None:
     """Run one drop of finite contacts and write into ``out`` what is found."""
     size = len(stack.mass)
-    clear(floats, integers)
+    clear(room)
     unit = load(stack, drops, row)
     start(stack)
     first, reference = energy_at(stack, 0.0)
@@ -113,7 +103,7 @@ def run(
     if status == codes.INVALID:
         fault |= IS_INVALID  # not because the clock could not tell the times of an event apart
     if drops.stops[row, 0] > 0.0 and end > 0.0:
-        clear(floats, integers)
+        clear(room)
         fault |= in_parts(stack, drops, row, samples, log, allowed * (reference + terms), out)
     out[FAULT] = fault
 
@@ -233,10 +223,10 @@ def last_faults(stack: Any, drops: Any, row: int, loose: float, out: Any) -> int
 
 @kernel
 def run_rigid(
-    stack: Any, floats: Any, integers: Any, drops: Any, row: int, samples: Any, log: Any, out: Any
+    stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, out: Any
 ) -> None:
     """Run one drop of rigid balls and write into ``out`` what is found."""
-    clear(floats, integers)
+    clear(room)
     prepare_rigid(
         stack,
         drops.mass[row],
@@ -285,18 +275,14 @@ def rigid_energy(stack: Any, drops: Any, row: int, time: float) -> Any:
 
 
 @kernel
-def run_all(
-    stack: Any, floats: Any, integers: Any, drops: Any, samples: Any, log: Any, out: Any
-) -> None:
+def run_all(stack: Any, room: Any, drops: Any, samples: Any, log: Any, out: Any) -> None:
     """Run all drops of a batch."""
     for row in range(len(out)):
-        run(stack, floats, integers, drops, row, samples, log, out[row])
+        run(stack, room, drops, row, samples, log, out[row])
 
 
 @kernel
-def run_all_rigid(
-    stack: Any, floats: Any, integers: Any, drops: Any, samples: Any, log: Any, out: Any
-) -> None:
+def run_all_rigid(stack: Any, room: Any, drops: Any, samples: Any, log: Any, out: Any) -> None:
     """Run all drops of a batch of rigid stacks."""
     for row in range(len(out)):
-        run_rigid(stack, floats, integers, drops, row, samples, log, out[row])
+        run_rigid(stack, room, drops, row, samples, log, out[row])

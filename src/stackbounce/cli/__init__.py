@@ -165,6 +165,7 @@ def sweep(
 
     if plot is not None:
         output.check_picture(plot)
+        swept.check_picture(over, show)
     chosen = scenario.read(
         what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
     )

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.errors import InvalidValue, shown
+from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.result import Status
 from stackbounce.sweep import grid, write
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
 
-__all__ = ["picture", "run", "summary", "tell"]
+__all__ = ["check_picture", "picture", "run", "summary", "tell"]
 
 _PARTS = ("ball", "contact")
 _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
@@ -35,15 +35,23 @@ def run(
     return data
 
 
+def check_picture(over: Sequence[str], show: str) -> None:
+    """Refuse a picture that could not be drawn, before anything is computed."""
+    from stackbounce.plots.swept import TITLES
+
+    if len(over) not in (1, 2):
+        raise InvalidValue(f"--plot needs one or two numbers that vary, got {len(over)}")
+    if show not in TITLES:
+        raise InvalidValue(f"--show must name a result, got {shown(show)}; {nearest(show, TITLES)}")
+
+
 def picture(data: "xr.Dataset", show: str) -> "Figure":
     """Return the lines or the map of a sweep over one number or two."""
     from stackbounce import plots
 
-    dims = data.status.dims
-    if len(dims) not in (1, 2):
-        raise InvalidValue(f"--plot needs one or two numbers that vary, got {len(dims)}")
     loaded = data.load()
-    return plots.lines(loaded, show) if len(dims) == 1 else plots.heatmap(loaded, show)
+    draw = plots.lines if len(data.status.dims) == 1 else plots.heatmap
+    return draw(loaded, show)
 
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:

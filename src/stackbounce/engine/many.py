@@ -57,7 +57,7 @@ def run_many(
     """Run drops on finite contacts in one stack, whose arrays lie in ``room``."""
     size = len(stack.mass)
     for row in range(len(out.status)):
-        _clear(room)
+        clear(room)
         unit = prepare(
             stack,
             drops.mass[row],
@@ -102,7 +102,7 @@ def run_many_rigid(
     """Run drops of rigid balls in one stack, whose arrays lie in ``room``."""
     size = len(stack.mass)
     for row in range(len(out.status)):
-        _clear(room)
+        clear(room)
         prepare_rigid(
             stack,
             drops.mass[row],
@@ -130,7 +130,7 @@ def run_many_rigid(
 
 
 @kernel
-def _clear(room: tuple[Floats, Integers]) -> None:
+def clear(room: tuple[Floats, Integers]) -> None:
     """Forget the drop before."""
     floats, integers = room
     for k in range(len(floats)):

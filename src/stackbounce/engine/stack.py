@@ -201,3 +201,20 @@ def as_arrays(record: Any) -> Any:
             for name, values in zip(record._fields, record, strict=True)
         )
     )
+
+
+def in_one_room(record: Any) -> tuple[Any, tuple[Any, Any]]:
+    """Return a stack's copy of arrays that lie in one of floats and one of integers, and these two.
+
+    To empty such a stack is to fill two arrays.
+    """
+    import numpy as np
+
+    arrays = as_arrays(record)
+    rooms: dict[Any, Any] = {}
+    for kind in (np.float64, np.int64):
+        sizes = [len(array) for array in arrays if array.dtype == kind]
+        room: Any = np.zeros(sum(sizes), dtype=kind)
+        rooms[kind] = room, iter(np.split(room, np.cumsum(sizes)[:-1]))
+    views = type(record)(*(next(rooms[array.dtype.type][1]) for array in arrays))
+    return views, (rooms[np.float64][0], rooms[np.int64][0])

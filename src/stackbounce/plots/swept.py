@@ -13,15 +13,17 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["heatmap", "lines"]
+__all__ = ["TITLES", "heatmap", "lines"]
 
-_TITLES = {
+TITLES = {
     "rebound_ratio": "rebound ratio",
     "collisions": "collisions",
     "energy_retained": "energy retained",
     "first_touch": "first touch (s)",
     "last_release": "last release (s)",
 }
+"""What can be drawn, and how it is called."""
+
 _MOST_COUNTS = 12  # colors of a map of collisions
 _INFINITE = (0.75, 0.75, 0.75, 1.0)
 _LEVELS = 8  # contours
@@ -77,7 +79,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio") -> "Figure":
         if part:
             axes.legend(frameon=False)
         _label(axes, "x", data, dim)
-        axes.set_ylabel(_TITLES[show])
+        axes.set_ylabel(TITLES[show])
         axes.set_title(_unfinished(data), loc="left", fontsize=10)
     return figure
 
@@ -139,7 +141,7 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
         _label(axes, "x", data, across)
         _label(axes, "y", data, up)
         which = f" of {part} {index % data.sizes[part]}" if part else ""
-        title = _TITLES[show] + which
+        title = TITLES[show] + which
         axes.set_title("\n".join(filter(None, (title, _unfinished(data)))), loc="left", fontsize=10)
     return figure
 
@@ -186,8 +188,8 @@ def _dimensions(data: Any, show: str, count: int) -> tuple[Any, ...]:
 
     if not isinstance(data, xr.Dataset) or "status" not in data:
         raise InvalidType(f"data must be a Dataset from sweep, got {shown(data)}")
-    if show not in _TITLES:
-        raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, _TITLES)}")
+    if show not in TITLES:
+        raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, TITLES)}")
     dims = data["status"].dims
     if len(dims) != count:
         right = "one dimension" if count == 1 else "two dimensions"

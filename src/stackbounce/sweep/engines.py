@@ -6,14 +6,19 @@ import threading
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.engine import codes
 from stackbounce.engine.codes import LOG_COLUMNS
 from stackbounce.engine.kernel import compiled
 from stackbounce.engine.many import Drops, Outcomes, run_many, run_many_rigid
 from stackbounce.engine.prepare import POWER_LAW
-from stackbounce.engine.stack import as_arrays, new_rigid_stack, new_samples, new_stack
+from stackbounce.engine.stack import (
+    as_arrays,
+    in_one_room,
+    new_rigid_stack,
+    new_samples,
+    new_stack,
+)
 from stackbounce.engine.two_springs import SCRATCH, two_springs
 from stackbounce.simulate import Options
 
@@ -135,13 +140,6 @@ def _arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
 def _new_arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
     from stackbounce.engine.structure import structure
 
-    given = as_arrays(new_rigid_stack(balls) if rigid else new_stack(balls))
-    rooms: dict[Any, Any] = {}
-    for kind in (np.float64, np.int64):
-        sizes = [len(array) for array in given if array.dtype == kind]
-        room: NDArray[Any] = np.zeros(sum(sizes), dtype=kind)
-        rooms[kind] = room, iter(np.split(room, np.cumsum(sizes)[:-1]))
-    stack = type(given)(*(next(rooms[array.dtype.type][1]) for array in given))
+    stack, room = in_one_room(new_rigid_stack(balls) if rigid else new_stack(balls))
     log = np.zeros(max(_LOG_ROWS, balls) * LOG_COLUMNS)
-    room_of_both = rooms[np.float64][0], rooms[np.int64][0]
-    return structure(stack), room_of_both, as_arrays(new_samples([], balls)), log
+    return structure(stack), room, as_arrays(new_samples([], balls)), log
