@@ -26,8 +26,9 @@ from stackbounce.engine.lanes import (
     LOOKS,
     N0,
     N1,
-    REACH1,
-    REACH2,
+    OVER_A1,
+    OVER_A2,
+    OVER_B2,
     ROW,
     S1,
     S2,
@@ -39,17 +40,17 @@ from stackbounce.engine.lanes import (
     U1,
     V1,
     V2,
+    VAIN,
     W0,
     W1,
     X2,
     look,
 )
-from stackbounce.engine.waves import WIDEST
 
 # The drops that wait: the slots of a drop, and what was given.
 NEXT = SLOTS * LANES
-MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(29, 35))
-SCRATCH = NEXT + 35 * LANES
+MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(31, 37))
+SCRATCH = NEXT + 37 * LANES
 
 _RATIO = 256.0  # of masses and of stiffnesses, at most, and at least one over it
 _GAP = 1e3  # in v0/omega, at most
@@ -96,31 +97,27 @@ def two_springs(
         Scratch space.
     """
     rows = len(gap)
-    lanes, waiting, row = min(LANES, rows), 0, 0
-    for i in range(lanes):
+    left, waiting, row = rows, 0, 0
+    for i in range(LANES):
         x[STATUS + i], x[ROW + i] = ASK, -1.0  # free
-    while lanes > 0:
-        i = 0
-        while i < lanes:
-            if x[STATUS + i] == 0.0:
-                i += 1
-                continue
-            if x[ROW + i] >= 0.0:
-                _leave(velocity, collisions, first_touch, last_release, status, x, i)
-            if waiting == 0 and row < rows:
-                waiting = min(LANES, rows - row)
-                _line_up(mass, stiffness, gap, speed, row, waiting, x)
-                _enter(x, waiting)
-                row += waiting
-            if waiting > 0:
+    while left > 0:
+        for i in range(LANES):
+            while x[STATUS + i] != 0.0:
+                if x[ROW + i] >= 0.0:
+                    _leave(velocity, collisions, first_touch, last_release, status, x, i)
+                    left -= 1
+                if waiting == 0 and row < rows:
+                    waiting = min(LANES, rows - row)
+                    _line_up(mass, stiffness, gap, speed, row, waiting, x)
+                    _enter(x, waiting)
+                    row += waiting
+                if waiting == 0:
+                    x[STATUS + i], x[ROW + i] = 0.0, -1.0
+                    break
                 waiting -= 1
-                source = NEXT + waiting
-            else:
-                lanes -= 1
-                source = lanes
-            for k in range(DROP):
-                x[k * LANES + i] = x[k * LANES + source]
-        look(x, lanes, event_limit)
+                for k in range(DROP):
+                    x[k * LANES + i] = x[NEXT + k * LANES + waiting]
+        look(x, event_limit)
     _to_si(mass, stiffness, speed, velocity, first_touch, last_release, energy, status)
 
 
@@ -166,26 +163,27 @@ def _enter(x: Floats, count: int) -> None:
         unit = 1.0 / math.sqrt(lean * lean + corner * corner)
         c, s = (lean if half >= 0.0 else corner) * unit, (corner if half >= 0.0 else lean) * unit
         x[NEXT + C2 + i], x[NEXT + S2 + i] = c, s
-        x[NEXT + A2 + i], x[NEXT + B2 + i] = math.sqrt(fast), math.sqrt(slow)
+        a, b = math.sqrt(fast), math.sqrt(slow)
+        x[NEXT + A2 + i], x[NEXT + B2 + i] = a, b
+        x[NEXT + OVER_A2 + i], x[NEXT + OVER_B2 + i] = 1.0 / a, 1.0 / b
         inverse = 1.0 / corner
         # eq 6: the compression of the balls' contact is what moves the upper ball
         x[NEXT + V2 + i], x[NEXT + X2 + i] = fast * s * inverse, slow * c * inverse
-        x[NEXT + REACH2 + i] = WIDEST / math.sqrt(fast)
         # balls only: K = ((kappa, corner), (corner, kappa/mu))
         unit = 1.0 / math.sqrt(1.0 + mu)
         single = kappa + upper
         x[NEXT + C1 + i], x[NEXT + S1 + i] = root * unit, -unit
-        x[NEXT + A1 + i], x[NEXT + V1 + i] = math.sqrt(single), -single * unit * inverse
-        x[NEXT + REACH1 + i] = WIDEST / math.sqrt(single)
+        a = math.sqrt(single)
+        x[NEXT + A1 + i], x[NEXT + OVER_A1 + i] = a, 1.0 / a
+        x[NEXT + V1 + i] = -single * unit * inverse
         x[NEXT + SLIM + i] = slim
         x[NEXT + W0 + i], x[NEXT + W1 + i] = 0.0, distance * root
         x[NEXT + U0 + i], x[NEXT + U1 + i] = -1.0, -root
         together = 1.0 if distance == 0.0 else 0.0
         x[NEXT + TIME + i], x[NEXT + FLOOR + i], x[NEXT + BALLS + i] = 0.0, 1.0, together
-        x[NEXT + LOOKS + i], x[NEXT + EVENTS + i] = 0.0, 1.0 + together
+        x[NEXT + LOOKS + i], x[NEXT + EVENTS + i], x[NEXT + VAIN + i] = 0.0, 1.0 + together, 0.0
         x[NEXT + N0 + i], x[NEXT + N1 + i] = 1.0, together
-        x[NEXT + FIRST + i] = 0.0 if distance == 0.0 else math.nan
-        x[NEXT + LAST0 + i], x[NEXT + LAST1 + i] = math.nan, math.nan
+        x[NEXT + FIRST + i], x[NEXT + LAST0 + i], x[NEXT + LAST1 + i] = 0.0, 0.0, 0.0
 
 
 @kernel
@@ -203,8 +201,10 @@ def _leave(
     status[r] = int(x[STATUS + i])
     velocity[r, 0], velocity[r, 1] = x[U0 + i], x[U1 + i]
     collisions[r, 0], collisions[r, 1] = int(x[N0 + i]), int(x[N1 + i])
-    first_touch[r, 1] = x[FIRST + i]
-    last_release[r, 0], last_release[r, 1] = x[LAST0 + i], x[LAST1 + i]
+    first_touch[r, 1] = x[FIRST + i] if x[N1 + i] > 0.0 else math.nan
+    last0, last1 = x[LAST0 + i], x[LAST1 + i]
+    last_release[r, 0] = last0 if last0 > 0.0 else math.nan
+    last_release[r, 1] = last1 if last1 > 0.0 else math.nan
 
 
 @kernel
