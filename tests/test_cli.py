@@ -72,7 +72,7 @@ def test_version_and_help(run):
 def test_help_does_not_wait_for_heavy_libraries():
     code = (
         "import sys; from stackbounce.cli import main; main(['--help']); "
-        "heavy = {'pint', 'xarray', 'matplotlib', 'numba', 'uncertainties', 'jinja2'}; "
+        "heavy = {'numpy', 'pint', 'xarray', 'matplotlib', 'numba', 'uncertainties', 'jinja2'}; "
         "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
