@@ -29,6 +29,7 @@ TITLES = {
 
 _STROKES = ("-", "--", ":", "-.")
 _FEW = 25  # values: each one gets a dot
+_IN_A_ROW = 4  # names
 
 
 def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None) -> "Figure":
@@ -85,13 +86,12 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
             name = _name(data, part, k) if part else None
             axes.plot(scale.places, row, label=name, **_look(show, k, chosen, row))
         if part:
-            outside: Any = {"loc": "upper left", "bbox_to_anchor": (1.0, 1.0)}
-            axes.legend(frameon=False, handlelength=1.6, **outside)
+            _legend(axes, len(rows))
         label(axes, "x", str(dim), scale)
         if len(scale.places) > 1 and not np.isfinite(rows).any():
             axes.set_xlim(scale.places[0], scale.places[-1])
         _label_values(axes, show, own, np.array(rows))
-        axes.set_title(unfinished, loc="left", fontsize=10)
+        axes.set_title(unfinished, loc="left", fontsize=10, pad=26 if part else None)
     return figure
 
 
@@ -161,11 +161,22 @@ def _look(show: str, k: int, chosen: range, row: NDArray[Any]) -> dict[str, Any]
     """Return color, stroke and width of a line: they tell more than six apart, and equal counts."""
     stroke = _STROKES[k // len(COLORS) % len(_STROKES)]
     look: dict[str, Any] = {"color": color_of(k), "linestyle": stroke}
+    above = chosen.stop - 1 - k
     if show == "collisions":  # one may hide another
-        look |= {"drawstyle": "steps-mid", "linewidth": 1.5 + 2.0 * (chosen.stop - 1 - k)}
+        look |= {"drawstyle": "steps-mid", "linewidth": 1.5 + min(2.0, 6.0 / chosen.stop) * above}
     elif len(row) <= _FEW:
         look |= {"marker": "o", "markersize": 4}
     return look
+
+
+def _legend(axes: "Axes", count: int) -> None:
+    """Put the names where no line goes: above, or many of them to the right."""
+    look: Any = {"frameon": False, "handlelength": 1.6, "borderpad": 0.0}
+    if count <= _IN_A_ROW:
+        look |= {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "ncols": count}
+    else:
+        look |= {"loc": "upper left", "bbox_to_anchor": (1.02, 1.0)}
+    axes.legend(**look)
 
 
 def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[Any]) -> None:
