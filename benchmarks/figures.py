@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from benchmarks.growth import LAWS, SHAPES, Cost
 from benchmarks.race import PEERS, Entry
+from benchmarks.startup import Start
 from benchmarks.work_precision import DROPS, FAMILIES, TOLERANCES, Spread, Work
 from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, styled
 
@@ -188,4 +189,23 @@ def peers(entries: list[Entry]) -> Figure:
         wrong.set_ylabel("drops with a wrong count (%)")
         _name_all(figure, *work.get_legend_handles_labels(), handletextpad=0.1, columnspacing=1.0)
         figure.subplots_adjust(left=0.09, right=0.985, top=0.89, bottom=0.135, wspace=0.2)
+    return figure
+
+
+def startup(starts: list[Start]) -> Figure:
+    """Draw what each start takes in units of numpy's import."""
+    with styled():
+        figure = Figure(figsize=(5.2, 2.4))
+        ax = figure.subplots()
+        for place, start in enumerate(starts):
+            ax.barh(place - 0.18, start.processor_ratio, 0.32, color=UPPER)
+            ax.barh(place + 0.18, start.clock_ratio, 0.32, color=FLOOR)
+        ax.set_yticks(range(len(starts)), [start.name for start in starts])
+        ax.tick_params(axis="y", which="both", length=0)
+        ax.invert_yaxis()
+        ax.axvline(1.0, color=GREY, linewidth=0.8, linestyle=":")
+        ax.set_xlim(0.0, 1.15 * max(max(s.processor_ratio, s.clock_ratio) for s in starts))
+        ax.set_xlabel("time / that of numpy's import")
+        ax.legend(ax.patches[:2], ["processor", "clock"], frameon=False, loc="upper right")
+        figure.subplots_adjust(left=0.3, right=0.98, top=0.97, bottom=0.2)
     return figure

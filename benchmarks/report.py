@@ -12,7 +12,7 @@ from pathlib import Path
 import jinja2
 from matplotlib.figure import Figure
 
-from benchmarks import figures, growth, race, work_precision
+from benchmarks import figures, growth, race, startup, work_precision
 from benchmarks.peers import common
 from stackbounce.cross2007.style import rendered
 
@@ -50,7 +50,8 @@ class Section:
 
 def write(out: Path, progress: Callable[[str], None]) -> list[Table]:
     """Measure, write the page and its figures to a folder, and return the tables."""
-    sections = [_growth(progress), _accuracy(progress), _work(progress), _peers(progress)]
+    makers = (_growth, _accuracy, _work, _peers, _startup)
+    sections = [make(progress) for make in makers]
     progress("writing the page")
     out.mkdir(parents=True, exist_ok=True)
     for section in sections:
@@ -180,6 +181,33 @@ def _peers(progress: Callable[[str], None]) -> Section:
     ]
     title = "Next to other solvers"
     return _section("peers", title, caption, figures.peers(entries), tables)
+
+
+def _startup(progress: Callable[[str], None]) -> Section:
+    starts = startup.measure(progress)
+    caption = (
+        "Each a process of its own, from its start to its end, with compiled bytecode at hand: "
+        f"medians of {startup.ROUNDS} rounds, and of the ratios to numpy's import in the same "
+        "round. Processor time is that of all threads."
+    )
+    heads = ["start", "processor (ms)", "ratio", "clock (ms)", "ratio"]
+    table = Table("Time from start to end", heads, startup_times(starts))
+    title = "How soon it starts"
+    return _section("startup", title, caption, figures.startup(starts), [table])
+
+
+def startup_times(starts: list[startup.Start]) -> list[list[str]]:
+    """Return what each start takes, in ms and next to numpy's import."""
+    return [
+        [
+            start.name,
+            _three(1e3 * start.processor),
+            f"{start.processor_ratio:.2f}",
+            _three(1e3 * start.clock),
+            f"{start.clock_ratio:.2f}",
+        ]
+        for start in starts
+    ]
 
 
 def peer_times(entries: list[race.Entry]) -> list[list[str]]:

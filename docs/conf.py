@@ -45,7 +45,7 @@ math_number_all = False
 math_eqref_format = "({number})"
 
 # The figures of docs/figures are drawn while building, in the style of the paper's.
-plot_formats = ["svg"]
+plot_formats = [("svg", 200)]  # dots per inch of maps
 plot_html_show_formats = False
 plot_apply_rcparams = True
 with styled():

@@ -7,7 +7,7 @@ import pytest
 import stackbounce as sb
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from benchmarks import race, random_drops, report
+from benchmarks import figures, race, random_drops, report, startup
 from benchmarks.peers import by_scipy, by_steps
 from benchmarks.peers.common import Peer
 from benchmarks.random_drops import Drops
@@ -91,3 +91,13 @@ def test_a_missing_peer_is_skipped_with_a_word(small):
     assert counts[2] == ["nobody", *["–"] * 4]
     assert {len(row) for row in times} == {7}
     assert {len(row) for row in counts} == {5}
+
+
+def test_starts_are_told_next_to_numpy():
+    starts = startup.measure(quiet, rounds=2)
+    assert [start.name for start in starts] == list(startup.STARTS)
+    base = starts[1]
+    assert (base.name, base.processor_ratio, base.clock_ratio) == (startup.BASE, 1.0, 1.0)
+    assert starts[0].clock < base.clock < starts[-1].clock
+    assert report.startup_times(starts)[1][::2] == [startup.BASE, "1.00", "1.00"]
+    assert len(figures.startup(starts).axes[0].patches) == 2 * len(starts)

@@ -11,9 +11,9 @@ import pytest
 from typer.testing import CliRunner
 
 import stackbounce as sb
-from stackbounce import cross2007
+from stackbounce import cross2007, plots
 from stackbounce.calibrate import separate
-from stackbounce.cli import app, main, show
+from stackbounce.cli import app, main, output, show
 from stackbounce.cli.scenario import read, read_contact
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import LAWS
@@ -72,7 +72,7 @@ def test_version_and_help(run):
 def test_help_does_not_wait_for_heavy_libraries():
     code = (
         "import sys; from stackbounce.cli import main; main(['--help']); "
-        "heavy = {'pint', 'xarray', 'matplotlib', 'numba', 'uncertainties', 'jinja2'}; "
+        "heavy = {'numpy', 'pint', 'xarray', 'matplotlib', 'numba', 'uncertainties', 'jinja2'}; "
         "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
     )
     run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
@@ -624,7 +624,8 @@ def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
     files = ["--out", "map.zarr", "--plot", "map.png"]
     code, out, err = run("sweep", "basketball", "tennis", *over, *files)
     assert (code, err) == (0, "")
-    assert "8 drops: 4 of balls.0.mass x 2 of gaps.0" in out
+    assert "8 drops, over\n  balls.0.mass: 4, 0.05 to 0.5 kg\n  gaps.0: 2, 0 to 0.002 m\n" in out
+    assert "  energy_retained: 1\n" in out
     assert "8 FINISHED" in out
     assert (tmp_path / "map.png").stat().st_size > 5000
     again = run("sweep", "basketball", "tennis", *over, "--out", "map.zarr", "--json")
@@ -633,6 +634,16 @@ def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
     assert found["over"] == {"balls.0.mass": 4, "gaps.0": 2}
     low, high = found["ranges"]["rebound_ratio"]["ball 1"]
     assert 1.0 < low < high < 3.0
+
+
+def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(plots, "lines", lambda _, *asked, **which: drawn.append((asked, which)))
+    monkeypatch.setattr(output, "draw", lambda make, _: make())
+    over = ["--over", "balls.0.mass = 50 g, 60 g", "--out", "a.zarr", "--plot", "a.png", "--show"]
+    for asked in ("rebound_ratio.0", "collisions"):
+        assert run("sweep", "basketball", "tennis", *over, asked)[0] == 0
+    assert drawn == [(("rebound_ratio",), {"index": 0}), (("collisions",), {})]
 
 
 @pytest.mark.parametrize(
@@ -647,6 +658,13 @@ def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
         ),
         (["--over", "gaps.0=0,1", "--plot", "map.txt"], "--plot must end in"),
         (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "colisions"], "did you mean coll"),
+        (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "collisions.2"], "from 0 to 1, got"),
+        (["--over", "gaps.0=0", "--plot", "a.png", "--show", "energy_retained.0"], "whole stack"),
+        (["--over", "mass=1:2:3"], "say which, balls.0.mass or balls.1.mass"),
+        (["--over", "balls.2.mass=1:2:3"], "its balls count from 0, the lowest, to 1"),
+        (["--over", "speed=1:2:3"], "it is given by its height (--height or --speed choose)"),
+        (["--over", "contacts.0.restitution=1"], "contact 0 is a Spring, which has stiffness"),
+        (["--over", "gaps.0=0:1mm:9:log"], "of one sign for :log, not from or to 0, got 0:1mm"),
         (
             ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"],
             "--plot needs one or two numbers that vary, got 3",

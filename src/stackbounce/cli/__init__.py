@@ -128,8 +128,9 @@ def sweep(
         list[str],
         typer.Option(
             metavar="PATH=VALUES",
-            help="A number that varies, such as contacts.0.stiffness=1kN/m:1MN/m:400:log "
-            "(start, stop, how many, even ratios) or gaps.0=0mm,1mm,5mm; once per number.",
+            help="A number that varies: balls.0.mass=50g:500g:40 (start, stop, how many), "
+            "contacts.0.stiffness=1kN/m:1MN/m:40:log (in even ratios) or gaps.0=0mm,1mm,5mm; "
+            "once per number. Balls, contacts and gaps count from 0, the lowest.",
             show_default=False,
         ),
     ],
@@ -138,7 +139,8 @@ def sweep(
         typer.Option(
             metavar="STORE",
             readable=False,
-            help="The Zarr store to write. Stopped, the same command goes on where it was.",
+            help="Folder to write all results to, a Zarr store such as map.zarr. Stopped, the "
+            "same command goes on where it was.",
             show_default=False,
         ),
     ],
@@ -154,7 +156,12 @@ def sweep(
         typer.Option(metavar="ADDRESS", help="Solve on this cluster: its dask scheduler."),
     ] = None,
     show: Annotated[
-        str, typer.Option(metavar="NAME", help="What --plot draws, such as collisions.")
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="What --plot draws: rebound_ratio, collisions, energy_retained, first_touch or "
+            "last_release; of one ball or contact with its number, such as rebound_ratio.0.",
+        ),
     ] = "rebound_ratio",
     plot: Plot = None,
     as_json: AsJson = False,
@@ -165,10 +172,11 @@ def sweep(
 
     if plot is not None:
         output.check_picture(plot)
-        swept.check_picture(over, show)
     chosen = scenario.read(
         what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
     )
+    if plot is not None:
+        swept.check_picture(chosen.drop, over, show)
     end = None if until is None else quantity(until, "s", "--until")
     done = swept.run(chosen.drop, over, out, cluster=cluster, until=end, rtol=rtol)
     if plot is not None:

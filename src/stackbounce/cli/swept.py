@@ -4,7 +4,7 @@ import contextlib
 import socket
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
@@ -35,23 +35,31 @@ def run(
     return data
 
 
-def check_picture(over: Sequence[str], show: str) -> None:
+def check_picture(drop: Drop, over: Sequence[str], show: str) -> None:
     """Refuse a picture that could not be drawn, before anything is computed."""
     from stackbounce.plots.swept import TITLES
 
     if len(over) not in (1, 2):
         raise InvalidValue(f"--plot needs one or two numbers that vary, got {len(over)}")
-    if show not in TITLES:
-        raise InvalidValue(f"--show must name a result, got {shown(show)}; {nearest(show, TITLES)}")
+    name, dot, which = show.partition(".")
+    if name not in TITLES:
+        raise InvalidValue(f"--show must name a result, got {shown(name)}; {nearest(name, TITLES)}")
+    most = len(drop.balls) - 1
+    if dot and name == "energy_retained":
+        raise InvalidValue(f"--show {name} is of the whole stack, got {shown(show)}")
+    if dot and not (which.isdecimal() and int(which) <= most):
+        raise InvalidValue(
+            f"--show {name}. must end in a ball or contact from 0 to {most}, got {shown(show)}"
+        )
 
 
 def picture(data: "xr.Dataset", show: str) -> "Figure":
     """Return the lines or the map of a sweep over one number or two."""
     from stackbounce import plots
 
-    loaded = data.load()
-    draw = plots.lines if len(data.status.dims) == 1 else plots.heatmap
-    return draw(loaded, show)
+    name, dot, which = show.partition(".")
+    draw: Any = plots.lines if len(data.status.dims) == 1 else plots.heatmap
+    return cast("Figure", draw(data.load(), name, **({"index": int(which)} if dot else {})))
 
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
@@ -77,16 +85,23 @@ def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
 def tell(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -> None:
     """Print what came of a sweep, for people."""
     found = summary(data, out)
-    sizes = " x ".join(f"{size} of {dim}" for dim, size in found["over"].items())
-    console.print(f"{found['drops']} drops: {sizes}")
+    console.print(f"{found['drops']} drops, over")
+    for dim, size in found["over"].items():
+        values, unit = data[dim].values, data[dim].attrs.get("units", "")
+        console.print(f"  {dim}: {size}, {_range(values.min(), values.max())} {unit}".rstrip())
     for name, ranges in found["ranges"].items():
         for part, (low, high) in ranges.items():
-            console.print(f"  {name} {part}".rstrip() + f": {low:.6g} to {high:.6g}")
+            console.print(f"  {name} {part}".rstrip() + f": {_range(low, high)}")
     for name, count in found["status"].items():
         console.print(f"  {count} {name}: {Status[name].advice}")
     console.print(f"Store: {out}")
     if plot is not None:
         console.print(f"Picture: {plot}")
+
+
+def _range(low: float, high: float) -> str:
+    one, other = f"{low:.6g}", f"{high:.6g}"
+    return one if one == other else f"{one} to {other}"
 
 
 def _over_drops(array: "xr.DataArray", what: str) -> "xr.DataArray":

@@ -1,12 +1,15 @@
 """Pictures of a sweep: lines over one number, maps over two."""
 
+import tomllib
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
-from stackbounce.plots.style import STYLE, color_of
+from stackbounce.plots.maps import draw_counts, draw_levels, hatch
+from stackbounce.plots.scales import flat, label, scale_of, shown_in
+from stackbounce.plots.style import COLORS, STYLE, color_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -19,17 +22,17 @@ TITLES = {
     "rebound_ratio": "rebound ratio",
     "collisions": "collisions",
     "energy_retained": "energy retained",
-    "first_touch": "first touch (s)",
-    "last_release": "last release (s)",
+    "first_touch": "first touch",
+    "last_release": "last release",
 }
 """What can be drawn, and how it is called."""
 
-_MOST_COUNTS = 12  # colors of a map of collisions
-_INFINITE = (0.75, 0.75, 0.75, 1.0)
-_LEVELS = 8  # contours
+_STROKES = ("-", "--", ":", "-.")
+_FEW = 25  # values: each one gets a dot
+_IN_A_ROW = 4  # names
 
 
-def lines(data: "xr.Dataset", show: str = "rebound_ratio") -> "Figure":
+def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None) -> "Figure":
     """Draw a sweep over one number: a line for each ball, or for each contact.
 
     Parameters
@@ -39,16 +42,18 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio") -> "Figure":
     show : str, optional
         What to draw: ``rebound_ratio``, ``collisions``, ``energy_retained``, ``first_touch`` or
         ``last_release``.
+    index : int, optional
+        The only ball or contact to draw; default all of them.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved.
+        Not shown and not saved. Drops that could not be finished are left out, and counted above.
 
     Raises
     ------
     InvalidValue
-        If the sweep has not one dimension, or nothing of that name.
+        If the sweep has not one dimension, or nothing of that name, or no such ball or contact.
     InvalidType
         If `data` is no Dataset.
 
@@ -61,26 +66,32 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio") -> "Figure":
     >>> figure.axes[0].get_xlabel()
     'balls.0.mass (kg)'
     """
-    (dim,) = _dimensions(data, show, 1)
+    data, (dim,) = _sorted(data, show, 1)
+    part, own, unfinished = _finished(data, show)
+    chosen = range(own.sizes[part]) if part else range(1)
+    if part and index is not None:
+        chosen = range(_index(own, part, index), _index(own, part, index) + 1)
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
     with mpl.rc_context():
         mpl.rcParams.update(STYLE)
-        figure = Figure(figsize=(6.4, 4.2))
+        figure = Figure(figsize=(6.4, 4.0))
         axes = figure.subplots()
-        across, own = _axis(data, dim), data[show]
-        part = next((name for name in ("ball", "contact") if name in own.dims), "")
-        for k in range(own.sizes[part]) if part else [0]:
-            one = own.isel({part: k}) if part else own
-            style = "steps-mid" if show == "collisions" else "default"
-            label = f"{part} {k}" if part else None
-            axes.plot(across, one.values, color=color_of(k), label=label, drawstyle=style)
+        scale = scale_of(data, dim)
+        rows = [own.isel({part: k}).values if part else own.values for k in chosen]
+        if show == "collisions":
+            rows = _counts_on(axes, np.array(rows))
+        for k, row in zip(chosen, rows, strict=True):
+            name = _name(data, part, k) if part else None
+            axes.plot(scale.places, row, label=name, **_look(show, k, chosen, row))
         if part:
-            axes.legend(frameon=False)
-        _label(axes, "x", data, dim)
-        axes.set_ylabel(TITLES[show])
-        axes.set_title(_unfinished(data), loc="left", fontsize=10)
+            _legend(axes, len(rows))
+        label(axes, "x", str(dim), scale)
+        if len(scale.places) > 1 and not np.isfinite(rows).any():
+            axes.set_xlim(scale.places[0], scale.places[-1])
+        _label_values(axes, show, own, np.array(rows))
+        axes.set_title(unfinished, loc="left", fontsize=10, pad=26 if part else None)
     return figure
 
 
@@ -99,7 +110,8 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved.
+        Not shown and not saved. Where there is nothing to show it is hatched: drops that could not
+        be finished, which are counted above, and times of contacts that never close.
 
     Raises
     ------
@@ -117,73 +129,88 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     >>> plots.heatmap(sb.sweep(drop, over)).axes[0].get_xlabel()
     'contacts.1.stiffness (N/m)'
     """
-    up, across = _dimensions(data, show, 2)
+    data, (up, across) = _sorted(data, show, 2)
+    part, own, unfinished = _finished(data, show)
+    title = TITLES[show]
+    if part:
+        title += f" of {_name(data, part, _index(own, part, index))}"
+        own = own.isel({part: index})
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    own = data[show]
-    part = next((name for name in ("ball", "contact") if name in own.dims), "")
-    if part:
-        if not -own.sizes[part] <= index < own.sizes[part]:
-            raise InvalidValue(
-                f"index must name a {part} from 0 to {own.sizes[part] - 1}, got {index}"
-            )
-        own = own.isel({part: index})
     with mpl.rc_context():
         mpl.rcParams.update(STYLE | {"axes.grid": False})
         figure = Figure(figsize=(6.4, 4.8))
         axes = figure.subplots()
-        x, y = _axis(data, across), _axis(data, up)
+        x, y = scale_of(data, across), scale_of(data, up)
+        label(axes, "x", str(across), x)
+        label(axes, "y", str(up), y)
+        values = own.values.astype(float)
+        if np.isnan(values).any():
+            hatch(axes)
         if show == "collisions":
-            _draw_counts(axes, x, y, own.values)
+            draw_counts(axes, x, y, values)
         else:
-            _draw_levels(axes, x, y, own.values)
-        _label(axes, "x", data, across)
-        _label(axes, "y", data, up)
-        which = f" of {part} {index % data.sizes[part]}" if part else ""
-        title = TITLES[show] + which
-        axes.set_title("\n".join(filter(None, (title, _unfinished(data)))), loc="left", fontsize=10)
+            unit = draw_levels(axes, x, y, values, own.attrs.get("units", "1").removeprefix("1"))
+            title += f" ({unit})" if unit else ""
+        axes.set_title("\n".join(filter(None, (title, unfinished))), loc="left", fontsize=10)
     return figure
 
 
-def _draw_levels(axes: "Axes", x: Any, y: Any, values: NDArray[Any]) -> None:
-    colors = axes.pcolormesh(x, y, values, cmap="viridis", shading="nearest", rasterized=True)
-    assert axes.figure is not None
-    axes.figure.colorbar(colors, ax=axes)
-    if min(values.shape) > 1 and np.nanmin(values) < np.nanmax(values):
-        lined = axes.contour(
-            x, y, values, levels=_LEVELS, colors="white", linewidths=0.8, alpha=0.8
-        )
-        axes.clabel(lined, fontsize=8, fmt="%.3g")
+def _look(show: str, k: int, chosen: range, row: NDArray[Any]) -> dict[str, Any]:
+    """Return color, stroke and width of a line: they tell more than six apart, and equal counts."""
+    stroke = _STROKES[k // len(COLORS) % len(_STROKES)]
+    look: dict[str, Any] = {"color": color_of(k), "linestyle": stroke}
+    above = chosen.stop - 1 - k
+    if show == "collisions":  # one may hide another
+        look |= {"drawstyle": "steps-mid", "linewidth": 1.5 + min(2.0, 6.0 / chosen.stop) * above}
+    elif len(row) <= _FEW:
+        look |= {"marker": "o", "markersize": 4}
+    return look
 
 
-def _draw_counts(axes: "Axes", x: Any, y: Any, values: NDArray[Any]) -> None:
-    """Give each count a color of its own; high ones share the last, infinity is grey on top."""
-    from matplotlib import colormaps
-    from matplotlib.colors import BoundaryNorm, ListedColormap
-
-    finite = values[values >= 0]
-    low, high = (int(finite.min()), int(finite.max())) if finite.size else (0, 0)
-    last = min(high, low + _MOST_COUNTS - 1)
-    names = [f"{count}" for count in range(low, last + 1)]
-    if high > last:
-        names[-1] += " and more"
-    colors = list(colormaps["viridis"](np.linspace(0.0, 1.0, len(names))))
-    if finite.size < values.size:
-        names.append("∞")
-        colors.append(_INFINITE)
-    drawn = np.where(values < 0, last + 1, np.minimum(values, last))
-    norm = BoundaryNorm(low - 0.5 + np.arange(len(names) + 1), len(names))
-    look: Any = {"cmap": ListedColormap(colors), "norm": norm, "shading": "nearest"}
-    mesh = axes.pcolormesh(x, y, drawn, rasterized=True, **look)
-    assert axes.figure is not None
-    bar = axes.figure.colorbar(mesh, ax=axes, ticks=low + np.arange(len(names)))
-    bar.ax.set_yticklabels(names)
-    bar.ax.minorticks_off()
+def _legend(axes: "Axes", count: int) -> None:
+    """Put the names where no line goes: above, or many of them to the right."""
+    look: Any = {"frameon": False, "handlelength": 1.6, "borderpad": 0.0}
+    if count <= _IN_A_ROW:
+        look |= {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "ncols": count}
+    else:
+        look |= {"loc": "upper left", "bbox_to_anchor": (1.02, 1.0)}
+    axes.legend(**look)
 
 
-def _dimensions(data: Any, show: str, count: int) -> tuple[Any, ...]:
-    """Return the dimensions of a sweep, of which there must be so many."""
+def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[Any]) -> None:
+    """Name the upward axis; differences of round-off are not drawn out."""
+    unit = own.attrs.get("units", "1").removeprefix("1")
+    if show != "collisions":
+        unit, _ = shown_in(axes.yaxis, rows, unit)
+        if flat(rows):
+            middle = float(np.nanmean(rows)) if np.isfinite(rows).any() else 0.0
+            wide = 0.5 * abs(middle) or 1.0
+            axes.set_ylim(middle - wide, middle + wide)
+    axes.set_ylabel(f"{TITLES[show]} ({unit})" if unit else TITLES[show])
+
+
+def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
+    """Return counts as they are drawn: infinity above all others, where a tick names it."""
+    from matplotlib.ticker import MaxNLocator
+
+    finite = rows[rows >= 0]
+    high = int(finite.max()) if finite.size else 0
+    low = int(finite.min()) if finite.size else 0
+    places = MaxNLocator(6, integer=True, min_n_ticks=1).tick_values(low, max(high, low + 1))
+    ticks = [float(place) for place in places if low - 1 < place < high + 1]
+    names = [f"{tick:.0f}" for tick in ticks]
+    top = high + max(1.0, 0.12 * (high - low))
+    if (rows < 0).any():
+        ticks, names = [*ticks, top], [*names, "∞"]
+    axes.set_yticks(ticks, names)
+    axes.set_ylim(low - 0.06 * (top - low) - 0.1, top + 0.06 * (top - low))
+    return list(np.where(rows < 0, top, rows))
+
+
+def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, ...]]:
+    """Return a sweep in ascending order and its dimensions, of which there must be so many."""
     import xarray as xr
 
     if not isinstance(data, xr.Dataset) or "status" not in data:
@@ -195,29 +222,33 @@ def _dimensions(data: Any, show: str, count: int) -> tuple[Any, ...]:
         right = "one dimension" if count == 1 else "two dimensions"
         got = ", ".join(map(str, dims)) or "none"
         raise InvalidValue(f"data must have {right}, got {got}: choose with data.sel or data.isel")
-    return dims
+    numbers = [dim for dim in dims if dim in data.coords and data[dim].dtype.kind in "iuf"]
+    return data.sortby(numbers), dims
 
 
-def _axis(data: "xr.Dataset", dim: Any) -> NDArray[Any]:
-    return data[dim].values if dim in data.coords else np.arange(data.sizes[dim])
-
-
-def _label(axes: "Axes", which: str, data: "xr.Dataset", dim: Any) -> None:
-    """Name an axis and its unit; even ratios make it logarithmic."""
-    unit = data[dim].attrs.get("units", "") if dim in data.coords else ""
-    values = _axis(data, dim)
-    getattr(axes, f"set_{which}label")(f"{dim} ({unit})" if unit else f"{dim}")
-    if values.dtype.kind in "iuf" and len(values) > 2 and min(values[0], values[-1]) > 0.0:
-        ratios = np.log(values[1:] / values[:-1])
-        if np.ptp(ratios) < 1e-6 * np.abs(ratios).max():
-            getattr(axes, f"set_{which}scale")("log")
-
-
-def _unfinished(data: "xr.Dataset") -> str:
-    """Return a line on the drops that could not be finished, if any."""
+def _finished(data: "xr.Dataset", show: str) -> tuple[str, "xr.DataArray", str]:
+    """Return balls or contacts, what to draw (nan for unfinished drops), and a line on these."""
     from stackbounce.result import Status
 
-    count = int(np.isin(data["status"].values, (Status.EVENT_LIMIT, Status.INVALID)).sum())
-    return (
-        f"{count} of {data['status'].size} drops could not be finished: see status" if count else ""
-    )
+    wrong = data["status"].isin([int(Status.EVENT_LIMIT), int(Status.INVALID)])
+    own = data[show]
+    part = next((name for name in ("ball", "contact") if name in own.dims), "")
+    count, words = int(wrong.sum()), ""
+    if count:
+        own = own.where(~wrong, drop=False).assign_attrs(own.attrs)
+        words = f"{count} of {wrong.size} drops could not be finished: see status"
+    return part, own, words
+
+
+def _index(own: "xr.DataArray", part: str, index: int) -> int:
+    size = own.sizes[part]
+    if not -size <= index < size:
+        raise InvalidValue(f"index must name a {part} from 0 to {size - 1}, got {index}")
+    return index % size
+
+
+def _name(data: "xr.Dataset", part: str, index: int) -> str:
+    """Return what a ball or a contact is called, with the ball's name if it has one."""
+    balls = tomllib.loads(data.attrs.get("drop", "")).get("balls", [])
+    own = balls[index].get("name", "") if part == "ball" and index < len(balls) else ""
+    return f"{part} {index}" + (f" ({own})" if own else "")

@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.model import Drop
-from stackbounce.sweep.paths import number_at
+from stackbounce.sweep.paths import Number, number_at, numbers_of
 from stackbounce.units import quantity
 
 __all__ = ["axis", "grid"]
@@ -72,7 +72,8 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
     path, equals, written = text.partition("=")
     if not equals or not written:
         raise InvalidValue(f"--over must be {_RIGHT}, got {shown(text)}")
-    number = number_at(drop, path)
+    path, written = path.strip(), written.strip()
+    number = _number(drop, path)
     parts = written.split(":")
     if len(parts) == 1:
         values = [quantity(one, number.unit, path) for one in written.split(",")]
@@ -88,6 +89,41 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
         return path, np.linspace(start, stop, count)
     if not start * stop > 0.0:
         raise InvalidValue(
-            f"--over {path} must run between numbers of one sign for :log, not 0, got {written}"
+            f"--over {path} must run between numbers of one sign for :log, not from or to 0, "
+            f"got {written}"
         )
     return path, np.geomspace(start, stop, count)
+
+
+def _number(drop: Drop, path: str) -> Number:
+    """Return the number at a path; for one that other drops have, say why it is not there."""
+    try:
+        return number_at(drop, path)
+    except InvalidValue as error:
+        reason = _reason(drop, path.split("."))
+        if not reason:
+            raise
+        raise InvalidValue(f"{path} is no number of this drop: {reason}") from error
+
+
+def _reason(drop: Drop, words: list[str]) -> str:
+    known = numbers_of(drop)
+    if len(words) == 1:
+        falls = [name for name in ("height", "impact_speed", "velocities") if name in known]
+        if words[0] in ("height", "impact_speed", "speed") and falls:
+            return f"it is given by its {falls[0]} (--height or --speed choose)"
+        same = [path for path in known if path.endswith(f".{words[0]}")]
+        return f"say which, {' or '.join(same)}" if same else ""
+    part, index, *field = words
+    count = {"balls": len(drop.balls), "contacts": len(drop.contacts), "gaps": len(drop.gaps)}
+    if part not in count or not index.isdecimal():
+        return ""
+    if int(index) >= count[part]:
+        last = count[part] - 1
+        return f"its {part} count from 0, the lowest, to {last}" if last >= 0 else ""
+    if part == "contacts" and len(field) == 1:
+        law = type(drop.contacts[int(index)]).__name__
+        own = [path.rpartition(".")[2] for path in known if path.startswith(f"contacts.{index}.")]
+        if own:
+            return f"contact {index} is a {law}, which has {', '.join(own)} (--contact chooses)"
+    return ""

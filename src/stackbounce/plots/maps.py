@@ -1,0 +1,136 @@
+"""Maps: colors and contours of numbers, colors of counts."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.plots.scales import Scale, flat, shown_in
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.contour import ContourSet
+
+__all__ = ["draw_counts", "draw_levels", "groups", "hatch"]
+
+_LEVELS = 7  # contours, about
+_LEAST = 5  # values in both directions, below which contours would be invented
+_BELOW = 0.05  # negative values that count, over the largest
+_SINGLE = 8  # counts that have a color of their own, if there are more
+_MOST = 12  # counts, up to which all have one
+_INFINITE = (0.75, 0.75, 0.75, 1.0)
+
+
+def hatch(axes: "Axes") -> None:
+    """Hatch what no color covers."""
+    axes.patch.set(facecolor="white", edgecolor="#b0b0b0", hatch="////", linewidth=0.0)
+
+
+def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: str) -> str:
+    """Draw numbers as colors with contours, and return the unit that the color bar tells.
+
+    The colors go from dark to light; from blue over white to red where the sign changes.
+    """
+    from matplotlib.colors import Normalize
+
+    finite = values[np.isfinite(values)]
+    low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    level = flat(values)
+    span = max(-low, high)
+    signed = not level and low < -_BELOW * span and high > _BELOW * span
+    norm = Normalize(-span, span) if signed else Normalize(low, high)
+    if level:
+        norm = Normalize(low - 1.0, low + 1.0)
+    look: Any = {"cmap": "RdBu_r" if signed else "viridis", "norm": norm, "rasterized": True}
+    mesh = axes.pcolormesh(x.edges(), y.edges(), values, **look)
+    assert axes.figure is not None
+    bar = axes.figure.colorbar(mesh, ax=axes)
+    unit, factor = shown_in(bar.ax.yaxis, values, unit)
+    if level:
+        bar.set_ticks([low] if finite.size else [])
+        bar.ax.minorticks_off()
+    if signed:
+        bar.ax.set_ylim(low, high)
+    rising = all((np.diff(one.places) > 0.0).all() for one in (x, y))
+    if min(values.shape) >= _LEAST and rising and not level:
+        color = "#202020" if signed else "white"
+        shape: Any = {"levels": _LEVELS, "colors": color, "linewidths": 0.7}
+        drawn = axes.contour(x.places, y.places, values, **shape)
+        bar.add_lines(drawn)
+        _name_contours(axes, drawn, color, factor)
+    return unit
+
+
+def _name_contours(axes: "Axes", drawn: "ContourSet", color: str, factor: float) -> None:
+    """Write the levels on their lines, none near another or across the edge."""
+    from matplotlib.figure import Figure
+    from matplotlib.patheffects import withStroke
+
+    if color == "white":
+        drawn.set_path_effects([withStroke(linewidth=1.2, foreground="#404040")])
+    figure = axes.figure
+    assert isinstance(figure, Figure)
+    figure.draw_without_rendering()  # now the places are known
+    look: Any = {"fontsize": 8, "fmt": lambda level: f"{level * factor:.3g}"}
+    frame = axes.get_window_extent()
+    kept: list[Any] = []
+    places = []
+    for text in axes.clabel(drawn, inline=False, **look):
+        box = text.get_window_extent()
+        inside = frame.contains(*box.min) and frame.contains(*box.max)
+        if inside and not any(box.padded(14.0).overlaps(other) for other in kept):
+            kept.append(box)
+            places.append(text.get_position())
+    for text in list(drawn.labelTexts):
+        text.remove()
+    drawn.labelTexts.clear()
+    if places:
+        axes.clabel(drawn, manual=places, inline=True, inline_spacing=3, **look)
+    for text in drawn.labelTexts:
+        text.set(color="black", path_effects=[withStroke(linewidth=2.0, foreground="white")])
+
+
+def groups(low: int, high: int) -> list[tuple[int, int]]:
+    """Return the first and last count of each color: one each, or the high ones by doubling.
+
+    Examples
+    --------
+    >>> groups(1, 3)
+    [(1, 1), (2, 2), (3, 3)]
+    >>> groups(1, 40)[6:]
+    [(7, 7), (8, 8), (9, 16), (17, 32), (33, 40)]
+    """
+    if high - low < _MOST:
+        return [(count, count) for count in range(low, high + 1)]
+    found = [(count, count) for count in range(low, low + _SINGLE)]
+    while found[-1][1] < high:
+        last = found[-1][1]
+        found.append((last + 1, min(high, 2 * last)))
+    return found
+
+
+def draw_counts(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any]) -> None:
+    """Give each count a color, high ones in groups; infinity is grey, on top."""
+    from matplotlib import colormaps
+    from matplotlib.colors import BoundaryNorm, ListedColormap
+
+    finite = values[values >= 0]
+    low, high = (int(finite.min()), int(finite.max())) if finite.size else (0, 0)
+    parts = groups(low, high)
+    names = [f"{first}" if first == last else f"{first}–{last}" for first, last in parts]
+    shades = np.linspace(0.0, 1.0, len(parts)) if len(parts) > 1 else [0.5]
+    colors = list(colormaps["viridis"](shades))
+    drawn = np.searchsorted([last for _, last in parts], values).astype(float)
+    drawn[np.isnan(values)] = np.nan
+    if (values < 0).any():
+        drawn[values < 0] = len(parts)
+        names.append("∞")
+        colors.append(_INFINITE)
+    norm = BoundaryNorm(np.arange(len(names) + 1) - 0.5, len(names))
+    look: Any = {"cmap": ListedColormap(colors), "norm": norm, "rasterized": True}
+    mesh = axes.pcolormesh(x.edges(), y.edges(), drawn, **look)
+    assert axes.figure is not None
+    bar = axes.figure.colorbar(mesh, ax=axes, ticks=np.arange(len(names)))
+    bar.ax.set_yticklabels(names)
+    bar.ax.tick_params(which="both", length=0)
+    bar.ax.minorticks_off()

@@ -1,0 +1,128 @@
+"""The axes of a sweep's pictures: places, edges of cells, units, ticks."""
+
+import math
+import re
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+
+__all__ = ["Scale", "flat", "label", "scale_of", "shown_in"]
+
+_HANDY = {  # unit: (from this value on, its name, how many of it the unit has), largest first
+    "m": ((0.1, "m", 1.0), (1e-4, "mm", 1e3), (0.0, "µm", 1e6)),
+    "s": ((1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
+    "kg": ((1.0, "kg", 1.0), (1e-3, "g", 1e3), (0.0, "mg", 1e6)),
+}
+_ROUND_OFF = 1e-9  # relative; smaller differences are none
+
+
+class Scale(NamedTuple):
+    """Where the values of a dimension lie on an axis.
+
+    Parameters
+    ----------
+    places : ndarray
+        (n,) ascending; the values, or 0, 1, … if they are no numbers.
+    log : bool
+        Whether they have even ratios.
+    names : list of str
+        What stands at the places, if they are no numbers.
+    unit : str
+        SI, or empty.
+
+    Examples
+    --------
+    >>> Scale(np.array([1.0, 10.0, 100.0]), True, [], "kg").edges().round(2)
+    array([  0.32,   3.16,  31.62, 316.23])
+    """
+
+    places: NDArray[Any]
+    log: bool
+    names: list[str]
+    unit: str
+
+    def edges(self) -> NDArray[np.float64]:
+        """Return the edges of the cells around the places, (n + 1,)."""
+        places = np.log(self.places) if self.log else self.places.astype(float)
+        if len(places) == 1:
+            wide = 0.05 * abs(places[0]) or 0.5
+            return np.array([places[0] - wide, places[0] + wide])
+        middle = 0.5 * (places[1:] + places[:-1])
+        ends = 2.0 * places[[0, -1]] - middle[[0, -1]]
+        edges: NDArray[np.float64] = np.concatenate([ends[:1], middle, ends[1:]])
+        return np.exp(edges) if self.log else edges
+
+
+def scale_of(data: "xr.Dataset", dim: Any) -> Scale:
+    """Return where the values of a dimension lie; `data` is sorted by it."""
+    size = data.sizes[dim]
+    if dim not in data.coords:
+        return Scale(np.arange(size), False, [], "")
+    values = data[dim].values
+    if values.dtype.kind not in "iuf":
+        return Scale(np.arange(size), False, [str(value) for value in values], "")
+    log = False
+    if size > 2 and values[0] > 0.0:
+        ratios = np.diff(np.log(values))
+        log = bool(ratios.min() > 0.0 and np.ptp(ratios) < 1e-6 * ratios.max())
+    return Scale(values, log, [], data[dim].attrs.get("units", ""))
+
+
+def label(axes: "Axes", which: str, name: str, scale: Scale) -> None:
+    """Name an axis and its unit, and choose its ticks; the data stay in SI units."""
+    axis: Axis = getattr(axes, f"{which}axis")
+    if scale.log:
+        getattr(axes, f"set_{which}scale")("log")
+    unit, _ = shown_in(axis, scale.places, scale.unit, scale.log)
+    axis.set_label_text(_with_unit(name, unit))
+    if scale.names:
+        axis.set_ticks(scale.places.tolist(), scale.names)
+
+
+def shown_in(axis: "Axis", values: NDArray[Any], unit: str, log: bool = False) -> tuple[str, float]:
+    """Let the ticks of an axis tell values in a handy unit; return it, and what to multiply by."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    finite = np.abs(values[np.isfinite(values)])
+    most, least = (finite.max(), finite.min()) if finite.size else (0.0, 0.0)
+    choices = _HANDY.get(unit, ()) if most > 0.0 else ()
+    name, factor = next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
+    if log:
+        if most < 300.0 * least:
+            axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_minor_formatter(NullFormatter())
+    plain = not log or (least * factor >= 1e-3 and most * factor < 1e5)
+    if factor != 1.0 or (log and plain):
+        axis.set_major_formatter(FuncFormatter(lambda x, _: _tick(x * factor, plain)))
+    return name, factor
+
+
+def flat(values: NDArray[Any]) -> bool:
+    """Return whether values differ by no more than round-off; those not finite do not count.
+
+    Examples
+    --------
+    >>> flat(np.array([1.0, 1.0 + 1e-14, np.nan])), flat(np.array([0.0, 1e-5]))
+    (True, False)
+    """
+    finite = values[np.isfinite(values)]
+    return not finite.size or bool(np.ptp(finite) <= _ROUND_OFF * np.abs(finite).max())
+
+
+def _tick(value: float, plain: bool) -> str:
+    if plain or value <= 0.0:
+        return f"{value:.6g}".replace("-", "−")
+    power = math.floor(math.log10(value) + 1e-9)
+    first = round(value / 10.0**power)
+    return f"$10^{{{power}}}$" if first == 1 else f"${first}\\times10^{{{power}}}$"
+
+
+def _with_unit(name: str, unit: str) -> str:
+    raised = re.sub(r"\*\*(-?[\d.]+)", r"$^{\1}$", unit)
+    return f"{name} ({raised})" if unit else name
