@@ -253,6 +253,13 @@ def test_pictures(run, suffix):
     assert start in (b"<?xml", b"\x89PNG\r", b"%PDF-")
 
 
+@pytest.mark.parametrize("suffix", output.SUFFIXES)
+def test_the_same_picture_is_the_same_file(run, suffix, tmp_path):
+    first, second = (tmp_path / f"{name}{suffix}" for name in "ab")
+    assert run(*PAIR, "--plot", str(first))[0] == run(*PAIR, "--plot", str(second))[0] == 0
+    assert first.read_bytes() == second.read_bytes()
+
+
 def test_json_stays_pure_with_a_picture(run):
     code, out, _ = run("simulate", "B1", "--plot", "drop.svg", "--json")
     assert code == 0

@@ -14,6 +14,8 @@ __all__ = ["SUFFIXES", "check_picture", "draw"]
 SUFFIXES = (".svg", ".png", ".pdf")
 """The kinds of picture."""
 
+_UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+
 
 def check_picture(path: Path) -> None:
     """Refuse a picture of another kind, or in a folder that is not there.
@@ -36,13 +38,20 @@ def check_picture(path: Path) -> None:
 def draw(make: Callable[[], "Figure"], path: Path) -> None:
     """Write a picture, in the format that the file's suffix names.
 
+    The same picture is the same file: no time of day, no random names inside.
+
     Raises
     ------
     FileError
         If the file cannot be written.
     """
+    import matplotlib as mpl
+
+    from stackbounce.plots.style import STYLE
+
     figure = make()
     try:
-        figure.savefig(path, dpi=150)
+        with mpl.rc_context(STYLE):
+            figure.savefig(path, dpi=150, metadata=_UNDATED.get(path.suffix.lower()))
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
