@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 
 import stackbounce as sb
 from stackbounce import errors
-from stackbounce.calibrate import dashpot, elastic, hunt_crossley, viscoelastic
+from stackbounce.calibrate import between, dashpot, elastic, hunt_crossley, viscoelastic
 
 MEASURED = {"mass": 0.0567, "contact_time": 5e-3, "restitution": 0.75, "impact_speed": 3.0}
 LOSSY = [sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley, sb.Hysteretic]
@@ -486,9 +486,9 @@ def test_separate_collisions_at_the_speeds_from_the_bottom_up():
 def test_a_pair_of_separate_collisions_has_its_reduced_mass():
     drop = sb.Drop([sb.Ball(1.0), sb.Ball(0.1)], [None, sb.Dashpot(100.0, 1.0)], impact_speed=1.0)
     drop = dataclasses.replace(drop, impact_speed=None, velocities=[1.0, 0.0])
-    floor, between = sb.separate(drop).contacts
+    floor, balls = sb.separate(drop).contacts
     assert floor is None
-    assert between.restitution == sb.restitution(sb.Dashpot(100.0, 1.0), (1.0, 0.1))
+    assert balls.restitution == sb.restitution(sb.Dashpot(100.0, 1.0), (1.0, 0.1))
 
 
 def test_a_contact_that_does_not_close_has_the_reference_speed():
@@ -516,3 +516,42 @@ def test_a_viscoelastic_contact_that_hardly_loses(loss):
     assert squared == pytest.approx((1.0 - e) / 1.15348, rel=2e-3 if loss > 1e-4 else 1e-4)
     run = sb.simulate(sb.Drop([sb.Ball(0.1)], [law], impact_speed=1.0))
     assert run.rebound_ratios == pytest.approx([e], abs=1e-11)
+
+
+def work(law, peak, points=20_001):
+    """The work of a press up to a peak force and of the way back, by the trapezoidal rule."""
+    force = np.linspace(0.0, peak, points)
+    deepest = (peak / law.stiffness) ** (1.0 / law.exponent)
+    out = (force / law.stiffness) ** (1.0 / law.exponent)
+    back = deepest * (force / peak) ** (1.0 / law.unloading_exponent)
+    return np.trapezoid(force, out), np.trapezoid(force, back)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5])
+def test_two_lossy_balls_keep_the_energy_of_both(exponent):
+    one = sb.Hysteretic(3e4, exponent=exponent, restitution=0.9)
+    other = sb.Hysteretic(1e4, exponent=exponent, restitution=0.6)
+    both = between(one, other)
+    found = np.array(work(both, 50.0))
+    np.testing.assert_allclose(found, np.add(work(one, 50.0), work(other, 50.0)), rtol=1e-4)
+
+
+def test_two_balls_on_exact_laws_are_in_series():
+    assert between(sb.Spring(3.0), sb.Spring(6.0)) == sb.Spring(2.0)
+    lossless = between(sb.Spring(3.0), sb.Hysteretic(6.0, restitution=1.0))
+    assert (lossless.stiffness, lossless.restitution) == pytest.approx((2.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (sb.Rigid(0.5), sb.Rigid(0.5)),
+        (sb.Spring(1.0), sb.Hertz(1.0)),
+        (sb.Spring(1.0), sb.Dashpot(1.0, 0.1)),
+        (sb.Hysteretic(1.0, restitution=0.5), sb.Rigid(0.5)),
+        (sb.Hysteretic(1, restitution=0.5), sb.Hysteretic(1, exponent=1.5, restitution=0.5)),
+    ],
+)
+def test_two_balls_that_are_no_law_together(one, other):
+    with pytest.raises(sb.StackbounceError, match="law_"):
+        between(one, other)

@@ -244,6 +244,43 @@ def test_names_cannot_write_on_the_terminal(run):
     assert "a?[31mb?c[red] at 1.000 m/s" in out
 
 
+def one_ball(name, law, mass=0.1, **how):
+    how = how or {"height": 0.5}
+    drop = sb.Drop([sb.Ball(mass, name=name)], [law], **how)
+    Path(f"{name}.toml").write_text(drop.to_toml())
+    return f"{name}.toml"
+
+
+def test_balls_of_a_file_each_are_stacked(run):
+    lower = one_ball("lower", sb.Hysteretic(3e4, restitution=0.8), 0.3)
+    upper = one_ball("upper", sb.Hysteretic(1e4, restitution=0.6), 0.05, height=2.0)
+    code, out, _ = run("simulate", lower, upper, "--gap", "1mm", "--json")
+    assert code == 0
+    told = json.loads(out)
+    drop = sb.Drop.from_mapping(told["drop"])
+    assert [ball.name for ball in drop.balls] == ["lower", "upper"]
+    assert (drop.height, drop.gaps) == (0.5, (0.001,))
+    assert drop.contacts[1].stiffness == pytest.approx(7500.0)
+    assert drop.contacts[1].restitution == pytest.approx(math.sqrt(0.25 * 0.64 + 0.75 * 0.36))
+    assert told["contact_sources"] == ["lower.toml", "lower.toml and upper.toml in series"]
+
+
+def test_files_that_cannot_be_stacked(run):
+    lower = one_ball("lower", sb.Spring(3e4))
+    upper = one_ball("upper", sb.Rigid(0.6))
+    _, _, err = run("simulate", lower, upper)
+    assert "lower.toml and upper.toml: law_b must be a law with a compression" in err
+    assert err.strip().endswith("give all contacts with --contact")
+    contacts = ["--contact", "Rigid restitution=0.8", "--contact", "Rigid restitution=0.5"]
+    assert run("simulate", lower, upper, *contacts)[0] == 0
+    pair = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, height=1.0)
+    Path("pair.toml").write_text(pair.to_toml())
+    _, _, err = run("simulate", lower, "pair.toml")
+    assert (
+        "pair.toml must have one ball and its contact with the floor, to be stacked, got 2" in err
+    )
+
+
 @pytest.mark.parametrize("suffix", [".svg", ".png", ".pdf", ".SVG"])
 def test_pictures(run, suffix):
     code, out, err = run(*PAIR, "--plot", f"drop{suffix}")
@@ -319,13 +356,10 @@ def test_json_stays_pure_with_a_picture(run):
         (["none.toml"], "none.toml cannot be read: No such file or directory"),
         (["./B1"], "./B1 cannot be read: No such file or directory"),
         (["."], ". cannot be read: Is a directory"),
-        (
-            ["a.toml", "b.toml"],
-            "simulate needs one scenario file, or balls of the catalogue, got a",
-        ),
+        (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
         (
             ["a.toml", "B1"],
-            "simulate needs one scenario file, or balls of the catalogue, got a.toml",
+            "simulate needs scenario files, or balls of the catalogue, got a.toml",
         ),
         (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
         (["B1", "--plot", "drop"], "--plot must end in .svg, .png, .pdf, got drop"),

@@ -2,6 +2,7 @@
 
 from stackbounce.calibrate.inverse import calibrate
 from stackbounce.calibrate.measures import contact_time, restitution
+from stackbounce.calibrate.pairs import between
 from stackbounce.calibrate.textbook import separate
 
-__all__ = ["calibrate", "contact_time", "restitution", "separate"]
+__all__ = ["between", "calibrate", "contact_time", "restitution", "separate"]

@@ -1,12 +1,13 @@
 """From arguments to a drop: a scenario file or balls of the catalogue, and what to change."""
 
 import dataclasses
+import itertools
 import shlex
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from stackbounce.errors import InvalidValue, shown
+from stackbounce.errors import InvalidValue, StackbounceError, shown
 from stackbounce.model.catalogue import stack
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
@@ -43,7 +44,8 @@ def read(
     Parameters
     ----------
     what : sequence of str
-        One scenario file, or names of the catalogue, the lowest ball first.
+        One scenario file; files of one ball each, the lowest first, to be stacked; or names of the
+        catalogue, the lowest first.
     height, speed, gravity : str, optional
         Numbers with or without a unit; they replace the file's.
     gaps, contacts : sequence of str, optional
@@ -60,11 +62,12 @@ def read(
     """
     changes = _changes(height, speed, gaps, contacts, gravity)
     if any(_is_file(name) for name in what):
-        if len(what) > 1:
+        if not all(_is_file(name) for name in what):
             raise InvalidValue(
-                f"simulate needs one scenario file, or balls of the catalogue, got {' '.join(what)}"
+                f"simulate needs scenario files, or balls of the catalogue, got {' '.join(what)}"
             )
-        return _with(_from_file(what[0]), changes)
+        one = _from_file(what[0]) if len(what) == 1 else _from_files(what, changes)
+        return _with(one, changes)
     return _with(_from_catalogue(what, changes), changes)
 
 
@@ -138,6 +141,44 @@ def _changes(
 def _from_file(name: str) -> Scenario:
     drop = Drop.from_toml(name)
     return Scenario(drop, (name,) * len(drop.contacts), (name,) * len(drop.gaps), name)
+
+
+def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
+    """Return the stack of balls that have a file each; two balls press on each other in series."""
+    drops = [Drop.from_toml(name) for name in names]
+    laws: list[ContactLaw] = []
+    for name, drop in zip(names, drops, strict=True):
+        if len(drop.balls) != 1 or drop.contacts[0] is None:
+            raise InvalidValue(
+                f"{name} must have one ball and its contact with the floor, to be stacked, got "
+                f"{len(drop.balls)} balls{'' if drop.contacts[0] else ' and no floor'}"
+            )
+        laws.append(drop.contacts[0])
+    contacts = changes.get("contacts") or [laws[0], *_between(names, laws)]
+    lowest = drops[0]
+    drop = Drop(
+        [drop.balls[0] for drop in drops],
+        contacts,
+        height=lowest.height,
+        impact_speed=None if lowest.height is not None else lowest.reference_speed,
+        gravity=lowest.gravity,
+    )
+    pairs = [f"{one} and {other} in series" for one, other in itertools.pairwise(names)]
+    return Scenario(drop, (names[0], *pairs), ("no gap given",) * len(pairs), names[0])
+
+
+def _between(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
+    from stackbounce.calibrate import between
+
+    found = []
+    for (one, lower), (other, upper) in itertools.pairwise(zip(names, laws, strict=True)):
+        try:
+            found.append(between(lower, upper))
+        except StackbounceError as error:
+            raise InvalidValue(
+                f"{one} and {other}: {error}; give all contacts with --contact"
+            ) from error
+    return found
 
 
 def _from_catalogue(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
