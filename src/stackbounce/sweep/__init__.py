@@ -3,6 +3,8 @@
 ======= ==========================================================================
 paths   the numbers of a drop by their paths
 columns rows of numbers -> what the engine takes for many drops, checked
+blocks  a grid of drops cut into blocks
+engines which engine solves them
 solve   many drops at once, in blocks and threads
 dataset the numbers that vary as named dimensions, and the Dataset that comes of them
 store   a sweep larger than memory, block by block in a Zarr store, resumed
