@@ -1,6 +1,7 @@
-"""``stackbounce sweep``: a grid into a store, with its progress, and what came of it."""
+"""``stackbounce sweep``: a grid into a file, with its progress, and what came of it."""
 
 import contextlib
+import logging
 import socket
 from collections.abc import Iterator, Sequence
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any, cast
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.result import Status
-from stackbounce.sweep import grid, write
+from stackbounce.sweep import grid, opened, write
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -25,14 +26,11 @@ _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
 def run(
     drop: Drop, over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
 ) -> "xr.Dataset":
-    """Sweep a drop over what ``--over`` names, into a store, showing how far it is; return it."""
-    import xarray as xr
-
+    """Sweep a drop over what ``--over`` names, into a file, showing how far it is; return it."""
     values = grid(drop, over)
     with _client(cluster) as client, _bar() as progress:
         write(out, drop, values, client=client, progress=progress, **options)
-    data: xr.Dataset = xr.open_zarr(out)
-    return data
+    return opened(out)
 
 
 def check_picture(drop: Drop, over: Sequence[str], show: str) -> None:
@@ -63,7 +61,7 @@ def picture(data: "xr.Dataset", show: str) -> "Figure":
 
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
-    """Return what came of a sweep, for machines; a store larger than memory is read in chunks."""
+    """Return what came of a sweep, for machines; a file larger than memory is read in chunks."""
     import dask.base
 
     lazy = {
@@ -94,7 +92,7 @@ def tell(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -
             console.print(f"  {name} {part}".rstrip() + f": {_range(low, high)}")
     for name, count in found["status"].items():
         console.print(f"  {count} {name}: {Status[name].advice}")
-    console.print(f"Store: {out}")
+    console.print(f"Written: {out}")
     if plot is not None:
         console.print(f"Picture: {plot}")
 
@@ -128,6 +126,8 @@ def _client(address: str | None) -> Iterator[Any]:
     except ImportError as error:
         words = "--cluster needs dask's distributed: pip install stackbounce[cluster]"
         raise InvalidValue(words) from error
+    for name in ("distributed", "distributed.client"):  # errors of ours say it in one line
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
     connect: Any = distributed.Client
     try:
