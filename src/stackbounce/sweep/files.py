@@ -75,7 +75,7 @@ class Format(Protocol):
         """Open a file that results can be written to, block by block."""
 
     def opened(self, path: Path) -> "xr.Dataset":
-        """Open a file; what is larger than memory is read in pieces."""
+        """Open a file; numbers are read when they are needed."""
 
     def remove(self, path: Path) -> None:
         """Remove a file."""
@@ -120,8 +120,7 @@ class _Zarr:
     def opened(self, path: Path) -> "xr.Dataset":
         import xarray as xr
 
-        data: xr.Dataset = xr.open_zarr(path)
-        return data
+        return xr.open_dataset(path, engine="zarr", chunks=None)
 
     def remove(self, path: Path) -> None:
         shutil.rmtree(path)
@@ -165,7 +164,7 @@ class _NetCDF:
     def opened(self, path: Path) -> "xr.Dataset":
         import xarray as xr
 
-        return xr.open_dataset(path, engine="h5netcdf", chunks="auto")
+        return xr.open_dataset(path, engine="h5netcdf", chunks=None)
 
     def remove(self, path: Path) -> None:
         path.unlink()

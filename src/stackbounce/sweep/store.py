@@ -126,7 +126,7 @@ def write(
 
 
 def opened(path: str | Path) -> "xr.Dataset":
-    """Open what `write` has written; numbers are read when they are needed, in pieces."""
+    """Open what `write` has written; numbers are read when they are needed."""
     return format_of(Path(path)).opened(Path(path))
 
 
