@@ -1,12 +1,15 @@
 """Sweeps: every element as `simulate` has it, by path, by dimension, lazily, with provenance."""
 
 import json
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 import xarray as xr
 
 import stackbounce as sb
+from stackbounce.sweep import engines
 from stackbounce.sweep.paths import drop_at, number_at
 
 TWO = [sb.Ball(0.15), sb.Ball(0.057)]
@@ -249,3 +252,17 @@ def test_tall_stacks_keep_the_energy_that_simulate_says():
         mass = float(ds["balls.3.mass"][k])
         one = sb.Drop([*balls[:3], sb.Ball(mass), *balls[4:]], drop.contacts, impact_speed=3.53)
         assert_same(ds[{"balls.3.mass": k}], one)
+
+
+def test_threads_compile_in_turns(monkeypatch):
+    inside = []
+
+    def slow(kernel):
+        inside.append(kernel)
+        time.sleep(0.01)
+        assert inside.pop() is kernel
+        return not inside
+
+    monkeypatch.setattr(engines, "compiled", slow)
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(engines.ready, range(8)))

@@ -25,7 +25,7 @@ from stackbounce.model import Drop
 from stackbounce.simulate import Options, contact_numbers
 from stackbounce.sweep.paths import Number
 
-__all__ = ["Engine", "engine_for"]
+__all__ = ["Engine", "engine_for", "ready"]
 
 Engine: TypeAlias = Callable[[Drops, Outcomes, Options, bool], None]
 """Solves drops, as plain Python if they are so few that loading compiled code would take longer."""
@@ -35,6 +35,7 @@ _FEW_BALLS, _FEW_EVENTS = 20, 2000  # up to which a drop is run as plain Python
 _NO_ROOM: Any = ([], [])  # what is new needs no clearing
 _UNLIMITED = 10_000  # events that two springs never have where their own engine is sure of them
 _local = threading.local()
+_lock = threading.Lock()
 
 
 def engine_for(drop: Drop, numbers: Iterable[Number], options: Options) -> Engine:
@@ -53,9 +54,19 @@ def engine_for(drop: Drop, numbers: Iterable[Number], options: Options) -> Engin
     return _run_finite
 
 
+def ready(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the compiled form of a kernel; threads that ask together take turns.
+
+    For as long as one is made numba's cache folder is the package's own: another thread would find
+    a wrong one, and leave its files in the working directory.
+    """
+    with _lock:
+        return compiled(function)
+
+
 def _run_two_springs(drops: Drops, out: Outcomes, options: Options, few: bool) -> None:
     """Run drops by the engine for two springs, and those it is not sure of by the general one."""
-    go: Any = two_springs if few else compiled(two_springs)
+    go: Any = two_springs if few else ready(two_springs)
     scratch: Any = [0.0] * SCRATCH if few else np.zeros(SCRATCH)
     speed, gap = -drops.velocity[:, 0], np.ascontiguousarray(drops.gap[:, 1])
     given = (drops.mass, drops.stiffness, gap, speed, _UNLIMITED)
@@ -112,10 +123,10 @@ def _run_compiled(drops: Drops, out: Outcomes, rigid: bool, options: Options) ->
     stack, room, samples, log = _arrays(out.velocity.shape[1], rigid)
     limit = options.event_limit
     if rigid:
-        go: Any = compiled(run_many_rigid)
+        go: Any = ready(run_many_rigid)
         go(stack, room, drops, options.until, limit, samples, log, out)
     else:
-        go = compiled(run_many)
+        go = ready(run_many)
         go(stack, room, drops, options.until, options.rtol, limit, samples, log, out)
 
 

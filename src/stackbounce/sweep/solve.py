@@ -8,13 +8,12 @@ from itertools import accumulate, islice
 
 import numpy as np
 
-from stackbounce.engine.kernel import compiled
 from stackbounce.engine.many import Drops, Outcomes, compare
 from stackbounce.model import Drop
 from stackbounce.simulate import Options
 from stackbounce.sweep.blocks import Block, blocks, sides, size
 from stackbounce.sweep.columns import Rows, base_rows, fill
-from stackbounce.sweep.engines import engine_for
+from stackbounce.sweep.engines import engine_for, ready
 
 __all__ = ["solve"]
 
@@ -54,7 +53,7 @@ def solve(drop: Drop, rows: Rows, shape: Sequence[int], options: Options) -> Out
     threads = os.cpu_count() or 1
     most = min(max(count // (_EACH * threads), _BLOCKS.start), _BLOCKS.stop)
     few, engine = count <= _FEW, engine_for(drop, rows, options)
-    relate = compare if few else compiled(compare)
+    relate = compare if few else ready(compare)
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
 
     def work(todo: Iterable[tuple[Block, int]]) -> None:
