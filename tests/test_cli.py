@@ -722,6 +722,29 @@ def test_sweep_says_what_is_wrong_in_one_line(run, tmp_path, arguments, message)
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.parametrize("out", ["map.csv", "map"])
+def test_sweep_writes_two_kinds_of_file(run, tmp_path, out):
+    code, _, err = run("sweep", "tennis", "--over", "balls.0.mass=1,2", "--out", out)
+    assert code == 2
+    assert err.count("\n") == 1
+    assert f"must end in .zarr or .nc, got '{out}'" in err
+    assert not list(tmp_path.iterdir())
+
+
+def test_sweep_writes_netcdf(run, tmp_path):
+    pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
+    over = ["--over", "balls.0.mass=50g:500g:4:log", "--over", "gaps.0=0mm,2mm"]
+    stores = [
+        run("sweep", "basketball", "tennis", *over, "--out", name, "--json", "--plot", "map.png")
+        for name in ("map.nc", "map.zarr")
+    ]
+    found = [json.loads(out) for _, out, _ in stores]
+    assert [one.pop("store") for one in found] == ["map.nc", "map.zarr"]
+    assert found[0] == found[1]
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["map.nc", "map.png", "map.zarr"]
+
+
 def test_sweep_does_not_touch_another_store(run, tmp_path):
     assert run("sweep", "basketball", "tennis", "--over", "gaps.0=0,1", "--out", "map.zarr")[0] == 0
     code, _, err = run("sweep", "tennis", "--over", "balls.0.mass=1,2", "--out", "map.zarr")

@@ -1,12 +1,15 @@
 """Sweeps: every element as `simulate` has it, by path, by dimension, lazily, with provenance."""
 
 import json
+import time
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 import xarray as xr
 
 import stackbounce as sb
+from stackbounce.sweep import engines
 from stackbounce.sweep.paths import drop_at, number_at
 
 TWO = [sb.Ball(0.15), sb.Ball(0.057)]
@@ -213,3 +216,53 @@ def test_order_and_number_of_rows_change_no_bit(laws):
         assert np.array_equal(ds[name], back[name])
         assert np.array_equal(ds[name][1000:1040], part[name])
         assert np.array_equal(ds[name][1000:1005], few[name])
+
+
+def test_other_values_in_the_sweep_change_no_bit():
+    laws = [sb.PowerLaw(2500.0, 1.0), sb.PowerLaw(1000.0, 1.0)]
+    drop = sb.Drop(TWO, laws, [0.001], impact_speed=3.53)
+    mass = np.geomspace(0.05, 1.0, 30)
+    alone = sb.sweep(drop, {"contacts.1.exponent": [1.0], "balls.0.mass": mass}, rtol=1e-6)
+    both = sb.sweep(drop, {"contacts.1.exponent": [1.0, 1.5], "balls.0.mass": mass}, rtol=1e-6)
+    for name in OUTPUTS:
+        assert np.array_equal(alone[name][0], both[name][0]), name
+
+
+@pytest.mark.parametrize("shape", [(3, 5000), (5000, 3), (2, 40, 130), (1, 1, 7000)])
+def test_a_grid_is_cut_into_blocks_that_fit_together(shape):
+    drop = sb.Drop(TWO, LAWS["springs"], impact_speed=3.53)
+    paths = ["impact_speed", "balls.0.mass", "gaps.0"][-len(shape) :]
+    axes = [np.linspace(1e-4, 2e-3, size) for size in shape]
+    ds = sb.sweep(drop, dict(zip(paths, axes, strict=True)))
+    everywhere = np.meshgrid(*axes, indexing="ij")
+    flat = {
+        path: xr.DataArray(values.ravel(), dims="run")
+        for path, values in zip(paths, everywhere, strict=True)
+    }
+    rows = sb.sweep(drop, flat)
+    for name in OUTPUTS:
+        assert np.array_equal(ds[name].values.reshape(rows[name].shape), rows[name]), name
+
+
+def test_tall_stacks_keep_the_energy_that_simulate_says():
+    balls = [sb.Ball(0.01 * (1 + k % 7)) for k in range(12)]
+    drop = sb.Drop(balls, [sb.Rigid(0.9)] * 12, impact_speed=3.53)
+    ds = sb.sweep(drop, {"balls.3.mass": np.linspace(0.01, 0.5, 30)})
+    for k in (0, 17, 29):
+        mass = float(ds["balls.3.mass"][k])
+        one = sb.Drop([*balls[:3], sb.Ball(mass), *balls[4:]], drop.contacts, impact_speed=3.53)
+        assert_same(ds[{"balls.3.mass": k}], one)
+
+
+def test_threads_compile_in_turns(monkeypatch):
+    inside = []
+
+    def slow(kernel):
+        inside.append(kernel)
+        time.sleep(0.01)
+        assert inside.pop() is kernel
+        return not inside
+
+    monkeypatch.setattr(engines, "compiled", slow)
+    with ThreadPoolExecutor(4) as pool:
+        assert all(pool.map(engines.ready, range(8)))

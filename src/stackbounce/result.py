@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.engine import codes
+from stackbounce.engine.many import energy_kept
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown
 from stackbounce.model import Drop
 from stackbounce.version import __version__
@@ -188,12 +189,8 @@ class Result:
     @functools.cached_property
     def energy_retained(self) -> float:
         """Kinetic energy of all balls at the end as a fraction of the one that came in."""
-        mass = np.array([ball.mass for ball in self.drop.balls])
-        start = np.array(self.drop.start_velocities) / self.drop.reference_speed
-        with np.errstate(over="ignore", under="ignore"):
-            share = mass / np.max(mass)
-            after = np.sum(share * np.square(self.rebound_ratios))
-            return float(after / np.sum(share * np.square(start)))
+        mass = [ball.mass for ball in self.drop.balls]
+        return energy_kept(mass, list(self.drop.start_velocities), list(self.final_velocities))
 
     @functools.cached_property
     def apexes(self) -> NDArray[Any]:

@@ -137,10 +137,10 @@ def sweep(
     out: Annotated[
         Path,
         typer.Option(
-            metavar="STORE",
+            metavar="FILE",
             readable=False,
-            help="Folder to write all results to, a Zarr store such as map.zarr. Stopped, the "
-            "same command goes on where it was.",
+            help="File to write all results to: a Zarr store such as map.zarr, or NetCDF such as "
+            "map.nc. Stopped, the same command goes on where it was.",
             show_default=False,
         ),
     ],
@@ -166,7 +166,7 @@ def sweep(
     plot: Plot = None,
     as_json: AsJson = False,
 ) -> None:
-    """Drop a stack for all combinations of other numbers in it, into a Zarr store."""
+    """Drop a stack for all combinations of other numbers in it, into a Zarr or NetCDF file."""
     from stackbounce.cli import machine, output, scenario, swept
     from stackbounce.units import quantity
 

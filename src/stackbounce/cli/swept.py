@@ -1,15 +1,19 @@
-"""``stackbounce sweep``: a grid into a store, with its progress, and what came of it."""
+"""``stackbounce sweep``: a grid into a file, with its progress, and what came of it."""
 
 import contextlib
+import logging
 import socket
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
+import numpy as np
+
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.result import Status
-from stackbounce.sweep import grid, write
+from stackbounce.sweep import grid, opened, write
+from stackbounce.sweep.blocks import blocks, sides
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,21 +22,18 @@ if TYPE_CHECKING:
 
 __all__ = ["check_picture", "picture", "run", "summary", "tell"]
 
-_PARTS = ("ball", "contact")
+_BLOCK = 2**18  # drops that are looked at together
 _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
 
 
 def run(
     drop: Drop, over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
 ) -> "xr.Dataset":
-    """Sweep a drop over what ``--over`` names, into a store, showing how far it is; return it."""
-    import xarray as xr
-
+    """Sweep a drop over what ``--over`` names, into a file, showing how far it is; return it."""
     values = grid(drop, over)
     with _client(cluster) as client, _bar() as progress:
         write(out, drop, values, client=client, progress=progress, **options)
-    data: xr.Dataset = xr.open_zarr(out)
-    return data
+    return opened(out)
 
 
 def check_picture(drop: Drop, over: Sequence[str], show: str) -> None:
@@ -63,22 +64,27 @@ def picture(data: "xr.Dataset", show: str) -> "Figure":
 
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
-    """Return what came of a sweep, for machines; a store larger than memory is read in chunks."""
-    import dask.base
-
-    lazy = {
-        "counts": {status.name: (data.status == status).sum() for status in Status},
-        "low": {name: _over_drops(data[name], "min") for name in _SPOKEN},
-        "high": {name: _over_drops(data[name], "max") for name in _SPOKEN},
-    }
-    compute: Any = dask.base.compute
-    (found,) = compute(lazy)
+    """Return what came of a sweep, for machines; a file larger than memory is read in blocks."""
+    dims, shape = data.status.dims, data.status.shape
+    counts = np.zeros(max(Status) + 1, dtype=int)
+    low: dict[str, Any] = dict.fromkeys(_SPOKEN, np.nan)
+    high = low.copy()
+    for block in blocks(shape, sides(shape, _BLOCK)):
+        part = data.isel(dict(zip(dims, block, strict=True)))
+        counts += np.bincount(part.status.values.ravel(), minlength=len(counts))
+        for name in _SPOKEN:
+            values = part[name].values
+            rows = values.reshape(-1, *values.shape[len(dims) :])
+            low[name] = np.fmin(low[name], np.fmin.reduce(rows))
+            high[name] = np.fmax(high[name], np.fmax.reduce(rows))
     return {
         "store": str(out),
         "drops": data.status.size,
-        "over": {str(dim): data.sizes[dim] for dim in data.status.dims},
-        "status": {name: int(count) for name, count in found["counts"].items() if count},
-        "ranges": {name: _ranges(found["low"][name], found["high"][name]) for name in _SPOKEN},
+        "over": {str(dim): data.sizes[dim] for dim in dims},
+        "status": {status.name: int(counts[status]) for status in Status if counts[status]},
+        "ranges": {
+            name: _ranges(data[name].dims[len(dims) :], low[name], high[name]) for name in _SPOKEN
+        },
     }
 
 
@@ -94,7 +100,7 @@ def tell(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -
             console.print(f"  {name} {part}".rstrip() + f": {_range(low, high)}")
     for name, count in found["status"].items():
         console.print(f"  {count} {name}: {Status[name].advice}")
-    console.print(f"Store: {out}")
+    console.print(f"Written: {out}")
     if plot is not None:
         console.print(f"Picture: {plot}")
 
@@ -104,17 +110,10 @@ def _range(low: float, high: float) -> str:
     return one if one == other else f"{one} to {other}"
 
 
-def _over_drops(array: "xr.DataArray", what: str) -> "xr.DataArray":
-    """Return the smallest or largest number of each ball or contact."""
-    reduced: xr.DataArray = getattr(array, what)([dim for dim in array.dims if dim not in _PARTS])
-    return reduced
-
-
-def _ranges(low: "xr.DataArray", high: "xr.DataArray") -> dict[str, tuple[float, float]]:
-    if not low.dims:
-        return {"": (float(low), float(high))}
-    pairs = zip(low.values.tolist(), high.values.tolist(), strict=True)
-    return {f"{low.dims[0]} {k}": (float(one), float(two)) for k, (one, two) in enumerate(pairs)}
+def _ranges(own: Sequence[Any], low: Any, high: Any) -> dict[str, tuple[float, float]]:
+    """Return the smallest and the largest number, of each ball or contact where it has one."""
+    pairs = zip(np.atleast_1d(low).tolist(), np.atleast_1d(high).tolist(), strict=True)
+    return {f"{own[0]} {k}" if own else "": pair for k, pair in enumerate(pairs)}
 
 
 @contextlib.contextmanager
@@ -128,6 +127,8 @@ def _client(address: str | None) -> Iterator[Any]:
     except ImportError as error:
         words = "--cluster needs dask's distributed: pip install stackbounce[cluster]"
         raise InvalidValue(words) from error
+    for name in ("distributed", "distributed.client"):  # errors of ours say it in one line
+        logging.getLogger(name).setLevel(logging.CRITICAL)
     wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
     connect: Any = distributed.Client
     try:

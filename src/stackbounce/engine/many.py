@@ -33,12 +33,13 @@ class Drops(NamedTuple):
 
 
 class Outcomes(NamedTuple):
-    """What comes of it: (rows, balls) numbers, and (rows,) status."""
+    """What comes of it: (rows, balls) numbers, and (rows,) energy and status."""
 
-    velocity: Table
+    velocity: Table  # afterwards; `compare` makes rebound ratios of them
     collisions: Table  # -1 where infinitely many
     first_touch: Table  # nan where none
     last_release: Table  # nan where none, infinity where the run stopped before
+    energy: Table  # kinetic energy afterwards over the one that came in; by `compare`
     status: Table
 
 
@@ -127,6 +128,40 @@ def run_many_rigid(
             if stack.infinite[b] == 1:
                 out.collisions[row, b] = -1
         out.status[row] = status
+
+
+@kernel
+def compare(drops: Drops, out: Outcomes) -> None:
+    """Turn velocities into rebound ratios, and find the share of the energy that is left."""
+    for row in range(len(out.status)):
+        before, after = drops.velocity[row], out.velocity[row]
+        out.energy[row] = energy_kept(drops.mass[row], before, after)
+        speed = _fastest(before)
+        for b in range(len(after)):
+            after[b] = after[b] / speed
+
+
+@kernel
+def energy_kept(mass: Floats, before: Floats, after: Floats) -> float:
+    """Return the kinetic energy of balls after over that before, velocities in m/s."""
+    heaviest, speed = 0.0, _fastest(before)
+    for m in mass:
+        heaviest = max(heaviest, m)
+    came, left = 0.0, 0.0
+    for b in range(len(mass)):
+        share, start, end = mass[b] / heaviest, before[b] / speed, after[b] / speed
+        came += share * (start * start)
+        left += share * (end * end)
+    return left / came if came > 0.0 else math.nan
+
+
+@kernel
+def _fastest(velocity: Floats) -> float:
+    """Return v0, the largest speed."""
+    speed = 0.0
+    for v in velocity:
+        speed = max(speed, abs(v))
+    return speed
 
 
 @kernel

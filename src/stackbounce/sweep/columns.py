@@ -14,55 +14,57 @@ from stackbounce.model import STANDARD_GRAVITY, Drop, Hysteretic
 from stackbounce.simulate import contact_numbers
 from stackbounce.sweep.paths import Number, drop_at
 
-__all__ = ["Rows", "check", "columns"]
+__all__ = ["Rows", "base_rows", "check", "fill"]
 
 Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
-"""The numbers that vary, each with its value in every row."""
+"""The numbers that vary, in SI units: arrays that broadcast with each other."""
 
 
-def columns(drop: Drop, rows: Rows, count: int) -> Drops:
-    """Return `count` drops, the base one with other numbers in place, as the engine takes them.
+def base_rows(drop: Drop, count: int) -> Drops:
+    """Return a drop so many times, as the engine takes many."""
+    laws = np.array([contact_numbers(law) for law in drop.contacts])
+    kind, stiffness, exponent, extra = laws.T
+    each = ([ball.mass for ball in drop.balls], kind.astype(np.int64), stiffness, exponent, extra)
+    gap, velocity = [0.0, *drop.gaps], drop.start_velocities
+    rows = [np.tile(numbers, (count, 1)) for numbers in (*each, gap, velocity)]
+    return Drops._make([*rows, np.full(count, drop.gravity)])
+
+
+def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
+    """Set the numbers that vary in drops that have all others.
 
     Parameters
     ----------
+    drops : Drops
+        Arrays (..., balls), and (...,) gravity, with the base's numbers.
     drop : Drop
         The base.
     rows : mapping
-        The numbers that vary: (count,) each, in SI units.
-    count : int
-        How many drops.
-
-    Returns
-    -------
-    Drops
+        The numbers that vary: they broadcast to (...,).
     """
-    mass = np.tile([ball.mass for ball in drop.balls], (count, 1))
-    laws = np.array([contact_numbers(law) for law in drop.contacts])
-    kind = np.tile(laws[:, 0].astype(np.int64), (count, 1))
-    stiffness, exponent, extra = (np.tile(laws[:, k], (count, 1)) for k in (1, 2, 3))
-    gap = np.tile([0.0, *drop.gaps], (count, 1))
-    velocity = np.tile(drop.start_velocities, (count, 1))
-    gravity = np.full(count, drop.gravity)
-    places: dict[str, Any] = {"mass": mass, "stiffness": stiffness, "exponent": exponent}
+    places: dict[str, Any] = {
+        "mass": drops.mass,
+        "stiffness": drops.stiffness,
+        "exponent": drops.exponent,
+    }
     for number, values in rows.items():
         if number.part == "gaps":
-            gap[:, number.index + 1] = values
+            drops.gap[..., number.index + 1] = values
         elif number.part == "velocities":
-            velocity[:, number.index] = values
+            drops.velocity[..., number.index] = values
         elif number.field == "gravity":
-            gravity[:] = values
+            drops.gravity[...] = values
         elif number.field == "impact_speed":
-            velocity[:] = -values[:, None]
+            drops.velocity[...] = -values[..., None]
         elif number.field in places:
-            places[number.field][:, number.index] = values
+            places[number.field][..., number.index] = values
         elif number.part == "contacts" and number.field != "restitution":
-            extra[:, number.index] = values
-    _set_restitutions(drop, rows, exponent, extra)
+            drops.extra[..., number.index] = values
+    _set_restitutions(drop, rows, drops.exponent, drops.extra)
     if drop.height is not None:
         height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
-        pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
-        velocity[:] = -np.sqrt(2.0 * pull * height)[:, None]
-    return Drops(mass, kind, stiffness, exponent, extra, gap, velocity, gravity)
+        pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)
+        drops.velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
 
 
 def _set_restitutions(
@@ -75,16 +77,16 @@ def _set_restitutions(
         }
         if not isinstance(law, Hysteretic):
             if "restitution" in own:
-                extra[:, i] = own["restitution"]
+                extra[..., i] = own["restitution"]
             continue
         known_by_e = law.derived == "unloading_exponent" and "unloading_exponent" not in own
         if "restitution" in own or (known_by_e and "exponent" in own):
-            e, p = own.get("restitution", law.restitution), exponent[:, i]
-            extra[:, i] = np.maximum(p, (p + 1.0) / e / e - 1.0)
+            e, p = own.get("restitution", law.restitution), exponent[..., i]
+            extra[..., i] = np.maximum(p, (p + 1.0) / e / e - 1.0)
 
 
-def check(drop: Drop, rows: Rows, where: Callable[[int], str]) -> None:
-    """Raise for the first row that makes no drop.
+def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> None:
+    """Raise for the first drop that cannot be.
 
     What a number may be is an interval, and one end of it may depend on another number of the same
     part: if all combinations of smallest and largest values make a drop then so do all rows.
@@ -96,21 +98,22 @@ def check(drop: Drop, rows: Rows, where: Callable[[int], str]) -> None:
     rows : mapping
         The numbers that vary.
     where : callable
-        Returns what a message says of the place of a row.
+        Returns what a message says of the place with an index.
 
     Raises
     ------
     InvalidValue, InvalidType
         As `Drop` does, with the place of the row.
     """
-    count = len(next(iter(rows.values()), ()))
-    if count == 0 or (_corners_hold(drop, rows) and _all_move(drop, rows)):
+    shape = np.broadcast_shapes(*(values.shape for values in rows.values()))
+    if 0 in shape or (_corners_hold(drop, rows) and _all_move(drop, rows)):
         return
-    for row in range(count):
+    wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
+    for index in np.ndindex(shape):
         try:
-            drop_at(drop, {number: float(values[row]) for number, values in rows.items()})
+            drop_at(drop, {number: float(values[index]) for number, values in wide.items()})
         except (InvalidValue, InvalidType) as error:
-            raise type(error)(f"{error} {where(row)}") from error
+            raise type(error)(f"{error} {where(index)}") from error
 
 
 def _corners_hold(drop: Drop, rows: Rows) -> bool:
@@ -135,8 +138,8 @@ def _all_move(drop: Drop, rows: Rows) -> bool:
     """Tell whether in each row some ball moves."""
     if drop.velocities is None:
         return True
-    moving = np.zeros(len(next(iter(rows.values()))), dtype=bool)
+    varied = {n.index: values for n, values in rows.items() if n.part == "velocities"}
+    still: Any = True
     for i, velocity in enumerate(drop.velocities):
-        own = [values for n, values in rows.items() if (n.part, n.index) == ("velocities", i)]
-        moving |= (own[0] if own else np.full(len(moving), velocity)) != 0.0
-    return bool(moving.all())
+        still = still & np.equal(varied.get(i, velocity), 0.0)
+    return not np.any(still)

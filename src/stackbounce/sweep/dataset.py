@@ -1,20 +1,18 @@
 """The numbers that vary as named dimensions, and the Dataset that comes of them."""
 
 import json
-import math
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.many import Drops
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.model.laws.table import FORMULAS
 from stackbounce.result import Status
 from stackbounce.simulate import Options, run_options
-from stackbounce.sweep.columns import check, columns
+from stackbounce.sweep.columns import check
 from stackbounce.sweep.paths import Number, number_at
 from stackbounce.sweep.solve import solve
 from stackbounce.units import factor
@@ -181,7 +179,7 @@ def _dataset(
 
 def check_axis(drop: Drop, path: str, values: NDArray[np.float64]) -> None:
     """Raise for the first value that a number of a drop, all others as they are, cannot have."""
-    check(drop, {number_at(drop, path): values}, lambda row: f"(at {path} {row})")
+    check(drop, {number_at(drop, path): values}, lambda index: f"(at {path} {index[0]})")
 
 
 def run_block(
@@ -192,26 +190,19 @@ def run_block(
     blocks: Sequence[NDArray[np.float64]],
 ) -> tuple[NDArray[Any], ...]:
     """Return the outputs for values that broadcast with each other, checked."""
+    rows = dict(zip(numbers, blocks, strict=True))
     shape = np.broadcast_shapes(*(block.shape for block in blocks))
-    count = math.prod(shape)
-    wide = [np.broadcast_to(block, shape) for block in blocks]
 
-    def rows(start: int, stop: int) -> dict[Number, NDArray[np.float64]]:
-        return {one: values.flat[start:stop] for one, values in zip(numbers, wide, strict=True)}
-
-    def where(row: int) -> str:
-        index = zip(dims, np.unravel_index(row, shape), strict=False)
-        place = ", ".join(f"{dim} {i}" for dim, i in index)
+    def where(index: Sequence[int]) -> str:
+        place = ", ".join(f"{dim} {i}" for dim, i in zip(dims, index, strict=False))
         there = ", ".join(
-            f"{n.path} = {values.item():.10g}" for n, values in rows(row, row + 1).items()
+            f"{one.path} = {np.broadcast_to(values, shape)[tuple(index)]:.10g}"
+            for one, values in rows.items()
         )
         return f"(at {place}: {there})" if place else f"(at {there})"
 
-    def make(start: int, stop: int) -> Drops:
-        return columns(drop, rows(start, stop), stop - start)
-
-    check(drop, rows(0, count), where)
-    out = solve(make, count, len(drop.balls), drop.rigid, options)
+    check(drop, rows, where)
+    out = solve(drop, rows, shape, options)
     return tuple(array.reshape(shape + array.shape[1:]) for array in out)
 
 

@@ -1,9 +1,10 @@
-"""Which engine solves a block of drops: as plain Python or compiled, two springs by their own."""
+"""Which engine solves many drops: as plain Python or compiled, two springs by their own."""
 
 import functools
 import math
 import threading
-from typing import Any
+from collections.abc import Callable, Iterable
+from typing import Any, TypeAlias
 
 import numpy as np
 
@@ -20,75 +21,75 @@ from stackbounce.engine.stack import (
     new_stack,
 )
 from stackbounce.engine.two_springs import SCRATCH, two_springs
-from stackbounce.simulate import Options
+from stackbounce.model import Drop
+from stackbounce.simulate import Options, contact_numbers
+from stackbounce.sweep.paths import Number
 
-__all__ = ["run"]
+__all__ = ["Engine", "engine_for", "ready"]
+
+Engine: TypeAlias = Callable[[Drops, Outcomes, Options, bool], None]
+"""Solves drops, as plain Python if they are so few that loading compiled code would take longer."""
 
 _LOG_ROWS = 512
 _FEW_BALLS, _FEW_EVENTS = 20, 2000  # up to which a drop is run as plain Python
 _NO_ROOM: Any = ([], [])  # what is new needs no clearing
 _UNLIMITED = 10_000  # events that two springs never have where their own engine is sure of them
 _local = threading.local()
+_lock = threading.Lock()
 
 
-def run(drops: Drops, out: Outcomes, rigid: bool, options: Options, *, few: bool) -> None:
-    """Solve a block of drops, as plain Python if they are few.
+def engine_for(drop: Drop, numbers: Iterable[Number], options: Options) -> Engine:
+    """Return what solves all drops that differ from a base in these numbers.
 
-    Parameters
-    ----------
-    drops : Drops
-        The drops.
-    out : Outcomes
-        Gets what comes of them.
-    rigid : bool
-        Whether they are stacks of `Rigid` contacts.
-    options : Options
-        How to run them.
-    few : bool
-        Whether loading compiled code would take longer than running them as plain Python.
+    It does not depend on their values, so that what comes of a drop does not depend on others.
     """
-    if not rigid and _are_two_springs(drops, options):
-        _run_two_springs(drops, out, few)
-        asked = np.flatnonzero(out.status == codes.ASK)
-        if len(asked):
-            some = Drops._make(array[asked] for array in drops)
-            answers = Outcomes._make(array[asked] for array in out)
-            _run_any(some, answers, rigid, options, few)
-            for array, answer in zip(out, answers, strict=True):
-                array[asked] = answer
-    else:
-        _run_any(drops, out, rigid, options, few)
+    if drop.rigid:
+        return _run_rigid
+    linear = all(contact_numbers(law)[::2] == (POWER_LAW, 1.0) for law in drop.contacts)
+    together = len(set(drop.start_velocities)) == 1 and drop.start_velocities[0] < 0.0
+    free = any(n.part == "velocities" or n.field in ("exponent", "gravity") for n in numbers)
+    whole = options.until == math.inf and options.event_limit >= _UNLIMITED
+    if len(drop.balls) == 2 and linear and together and drop.gravity == 0.0 and whole and not free:
+        return _run_two_springs
+    return _run_finite
 
 
-def _are_two_springs(drops: Drops, options: Options) -> bool:
-    """Tell whether all drops are of two balls on springs that come in at one speed."""
-    return bool(
-        drops.mass.shape[1] == 2
-        and options.until == math.inf
-        and options.event_limit >= _UNLIMITED
-        and (drops.kind == POWER_LAW).all()
-        and (drops.exponent == 1.0).all()
-        and (drops.gravity == 0.0).all()
-        and (drops.velocity[:, 0] == drops.velocity[:, 1]).all()
-        and (drops.velocity[:, 0] < 0.0).all()
-    )
+def ready(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the compiled form of a kernel; threads that ask together take turns.
+
+    For as long as one is made numba's cache folder is the package's own: another thread would find
+    a wrong one, and leave its files in the working directory.
+    """
+    with _lock:
+        return compiled(function)
 
 
-def _run_two_springs(drops: Drops, out: Outcomes, few: bool) -> None:
-    """Run drops by the engine for two springs, or have it ask for the general one."""
-    go: Any = two_springs if few else compiled(two_springs)
+def _run_two_springs(drops: Drops, out: Outcomes, options: Options, few: bool) -> None:
+    """Run drops by the engine for two springs, and those it is not sure of by the general one."""
+    go: Any = two_springs if few else ready(two_springs)
     scratch: Any = [0.0] * SCRATCH if few else np.zeros(SCRATCH)
-    speed, gap = -drops.velocity[:, 0], drops.gap[:, 1]
-    energy = np.empty(len(speed))
-    given = (drops.mass, drops.stiffness, np.ascontiguousarray(gap), speed, _UNLIMITED)
-    times = (out.first_touch, out.last_release)
-    go(*given, out.velocity, out.collisions, *times, energy, out.status, scratch)
+    speed, gap = -drops.velocity[:, 0], np.ascontiguousarray(drops.gap[:, 1])
+    given = (drops.mass, drops.stiffness, gap, speed, _UNLIMITED)
+    go(*given, *out, scratch)
+    asked = np.flatnonzero(out.status == codes.ASK)
+    if len(asked):
+        some = Drops._make(array[asked] for array in drops)
+        answers = Outcomes._make(array[asked] for array in out)
+        _run_finite(some, answers, options, few)
+        for array, answer in zip(out, answers, strict=True):
+            array[asked] = answer
 
 
-def _run_any(drops: Drops, out: Outcomes, rigid: bool, options: Options, few: bool) -> None:
-    """Run drops by the general engines."""
-    if not few or not _run_plainly(drops, out, rigid, options):
-        _run_compiled(drops, out, rigid, options)
+def _run_finite(drops: Drops, out: Outcomes, options: Options, few: bool) -> None:
+    """Run drops on finite contacts."""
+    if not few or not _run_plainly(drops, out, False, options):
+        _run_compiled(drops, out, False, options)
+
+
+def _run_rigid(drops: Drops, out: Outcomes, options: Options, few: bool) -> None:
+    """Run drops of rigid balls."""
+    if not few or not _run_plainly(drops, out, True, options):
+        _run_compiled(drops, out, True, options)
 
 
 def _run_plainly(drops: Drops, out: Outcomes, rigid: bool, options: Options) -> bool:
@@ -122,10 +123,10 @@ def _run_compiled(drops: Drops, out: Outcomes, rigid: bool, options: Options) ->
     stack, room, samples, log = _arrays(out.velocity.shape[1], rigid)
     limit = options.event_limit
     if rigid:
-        go: Any = compiled(run_many_rigid)
+        go: Any = ready(run_many_rigid)
         go(stack, room, drops, options.until, limit, samples, log, out)
     else:
-        go = compiled(run_many)
+        go = ready(run_many)
         go(stack, room, drops, options.until, options.rtol, limit, samples, log, out)
 
 

@@ -1,57 +1,48 @@
-"""Many drops at once: blocks of rows, each solved in a thread of its own."""
+"""Many drops at once: block by block, in threads."""
 
+import math
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from typing import NamedTuple
+from itertools import accumulate, islice
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.engine.many import Drops, Outcomes
+from stackbounce.engine.many import Drops, Outcomes, compare
+from stackbounce.model import Drop
 from stackbounce.simulate import Options
-from stackbounce.sweep.engines import run
+from stackbounce.sweep.blocks import Block, blocks, sides, size
+from stackbounce.sweep.columns import Rows, base_rows, fill
+from stackbounce.sweep.engines import engine_for, ready
 
-__all__ = ["Outputs", "solve"]
+__all__ = ["solve"]
 
-_BLOCK = 4096  # rows
+_BLOCKS = range(1024, 16384)  # drops in one: enough to fill the lanes, few enough for the caches
+_EACH = 8  # blocks for each thread where there are so many, so that all end at about one time
 _FEW = 24  # drops that are run as plain Python
 
 
-class Outputs(NamedTuple):
-    """What comes of many drops: (count, balls) arrays, and (count,) energy and status."""
-
-    rebound_ratio: NDArray[np.float64]
-    collisions: NDArray[np.int64]
-    first_touch: NDArray[np.float64]
-    last_release: NDArray[np.float64]
-    energy_retained: NDArray[np.float64]
-    status: NDArray[np.int64]
-
-
-def solve(
-    make: Callable[[int, int], Drops], count: int, balls: int, rigid: bool, options: Options
-) -> Outputs:
-    """Return what comes of `count` drops.
+def solve(drop: Drop, rows: Rows, shape: Sequence[int], options: Options) -> Outcomes:
+    """Return what comes of a drop with other numbers.
 
     Parameters
     ----------
-    make : callable
-        Returns the drops of rows from a first one up to, and without, a last one.
-    count : int
-        How many rows.
-    balls : int
-        How many balls each drop has.
-    rigid : bool
-        Whether they are stacks of `Rigid` contacts.
+    drop : Drop
+        The base.
+    rows : mapping
+        The numbers that vary: they broadcast to `shape`.
+    shape : sequence of int
+        How many drops, by dimension.
     options : Options
         How to run them.
 
     Returns
     -------
-    Outputs
+    Outcomes
+        Arrays (count, balls), and (count,) energy and status, with rebound ratios for velocities.
     """
-    out = Outputs(
+    count, balls = math.prod(shape), len(drop.balls)
+    out = Outcomes(
         np.empty((count, balls)),
         np.empty((count, balls), dtype=np.int64),
         np.empty((count, balls)),
@@ -59,36 +50,28 @@ def solve(
         np.empty(count),
         np.empty(count, dtype=np.int64),
     )
+    threads = os.cpu_count() or 1
+    most = min(max(count // (_EACH * threads), _BLOCKS.start), _BLOCKS.stop)
+    few, engine = count <= _FEW, engine_for(drop, rows, options)
+    relate = compare if few else ready(compare)
+    wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
 
-    def work(block: slice) -> None:
-        part = Outputs._make(array[block] for array in out)
-        drops = make(block.start, block.stop)
-        velocity = np.empty((len(part.status), balls))
-        times = part.first_touch, part.last_release
-        outcomes = Outcomes(velocity, part.collisions, *times, part.status)
-        run(drops, outcomes, rigid, options, few=count <= _FEW)
-        _compare(drops, velocity, part)
+    def work(todo: Iterable[tuple[Block, int]]) -> None:
+        room = base_rows(drop, min(count, most))
+        for block, stop in todo:
+            drops = Drops._make(array[: size(block)] for array in room)
+            sizes = [side.stop - side.start for side in block]
+            shaped = (array.reshape((*sizes, *array.shape[1:])) for array in drops)
+            fill(Drops._make(shaped), drop, {one: values[block] for one, values in wide.items()})
+            part = Outcomes._make(array[stop - size(block) : stop] for array in out)
+            engine(drops, part, options, few)
+            with np.errstate(all="ignore"):
+                relate(drops, part)
 
-    if count <= _BLOCK:
-        work(slice(0, count))
-        return out
-    work(slice(0, _BLOCK))  # what has to be compiled is compiled once, not in each thread
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        for _ in pool.map(work, _blocks(_BLOCK, count)):
-            pass
+    cut = list(blocks(shape, sides(shape, most)))
+    todo = iter(list(zip(cut, accumulate(map(size, cut)), strict=True)))
+    work(islice(todo, 1))  # what has to be compiled is compiled once, not in each thread
+    if len(cut) > 1:
+        with ThreadPoolExecutor(threads) as pool:  # each takes the next block that is left
+            list(pool.map(work, [todo] * threads))
     return out
-
-
-def _blocks(first: int, count: int) -> Iterator[slice]:
-    return (slice(start, min(start + _BLOCK, count)) for start in range(first, count, _BLOCK))
-
-
-def _compare(drops: Drops, velocity: NDArray[np.float64], out: Outputs) -> None:
-    """Write down what a block's drops came out with, over what they came in with."""
-    before, mass = np.asarray(drops.velocity), np.asarray(drops.mass)
-    speed = np.max(np.abs(before), axis=1, keepdims=True)
-    share = mass / np.max(mass, axis=1, keepdims=True)
-    with np.errstate(over="ignore", under="ignore", invalid="ignore"):
-        out.rebound_ratio[:] = velocity / speed
-        after = np.sum(share * np.square(out.rebound_ratio), axis=1)
-        out.energy_retained[:] = after / np.sum(share * np.square(before / speed), axis=1)

@@ -1,37 +1,40 @@
-"""A sweep larger than memory, written to a Zarr store block by block; stopped, it can be resumed.
+"""A sweep larger than memory, written to a file block by block; stopped, it can be resumed.
 
-Until it is complete the store is called ``NAME.partial``; beside it ``NAME.progress`` has a line
-for each block that is written. Blocks are whole chunks of the store, so that a block that was
-being written when the process died is simply written again, and a sweep ends with the same bytes
-however often it was stopped.
+Until it is complete the file is called ``NAME.partial``; beside it ``NAME.progress`` tells the
+sides of a block, and then the number of each block that is written. A sweep ends with the same
+bytes however often it was stopped.
 """
 
-import itertools
+import contextlib
 import math
-import shutil
+import os
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import CancelledError
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import Drop
+from stackbounce.sweep.blocks import Block, blocks, sides, size
 from stackbounce.sweep.dataset import check_axis, sweep
+from stackbounce.sweep.files import Form, Format, format_of
 
 if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-__all__ = ["Grid", "write"]
+__all__ = ["Grid", "opened", "write"]
 
 BLOCK = 2**16
 """Drops in a block, at most."""
 
 _AHEAD = 3  # blocks that a cluster has in hand for each of its threads
-Grid = Mapping[str, NDArray[np.float64]]
-_Block = dict[str, slice]
+Grid: TypeAlias = Mapping[str, NDArray[np.float64]]
+_Todo: TypeAlias = Iterator[tuple[int, Block]]
+_Done: TypeAlias = Iterator[tuple[int, Block, "xr.Dataset"]]
 
 
 def write(
@@ -44,20 +47,22 @@ def write(
     progress: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> Path:
-    """Sweep a drop over a grid into a Zarr store, or go on where that was stopped.
+    """Sweep a drop over a grid into a file, or go on where that was stopped.
 
     Parameters
     ----------
     out : str or path-like
-        The store, which must not exist yet unless it is the same sweep, complete.
+        The file: a Zarr store if it ends in ``.zarr``, NetCDF-4 if in ``.nc``, for which the extra
+        ``netcdf`` must be installed. It must not exist yet unless it is the same sweep, complete.
     drop : Drop
         The base.
     values : mapping
-        The numbers that vary, by their paths, each a 1-D array: a dimension of the store.
+        The numbers that vary, by their paths, each a 1-D array: a dimension of the file.
     client : distributed.Client, optional
         A cluster to solve the blocks on; by default they are solved here, on all cores.
     block : int, optional
-        How many drops are solved and written at once, at most.
+        How many drops are solved and written at once, at most; a sweep that goes on keeps what it
+        began with.
     progress : callable, optional
         Told how many drops are done, and of how many, after each block.
     **options
@@ -66,14 +71,14 @@ def write(
     Returns
     -------
     pathlib.Path
-        The store, to be opened with ``xarray.open_zarr``.
+        The file, to be opened with ``xarray.open_zarr`` or ``xarray.open_dataset``.
 
     Raises
     ------
     InvalidValue, InvalidType
-        As in `sweep`.
+        As in `sweep`; or the name ends in something else.
     FileError
-        If the store cannot be written, or another sweep has its name.
+        If the file cannot be written, or another sweep has its name; or if the cluster fails.
 
     Examples
     --------
@@ -86,126 +91,84 @@ def write(
     array([1, 1, 1, 1, 1])
     """
     out, tell = Path(out), progress or _tell_nobody
+    kind = format_of(out)
+    if block < 1:
+        raise InvalidValue(f"block must be a number of drops, 1 or above, got {block}")
     for path, axis in values.items():
         check_axis(drop, path, axis)
     shape = tuple(len(axis) for axis in values.values())
-    chunks = _chunks(shape, block)
-    template = _template(drop, values, chunks, options)
+    first = sweep(drop, {path: axis[:1] for path, axis in values.items()}, **options)
+    form = Form(first, values, sides(shape, block))
     total = math.prod(shape)
     partial, log = out.with_name(f"{out.name}.partial"), out.with_name(f"{out.name}.progress")
     try:
-        if _is_complete(out, template, log):
+        if _is_complete(out, kind, form, log):
             tell(total, total)
             return out
-        done = _begin(partial, log, template)
-        finished = sum(_size(one) for k, one in enumerate(_blocks(values, chunks)) if k in done)
+        cut, done = _begin(partial, kind, form, log)
+        finished = sum(size(one) for k, one in enumerate(blocks(shape, cut)) if k in done)
         tell(finished, total)
-        todo = ((k, one) for k, one in enumerate(_blocks(values, chunks)) if k not in done)
-        with log.open("a", encoding="ascii") as lines:
+        todo = ((k, one) for k, one in enumerate(blocks(shape, cut)) if k not in done)
+        with kind.writer(partial) as put, log.open("a", encoding="ascii") as lines:
             for k, one, data in _solved(drop, values, todo, options, client):
-                data.drop_vars(list(data.coords)).to_zarr(partial, region=one, consolidated=False)
+                put(one, data)
                 lines.write(f"{k}\n")
                 lines.flush()
-                finished += _size(one)
+                finished += size(one)
                 tell(finished, total)
         partial.rename(out)
         log.unlink()
+    except FileError:
+        raise
     except OSError as error:
-        if isinstance(error, FileError):
-            raise
         raise FileError(f"{out} cannot be written: {error.strerror or error}") from error
     return out
+
+
+def opened(path: str | Path) -> "xr.Dataset":
+    """Open what `write` has written; numbers are read when they are needed."""
+    return format_of(Path(path)).opened(Path(path))
 
 
 def _tell_nobody(done: int, total: int) -> None:
     pass
 
 
-def _template(drop: Drop, values: Grid, chunks: tuple[int, ...], options: Any) -> "xr.Dataset":
-    """Return the Dataset to come, without its numbers."""
-    import dask.array
-    import xarray as xr
-
-    from_array: Any = dask.array.from_array
-    lazy = {
-        path: xr.DataArray(from_array(axis, chunks=size), dims=path)
-        for (path, axis), size in zip(values.items(), chunks, strict=True)
-    }
-    data = sweep(drop, lazy, **options)
-    units = {path: data[path].attrs for path in values}
-    return data.assign_coords({path: (path, axis, units[path]) for path, axis in values.items()})
-
-
-def _is_complete(out: Path, template: "xr.Dataset", log: Path) -> bool:
-    """Tell whether the store is there, and complete; refuse to touch another one."""
+def _is_complete(out: Path, kind: Format, form: Form, log: Path) -> bool:
+    """Tell whether the file is there, and complete; refuse to touch another one."""
     if not out.exists():
         return False
-    if not _is_same(out, template):
+    if not _is_same(out, kind, form):
         raise FileError(f"{out} exists, and is not this sweep: remove it or choose another name")
     log.unlink(missing_ok=True)
     return True
 
 
-def _begin(partial: Path, log: Path, template: "xr.Dataset") -> set[int]:
-    """Make an empty store, or return the blocks that the one found has."""
-    if log.exists() and partial.exists():
-        if not _is_same(partial, template):
+def _begin(partial: Path, kind: Format, form: Form, log: Path) -> tuple[tuple[int, ...], set[int]]:
+    """Make an empty file, or go on with the one found; return a block's sides and what is done."""
+    lines = log.read_text("ascii").splitlines(keepends=True) if log.exists() else []
+    whole = [line for line in lines if line.endswith("\n")]  # the last one may be half written
+    if whole and partial.exists():
+        if not _is_same(partial, kind, form):
             raise FileError(
                 f"{partial} is part of another sweep: remove it and {log.name}, "
                 "or choose another name"
             )
-        for leftover in partial.rglob("*.partial"):  # of a chunk that was being written
-            leftover.unlink()
-        lines = log.read_text("ascii").splitlines(keepends=True)
-        return {int(line) for line in lines if line.endswith("\n")}
+        os.truncate(log, sum(map(len, whole)))
+        return tuple(map(int, whole[0].split())), {int(line) for line in whole[1:]}
     if partial.exists():  # stopped before it was all there
-        shutil.rmtree(partial)
-    template.to_zarr(partial, compute=False, zarr_format=2, consolidated=True)
-    log.touch()
-    return set()
+        kind.remove(partial)
+    kind.create(partial, form)
+    log.write_text(" ".join(map(str, form.sides)) + "\n", "ascii")
+    return form.sides, set()
 
 
-def _is_same(store: Path, template: "xr.Dataset") -> bool:
-    import xarray as xr
-
+def _is_same(path: Path, kind: Format, form: Form) -> bool:
     try:
-        with xr.open_zarr(store) as found:
-            same_axes = all(
-                path in found and np.array_equal(found[path].values, template[path].values)
-                for path in template.sizes
-            )
-            same_chunks = all(
-                found[name].encoding.get("chunks") == one.data.chunksize
-                for name, one in template.items()
-            )
-            return same_axes and same_chunks and found.attrs == template.attrs
+        with kind.opened(path) as found:
+            return form.is_of(found)
     except (KeyError, ValueError, OSError):
         return False
-
-
-def _chunks(shape: tuple[int, ...], block: int) -> tuple[int, ...]:
-    """Return the sides of a block of at most so many drops, filled from the last dimension on."""
-    if block < 1:
-        raise InvalidValue(f"block must be a number of drops, 1 or above, got {block}")
-    sides, left = [], block
-    for size in reversed(shape):
-        side = max(1, min(size, left))
-        left //= side
-        sides.append(side)
-    return tuple(reversed(sides))
-
-
-def _blocks(values: Grid, chunks: tuple[int, ...]) -> Iterator[_Block]:
-    ranges = [
-        [slice(start, min(start + side, len(axis))) for start in range(0, len(axis), side)]
-        for axis, side in zip(values.values(), chunks, strict=True)
-    ]
-    for sides in itertools.product(*ranges):
-        yield dict(zip(values, sides, strict=True))
-
-
-def _size(block: _Block) -> int:
-    return math.prod(side.stop - side.start for side in block.values())
 
 
 def solve_block(drop: Drop, values: Grid, options: Mapping[str, Any]) -> "xr.Dataset":
@@ -214,27 +177,27 @@ def solve_block(drop: Drop, values: Grid, options: Mapping[str, Any]) -> "xr.Dat
 
 
 def _solved(
-    drop: Drop,
-    values: Grid,
-    todo: Iterator[tuple[int, _Block]],
-    options: Mapping[str, Any],
-    client: "Client | None",
-) -> Iterator[tuple[int, _Block, "xr.Dataset"]]:
+    drop: Drop, values: Grid, todo: _Todo, options: Mapping[str, Any], client: "Client | None"
+) -> _Done:
     """Yield blocks with their results as they are ready, never many at a time."""
+    jobs = ((k, block, (drop, _part(values, block), options)) for k, block in todo)
     if client is None:
-        for k, block in todo:
-            yield k, block, solve_block(drop, _part(values, block), options)
-        return
+        return ((k, block, solve_block(*job)) for k, block, job in jobs)
+    return _on_cluster(client, jobs)
+
+
+def _on_cluster(cluster: Any, jobs: Iterator[tuple[int, Block, Any]]) -> _Done:
     import distributed
 
-    cluster: Any = client
-    ahead = _AHEAD * max(1, sum(cluster.nthreads().values()))
-    waiting: dict[Any, tuple[int, _Block]] = {}
     ready: Any = distributed.as_completed
     running = ready()
-    for k, block in todo:
-        future = cluster.submit(solve_block, drop, _part(values, block), options, pure=False)
-        running.add(future)
+    waiting: dict[Any, tuple[int, Block]] = {}
+    with _cluster_errors():
+        ahead = _AHEAD * max(1, sum(cluster.nthreads().values()))
+    for k, block, job in jobs:
+        with _cluster_errors():
+            future = cluster.submit(solve_block, *job, pure=False)
+            running.add(future)
         waiting[future] = k, block
         if len(waiting) >= ahead:
             yield _next(running, waiting)
@@ -242,21 +205,29 @@ def _solved(
         yield _next(running, waiting)
 
 
-def _submit(
-    client: Any, running: Any, drop: Drop, values: Grid, block: _Block, options: Any
-) -> Any:
-    future = client.submit(solve_block, drop, _part(values, block), options, pure=False)
-    running.add(future)
-    return future
+def _next(running: Any, waiting: dict[Any, tuple[int, Block]]) -> tuple[int, Block, "xr.Dataset"]:
+    with _cluster_errors():
+        future = next(running)
+        data = future.result()
+        future.release()
+    return *waiting.pop(future), data
 
 
-def _next(running: Any, waiting: dict[Any, tuple[int, _Block]]) -> tuple[int, _Block, "xr.Dataset"]:
-    future = next(running)
-    k, block = waiting.pop(future)
-    data = future.result()
-    future.release()
-    return k, block, data
+@contextlib.contextmanager
+def _cluster_errors() -> Iterator[None]:
+    """Say that it was the cluster, and that nothing is lost."""
+    from distributed import KilledWorker
+    from distributed.client import ClosedClientError
+
+    try:
+        yield
+    except (OSError, CancelledError, KilledWorker, ClosedClientError) as error:
+        what = " ".join(str(error).split()) or type(error).__name__
+        raise FileError(
+            "the cluster failed; the blocks done are kept, and the same command goes on from "
+            f"there ({what[:200]})"
+        ) from error
 
 
-def _part(values: Grid, block: _Block) -> dict[str, NDArray[np.float64]]:
-    return {path: axis[block[path]] for path, axis in values.items()}
+def _part(values: Grid, block: Block) -> dict[str, NDArray[np.float64]]:
+    return {path: axis[side] for (path, axis), side in zip(values.items(), block, strict=True)}
