@@ -13,7 +13,7 @@ from stackbounce.engine.modes import (
     start_modes,
 )
 from stackbounce.engine.queue import schedule
-from stackbounce.engine.series import ORDER, TERMS, double_integral, integral, shift, value
+from stackbounce.engine.series import ORDER, TERMS, integral, shift, value
 from stackbounce.engine.stack import MODES, WIDTH, Stack
 from stackbounce.engine.taylor import expand, is_linear, record_crests
 
@@ -30,16 +30,14 @@ def pressing_range(stack: Stack, ball: int) -> tuple[int, int]:
 
 
 @kernel
-def contact_impulse(stack: Stack, i: int, s: float) -> tuple[float, float]:
-    """Return the first and second time integrals of a pressing contact's force since the anchor."""
+def contact_impulse(stack: Stack, i: int, s: float) -> float:
+    """Return the time integral of a pressing contact's force since the anchor."""
     first = stack.first[i]
-    if stack.modal[first] == 1:
-        low, high = pressing_range(stack, i)
-        return modal_impulse(stack, i, low, high, s)
-    at, order = i * TERMS, stack.order[first]
-    once = integral(stack.force_series, at, order, s)
-    twice = double_integral(stack.force_series, at, order, s)
-    return once, twice
+    if stack.modal[first] == 0:
+        return integral(stack.force_series[i], stack.order[first], s)
+    low, high = pressing_range(stack, i)
+    once, _ = modal_impulse(stack, i, low, high, s)
+    return once
 
 
 @kernel
@@ -48,9 +46,11 @@ def ball_shift(stack: Stack, b: int, s: float) -> tuple[float, float]:
     gravity = stack.number[0]
     first = stack.first[b]
     if stack.modal[first] == 0:
-        at, order = b * TERMS, stack.order[first]
-        travel = integral(stack.velocity_series, at, order, s)
-        return travel, value(stack.velocity_series, at, order, s) - stack.velocity[b]
+        if s == 0.0:
+            return 0.0, 0.0
+        order = stack.order[first]
+        travel = integral(stack.velocity_series[b], order, s)
+        return travel, value(stack.velocity_series[b], order, s) - stack.velocity[b]
     low, high = pressing_range(stack, b)
     once, twice = 0.0, 0.0
     if low <= b:
@@ -69,7 +69,7 @@ def pressed(stack: Stack, i: int, s: float) -> float:
     """Return the compression of a pressing contact at s from the anchor."""
     first = stack.first[i]
     if stack.modal[first] == 0:
-        return value(stack.compression_series, i * TERMS, stack.order[first] + 1, s)
+        return value(stack.compression_series[i], stack.order[first] + 1, s)
     low, high = pressing_range(stack, i)
     total = 0.0
     for j in range(low, high):
@@ -154,7 +154,7 @@ def add_ball_series(
     part = stack.scratch
     if stack.modal[first] == 0:
         order = stack.order[first]
-        shift(stack.velocity_series, b * TERMS, order, s, part)
+        shift(stack.velocity_series[b], order, s, part)
         for k in range(1, order + 1):
             out[k + 1] += sign * part[k] / (k + 1)
         return order + 1, 0.0, noise
@@ -203,9 +203,9 @@ def compression_series(
         tail, noise, rate_noise = modal_compression(stack, i, low, high, s, out)
         return 7, 8, tail, noise, rate_noise
     order = stack.order[first] + 1
-    shift(stack.compression_series, i * TERMS, order, s, out)
-    noise = 16.0 * EPSILON * abs(stack.compression_series[i * TERMS])
-    speed = stack.speed[first] + abs(stack.compression_series[i * TERMS + 1])
+    shift(stack.compression_series[i], order, s, out)
+    noise = 16.0 * EPSILON * abs(stack.compression_series[i][0])
+    speed = stack.speed[first] + abs(stack.compression_series[i][1])
     return order, order + 1, 0.0, noise + EPSILON * speed * s, 16.0 * EPSILON * speed
 
 
@@ -220,14 +220,19 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
         record_crests(stack, low, high, s)
     fastest = 0.0
     for b in range(first, last + 1):
-        travel, change = ball_shift(stack, b, s)
-        before = abs(stack.velocity[b])
-        stack.velocity[b] += change
-        fastest = max(fastest, before, abs(stack.velocity[b]))
-        if b == first and low > first:
-            stack.compression[b] -= travel
-        if b == last and b + 1 < len(stack.mass):
-            stack.compression[b + 1] += travel
+        open_below = b == first and low > first
+        open_above = b == last and b + 1 < len(stack.mass)
+        before = stack.velocity[b]
+        if open_below or open_above or stack.modal[first] == 1:
+            travel, change = ball_shift(stack, b, s)
+            stack.velocity[b] += change
+            if open_below:
+                stack.compression[b] -= travel
+            if open_above:
+                stack.compression[b + 1] += travel
+        else:
+            stack.velocity[b] = value(stack.velocity_series[b], stack.order[first], s)
+        fastest = max(fastest, abs(before), abs(stack.velocity[b]))
     noise = 64.0 * EPSILON * fastest
     if stack.modal[first] == 0 and stack.order[first] < ORDER:
         known = min(_KNOWN * stack.number[2], _SLOWEST)
@@ -235,8 +240,7 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
     for b in range(first, last + 1):
         stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)
     for i in range(low, high):
-        once, _ = contact_impulse(stack, i, s)
-        stack.impulse[i] += once
+        stack.impulse[i] += contact_impulse(stack, i, s)
         stack.compression[i] = pressed(stack, i, s)
     stack.anchor[first] = time
 

@@ -50,56 +50,30 @@ def parabola_root(a0: float, a1: float, a2: float) -> float:
 
 
 @kernel
-def value(a: Floats, offset: int, n: int, s: float) -> float:
-    """Evaluate a[offset] + a[offset+1] s + ... + a[offset+n] s^n."""
-    total = a[offset + n]
+def value(a: Floats, n: int, s: float) -> float:
+    """Evaluate a[0] + a[1] s + ... + a[n] s^n."""
+    total = a[n]
     for k in range(n - 1, -1, -1):
-        total = a[offset + k] + s * total
+        total = a[k] + s * total
     return total
 
 
 @kernel
-def integral(a: Floats, offset: int, n: int, s: float) -> float:
+def integral(a: Floats, n: int, s: float) -> float:
     """Evaluate the integral of that polynomial from 0 to s."""
-    total = a[offset + n] / (n + 1)
+    total = a[n] / (n + 1)
     for k in range(n - 1, -1, -1):
-        total = a[offset + k] / (k + 1) + s * total
+        total = a[k] / (k + 1) + s * total
     return s * total
 
 
 @kernel
-def double_integral(a: Floats, offset: int, n: int, s: float) -> float:
-    """Evaluate the integral of that integral from 0 to s."""
-    total = a[offset + n] / ((n + 1) * (n + 2))
-    for k in range(n - 1, -1, -1):
-        total = a[offset + k] / ((k + 1) * (k + 2)) + s * total
-    return s * s * total
-
-
-@kernel
-def shift(a: Floats, offset: int, n: int, s: float, out: Floats) -> None:
+def shift(a: Floats, n: int, s: float, out: Floats) -> None:
     """Expand that polynomial about s: out[0] + out[1] u + ... + out[n] u^n at s + u."""
     for k in range(n + 1):
-        out[k] = a[offset + k]
+        out[k] = a[k]
     if s == 0.0:
         return
     for k in range(n):
         for j in range(n - 1, k - 1, -1):
             out[j] += s * out[j + 1]
-
-
-@kernel
-def power_term(
-    base: Floats, unit: float, power: Floats, offset: int, exponent: float, k: int
-) -> float:
-    """Return term k of (base/unit)^exponent from terms up to k of the base and k-1 of the power.
-
-    From u = c^p: c u' = p c' u, compared order by order. The base's first term is positive.
-    """
-    if k == 0:
-        first: float = (base[offset] / unit) ** exponent
-        return first
-    total = 0.0
-    for j in range(1, k + 1):
-        total += (exponent * j - (k - j)) * base[offset + j] * power[offset + k - j]
-    return total / (k * base[offset])

@@ -283,8 +283,7 @@ def write_unfinished(stack: Stack, time: float, log: Floats) -> None:
             since = time - stack.anchor[stack.first[i]]
             if stack.modal[stack.first[i]] == 0:
                 record_crests(stack, i, i + 1, since)
-            once, _ = contact_impulse(stack, i, since)
-            stack.impulse[i] += once
+            stack.impulse[i] += contact_impulse(stack, i, since)
         _write(stack, i, RELEASE, math.inf, log)
 
 

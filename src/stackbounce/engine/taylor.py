@@ -14,7 +14,7 @@ import math
 from stackbounce.engine.codes import DAMPED
 from stackbounce.engine.contacts import stored_energy
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.series import ORDER, TERMS, power_term, value
+from stackbounce.engine.series import ORDER, value
 from stackbounce.engine.stack import Stack
 
 _TINY = 1e-300  # keeps a standstill from dividing by zero
@@ -38,33 +38,17 @@ def expand(stack: Stack, low: int, high: int) -> float:
     bottom = max(low - 1, 0)
     exact = True
     for i in range(low, high):
-        stack.compression_series[i * TERMS] = stack.compression[i]
+        stack.compression_series[i][0] = stack.compression[i]
         if not is_linear(stack, i) and stack.curve_exponent[i] != 0.0:
             exact = False
     order = ORDER if exact else stack.setting[0]
     own_speed = _own_speed(stack, low, high)
     speed = own_speed if exact else stack.number[1]
     for b in range(bottom, high):
-        stack.velocity_series[b * TERMS] = stack.velocity[b]
+        stack.velocity_series[b][0] = stack.velocity[b]
         stack.order[b] = order
         stack.speed[b] = speed
-    for k in range(order + 1):
-        for i in range(low, high):
-            stack.force_series[i * TERMS + k] = _force_term(stack, i, k)
-        for b in range(bottom, high):
-            net = 0.0
-            if b >= low:
-                net += stack.force_series[b * TERMS + k]
-            if b + 1 < high:
-                net -= stack.force_series[(b + 1) * TERMS + k]
-            acceleration = net / stack.mass[b]
-            if k == 0:
-                acceleration -= stack.number[0]
-            stack.velocity_series[b * TERMS + k + 1] = acceleration / (k + 1)
-        for i in range(low, high):
-            below = stack.velocity_series[(i - 1) * TERMS + k] if i > 0 else 0.0
-            above = stack.velocity_series[i * TERMS + k]
-            stack.compression_series[i * TERMS + k + 1] = (below - above) / (k + 1)
+    _find_terms(stack, low, high, order)
     step = 0.0
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[1])
@@ -74,12 +58,74 @@ def expand(stack: Stack, low: int, high: int) -> float:
     allowed = speed * (_EXACT if exact else stack.number[2])
     if not exact:
         allowed = min(allowed, max(_ROUGH * own_speed, _SLOW * speed))
-    for b in range(bottom, high):
-        for k in range(order - 1, order + 1):
-            size = abs(stack.velocity_series[b * TERMS + k])
-            if size > 0.0:
-                step = min(step, (allowed / size) ** (1.0 / k))
+    for k in range(order - 1, order + 1):
+        size = 0.0
+        for b in range(bottom, high):
+            size = max(size, abs(stack.velocity_series[b][k]))
+        if size > 0.0:
+            step = min(step, (allowed / size) ** (1.0 / k))
     return step
+
+
+@kernel
+def _find_terms(stack: Stack, low: int, high: int, order: int) -> None:
+    """Find the series of a cluster, whose first terms are known, up to an order.
+
+    One function on purpose, with each array fetched once: as several it would take twice as long.
+    """
+    c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
+    powers, elastics, gains = stack.power_series, stack.elastic_series, stack.gain_series
+    law, faint, exponents = stack.law, stack.faint, stack.curve_exponent
+    curve_force, curve_unit, slope = stack.curve_force, stack.curve_unit, stack.rate
+    gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
+    gain_rate, mass = stack.gain_rate, stack.mass
+    for k in range(order + 1):
+        for i in range(low, high):
+            c, f = c_all[i], f_all[i]
+            rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
+            c[k + 1] = rate / (k + 1)
+            damped, exponent = law[i] == DAMPED, exponents[i]
+            elastic = 0.0
+            if faint[i] == 1 or exponent == 1.0:
+                elastic = slope[i] * c[k]
+            elif exponent > 0.0:
+                # u = (c/unit)^p, term by term, from c u' = p c' u
+                u = powers[i]
+                if k == 0:
+                    u[0] = (c[0] / curve_unit[i]) ** exponent
+                else:
+                    total, weight = 0.0, exponent * k
+                    for j in range(k):
+                        total += weight * (c[k - j] * u[j])
+                        weight -= exponent + 1.0
+                    u[k] = total / (k * c[0])
+                elastic = curve_force[i] * u[k]
+            if damped:
+                gain = gains[i]
+                gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
+                if k == 0:
+                    gain[0] += gain_constant[i]
+                if exponent == 0.0:
+                    f[k] = curve_force[i] * gain[k]
+                    continue
+                e = elastics[i]
+                e[k] = elastic
+                total = 0.0
+                for j in range(k + 1):
+                    total += e[j] * gain[k - j]
+                f[k] = total
+            else:
+                f[k] = elastic
+        for b in range(max(low - 1, 0), high):
+            net = 0.0
+            if b >= low:
+                net += f_all[b][k]
+            if b + 1 < high:
+                net -= f_all[b + 1][k]
+            acceleration = net / mass[b]
+            if k == 0:
+                acceleration -= stack.number[0]
+            v_all[b][k + 1] = acceleration / (k + 1)
 
 
 @kernel
@@ -89,8 +135,8 @@ def _steep_step(stack: Stack, i: int, order: int) -> float:
     A steeper force grows from nothing to everything past the terms that a series ends with.
     """
     reach = 0.5 * order * stack.compression[i] / stack.curve_exponent[i]
-    first = abs(stack.compression_series[i * TERMS + 1])
-    second = abs(stack.compression_series[i * TERMS + 2])
+    first = abs(stack.compression_series[i][1])
+    second = abs(stack.compression_series[i][2])
     return 2.0 * reach / (first + math.sqrt(first * first + 4.0 * second * reach) + _TINY)
 
 
@@ -110,74 +156,39 @@ def _own_speed(stack: Stack, low: int, high: int) -> float:
 
 
 @kernel
-def _force_term(stack: Stack, i: int, k: int) -> float:
-    """Return term k of the force of contact i on the curve that it follows."""
-    at = i * TERMS
-    if stack.law[i] != DAMPED:
-        return _power_of_compression(stack, i, k)
-    below = stack.velocity_series[(i - 1) * TERMS + k] if i > 0 else 0.0
-    above = stack.velocity_series[i * TERMS + k]
-    gain = stack.gain_slope[i] * stack.compression_series[at + k]
-    gain += stack.gain_rate[i] * (below - above)
-    if k == 0:
-        gain += stack.gain_constant[i]
-    if stack.curve_exponent[i] == 0.0:
-        return stack.curve_force[i] * gain
-    stack.gain_series[at + k] = gain
-    stack.elastic_series[at + k] = _power_of_compression(stack, i, k)
-    total = 0.0
-    for j in range(k + 1):
-        total += stack.elastic_series[at + j] * stack.gain_series[at + k - j]
-    return total
-
-
-@kernel
-def _power_of_compression(stack: Stack, i: int, k: int) -> float:
-    """Return term k of curve_force (c/curve_unit)^curve_exponent, or of its chord."""
-    at = i * TERMS
-    exponent = stack.curve_exponent[i]
-    if stack.faint[i] == 1 or exponent == 1.0:
-        return stack.rate[i] * stack.compression_series[at + k]
-    unit = stack.curve_unit[i]
-    term = power_term(stack.compression_series, unit, stack.power_series, at, exponent, k)
-    stack.power_series[at + k] = term
-    return stack.curve_force[i] * term
-
-
-@kernel
 def record_crests(stack: Stack, low: int, high: int, s: float) -> None:
     """Keep the largest force and compression of damped contacts up to s after their anchor."""
     for i in range(low, high):
         if stack.law[i] == DAMPED:
             order = stack.order[i]
-            crest = _crest(stack.force_series, i * TERMS, order, s)
+            crest = _crest(stack.force_series[i], order, s)
             stack.peak_force[i] = max(stack.peak_force[i], crest)
-            crest = _crest(stack.compression_series, i * TERMS, order + 1, s)
+            crest = _crest(stack.compression_series[i], order + 1, s)
             stack.peak_compression[i] = max(stack.peak_compression[i], crest)
 
 
 @kernel
-def _crest(a: Floats, offset: int, n: int, s: float) -> float:
+def _crest(a: Floats, n: int, s: float) -> float:
     """Return the largest value of a series from 0 to s."""
-    largest = max(a[offset], value(a, offset, n, s))
+    largest = max(a[0], value(a, n, s))
     for part in range(_PARTS):
         left, right = s * part / _PARTS, s * (part + 1) / _PARTS
-        if _slope(a, offset, n, left) <= 0.0 or _slope(a, offset, n, right) >= 0.0:
+        if _slope(a, n, left) <= 0.0 or _slope(a, n, right) >= 0.0:
             continue
         for _ in range(50):
             middle = 0.5 * (left + right)
-            if _slope(a, offset, n, middle) > 0.0:
+            if _slope(a, n, middle) > 0.0:
                 left = middle
             else:
                 right = middle
-        largest = max(largest, value(a, offset, n, left))
+        largest = max(largest, value(a, n, left))
     return largest
 
 
 @kernel
-def _slope(a: Floats, offset: int, n: int, s: float) -> float:
+def _slope(a: Floats, n: int, s: float) -> float:
     """Return the derivative of a series at s."""
-    total = n * a[offset + n]
+    total = n * a[n]
     for k in range(n - 1, 0, -1):
-        total = k * a[offset + k] + s * total
+        total = k * a[k] + s * total
     return total

@@ -46,7 +46,7 @@ from stackbounce.engine.contacts import chord_budget
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.motion import compression_series, contact_impulse, meet_anchors
 from stackbounce.engine.queue import schedule
-from stackbounce.engine.series import TERMS, parabola_root, safe_step, shift
+from stackbounce.engine.series import parabola_root, safe_step, shift
 from stackbounce.engine.stack import Stack
 
 _NOTHING = 1000.0 * EPSILON**2  # round-off of a motion that is itself round-off
@@ -157,8 +157,7 @@ def _chord_wait(
     spent = stack.changed
     first = stack.first[i]
     s = time - stack.anchor[first]
-    once, _ = contact_impulse(stack, i, s)
-    spent[0] = stack.impulse[i] + once - stack.faint_since[i]
+    spent[0] = stack.impulse[i] + contact_impulse(stack, i, s) - stack.faint_since[i]
     if stack.modal[first] == 1:
         order += 1
         power += 1
@@ -167,7 +166,7 @@ def _chord_wait(
             spent[k] = stack.rate[i] * stack.watched[k - 1] / k
     else:
         order = stack.order[first] + 1
-        shift(stack.force_series, i * TERMS, order - 1, s, stack.scratch)
+        shift(stack.force_series[i], order - 1, s, stack.scratch)
         for k in range(1, order + 1):
             spent[k] = stack.scratch[k - 1] / k
     budget = chord_budget(stack, i)
@@ -260,6 +259,8 @@ def _wait(
 
     The function f is within ``tail s^power + more s^(power+1)`` of its series.
     """
+    if tail == 0.0 and _is_quiet(a, order, sign, level, band, horizon):
+        return horizon, False
     f = stack.margin
     for k in range(order + 1):
         f[k] = sign * a[k]
@@ -286,3 +287,18 @@ def _wait(
     f[power] -= tail
     f[power + 1] -= more
     return safe_step(f, last, 0.0, min(natural, horizon)), False
+
+
+@kernel
+def _is_quiet(
+    a: Floats, order: int, sign: float, level: float, band: float, horizon: float
+) -> bool:
+    """Tell at a glance whether sign (a - level) stays above -band/2 up to the horizon.
+
+    Most often it does, the terms of a series being small beside its first ones within a step.
+    """
+    first = sign * (a[0] - level) + 0.5 * band
+    rest = 0.0
+    for k in range(order, 1, -1):
+        rest = abs(a[k]) + horizon * rest
+    return first > 0.0 and first + min(0.0, sign * a[1] * horizon) > horizon * horizon * rest
