@@ -5,7 +5,8 @@ import math
 from stackbounce.engine.kernel import Floats, kernel
 
 ORDER = 18  # the highest, of the power series by which clusters move that have no modes
-TERMS = ORDER + 2  # a series in scratch space: one order more for an integrated one
+ROOT_ORDER = 36  # the highest of a series in the root of time
+TERMS = ROOT_ORDER + 4  # a series in scratch space: room for what is integrated twice
 
 
 @kernel
@@ -59,12 +60,12 @@ def value(a: Floats, n: int, s: float) -> float:
 
 
 @kernel
-def integral(a: Floats, n: int, s: float) -> float:
-    """Evaluate the integral of that polynomial from 0 to s."""
-    total = a[n] / (n + 1)
+def integral(a: Floats, n: int, s: float, root: int) -> float:
+    """Evaluate the integral of that polynomial from 0 to s, over s^root."""
+    total = a[n] / (n + root)
     for k in range(n - 1, -1, -1):
-        total = a[k] / (k + 1) + s * total
-    return s * total
+        total = a[k] / (k + root) + s * total
+    return root * s**root * total
 
 
 @kernel

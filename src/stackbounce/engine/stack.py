@@ -66,6 +66,7 @@ class Stack(NamedTuple):
     last: Integers
     modal: Integers  # 1 where the cluster moves in normal modes or flies (entry of its lowest ball)
     order: Integers  # of the cluster's power series otherwise
+    root: Integers  # which root of time it is a series in, 1 or 2
     speed: Floats  # to which its tolerance refers
     anchor: Floats
     # when to look: contacts, then ends of the series' validity by lowest ball; a queue of both

@@ -14,13 +14,14 @@ import math
 from stackbounce.engine.codes import DAMPED
 from stackbounce.engine.contacts import stored_energy
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.series import ORDER, value
+from stackbounce.engine.series import ORDER, ROOT_ORDER, value
 from stackbounce.engine.stack import Stack
 
 _TINY = 1e-300  # keeps a standstill from dividing by zero
 _EXACT = 1e-16  # of its own speed: what a linear cluster's series leaves out per step
 _ROUGH = 1e-3  # of its own speed: what any other, however slow, leaves out at most ...
 _SLOW = 1e-13  # ... though not less than this part of the reference speed
+ENTERED = 8.0  # twice the exponent: from there on a series in the root of time gains nothing
 _PARTS = 4  # of a step, in each of which a force has no more than one crest
 
 
@@ -36,42 +37,50 @@ def is_linear(stack: Stack, i: int) -> bool:
 def expand(stack: Stack, low: int, high: int) -> float:
     """Expand the motion of the cluster with pressing contacts low..high-1; return the safe step."""
     bottom = max(low - 1, 0)
+    root = stack.root[bottom]
     exact = True
     for i in range(low, high):
         stack.compression_series[i][0] = stack.compression[i]
+        stack.compression_series[i][1] = 0.0  # stays so in a series in the root of time
         if not is_linear(stack, i) and stack.curve_exponent[i] != 0.0:
             exact = False
     order = ORDER if exact else stack.setting[0]
+    if root == 2:
+        order = min(2 * order, ROOT_ORDER)
     own_speed = _own_speed(stack, low, high)
     speed = own_speed if exact else stack.number[1]
     for b in range(bottom, high):
         stack.velocity_series[b][0] = stack.velocity[b]
+        stack.velocity_series[b][1] = 0.0
         stack.order[b] = order
         stack.speed[b] = speed
-    _find_terms(stack, low, high, order)
+    _find_terms(stack, low, high, order, root)
     step = 0.0
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[1])
     for i in range(low, high):
-        if stack.faint[i] == 0 and stack.curve_exponent[i] > 1.0:
-            step = min(step, _steep_step(stack, i, order))
+        if stack.faint[i] == 0 and stack.curve_exponent[i] > 1.0 and stack.compression[i] > 0.0:
+            step = min(step, _steep_step(stack, i, order // root))
     allowed = speed * (_EXACT if exact else stack.number[2])
     if not exact:
         allowed = min(allowed, max(_ROUGH * own_speed, _SLOW * speed))
-    for k in range(order - 1, order + 1):
+    # in the root of time all but every fifth term may be 0
+    for k in range(order - 1 if root == 1 else order - 4, order + 1):
         size = 0.0
         for b in range(bottom, high):
             size = max(size, abs(stack.velocity_series[b][k]))
         if size > 0.0:
-            step = min(step, (allowed / size) ** (1.0 / k))
+            step = min(step, (allowed / size) ** (root / k))
     return step
 
 
 @kernel
-def _find_terms(stack: Stack, low: int, high: int, order: int) -> None:
+def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> None:
     """Find the series of a cluster, whose first terms are known, up to an order.
 
-    One function on purpose, with each array fetched once: as several it would take twice as long.
+    With x = t^(1/root), a series of terms a_k x^k is the rate of one of root a_k/(k + root)
+    x^(k + root). One function on purpose, with each array fetched once: as several it would take
+    twice as long.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
     powers, elastics, gains = stack.power_series, stack.elastic_series, stack.gain_series
@@ -83,23 +92,26 @@ def _find_terms(stack: Stack, low: int, high: int, order: int) -> None:
         for i in range(low, high):
             c, f = c_all[i], f_all[i]
             rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
-            c[k + 1] = rate / (k + 1)
+            c[k + root] = root * rate / (k + root)
             damped, exponent = law[i] == DAMPED, exponents[i]
             elastic = 0.0
             if faint[i] == 1 or exponent == 1.0:
                 elastic = slope[i] * c[k]
             elif exponent > 0.0:
-                # u = (c/unit)^p, term by term, from c u' = p c' u
+                # u = (c/unit)^p, term by term, from c u' = p c' u; c may begin with the term x^lead
                 u = powers[i]
-                if k == 0:
-                    u[0] = (c[0] / curve_unit[i]) ** exponent
-                else:
-                    total, weight = 0.0, exponent * k
-                    for j in range(k):
-                        total += weight * (c[k - j] * u[j])
+                lead = 0 if c[0] > 0.0 else root
+                n = k - int(lead * exponent)
+                if n == 0:
+                    u[0] = (c[lead] / curve_unit[i]) ** exponent
+                elif n > 0:
+                    total, weight = 0.0, exponent * n
+                    for j in range(n):
+                        total += weight * (c[lead + n - j] * u[j])
                         weight -= exponent + 1.0
-                    u[k] = total / (k * c[0])
-                elastic = curve_force[i] * u[k]
+                    u[n] = total / (n * c[lead])
+                if n >= 0:
+                    elastic = curve_force[i] * u[n]
             if damped:
                 gain = gains[i]
                 gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
@@ -125,7 +137,7 @@ def _find_terms(stack: Stack, low: int, high: int, order: int) -> None:
             acceleration = net / mass[b]
             if k == 0:
                 acceleration -= stack.number[0]
-            v_all[b][k + 1] = acceleration / (k + 1)
+            v_all[b][k + root] = root * acceleration / (k + root)
 
 
 @kernel
@@ -157,13 +169,13 @@ def _own_speed(stack: Stack, low: int, high: int) -> float:
 
 @kernel
 def record_crests(stack: Stack, low: int, high: int, s: float) -> None:
-    """Keep the largest force and compression of damped contacts up to s after their anchor."""
+    """Keep the largest force and compression of damped contacts up to s in their series."""
     for i in range(low, high):
         if stack.law[i] == DAMPED:
             order = stack.order[i]
             crest = _crest(stack.force_series[i], order, s)
             stack.peak_force[i] = max(stack.peak_force[i], crest)
-            crest = _crest(stack.compression_series[i], order + 1, s)
+            crest = _crest(stack.compression_series[i], order + stack.root[stack.first[i]], s)
             stack.peak_compression[i] = max(stack.peak_compression[i], crest)
 
 
