@@ -4,8 +4,9 @@ import math
 
 from stackbounce.engine.kernel import Floats, kernel
 
-ORDER = 18  # the highest, of the power series by which clusters move that have no modes
+ORDER = 24  # the highest, of the power series by which clusters move that have no modes
 ROOT_ORDER = 36  # the highest of a series in the root of time
+_PARABOLAS = 100
 TERMS = ROOT_ORDER + 4  # a series in scratch space: room for what is integrated twice
 
 
@@ -33,6 +34,41 @@ def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
             return root
         s = 0.25 * s
     return 0.0
+
+
+@kernel
+def fall(
+    a: Floats, n: int, sign: float, level: float, band: float, limit: float
+) -> tuple[float, bool]:
+    """Find when ``sign (a - level) + band`` of a polynomial falls into [0, band/2], up to a limit.
+
+    From bounds on the curvature up to the limit follow parabolas that stay below; their roots
+    approach that time from the safe side, as Newton's. Returns the limit, and False, if it comes
+    later; an earlier time, and False, before which it has not come if that takes too long.
+    """
+    rest, bend = 0.0, 0.0
+    for k in range(n, 1, -1):
+        rest = abs(a[k]) + limit * rest
+        bend = k * (k - 1) * abs(a[k]) + limit * bend
+    s, f, slope, half = 0.0, sign * (a[0] - level) + band, sign * a[1], rest
+    for _ in range(_PARABOLAS):
+        if f <= 0.5 * band:
+            return s, True
+        root = math.sqrt(slope * slope + 4.0 * half * f)
+        if slope < 0.0:
+            s += 2.0 * f / (root - slope)
+        elif half > 0.0:
+            s += (root + slope) / (2.0 * half)
+        else:
+            s = limit
+        if not s < limit:
+            return limit, False
+        f, slope, half = 0.0, 0.0, 0.5 * bend
+        for k in range(n, -1, -1):
+            slope = f + s * slope
+            f = a[k] + s * f
+        f, slope = sign * (f - level) + band, sign * slope
+    return s, False
 
 
 @kernel

@@ -22,6 +22,8 @@ _EXACT = 1e-16  # of its own speed: what a linear cluster's series leaves out pe
 _ROUGH = 1e-3  # of its own speed: what any other, however slow, leaves out at most ...
 _SLOW = 1e-13  # ... though not less than this part of the reference speed
 ENTERED = 8.0  # twice the exponent: from there on a series in the root of time gains nothing
+_BEYOND = 1.25  # times a compression: by how much it may change in a step, and open at its end
+_HALVINGS = 26  # of such a part: a crest is flat
 _PARTS = 4  # of a step, in each of which a force has no more than one crest
 
 
@@ -59,7 +61,7 @@ def expand(stack: Stack, low: int, high: int) -> float:
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[1])
     for i in range(low, high):
-        if stack.faint[i] == 0 and stack.curve_exponent[i] > 1.0 and stack.compression[i] > 0.0:
+        if stack.compression[i] > 0.0 and stack.faint[i] == 0 and stack.curve_exponent[i] > 0.0:
             step = min(step, _steep_step(stack, i, order // root))
     allowed = speed * (_EXACT if exact else stack.number[2])
     if not exact:
@@ -144,9 +146,12 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
 def _steep_step(stack: Stack, i: int, order: int) -> float:
     """Return the time in which a power of contact i's compression may change by e^(order/2).
 
-    A steeper force grows from nothing to everything past the terms that a series ends with.
+    A steeper force grows from nothing to everything past the terms that a series ends with. Nor
+    may the compression change by much more than itself, beyond which the power has no series.
     """
-    reach = 0.5 * order * stack.compression[i] / stack.curve_exponent[i]
+    if stack.curve_exponent[i] == 1.0:
+        return math.inf
+    reach = min(0.5 * order / stack.curve_exponent[i], _BEYOND) * stack.compression[i]
     first = abs(stack.compression_series[i][1])
     second = abs(stack.compression_series[i][2])
     return 2.0 * reach / (first + math.sqrt(first * first + 4.0 * second * reach) + _TINY)
@@ -183,11 +188,16 @@ def record_crests(stack: Stack, low: int, high: int, s: float) -> None:
 def _crest(a: Floats, n: int, s: float) -> float:
     """Return the largest value of a series from 0 to s."""
     largest = max(a[0], value(a, n, s))
+    bend = 0.0
+    for k in range(n, 1, -1):
+        bend = k * abs(a[k]) + s * bend
+    if abs(a[1]) > s * bend:
+        return largest  # it only rises, or only falls
     for part in range(_PARTS):
         left, right = s * part / _PARTS, s * (part + 1) / _PARTS
         if _slope(a, n, left) <= 0.0 or _slope(a, n, right) >= 0.0:
             continue
-        for _ in range(50):
+        for _ in range(_HALVINGS):
             middle = 0.5 * (left + right)
             if _slope(a, n, middle) > 0.0:
                 left = middle

@@ -51,7 +51,7 @@ from stackbounce.engine.motion import (
     root_at,
 )
 from stackbounce.engine.queue import schedule
-from stackbounce.engine.series import parabola_root, safe_step, shift
+from stackbounce.engine.series import fall, parabola_root, safe_step, shift
 from stackbounce.engine.stack import Stack
 
 _NOTHING = 1000.0 * EPSILON**2  # round-off of a motion that is itself round-off
@@ -118,9 +118,7 @@ def look(stack: Stack, i: int, time: float) -> None:
         noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
         speed = stack.speed[i] + rate
         rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * second
-        other, there = _gain_wait(
-            stack, i, order, power, tail, noise, rate_noise, root, horizon
-        )
+        other, there = _gain_wait(stack, i, order, power, tail, noise, rate_noise, root, horizon)
         turn_kind = RESUMED if phase == SLACK else CLIPPED
     elif phase == COMPRESSING or stack.law[i] == LOSSY:
         for k in range(order - root + 1):
@@ -276,8 +274,10 @@ def _wait(
 
     The function f is within ``tail s^power + more s^(power+1)`` of its series.
     """
-    if tail == 0.0 and _is_quiet(a, order, sign, level, band, horizon):
-        return horizon, False
+    if tail == 0.0 and order > 2 and horizon < math.inf:
+        wait, reached = fall(a, order, sign, level, band, horizon)
+        if reached or wait == horizon:
+            return wait, reached
     f = stack.margin
     for k in range(order + 1):
         f[k] = sign * a[k]
@@ -304,18 +304,3 @@ def _wait(
     f[power] -= tail
     f[power + 1] -= more
     return safe_step(f, last, 0.0, min(natural, horizon)), False
-
-
-@kernel
-def _is_quiet(
-    a: Floats, order: int, sign: float, level: float, band: float, horizon: float
-) -> bool:
-    """Tell at a glance whether sign (a - level) stays above -band/2 up to the horizon.
-
-    Most often it does, the terms of a series being small beside its first ones within a step.
-    """
-    first = sign * (a[0] - level) + 0.5 * band
-    rest = 0.0
-    for k in range(order, 1, -1):
-        rest = abs(a[k]) + horizon * rest
-    return first > 0.0 and first + min(0.0, sign * a[1] * horizon) > horizon * horizon * rest
