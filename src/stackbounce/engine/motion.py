@@ -252,7 +252,7 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
             stack.velocity[b] = value(stack.velocity_series[b], stack.order[first], x)
         fastest = max(fastest, abs(before), abs(stack.velocity[b]))
     noise = 64.0 * EPSILON * fastest
-    if stack.modal[first] == 0 and stack.speed[first] == stack.number[1]:
+    if stack.modal[first] == 0 and (stack.order[first] < ORDER or stack.root[first] == 2):
         known = min(_KNOWN * stack.number[2], _SLOWEST)
         noise = max(noise, known * stack.number[1])
     for b in range(first, last + 1):

@@ -1,4 +1,4 @@
-"""Taylor series: how far one surely keeps its sign, powers, products of time and shifts."""
+"""Taylor series: where one falls to a level, how far one keeps its sign, integrals and shifts."""
 
 import math
 
@@ -6,7 +6,7 @@ from stackbounce.engine.kernel import Floats, kernel
 
 ORDER = 24  # the highest, of the power series by which clusters move that have no modes
 ROOT_ORDER = 36  # the highest of a series in the root of time
-_PARABOLAS = 100
+_PARABOLAS = 100  # before the search for an event looks for another way
 TERMS = ROOT_ORDER + 4  # a series in scratch space: room for what is integrated twice
 
 

@@ -2,7 +2,9 @@
 
 Inside a phase of every contact the motion is analytic, so its own Taylor series is integrator,
 dense output and event search in one. Order by order: forces from compressions and their rates,
-accelerations from forces, velocities and compressions from accelerations. The step is the time for
+accelerations from forces, velocities and compressions from accelerations. Where a contact begins
+at a speed and its exponent is a multiple of 1/2, c^p has a series in the root of time instead, and
+so has all the motion up to the next step. The step is the time for
 which the last two terms of every velocity stay below the tolerance (Jorba and Zou, Exp. Math. 14,
 99, 2005), and in which no power grows beyond what these terms could tell. Where all contacts are
 springs and dashpots the series is that of the matrix exponential, whatever its eigenvalues; the
