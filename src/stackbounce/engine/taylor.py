@@ -102,20 +102,19 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
             if faint[i] == 1 or exponent == 1.0:
                 elastic = slope[i] * c[k]
             elif exponent > 0.0:
-                # u = (c/unit)^p, term by term, from c u' = p c' u; c may begin with the term x^lead
+                # u = (c/unit)^p, term by term, from c u' = p c' u
                 u = powers[i]
-                lead = 0 if c[0] > 0.0 else root
-                n = k - int(lead * exponent)
-                if n == 0:
-                    u[0] = (c[lead] / curve_unit[i]) ** exponent
-                elif n > 0:
-                    total, weight = 0.0, exponent * n
-                    for j in range(n):
-                        total += weight * (c[lead + n - j] * u[j])
+                if c[0] == 0.0:
+                    elastic = _entering_term(c, curve_unit[i], exponent, k, u)
+                elif k == 0:
+                    elastic = u[0] = (c[0] / curve_unit[i]) ** exponent
+                else:
+                    total, weight = 0.0, exponent * k
+                    for j in range(k):
+                        total += weight * (c[k - j] * u[j])
                         weight -= exponent + 1.0
-                    u[n] = total / (n * c[lead])
-                if n >= 0:
-                    elastic = curve_force[i] * u[n]
+                    elastic = u[k] = total / (k * c[0])
+                elastic *= curve_force[i]
             if damped:
                 gain = gains[i]
                 gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
@@ -142,6 +141,25 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
             if k == 0:
                 acceleration -= stack.number[0]
             v_all[b][k + root] = root * acceleration / (k + root)
+
+
+@kernel
+def _entering_term(c: Floats, unit: float, exponent: float, k: int, u: Floats) -> float:
+    """Return term k of (c/unit)^exponent where the first term of c is the square of time's root.
+
+    In ``u`` are the terms from the first that is not 0.
+    """
+    n = k - int(2.0 * exponent)
+    if n < 0:
+        return 0.0
+    if n == 0:
+        u[0] = (c[2] / unit) ** exponent
+    else:
+        total = 0.0
+        for j in range(n):
+            total += (exponent * (n - j) - j) * (c[n - j + 2] * u[j])
+        u[n] = total / (n * c[2])
+    return u[n]
 
 
 @kernel
