@@ -4,11 +4,11 @@ Inside a phase of every contact the motion is analytic, so its own Taylor series
 dense output and event search in one. Order by order: forces from compressions and their rates,
 accelerations from forces, velocities and compressions from accelerations. Where a contact begins
 at a speed and its exponent is a multiple of 1/2, c^p has a series in the root of time instead, and
-so has all the motion up to the next step. The step is the time for
-which the last two terms of every velocity stay below the tolerance (Jorba and Zou, Exp. Math. 14,
-99, 2005), and in which no power grows beyond what these terms could tell. Where all contacts are
-springs and dashpots the series is that of the matrix exponential, whatever its eigenvalues; the
-tolerance is then round-off and no choice of the user.
+so has all the motion up to the next step. The step is the time for which the last two terms of
+every velocity (five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14,
+99, 2005), in which no power grows beyond what these terms could tell, and no compression changes by
+much more than itself. Where all contacts are springs and dashpots the series is that of the matrix
+exponential, whatever its eigenvalues; the tolerance is then round-off and no choice of the user.
 """
 
 import math
