@@ -6,7 +6,8 @@ the gain falls through 0 (CLIPPED: slack), or c does.
 Because c^p has no power series at c = 0, a power law is continued by its chord (FAINT, PRESSED)
 below a compression that holds a negligible part of a typical contact's work, and for no longer than
 the chord has changed no ball's velocity by more than one step may leave out: two balls that are
-pressed together slowly need a shorter chord than two that collide.
+pressed together slowly need a shorter chord than two that collide. Two balls alone that collide
+need none where c^p has a series in the root of time; see `motion`.
 """
 
 import math

@@ -12,12 +12,13 @@ import hashlib
 import os
 import tempfile
 import types
-from collections.abc import Callable, Iterator, MutableSequence
+from collections.abc import Callable, Iterator, MutableSequence, Sequence
 from pathlib import Path
 from typing import Any, TypeAlias, TypeVar
 
 Floats: TypeAlias = MutableSequence[float]  # a list in plain Python, a numpy array when compiled
 Integers: TypeAlias = MutableSequence[int]
+Rows: TypeAlias = Sequence[Floats]  # a list of lists, or an array of rows
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 _MARK = "__stackbounce_kernel__"

@@ -13,11 +13,12 @@ from stackbounce.engine.modes import (
     start_modes,
 )
 from stackbounce.engine.queue import schedule
-from stackbounce.engine.series import ORDER, TERMS, double_integral, integral, shift, value
+from stackbounce.engine.series import ORDER, TERMS, integral, shift, value
 from stackbounce.engine.stack import MODES, WIDTH, Stack
-from stackbounce.engine.taylor import expand, is_linear, record_crests
+from stackbounce.engine.taylor import ENTERED, expand, is_linear, record_crests
 
 _KNOWN = 100.0  # times the tolerance of a step: what a story of many steps makes of it
+_ENTERS = 1e-6  # of the reference speed: a faster contact needs no chord where it begins
 _SLOWEST = 1e-9  # of the reference speed: faster balls approach, whatever the tolerance
 
 
@@ -30,16 +31,21 @@ def pressing_range(stack: Stack, ball: int) -> tuple[int, int]:
 
 
 @kernel
-def contact_impulse(stack: Stack, i: int, s: float) -> tuple[float, float]:
-    """Return the first and second time integrals of a pressing contact's force since the anchor."""
+def series_time(stack: Stack, first: int, s: float) -> float:
+    """Return the argument of a cluster's power series at s from its anchor: s, or its root."""
+    return s if stack.root[first] == 1 else math.sqrt(s)
+
+
+@kernel
+def contact_impulse(stack: Stack, i: int, s: float) -> float:
+    """Return the time integral of a pressing contact's force since the anchor."""
     first = stack.first[i]
-    if stack.modal[first] == 1:
-        low, high = pressing_range(stack, i)
-        return modal_impulse(stack, i, low, high, s)
-    at, order = i * TERMS, stack.order[first]
-    once = integral(stack.force_series, at, order, s)
-    twice = double_integral(stack.force_series, at, order, s)
-    return once, twice
+    if stack.modal[first] == 0:
+        x = series_time(stack, first, s)
+        return integral(stack.force_series[i], stack.order[first], x, stack.root[first])
+    low, high = pressing_range(stack, i)
+    once, _ = modal_impulse(stack, i, low, high, s)
+    return once
 
 
 @kernel
@@ -48,9 +54,11 @@ def ball_shift(stack: Stack, b: int, s: float) -> tuple[float, float]:
     gravity = stack.number[0]
     first = stack.first[b]
     if stack.modal[first] == 0:
-        at, order = b * TERMS, stack.order[first]
-        travel = integral(stack.velocity_series, at, order, s)
-        return travel, value(stack.velocity_series, at, order, s) - stack.velocity[b]
+        if s == 0.0:
+            return 0.0, 0.0
+        order, x = stack.order[first], series_time(stack, first, s)
+        travel = integral(stack.velocity_series[b], order, x, stack.root[first])
+        return travel, value(stack.velocity_series[b], order, x) - stack.velocity[b]
     low, high = pressing_range(stack, b)
     once, twice = 0.0, 0.0
     if low <= b:
@@ -69,7 +77,8 @@ def pressed(stack: Stack, i: int, s: float) -> float:
     """Return the compression of a pressing contact at s from the anchor."""
     first = stack.first[i]
     if stack.modal[first] == 0:
-        return value(stack.compression_series, i * TERMS, stack.order[first] + 1, s)
+        order = stack.order[first] + stack.root[first]
+        return value(stack.compression_series[i], order, series_time(stack, first, s))
     low, high = pressing_range(stack, i)
     total = 0.0
     for j in range(low, high):
@@ -138,11 +147,12 @@ def rate_at(stack: Stack, i: int, time: float) -> float:
 
 @kernel
 def add_ball_series(
-    stack: Stack, b: int, sign: float, time: float, out: Floats
+    stack: Stack, b: int, sign: float, time: float, root: int, out: Floats
 ) -> tuple[int, float, float]:
     """Add sign times a ball's displacement since its anchor, expanded about a time, to ``out``.
 
-    Returns the order of the series, the bound on its rest (of order 10) and its round-off.
+    Returns the order of the series, the bound on its rest (of order 10) and its round-off. In a
+    root of time only the ball's own cluster, anchored at that time, may have a series.
     """
     first = stack.first[b]
     s = time - stack.anchor[first]
@@ -150,15 +160,15 @@ def add_ball_series(
     velocity = stack.velocity[b] + change
     noise = 8.0 * EPSILON * (abs(travel) + (abs(stack.velocity[b]) + abs(velocity)) * s)
     out[0] += sign * travel
-    out[1] += sign * velocity
+    out[root] += sign * velocity
     part = stack.scratch
     if stack.modal[first] == 0:
         order = stack.order[first]
-        shift(stack.velocity_series, b * TERMS, order, s, part)
+        shift(stack.velocity_series[b], order, s, part)
         for k in range(1, order + 1):
-            out[k + 1] += sign * part[k] / (k + 1)
-        return order + 1, 0.0, noise
-    out[2] -= 0.5 * sign * stack.number[0]
+            out[k + root] += sign * root * part[k] / (k + root)
+        return order + root, 0.0, noise
+    out[2 * root] -= 0.5 * sign * stack.number[0]
     low, high = pressing_range(stack, b)
     tail = 0.0
     for i in range(max(low, b), min(high, b + 2)):
@@ -167,14 +177,21 @@ def add_ball_series(
         for k in range(8):
             out[k + 2] += scale * part[k] / ((k + 1) * (k + 2))
         tail += abs(scale) * rest / 90.0
-    return 9 if low < high else 2, tail, noise
+    return 9 if low < high else 2 * root, tail, noise
+
+
+@kernel
+def root_at(stack: Stack, i: int) -> int:
+    """Return the root of time in which the compression of contact i has its series."""
+    root = stack.root[stack.first[i]]
+    return max(root, stack.root[stack.first[i - 1]]) if i > 0 else root
 
 
 @kernel
 def compression_series(
-    stack: Stack, i: int, time: float, out: Floats
+    stack: Stack, i: int, time: float, root: int, out: Floats
 ) -> tuple[int, int, float, float, float]:
-    """Expand the compression of contact i about a time.
+    """Expand the compression of contact i about a time, in a root of what has passed since.
 
     Returns the order, the order of the rest and its bound, and the round-off of the compression and
     of its rate.
@@ -189,10 +206,10 @@ def compression_series(
             out[1] = stack.velocity[i - 1] - stack.velocity[i]
             return 2, 10, 0.0, noise, 0.0
         out[0] = stack.compression[i]
-        order, tail, round_off = add_ball_series(stack, i, -1.0, time, out)
+        order, tail, round_off = add_ball_series(stack, i, -1.0, time, root, out)
         noise += round_off
         if i > 0:
-            other, rest, round_off = add_ball_series(stack, i - 1, 1.0, time, out)
+            other, rest, round_off = add_ball_series(stack, i - 1, 1.0, time, root, out)
             order = max(order, other)
             tail += rest
             noise += round_off
@@ -202,10 +219,10 @@ def compression_series(
         low, high = pressing_range(stack, i)
         tail, noise, rate_noise = modal_compression(stack, i, low, high, s, out)
         return 7, 8, tail, noise, rate_noise
-    order = stack.order[first] + 1
-    shift(stack.compression_series, i * TERMS, order, s, out)
-    noise = 16.0 * EPSILON * abs(stack.compression_series[i * TERMS])
-    speed = stack.speed[first] + abs(stack.compression_series[i * TERMS + 1])
+    order = stack.order[first] + root
+    shift(stack.compression_series[i], order, s, out)
+    noise = 16.0 * EPSILON * abs(stack.compression_series[i][0])
+    speed = stack.speed[first] + abs(stack.compression_series[i][root])
     return order, order + 1, 0.0, noise + EPSILON * speed * s, 16.0 * EPSILON * speed
 
 
@@ -217,28 +234,59 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
     s = time - stack.anchor[first]
     low, high = pressing_range(stack, ball)
     if stack.modal[first] == 0:
-        record_crests(stack, low, high, s)
+        record_crests(stack, low, high, series_time(stack, first, s))
     fastest = 0.0
     for b in range(first, last + 1):
-        travel, change = ball_shift(stack, b, s)
-        before = abs(stack.velocity[b])
-        stack.velocity[b] += change
-        fastest = max(fastest, before, abs(stack.velocity[b]))
-        if b == first and low > first:
-            stack.compression[b] -= travel
-        if b == last and b + 1 < len(stack.mass):
-            stack.compression[b + 1] += travel
+        open_below = b == first and low > first
+        open_above = b == last and b + 1 < len(stack.mass)
+        before = stack.velocity[b]
+        if open_below or open_above or stack.modal[first] == 1:
+            travel, change = ball_shift(stack, b, s)
+            stack.velocity[b] += change
+            if open_below:
+                stack.compression[b] -= travel
+            if open_above:
+                stack.compression[b + 1] += travel
+        else:
+            x = series_time(stack, first, s)
+            stack.velocity[b] = value(stack.velocity_series[b], stack.order[first], x)
+        fastest = max(fastest, abs(before), abs(stack.velocity[b]))
     noise = 64.0 * EPSILON * fastest
-    if stack.modal[first] == 0 and stack.order[first] < ORDER:
+    if stack.modal[first] == 0 and (stack.order[first] < ORDER or stack.root[first] == 2):
         known = min(_KNOWN * stack.number[2], _SLOWEST)
         noise = max(noise, known * stack.number[1])
     for b in range(first, last + 1):
         stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)
     for i in range(low, high):
-        once, _ = contact_impulse(stack, i, s)
-        stack.impulse[i] += once
+        stack.impulse[i] += contact_impulse(stack, i, s)
         stack.compression[i] = pressed(stack, i, s)
     stack.anchor[first] = time
+
+
+@kernel
+def may_enter(stack: Stack) -> bool:
+    """Tell whether clusters may have series in a root of time.
+
+    A stack of more balls might have to look at one from a cluster with a series of its own.
+    """
+    return len(stack.mass) <= 2 and stack.setting[1] == 1
+
+
+@kernel
+def _enter(stack: Stack, low: int, high: int) -> int:
+    """Let a contact that begins at a speed follow its curve at once, where its exponent allows it.
+
+    Returns in which root of time the motion has a power series.
+    """
+    for i in range(low, high):
+        twice = 2.0 * stack.curve_exponent[i]
+        if stack.faint[i] == 0 or stack.compression[i] != 0.0 or twice != math.floor(twice):
+            continue
+        rate = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
+        if twice < ENTERED and rate > _ENTERS * stack.number[1]:
+            stack.faint[i] = 0
+            return 2
+    return 1
 
 
 @kernel
@@ -261,6 +309,8 @@ def form_clusters(stack: Stack, bottom: int, top: int, time: float) -> None:
             stack.modal[first] = 0
         for i in range(low, high):
             catch_up(stack, i)
+        stack.root[first] = _enter(stack, low, high) if may_enter(stack) else 1
+        for i in range(low, high):
             # a faint contact is too soft to carry a weight: no static state to swing about
             if not is_linear(stack, i) or (stack.faint[i] == 1 and stack.number[0] > 0.0):
                 stack.modal[first] = 0

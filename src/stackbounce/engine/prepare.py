@@ -67,7 +67,7 @@ def prepare(
     stack.number[1] = speed * unit
     stack.number[2] = tolerance
     stack.number[3] = max(tolerance * _FAINT, _FAINTEST)
-    order = round(1.0 - 0.5 * math.log(tolerance))
+    order = round(1.0 - 0.7 * math.log(tolerance))
     stack.setting[0] = min(ORDER, max(_LEAST_ORDER, order))
     return unit
 

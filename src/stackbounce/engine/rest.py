@@ -90,8 +90,8 @@ def lay_down(stack: Stack) -> None:
         stack.compression[i] = static_compression(stack, i, weight)
         stack.velocity[i] = 0.0
         for k in range(TERMS):
-            stack.compression_series[i * TERMS + k] = 0.0
-            stack.velocity_series[i * TERMS + k] = 0.0
-            stack.force_series[i * TERMS + k] = 0.0
-        stack.compression_series[i * TERMS] = stack.compression[i]
-        stack.force_series[i * TERMS] = weight
+            stack.compression_series[i][k] = 0.0
+            stack.velocity_series[i][k] = 0.0
+            stack.force_series[i][k] = 0.0
+        stack.compression_series[i][0] = stack.compression[i]
+        stack.force_series[i][0] = weight

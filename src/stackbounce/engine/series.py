@@ -1,11 +1,13 @@
-"""Taylor series: how far one surely keeps its sign, powers, products of time and shifts."""
+"""Taylor series: where one falls to a level, how far one keeps its sign, integrals and shifts."""
 
 import math
 
 from stackbounce.engine.kernel import Floats, kernel
 
-ORDER = 18  # the highest, of the power series by which clusters move that have no modes
-TERMS = ORDER + 2  # a series in scratch space: one order more for an integrated one
+ORDER = 24  # the highest, of the power series by which clusters move that have no modes
+ROOT_ORDER = 36  # the highest of a series in the root of time
+_PARABOLAS = 100  # before the search for an event looks for another way
+TERMS = ROOT_ORDER + 4  # a series in scratch space: room for what is integrated twice
 
 
 @kernel
@@ -35,6 +37,41 @@ def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
 
 
 @kernel
+def fall(
+    a: Floats, n: int, sign: float, level: float, band: float, limit: float
+) -> tuple[float, bool]:
+    """Find when ``sign (a - level) + band`` of a polynomial falls into [0, band/2], up to a limit.
+
+    From bounds on the curvature up to the limit follow parabolas that stay below; their roots
+    approach that time from the safe side, as Newton's. Returns the limit, and False, if it comes
+    later; an earlier time, and False, before which it has not come if that takes too long.
+    """
+    rest, bend = 0.0, 0.0
+    for k in range(n, 1, -1):
+        rest = abs(a[k]) + limit * rest
+        bend = k * (k - 1) * abs(a[k]) + limit * bend
+    s, f, slope, half = 0.0, sign * (a[0] - level) + band, sign * a[1], rest
+    for _ in range(_PARABOLAS):
+        if f <= 0.5 * band:
+            return s, True
+        root = math.sqrt(slope * slope + 4.0 * half * f)
+        if slope < 0.0:
+            s += 2.0 * f / (root - slope)
+        elif half > 0.0:
+            s += (root + slope) / (2.0 * half)
+        else:
+            s = limit
+        if not s < limit:
+            return limit, False
+        f, slope, half = 0.0, 0.0, 0.5 * bend
+        for k in range(n, -1, -1):
+            slope = f + s * slope
+            f = a[k] + s * f
+        f, slope = sign * (f - level) + band, sign * slope
+    return s, False
+
+
+@kernel
 def parabola_root(a0: float, a1: float, a2: float) -> float:
     """Return the first root s > 0 of a0 + a1 s + a2 s^2, a0 >= 0; infinity where there is none."""
     if a0 <= 0.0 and (a1 < 0.0 or (a1 == 0.0 and a2 < 0.0)):
@@ -50,56 +87,30 @@ def parabola_root(a0: float, a1: float, a2: float) -> float:
 
 
 @kernel
-def value(a: Floats, offset: int, n: int, s: float) -> float:
-    """Evaluate a[offset] + a[offset+1] s + ... + a[offset+n] s^n."""
-    total = a[offset + n]
+def value(a: Floats, n: int, s: float) -> float:
+    """Evaluate a[0] + a[1] s + ... + a[n] s^n."""
+    total = a[n]
     for k in range(n - 1, -1, -1):
-        total = a[offset + k] + s * total
+        total = a[k] + s * total
     return total
 
 
 @kernel
-def integral(a: Floats, offset: int, n: int, s: float) -> float:
-    """Evaluate the integral of that polynomial from 0 to s."""
-    total = a[offset + n] / (n + 1)
+def integral(a: Floats, n: int, s: float, root: int) -> float:
+    """Evaluate the integral of that polynomial from 0 to s, over s^root."""
+    total = a[n] / (n + root)
     for k in range(n - 1, -1, -1):
-        total = a[offset + k] / (k + 1) + s * total
-    return s * total
+        total = a[k] / (k + root) + s * total
+    return root * s**root * total
 
 
 @kernel
-def double_integral(a: Floats, offset: int, n: int, s: float) -> float:
-    """Evaluate the integral of that integral from 0 to s."""
-    total = a[offset + n] / ((n + 1) * (n + 2))
-    for k in range(n - 1, -1, -1):
-        total = a[offset + k] / ((k + 1) * (k + 2)) + s * total
-    return s * s * total
-
-
-@kernel
-def shift(a: Floats, offset: int, n: int, s: float, out: Floats) -> None:
+def shift(a: Floats, n: int, s: float, out: Floats) -> None:
     """Expand that polynomial about s: out[0] + out[1] u + ... + out[n] u^n at s + u."""
     for k in range(n + 1):
-        out[k] = a[offset + k]
+        out[k] = a[k]
     if s == 0.0:
         return
     for k in range(n):
         for j in range(n - 1, k - 1, -1):
             out[j] += s * out[j + 1]
-
-
-@kernel
-def power_term(
-    base: Floats, unit: float, power: Floats, offset: int, exponent: float, k: int
-) -> float:
-    """Return term k of (base/unit)^exponent from terms up to k of the base and k-1 of the power.
-
-    From u = c^p: c u' = p c' u, compared order by order. The base's first term is positive.
-    """
-    if k == 0:
-        first: float = (base[offset] / unit) ** exponent
-        return first
-    total = 0.0
-    for j in range(1, k + 1):
-        total += (exponent * j - (k - j)) * base[offset + j] * power[offset + k - j]
-    return total / (k * base[offset])

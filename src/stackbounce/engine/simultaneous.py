@@ -54,7 +54,10 @@ from stackbounce.engine.motion import (
     contact_impulse,
     flies,
     form_clusters,
+    may_enter,
     rate_at,
+    root_at,
+    series_time,
     velocity_at,
 )
 from stackbounce.engine.queue import clear, schedule
@@ -118,7 +121,7 @@ def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: 
                 return SETTLED
         elif stack.event[slot] == LOOK:
             stack.counter[2] += 1
-            look(stack, slot, time)
+            _look_again(stack, slot, time)
         else:
             kind = stack.event[slot]
             _happen(stack, slot, kind, time, log)
@@ -137,7 +140,7 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         record_peak(stack, i, compression, 0.0)
     if kind not in (TOUCH, RELEASE) and not changes_curve(stack, i, kind):
         turn(stack, i, kind, compression)
-        look(stack, i, time)
+        _look_again(stack, i, time)
         stack.clock[0] = time
         return
     bottom = stack.first[max(i - 1, 0)]
@@ -146,6 +149,8 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     logical = time
     if kind == TOUCH or (kind == RELEASE and not was_slack):
         logical = _crossing(stack, i, time)
+    if kind == TOUCH and may_enter(stack) and logical >= stack.anchor[stack.first[i]]:
+        time, compression = logical, 0.0 if logical < time else compression
     advance_cluster(stack, i, time)
     if i > 0 and stack.first[i - 1] != stack.first[i]:
         advance_cluster(stack, i - 1, time)
@@ -238,6 +243,17 @@ def _crossing(stack: Stack, i: int, time: float) -> float:
 
 
 @kernel
+def _look_again(stack: Stack, i: int, time: float) -> None:
+    """Look at contact i, where it has a series in the root of time with a new one."""
+    if root_at(stack, i) == 1:
+        look(stack, i, time)
+    elif stack.root[stack.first[i]] == 2:
+        _renew(stack, i, time)
+    else:
+        _renew(stack, i - 1, time)
+
+
+@kernel
 def _renew(stack: Stack, ball: int, time: float) -> None:
     """Expand the motion of a ball's cluster anew where its series ends."""
     bottom, top = stack.first[ball], stack.last[ball]
@@ -282,9 +298,8 @@ def write_unfinished(stack: Stack, time: float, log: Floats) -> None:
             record_peak(stack, i, compression, rate_at(stack, i, time))
             since = time - stack.anchor[stack.first[i]]
             if stack.modal[stack.first[i]] == 0:
-                record_crests(stack, i, i + 1, since)
-            once, _ = contact_impulse(stack, i, since)
-            stack.impulse[i] += once
+                record_crests(stack, i, i + 1, series_time(stack, stack.first[i], since))
+            stack.impulse[i] += contact_impulse(stack, i, since)
         _write(stack, i, RELEASE, math.inf, log)
 
 

@@ -11,7 +11,7 @@ the ball below it less that of the ball above it, both since the anchors of thei
 from collections.abc import Sequence
 from typing import Any, NamedTuple
 
-from stackbounce.engine.kernel import Floats, Integers
+from stackbounce.engine.kernel import Floats, Integers, Rows
 from stackbounce.engine.series import TERMS
 
 MODES = 8  # linear contacts of one cluster up to which it moves in normal modes
@@ -66,6 +66,7 @@ class Stack(NamedTuple):
     last: Integers
     modal: Integers  # 1 where the cluster moves in normal modes or flies (entry of its lowest ball)
     order: Integers  # of the cluster's power series otherwise
+    root: Integers  # which root of time it is a series in, 1 or 2
     speed: Floats  # to which its tolerance refers
     anchor: Floats
     # when to look: contacts, then ends of the series' validity by lowest ball; a queue of both
@@ -82,13 +83,13 @@ class Stack(NamedTuple):
     cosine: Floats
     sine: Floats
     rows: Floats
-    # power series about the anchor
-    compression_series: Floats
-    force_series: Floats
-    velocity_series: Floats
-    power_series: Floats
-    elastic_series: Floats
-    gain_series: Floats
+    # power series about the anchor, a row for each ball or contact
+    compression_series: Rows
+    force_series: Rows
+    velocity_series: Rows
+    power_series: Rows
+    elastic_series: Rows
+    gain_series: Rows
     # scratch space and counters
     scratch: Floats
     watched: Floats
@@ -148,14 +149,6 @@ class Samples(NamedTuple):
 _PER_STACK = {"number": 4, "setting": 2, "counter": 6, "clock": 2}
 _PER_SERIES = {"scratch": TERMS, "watched": TERMS, "margin": TERMS, "changed": TERMS}
 _PER_SLOT = ("due", "event", "heap", "place")  # two slots for each ball
-_PER_TERM = (
-    "compression_series",
-    "force_series",
-    "velocity_series",
-    "power_series",
-    "elastic_series",
-    "gain_series",
-)
 _PER_MODE = ("shape", "rows")
 _INTEGERS = {
     name
@@ -163,16 +156,17 @@ _INTEGERS = {
     for name, kind in record.__annotations__.items()
     if kind is Integers
 }
+_ROWS = {name for name, kind in Stack.__annotations__.items() if kind is Rows}
 
 
 def new_stack(size: int) -> Stack:
     """Return an empty stack of ``size`` balls as plain lists of zeros."""
     lengths = dict.fromkeys(Stack._fields, size)
     lengths |= dict.fromkeys(_PER_SLOT, 2 * size)
-    lengths |= dict.fromkeys(_PER_TERM, size * TERMS)
     lengths |= dict.fromkeys(_PER_MODE, size * WIDTH)
     lengths |= _PER_STACK | _PER_SERIES
-    return Stack(**_zeros(lengths))
+    rows = {name: [[0.0] * TERMS for _ in range(size)] for name in _ROWS}
+    return Stack(**_zeros(lengths) | rows)
 
 
 def new_rigid_stack(size: int) -> RigidStack:
@@ -213,8 +207,10 @@ def in_one_room(record: Any) -> tuple[Any, tuple[Any, Any]]:
     arrays = as_arrays(record)
     rooms: dict[Any, Any] = {}
     for kind in (np.float64, np.int64):
-        sizes = [len(array) for array in arrays if array.dtype == kind]
+        sizes = [array.size for array in arrays if array.dtype == kind]
         room: Any = np.zeros(sum(sizes), dtype=kind)
         rooms[kind] = room, iter(np.split(room, np.cumsum(sizes)[:-1]))
-    views = type(record)(*(next(rooms[array.dtype.type][1]) for array in arrays))
+    views = type(record)(
+        *(next(rooms[array.dtype.type][1]).reshape(array.shape) for array in arrays)
+    )
     return views, (rooms[np.float64][0], rooms[np.int64][0])

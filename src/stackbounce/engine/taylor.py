@@ -2,11 +2,13 @@
 
 Inside a phase of every contact the motion is analytic, so its own Taylor series is integrator,
 dense output and event search in one. Order by order: forces from compressions and their rates,
-accelerations from forces, velocities and compressions from accelerations. The step is the time for
-which the last two terms of every velocity stay below the tolerance (Jorba and Zou, Exp. Math. 14,
-99, 2005), and in which no power grows beyond what these terms could tell. Where all contacts are
-springs and dashpots the series is that of the matrix exponential, whatever its eigenvalues; the
-tolerance is then round-off and no choice of the user.
+accelerations from forces, velocities and compressions from accelerations. Where a contact begins
+at a speed and its exponent is a multiple of 1/2, c^p has a series in the root of time instead, and
+so has all the motion up to the next step. The step is the time for which the last two terms of
+every velocity (five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14,
+99, 2005), in which no power grows beyond what these terms could tell, and no compression changes by
+much more than itself. Where all contacts are springs and dashpots the series is that of the matrix
+exponential, whatever its eigenvalues; the tolerance is then round-off and no choice of the user.
 """
 
 import math
@@ -14,13 +16,16 @@ import math
 from stackbounce.engine.codes import DAMPED
 from stackbounce.engine.contacts import stored_energy
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.series import ORDER, TERMS, power_term, value
+from stackbounce.engine.series import ORDER, ROOT_ORDER, value
 from stackbounce.engine.stack import Stack
 
 _TINY = 1e-300  # keeps a standstill from dividing by zero
 _EXACT = 1e-16  # of its own speed: what a linear cluster's series leaves out per step
 _ROUGH = 1e-3  # of its own speed: what any other, however slow, leaves out at most ...
 _SLOW = 1e-13  # ... though not less than this part of the reference speed
+ENTERED = 8.0  # twice the exponent: from there on a series in the root of time gains nothing
+_BEYOND = 1.25  # times a compression: by how much it may change in a step, and open at its end
+_HALVINGS = 26  # of such a part: a crest is flat
 _PARTS = 4  # of a step, in each of which a force has no more than one crest
 
 
@@ -36,61 +41,139 @@ def is_linear(stack: Stack, i: int) -> bool:
 def expand(stack: Stack, low: int, high: int) -> float:
     """Expand the motion of the cluster with pressing contacts low..high-1; return the safe step."""
     bottom = max(low - 1, 0)
+    root = stack.root[bottom]
     exact = True
     for i in range(low, high):
-        stack.compression_series[i * TERMS] = stack.compression[i]
+        stack.compression_series[i][0] = stack.compression[i]
+        stack.compression_series[i][1] = 0.0  # stays so in a series in the root of time
         if not is_linear(stack, i) and stack.curve_exponent[i] != 0.0:
             exact = False
     order = ORDER if exact else stack.setting[0]
+    if root == 2:
+        order = min(2 * order, ROOT_ORDER)
     own_speed = _own_speed(stack, low, high)
     speed = own_speed if exact else stack.number[1]
     for b in range(bottom, high):
-        stack.velocity_series[b * TERMS] = stack.velocity[b]
+        stack.velocity_series[b][0] = stack.velocity[b]
+        stack.velocity_series[b][1] = 0.0
         stack.order[b] = order
         stack.speed[b] = speed
-    for k in range(order + 1):
-        for i in range(low, high):
-            stack.force_series[i * TERMS + k] = _force_term(stack, i, k)
-        for b in range(bottom, high):
-            net = 0.0
-            if b >= low:
-                net += stack.force_series[b * TERMS + k]
-            if b + 1 < high:
-                net -= stack.force_series[(b + 1) * TERMS + k]
-            acceleration = net / stack.mass[b]
-            if k == 0:
-                acceleration -= stack.number[0]
-            stack.velocity_series[b * TERMS + k + 1] = acceleration / (k + 1)
-        for i in range(low, high):
-            below = stack.velocity_series[(i - 1) * TERMS + k] if i > 0 else 0.0
-            above = stack.velocity_series[i * TERMS + k]
-            stack.compression_series[i * TERMS + k + 1] = (below - above) / (k + 1)
+    _find_terms(stack, low, high, order, root)
     step = 0.0
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[1])
     for i in range(low, high):
-        if stack.faint[i] == 0 and stack.curve_exponent[i] > 1.0:
-            step = min(step, _steep_step(stack, i, order))
+        if stack.compression[i] > 0.0 and stack.faint[i] == 0 and stack.curve_exponent[i] > 0.0:
+            step = min(step, _steep_step(stack, i, order // root))
     allowed = speed * (_EXACT if exact else stack.number[2])
     if not exact:
         allowed = min(allowed, max(_ROUGH * own_speed, _SLOW * speed))
-    for b in range(bottom, high):
-        for k in range(order - 1, order + 1):
-            size = abs(stack.velocity_series[b * TERMS + k])
-            if size > 0.0:
-                step = min(step, (allowed / size) ** (1.0 / k))
+    # in the root of time all but every fifth term may be 0
+    for k in range(order - 1 if root == 1 else order - 4, order + 1):
+        size = 0.0
+        for b in range(bottom, high):
+            size = max(size, abs(stack.velocity_series[b][k]))
+        if size > 0.0:
+            step = min(step, (allowed / size) ** (root / k))
     return step
+
+
+@kernel
+def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> None:
+    """Find the series of a cluster, whose first terms are known, up to an order.
+
+    With x = t^(1/root), a series of terms a_k x^k is the rate of one of root a_k/(k + root)
+    x^(k + root). One function on purpose, with each array fetched once: as several it would take
+    twice as long.
+    """
+    c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
+    powers, elastics, gains = stack.power_series, stack.elastic_series, stack.gain_series
+    law, faint, exponents = stack.law, stack.faint, stack.curve_exponent
+    curve_force, curve_unit, slope = stack.curve_force, stack.curve_unit, stack.rate
+    gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
+    gain_rate, mass = stack.gain_rate, stack.mass
+    for k in range(order + 1):
+        for i in range(low, high):
+            c, f = c_all[i], f_all[i]
+            rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
+            c[k + root] = root * rate / (k + root)
+            damped, exponent = law[i] == DAMPED, exponents[i]
+            elastic = 0.0
+            if faint[i] == 1 or exponent == 1.0:
+                elastic = slope[i] * c[k]
+            elif exponent > 0.0:
+                # u = (c/unit)^p, term by term, from c u' = p c' u
+                u = powers[i]
+                if c[0] == 0.0:
+                    elastic = _entering_term(c, curve_unit[i], exponent, k, u)
+                elif k == 0:
+                    elastic = u[0] = (c[0] / curve_unit[i]) ** exponent
+                else:
+                    total, weight = 0.0, exponent * k
+                    for j in range(k):
+                        total += weight * (c[k - j] * u[j])
+                        weight -= exponent + 1.0
+                    elastic = u[k] = total / (k * c[0])
+                elastic *= curve_force[i]
+            if damped:
+                gain = gains[i]
+                gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
+                if k == 0:
+                    gain[0] += gain_constant[i]
+                if exponent == 0.0:
+                    f[k] = curve_force[i] * gain[k]
+                    continue
+                e = elastics[i]
+                e[k] = elastic
+                total = 0.0
+                for j in range(k + 1):
+                    total += e[j] * gain[k - j]
+                f[k] = total
+            else:
+                f[k] = elastic
+        for b in range(max(low - 1, 0), high):
+            net = 0.0
+            if b >= low:
+                net += f_all[b][k]
+            if b + 1 < high:
+                net -= f_all[b + 1][k]
+            acceleration = net / mass[b]
+            if k == 0:
+                acceleration -= stack.number[0]
+            v_all[b][k + root] = root * acceleration / (k + root)
+
+
+@kernel
+def _entering_term(c: Floats, unit: float, exponent: float, k: int, u: Floats) -> float:
+    """Return term k of (c/unit)^exponent where the first term of c is the square of time's root.
+
+    In ``u`` are the terms from the first that is not 0.
+    """
+    n = k - int(2.0 * exponent)
+    if n < 0:
+        return 0.0
+    if n == 0:
+        u[0] = (c[2] / unit) ** exponent
+    else:
+        total = 0.0
+        for j in range(n):
+            total += (exponent * (n - j) - j) * (c[n - j + 2] * u[j])
+        u[n] = total / (n * c[2])
+    return u[n]
 
 
 @kernel
 def _steep_step(stack: Stack, i: int, order: int) -> float:
     """Return the time in which a power of contact i's compression may change by e^(order/2).
 
-    A steeper force grows from nothing to everything past the terms that a series ends with.
+    A steeper force grows from nothing to everything past the terms that a series ends with. Nor
+    may the compression change by much more than itself, beyond which the power has no series.
     """
-    reach = 0.5 * order * stack.compression[i] / stack.curve_exponent[i]
-    first = abs(stack.compression_series[i * TERMS + 1])
-    second = abs(stack.compression_series[i * TERMS + 2])
+    if stack.curve_exponent[i] == 1.0:
+        return math.inf
+    reach = min(0.5 * order / stack.curve_exponent[i], _BEYOND) * stack.compression[i]
+    first = abs(stack.compression_series[i][1])
+    second = abs(stack.compression_series[i][2])
     return 2.0 * reach / (first + math.sqrt(first * first + 4.0 * second * reach) + _TINY)
 
 
@@ -110,74 +193,44 @@ def _own_speed(stack: Stack, low: int, high: int) -> float:
 
 
 @kernel
-def _force_term(stack: Stack, i: int, k: int) -> float:
-    """Return term k of the force of contact i on the curve that it follows."""
-    at = i * TERMS
-    if stack.law[i] != DAMPED:
-        return _power_of_compression(stack, i, k)
-    below = stack.velocity_series[(i - 1) * TERMS + k] if i > 0 else 0.0
-    above = stack.velocity_series[i * TERMS + k]
-    gain = stack.gain_slope[i] * stack.compression_series[at + k]
-    gain += stack.gain_rate[i] * (below - above)
-    if k == 0:
-        gain += stack.gain_constant[i]
-    if stack.curve_exponent[i] == 0.0:
-        return stack.curve_force[i] * gain
-    stack.gain_series[at + k] = gain
-    stack.elastic_series[at + k] = _power_of_compression(stack, i, k)
-    total = 0.0
-    for j in range(k + 1):
-        total += stack.elastic_series[at + j] * stack.gain_series[at + k - j]
-    return total
-
-
-@kernel
-def _power_of_compression(stack: Stack, i: int, k: int) -> float:
-    """Return term k of curve_force (c/curve_unit)^curve_exponent, or of its chord."""
-    at = i * TERMS
-    exponent = stack.curve_exponent[i]
-    if stack.faint[i] == 1 or exponent == 1.0:
-        return stack.rate[i] * stack.compression_series[at + k]
-    unit = stack.curve_unit[i]
-    term = power_term(stack.compression_series, unit, stack.power_series, at, exponent, k)
-    stack.power_series[at + k] = term
-    return stack.curve_force[i] * term
-
-
-@kernel
 def record_crests(stack: Stack, low: int, high: int, s: float) -> None:
-    """Keep the largest force and compression of damped contacts up to s after their anchor."""
+    """Keep the largest force and compression of damped contacts up to s in their series."""
     for i in range(low, high):
         if stack.law[i] == DAMPED:
             order = stack.order[i]
-            crest = _crest(stack.force_series, i * TERMS, order, s)
+            crest = _crest(stack.force_series[i], order, s)
             stack.peak_force[i] = max(stack.peak_force[i], crest)
-            crest = _crest(stack.compression_series, i * TERMS, order + 1, s)
+            crest = _crest(stack.compression_series[i], order + stack.root[stack.first[i]], s)
             stack.peak_compression[i] = max(stack.peak_compression[i], crest)
 
 
 @kernel
-def _crest(a: Floats, offset: int, n: int, s: float) -> float:
+def _crest(a: Floats, n: int, s: float) -> float:
     """Return the largest value of a series from 0 to s."""
-    largest = max(a[offset], value(a, offset, n, s))
+    largest = max(a[0], value(a, n, s))
+    bend = 0.0
+    for k in range(n, 1, -1):
+        bend = k * abs(a[k]) + s * bend
+    if abs(a[1]) > s * bend:
+        return largest  # it only rises, or only falls
     for part in range(_PARTS):
         left, right = s * part / _PARTS, s * (part + 1) / _PARTS
-        if _slope(a, offset, n, left) <= 0.0 or _slope(a, offset, n, right) >= 0.0:
+        if _slope(a, n, left) <= 0.0 or _slope(a, n, right) >= 0.0:
             continue
-        for _ in range(50):
+        for _ in range(_HALVINGS):
             middle = 0.5 * (left + right)
-            if _slope(a, offset, n, middle) > 0.0:
+            if _slope(a, n, middle) > 0.0:
                 left = middle
             else:
                 right = middle
-        largest = max(largest, value(a, offset, n, left))
+        largest = max(largest, value(a, n, left))
     return largest
 
 
 @kernel
-def _slope(a: Floats, offset: int, n: int, s: float) -> float:
+def _slope(a: Floats, n: int, s: float) -> float:
     """Return the derivative of a series at s."""
-    total = n * a[offset + n]
+    total = n * a[n]
     for k in range(n - 1, 0, -1):
-        total = k * a[offset + k] + s * total
+        total = k * a[k] + s * total
     return total

@@ -44,9 +44,14 @@ from stackbounce.engine.codes import (
 )
 from stackbounce.engine.contacts import chord_budget
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.motion import compression_series, contact_impulse, meet_anchors
+from stackbounce.engine.motion import (
+    compression_series,
+    contact_impulse,
+    meet_anchors,
+    root_at,
+)
 from stackbounce.engine.queue import schedule
-from stackbounce.engine.series import TERMS, parabola_root, safe_step, shift
+from stackbounce.engine.series import fall, parabola_root, safe_step, shift
 from stackbounce.engine.stack import Stack
 
 _NOTHING = 1000.0 * EPSILON**2  # round-off of a motion that is itself round-off
@@ -64,24 +69,28 @@ def look(stack: Stack, i: int, time: float) -> None:
     if phase < COMPRESSING:
         meet_anchors(stack, i)
     a = stack.watched
-    order, power, tail, noise, rate_noise = compression_series(stack, i, time, a)
+    root = root_at(stack, i)
+    order, power, tail, noise, rate_noise = compression_series(stack, i, time, root, a)
     if not math.isfinite(tail + noise + rate_noise + a[0] + a[1] + a[order]):
         schedule(stack.due, stack.heap, stack.place, i, -math.inf)
         return
     # round-off: of the solution, of the clock, and never less than that of a typical compression
     tick = 4.0 * EPSILON * time
-    band = max(noise + tick * abs(a[1]), 4.0 * EPSILON * stack.scale[i])
-    rate_band = max(rate_noise + tick * abs(2.0 * a[2]), 4.0 * EPSILON * stack.number[1])
+    rate, second = abs(a[root]), abs(2.0 * a[2 * root])
+    band = max(noise + tick * rate, 4.0 * EPSILON * stack.scale[i])
+    rate_band = max(rate_noise + tick * second, 4.0 * EPSILON * stack.number[1])
     horizon = stack.due[size + stack.first[i]]
     if i > 0:
         horizon = min(horizon, stack.due[size + stack.first[i - 1]])
     horizon -= time
+    if root == 2:
+        horizon = math.sqrt(horizon)
     wait, reached, kind = math.inf, False, LOOK
     if phase == OPEN:
         if stack.setting[1] == 1:  # nor than the error that nonlinear motion has by choice
             band += _LOOSE * stack.number[2] * stack.scale[i]
             rate_band += _LOOSE * stack.number[2] * stack.number[1]
-        if a[0] < -band or a[1] < -rate_band:
+        if a[0] < -band or a[root] < -rate_band:
             stack.touching[i] = math.nan
         if not _never_meets(stack, i, a, order):
             kind = TOUCH
@@ -106,17 +115,17 @@ def look(stack: Stack, i: int, time: float) -> None:
         if other < wait:
             wait, reached, kind = other, there, PRESSED
     if damped:
-        noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * abs(a[1])
-        speed = stack.speed[i] + abs(a[1])
-        rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * abs(2.0 * a[2])
-        other, there = _gain_wait(stack, i, order, power, tail, noise, rate_noise, horizon)
+        noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
+        speed = stack.speed[i] + rate
+        rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * second
+        other, there = _gain_wait(stack, i, order, power, tail, noise, rate_noise, root, horizon)
         turn_kind = RESUMED if phase == SLACK else CLIPPED
     elif phase == COMPRESSING or stack.law[i] == LOSSY:
-        for k in range(order):
-            a[k] = (k + 1) * a[k + 1]
+        for k in range(order - root + 1):
+            a[k] = (k + root) * a[k + root] / root
         sign = 1.0 if phase == COMPRESSING else -1.0
         other, there = _wait(
-            stack, a, order - 1, power - 1, power * tail, 0.0, sign, 0.0, rate_band, horizon
+            stack, a, order - root, power - 1, power * tail, 0.0, sign, 0.0, rate_band, horizon
         )
         turn_kind = PEAK if phase == COMPRESSING else DIP
     else:
@@ -131,6 +140,8 @@ def _lower_level(stack: Stack, i: int) -> tuple[float, int]:
     """Return the compression below which contact i changes, and how it does."""
     smooth = stack.curve_exponent[i] == 0.0 or stack.curve_exponent[i] == 1.0
     if smooth or stack.faint[i] == 1 or stack.phase[i] == SLACK:
+        return 0.0, RELEASE
+    if root_at(stack, i) == 2 and stack.phase[i] == COMPRESSING:
         return 0.0, RELEASE
     return _FAINT_EXIT * stack.faint_below[i], FAINT
 
@@ -157,8 +168,7 @@ def _chord_wait(
     spent = stack.changed
     first = stack.first[i]
     s = time - stack.anchor[first]
-    once, _ = contact_impulse(stack, i, s)
-    spent[0] = stack.impulse[i] + once - stack.faint_since[i]
+    spent[0] = stack.impulse[i] + contact_impulse(stack, i, s) - stack.faint_since[i]
     if stack.modal[first] == 1:
         order += 1
         power += 1
@@ -167,7 +177,7 @@ def _chord_wait(
             spent[k] = stack.rate[i] * stack.watched[k - 1] / k
     else:
         order = stack.order[first] + 1
-        shift(stack.force_series, i * TERMS, order - 1, s, stack.scratch)
+        shift(stack.force_series[i], order - 1, s, stack.scratch)
         for k in range(1, order + 1):
             spent[k] = stack.scratch[k - 1] / k
     budget = chord_budget(stack, i)
@@ -184,14 +194,16 @@ def _gain_wait(
     tail: float,
     noise: float,
     rate_noise: float,
+    root: int,
     horizon: float,
 ) -> tuple[float, bool]:
     """Return how long the gain of damped contact i surely keeps its sign; see `_wait`."""
     a, gain = stack.watched, stack.changed
     slope, rate = stack.gain_slope[i], stack.gain_rate[i]
-    for k in range(order):
-        gain[k] = slope * a[k] + rate * (k + 1) * a[k + 1]
-    gain[order] = slope * a[order]
+    for k in range(order + 1):
+        gain[k] = slope * a[k]
+    for k in range(order - root + 1):
+        gain[k] += rate * (k + root) * a[k + root] / root
     gain[0] += stack.gain_constant[i]
     noise = max(noise, EPSILON * EPSILON * stack.scale[i])
     rate_noise = max(rate_noise, EPSILON * EPSILON * stack.number[1])
@@ -225,6 +237,8 @@ def _note(
     stack: Stack, i: int, time: float, wait: float, reached: bool, kind: int, horizon: float
 ) -> None:
     """Write down when contact i is due: not at all where its cluster's series ends before."""
+    if root_at(stack, i) == 2:
+        wait, horizon = wait * wait, horizon * horizon
     if time + wait <= time:
         reached = True  # closer than the clock can tell
     stack.event[i] = kind if reached else LOOK
@@ -260,6 +274,10 @@ def _wait(
 
     The function f is within ``tail s^power + more s^(power+1)`` of its series.
     """
+    if tail == 0.0 and order > 2 and horizon < math.inf:
+        wait, reached = fall(a, order, sign, level, band, horizon)
+        if reached or wait == horizon:
+            return wait, reached
     f = stack.margin
     for k in range(order + 1):
         f[k] = sign * a[k]
