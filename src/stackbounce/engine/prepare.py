@@ -75,13 +75,15 @@ def prepare(
 @kernel
 def _take_law(stack: Stack, i: int, kind: int, k: float, p: float, extra: float) -> None:
     """Put the numbers of contact i's law in place; a law that loses nothing is a power law."""
+    if kind == NO_CONTACT:
+        stack.law[i] = codes.ABSENT
+        stack.stiffness[i] = stack.exponent[i] = stack.unloading[i] = 1.0  # whatever it was given
+        return
     stack.law[i] = codes.POWER
     stack.stiffness[i] = k
     stack.exponent[i] = p
     stack.unloading[i] = p
-    if kind == NO_CONTACT:
-        stack.law[i] = codes.ABSENT
-    elif kind in (HYSTERETIC, LOSSY):
+    if kind in (HYSTERETIC, LOSSY):
         stack.law[i] = codes.LOSSY if kind == LOSSY else codes.HYSTERETIC
         stack.unloading[i] = extra
     elif kind != POWER_LAW and extra > 0.0:

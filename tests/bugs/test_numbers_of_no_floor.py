@@ -1,0 +1,19 @@
+"""What stands in the place of a floor that is not there made linear drops follow looser rules."""
+
+import numpy as np
+
+from stackbounce.engine import prepare
+from stackbounce.engine.stack import new_stack
+
+
+def test_numbers_of_no_floor_do_not_matter():
+    stacks = []
+    for numbers in ((1.0, 1.0, 0.0), (7e3, 1.5, 3.0)):
+        stack = new_stack(2)
+        k, p, extra = ([number, 1.0] for number in numbers)
+        kind = [prepare.NO_CONTACT, prepare.POWER_LAW]
+        start = [0.0, 0.0], [-1.0, -2.0], 0.0, 1e-12
+        prepare.prepare(stack, [0.1, 0.2], kind, k, p, extra, *start)
+        stacks.append(stack)
+    for name, one, other in zip(stacks[0]._fields, *stacks, strict=True):
+        np.testing.assert_array_equal(one, other, err_msg=name)
