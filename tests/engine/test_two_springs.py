@@ -12,7 +12,7 @@ from stackbounce.engine.two_springs import SCRATCH, two_springs
 SPEED = 1e-12
 TIME = 1e-11
 ENERGY = 1e-12
-NAMES = ("velocity", "collisions", "first_touch", "last_release", "energy", "status")
+NAMES = ("velocity", "collisions", "first_touch", "last_release", "status")
 
 
 def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
@@ -22,12 +22,13 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
         "collisions": np.empty((n, 2), np.int64),
         "first_touch": np.empty((n, 2)),
         "last_release": np.empty((n, 2)),
-        "energy": np.empty(n),
         "status": np.empty(n, np.int64),
     }
     run = two_springs if plain else compiled(two_springs)
     scratch = [0.0] * SCRATCH if plain else np.zeros(SCRATCH)
     run(mass, stiffness, gap, speed, event_limit, *(out[name] for name in NAMES), scratch)
+    ratio = out["velocity"] / np.asarray(speed)[:, None]
+    out["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
     return out
 
 

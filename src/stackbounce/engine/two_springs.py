@@ -68,7 +68,6 @@ def two_springs(
     collisions: Any,
     first_touch: Any,
     last_release: Any,
-    energy: Any,
     status: Any,
     x: Floats,
 ) -> None:
@@ -88,8 +87,6 @@ def two_springs(
         Gets the number of intervals of each contact.
     first_touch, last_release : arrays (n, 2)
         Get times in s for each contact, nan for never.
-    energy : array (n,)
-        Gets the fraction of the kinetic energy that is retained.
     status : integer array (n,)
         Gets FINISHED; EVENT_LIMIT; INVALID for input that is out of range; or ASK where the general
         engine must be asked, and what else is said of that drop is not to be used.
@@ -118,7 +115,7 @@ def two_springs(
                 for k in range(DROP):
                     x[k * LANES + i] = x[NEXT + k * LANES + waiting]
         look(x, event_limit)
-    _to_si(mass, stiffness, speed, velocity, first_touch, last_release, energy, status)
+    _to_si(mass, stiffness, speed, velocity, first_touch, last_release, status)
 
 
 @kernel
@@ -215,20 +212,18 @@ def _to_si(
     velocity: Any,
     first_touch: Any,
     last_release: Any,
-    energy: Any,
     status: Any,
 ) -> None:
     """Turn the results of all drops into SI units; what is not known becomes nan."""
     for r in range(len(speed)):
         if status[r] != FINISHED and status[r] != EVENT_LIMIT:
-            velocity[r, 0] = velocity[r, 1] = energy[r] = math.nan
+            velocity[r, 0] = velocity[r, 1] = math.nan
             first_touch[r, 0] = first_touch[r, 1] = math.nan
             last_release[r, 0] = last_release[r, 1] = math.nan
             continue
         m1, v0 = float(mass[r, 0]), float(speed[r])
         mu, unit = float(mass[r, 1]) / m1, math.sqrt(m1 / float(stiffness[r, 0]))
         u0, u1 = float(velocity[r, 0]), float(velocity[r, 1])
-        energy[r] = (u0 * u0 + u1 * u1) / (1.0 + mu)
         velocity[r, 0], velocity[r, 1] = v0 * u0, v0 * (u1 / math.sqrt(mu))
         first_touch[r, 0], first_touch[r, 1] = 0.0, unit * first_touch[r, 1]
         last_release[r, 0] = unit * last_release[r, 0]

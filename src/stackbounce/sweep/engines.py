@@ -70,7 +70,8 @@ def _run_two_springs(drops: Drops, out: Outcomes, options: Options, few: bool) -
     scratch: Any = [0.0] * SCRATCH if few else np.zeros(SCRATCH)
     speed, gap = -drops.velocity[:, 0], np.ascontiguousarray(drops.gap[:, 1])
     given = (drops.mass, drops.stiffness, gap, speed, _UNLIMITED)
-    go(*given, *out, scratch)
+    times = out.first_touch, out.last_release
+    go(*given, out.velocity, out.collisions, *times, out.status, scratch)
     asked = np.flatnonzero(out.status == codes.ASK)
     if len(asked):
         some = Drops._make(array[asked] for array in drops)
