@@ -129,7 +129,7 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
         units = dict.fromkeys(_ASSUMED[one.role] for one in told)
         doubts.append(
             f"no unit is told for {', '.join(names)}: taken as {', '.join(units)}; "
-            f"units={{{next(iter(names))!r}: …}} tells another"
+            f"units={{{', '.join(f'{one!r}: …' for one in names)}}} tells another"
         )
     return [replace(one, unit=_ASSUMED[one.role]) if one in told else one for one in columns]
 

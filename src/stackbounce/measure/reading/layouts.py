@@ -160,7 +160,7 @@ def generic(text: Text) -> Layout:
     above = [k for k in range(first) if any(text.head[k])]
     if not above or first - above[-1] > 2:
         why = "rows of numbers without a header"
-        return Layout("table", why, _columns([], width), first, (_NOT_NAMED,))
+        return Layout("table of numbers", why, _columns([], width), first, (_NOT_NAMED,))
     names = _named(text, above[-1], width)
     units = None
     if len(above) > 1 and all(is_unit(cell) for cell in names if cell):
@@ -174,7 +174,9 @@ def generic(text: Text) -> Layout:
     shown = ", ".join(one.heading.text for one in columns[:3])
     more = " …" if len(columns) > 3 else ""
     doubts = () if len(names) >= width else (f"columns from {len(names) + 1} on have no name",)
-    return Layout("table", f"a header names its columns: {shown}{more}", columns, first, doubts)
+    return Layout(
+        "table of numbers", f"a header names its columns: {shown}{more}", columns, first, doubts
+    )
 
 
 def _columns(

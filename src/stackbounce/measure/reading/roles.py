@@ -13,7 +13,7 @@ _WORDS = {  # role: the whole name, folded, in the languages that files are ofte
     "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|seconds?|sec",
     "compression": r"(crosshead |compressive |standard)?(compress\w*|extension|deflection|stroke"
     r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung)|c",
-    "force": r"((standard|normal|compressive|impact|contact) ?)?(force|kraft|load|last|fuerza|forza)"
+    "force": r"((standard|normal|impact|contact) ?)?(force|kraft|load|last|fuerza|forza)"
     r"( ?[a-z0-9])?|f([_ ]?[xyzn0-9])?",
     "voltage": r"(voltage|volts?|spannung|tension|potential|signal|sensor|piezo|u)([ _]?[a-z0-9])?"
     r"|ch(annel|an)?[ _]?[a-z0-9]|math[ _]?\d?",
@@ -23,13 +23,15 @@ _WORDS = {  # role: the whole name, folded, in the languages that files are ofte
 }
 _ROLES = {role: re.compile(words) for role, words in _WORDS.items()}
 _ACCELERATION = re.compile(
-    r"(.*\b)?(acceleration|beschleunigung)(?P<rest>.*)|a(?P<axis>[_ ]?[xyz])?"
+    r"(?P<before>.*\b)?(acceleration|beschleunigung)(?P<rest>.*)|a(?P<axis>[_ ]?[xyz])?"
 )
 _WANTED = {  # the SI units that a column in a role can have
     "knock_time": "s", "time": "s", "compression": "m", "force": "N kg", "voltage": "V A",
     "sound": "V Pa 1", "x": "m", "y": "m",
 }  # fmt: skip
 _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
+_BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # times, but not when
+_ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
 G = 9.80665
 
@@ -101,16 +103,23 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     word = " ".join(name.casefold().replace("_", " ").split())
     factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
     doubt = ""
-    if unit and not symbol and re.search(r"\w", unit) and unit not in ("a.u.", "arb. units"):
+    if unit and not symbol and re.search(r"\w", unit) and unit not in _ARBITRARY:
         doubt = f"unit {unit!r} of {name!r} is not known here: its numbers are left as they are"
     bend = _ACCELERATION.fullmatch(word)
     if bend and (symbol in ("m/s^2", "") or unit == "g"):
         factor, symbol = (G, "m/s^2") if unit == "g" else (factor, symbol)
-        return told or _axis(bend["rest"] or bend["axis"] or ""), factor, symbol, doubt
+        return (
+            told or _axis(bend["rest"] or bend["axis"] or bend["before"] or ""),
+            factor,
+            symbol,
+            doubt,
+        )
     role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
     if symbol and role and symbol not in _WANTED.get(role, symbol).split():
         role = ""
-    if not role and symbol in _BY_UNIT:
+    if role == "sound" and unit in _ARBITRARY:
+        symbol = "1"
+    if not role and symbol in _BY_UNIT and not _BETWEEN.search(word):
         role = _BY_UNIT[symbol]
     if role == "force" and symbol == "kg":
         factor, symbol = factor * G, "N"

@@ -217,7 +217,7 @@ def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:
         cells += sum(
             1 for cell in row if cell and any(number(cell, one) is not None for one in marks)
         )
-    return max(widths.values(), default=0), cells if rows or delimiter == "," else 0
+    return max(widths.values(), default=0), 0 if rows else cells
 
 
 def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
