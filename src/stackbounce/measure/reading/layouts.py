@@ -170,6 +170,9 @@ def generic(text: Text) -> Layout:
             f"its header names {len(names)} columns, its rows have {width} cells: numbers with a "
             "decimal comma between commas cannot be told apart; export with another delimiter"
         )
+    beyond = sum(any(row[len(names) :]) for row in text.head[first:])
+    if 2 * beyond <= len(text.head) - first:  # a few rows that are too long make no column
+        width = len(names)
     columns = _columns(names, max(width, len(names)), units)
     shown = ", ".join(one.heading.text for one in columns[:3])
     more = " …" if len(columns) > 3 else ""

@@ -61,8 +61,8 @@ def content_of(path: object) -> tuple[str, bytes]:
             raise FileError(f"{name} is a folder: give one of its files")
         if not stat.S_ISREG(mode):  # a pipe or a device may never end
             raise FileError(f"{name} is no ordinary file: copy what it gives into one")
-        with Path(name).open("rb") as file:
-            content = file.read(BYTES + 1)
+        with Path(name).open("rb") as file:  # which has room made for all that is asked for
+            content = file.read(min(os.fstat(file.fileno()).st_size, BYTES) + 1)
     except OSError as error:
         if isinstance(error, FileError):
             raise

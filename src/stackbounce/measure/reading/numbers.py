@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +30,10 @@ class Table:
         The first of these.
     infinite : int
         How many numbers are infinite: beyond the range of an instrument.
+    words : int
+        How many lines have no number at all.
+    word : str
+        The first of these.
     longer, shorter : int
         How many rows have more cells, or fewer, than there are columns.
     """
@@ -38,9 +42,10 @@ class Table:
     strange: NDArray[np.int64]
     first: str = ""
     infinite: int = 0
+    words: int = 0
+    word: str = ""
     longer: int = 0
     shorter: int = 0
-    _blocks: list[NDArray[np.float64]] = field(default_factory=list, repr=False)
 
 
 def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
@@ -128,8 +133,8 @@ def _any(lines: list[str], text: Text, used: Sequence[int], table: Table) -> NDA
         row = [number(cells[k], text.decimal) if k < len(cells) else nan for k in used]
         if None in row:
             if all(one is None or one != one for one in row):  # a line of words among the numbers
-                table.first = table.first or line[:60]
-                table.strange += 1
+                table.word = table.word or line[:60]
+                table.words += 1
                 continue
             table.first = table.first or next(
                 cells[k] for k, one in zip(used, row, strict=True) if one is None

@@ -197,11 +197,14 @@ def _flaws(table: Table) -> list[str]:
         flaws.append(
             f"{strange} cells are no numbers, the first {shown(table.first)}: taken as missing"
         )
+    if table.words:
+        first = shown(table.word)
+        flaws.append(
+            f"{table.words} lines among the numbers are words, the first {first}: left out"
+        )
     if table.infinite:
         flaws.append(f"{table.infinite} numbers are infinite, beyond the range: taken as missing")
-    if 2 * table.longer > rows > 1:
-        flaws.append(f"{table.longer} rows have more cells than the header")
-    elif table.longer:
+    if table.longer:
         flaws.append(f"{table.longer} rows have more cells than the others")
     if table.shorter:
         flaws.append(f"{table.shorter} rows have fewer cells than the others")

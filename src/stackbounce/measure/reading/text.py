@@ -169,7 +169,7 @@ def tabulate(content: str, decimal: str | None = None) -> Text:
     best = max(range(len(found)), key=lambda k: found[k])
     delimiter = _DELIMITERS[best] if found[best] > (0, 0) else "\t"
     head = [split(line, delimiter) for line in lines]
-    wide = max(map(len, head))
+    wide = max(map(len, head), default=0)
     if wide > COLUMNS:
         raise FileError(f"it has a line of {wide} cells: at most {COLUMNS} columns are read")
     mark, doubts = (decimal, []) if decimal else _decimal(head, delimiter)
@@ -227,7 +227,7 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
     points = [one for one in _all(head) if re.fullmatch(rf"[+-]?[0-9]*\.[0-9]+{_EXPONENT}", one)]
     grouped = [one for one in commas if re.fullmatch(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}", one)]
     if not commas or (points and len(grouped) == len(commas)):
-        mixed = [one for one in cells if re.fullmatch(r"[+-]?[0-9.]+,[0-9]+", one)]
+        mixed = [one for one in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", one)]
         return ("," if mixed and delimiter != "," else "."), []
     if len(grouped) == len(commas):
         return ",", [f"{grouped[0]!r} is read with a decimal comma: decimal='.' if it is not one"]
