@@ -126,6 +126,7 @@ def factor(written: str, unit: str, name: str = "value") -> float:
     return _factor(written, unit, _message(name, written, unit))
 
 
+@functools.lru_cache(maxsize=1000)
 def in_si(written: str, *, common: bool = False) -> tuple[float, str] | None:
     """Return how much of which SI unit one of a unit is, whatever it measures.
 

@@ -114,7 +114,7 @@ def test_refused(read, content, message):
 
 def test_words_below_the_numbers(read):
     doubt = read("t (s),F (N)\n0,1\n" + "words,words\n" * 300).attrs["doubt"]
-    assert doubt == "300 lines among the numbers are words, the first 'words,words': left out"
+    assert doubt == "300 lines among the numbers are words, first 'words,words': left out"
 
 
 # --- zip archives
@@ -323,6 +323,19 @@ def test_a_long_file_is_read_fast_and_whole(read):
     wanted = np.arange(count) % 1000 / 8
     wanted[200_000] = np.nan
     np.testing.assert_array_equal(data.force, wanted)
+
+
+def test_too_many_odd_lines(read, monkeypatch):
+    monkeypatch.setattr("stackbounce.measure.reading.numbers._ODD", 100)
+    refused(read, "t,F\n0,1\n" + "1,2_3\n" * 50, "too many of its lines are not just numbers")
+
+
+def test_blank_cells_are_as_fast(read, monkeypatch):
+    monkeypatch.setattr("stackbounce.measure.reading.numbers._ODD", 0)
+    data = read("t (s),F (N),G,\n,,,\n0,1,,\n1,,3,\n,7,,\n2,,,")
+    np.testing.assert_array_equal(data.time, [0, 1, 2])
+    np.testing.assert_array_equal(data.force, [1, np.nan, np.nan])
+    np.testing.assert_array_equal(data["g"], [np.nan, 3, np.nan])
 
 
 def test_too_many_numbers(read, monkeypatch):

@@ -1,6 +1,7 @@
 """The rows of a table -> an array; what is no number there is counted, not hidden."""
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -14,6 +15,7 @@ from stackbounce.measure.reading.text import Text, number, split
 __all__ = ["Table", "rows_of"]
 
 _CHUNK = 2**22  # characters that are read at once
+_ODD = 2**23  # characters that are looked at one by one, at most: some seconds
 
 
 @dataclass
@@ -66,16 +68,27 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
         If a line is endless, or there are more than `limits.CELLS` numbers.
     """
     table = Table(np.empty((0, len(used))), np.zeros(len(used), dtype=np.int64))
-    blocks, count = [], 0
-    for lines in _chunks(text.content, text.starts[first]):
+    blocks, count, odd = [], 0, 0
+    for chunk in _chunks(text.content, text.starts[first]):
+        lines = chunk.split("\n")
+        if len(max(lines, key=len)) > LINE:
+            raise FileError(f"it has a line of more than {LINE} characters")
         block = _plain(lines, text, used)
+        if block is None:  # perhaps for blank cells only
+            block = _plain(_filled(chunk, text.delimiter), text, used)
         if block is None:
+            odd += sum(map(len, lines))
+            if odd > _ODD:
+                raise FileError("too many of its lines are not just numbers")
             block = _any(lines, text, used, table)
         count += block.size
         if count > CELLS:
             raise FileError(f"it has more than {CELLS} numbers: cut out what is of interest")
         blocks.append(block)
-    table.values = np.concatenate(blocks) if blocks else table.values
+    if blocks:
+        values = np.concatenate(blocks)
+        blank = np.isnan(values).all(axis=1)
+        table.values = values[~blank] if blank.any() else values
     infinite = np.isinf(table.values)
     table.infinite = int(infinite.sum())
     if table.infinite:
@@ -83,16 +96,13 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
     return table
 
 
-def _chunks(content: str, start: int) -> Iterator[list[str]]:
+def _chunks(content: str, start: int) -> Iterator[str]:
     while start < len(content):
         end = content.rfind("\n", start, start + _CHUNK) if len(content) > start + _CHUNK else -1
         if end < 0 and len(content) > start + _CHUNK:
             raise FileError(f"it has a line of more than {LINE} characters")
         end = len(content) if end < 0 else end
-        lines = content[start:end].split("\n")
-        if len(max(lines, key=len)) > LINE:
-            raise FileError(f"it has a line of more than {LINE} characters")
-        yield lines
+        yield content[start:end]
         start = end + 1
 
 
@@ -105,7 +115,7 @@ def _plain(lines: list[str], text: Text, used: Sequence[int]) -> NDArray[np.floa
     width = len(split(lines[0], text.delimiter))
     if width < 1 or max(used) >= width or not any(line.strip() for line in lines):
         return None
-    every = len(used) == width
+    every = list(used) == list(range(width))
     try:
         block = np.loadtxt(
             lines,
@@ -118,6 +128,16 @@ def _plain(lines: list[str], text: Text, used: Sequence[int]) -> NDArray[np.floa
     except (ValueError, OverflowError):
         return None
     return block if block.shape[1] == len(used) else None
+
+
+def _filled(chunk: str, delimiter: str) -> list[str]:
+    """Return lines in which blank cells say that they are none."""
+    if delimiter == " ":
+        return chunk.split("\n")
+    ends = rf"{delimiter}\n"
+    return re.sub(rf"(?m)(?<={delimiter})(?=[{ends}]|\Z)|^(?={delimiter})", "nan", chunk).split(
+        "\n"
+    )
 
 
 def _any(lines: list[str], text: Text, used: Sequence[int], table: Table) -> NDArray[np.float64]:

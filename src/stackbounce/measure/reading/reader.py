@@ -199,9 +199,7 @@ def _flaws(table: Table) -> list[str]:
         )
     if table.words:
         first = shown(table.word)
-        flaws.append(
-            f"{table.words} lines among the numbers are words, the first {first}: left out"
-        )
+        flaws.append(f"{table.words} lines among the numbers are words, first {first}: left out")
     if table.infinite:
         flaws.append(f"{table.infinite} numbers are infinite, beyond the range: taken as missing")
     if table.longer:

@@ -198,8 +198,13 @@ def _head(content: str) -> tuple[list[int], list[str]]:
 
 def _numbers(row: list[str], decimal: str) -> int:
     """Return how many numbers a row has; 0 if any cell is something else."""
-    values = [number(cell, decimal) for cell in row[:COLUMNS]]
-    return 0 if None in values else sum(one == one for one in values)  # NaN is not itself
+    count = 0
+    for cell in row[:COLUMNS]:
+        value = number(cell, decimal)
+        if value is None:
+            return 0
+        count += value == value  # NaN is not itself
+    return count
 
 
 def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:
@@ -214,9 +219,10 @@ def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:
         count = max((_numbers(row, mark) for mark in marks), default=0)
         rows += count > 0
         widths[len(row)] += count > 0
-        cells += sum(
-            1 for cell in row if cell and any(number(cell, one) is not None for one in marks)
-        )
+        if not rows:
+            cells += sum(
+                1 for cell in row if cell and any(number(cell, one) is not None for one in marks)
+            )
     return max(widths.values(), default=0), 0 if rows else cells
 
 
