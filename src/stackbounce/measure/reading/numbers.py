@@ -70,6 +70,8 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
     table = Table(np.empty((0, len(used))), np.zeros(len(used), dtype=np.int64))
     blocks, count, odd = [], 0, 0
     for chunk in _chunks(text.content, text.starts[first]):
+        if not chunk or chunk.isspace():
+            continue
         lines = chunk.split("\n")
         if len(max(lines, key=len)) > LINE:
             raise FileError(f"it has a line of more than {LINE} characters")
@@ -77,7 +79,7 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
         if block is None:  # perhaps for blank cells only
             block = _plain(_filled(chunk, text.delimiter), text, used)
         if block is None:
-            odd += sum(map(len, lines))
+            odd += len(chunk)
             if odd > _ODD:
                 raise FileError("too many of its lines are not just numbers")
             block = _any(lines, text, used, table)
