@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from stackbounce.calibrate import calibrate, contact_time, restitution, separate
     from stackbounce.errors import StackbounceError
+    from stackbounce.measure import read
     from stackbounce.model import (
         Ball,
         Dashpot,
@@ -43,6 +44,7 @@ __all__ = [
     "__version__",
     "calibrate",
     "contact_time",
+    "read",
     "restitution",
     "separate",
     "series",
@@ -54,6 +56,7 @@ __all__ = [
 _ROOMS = {
     "calibrate": ("calibrate", "contact_time", "restitution", "separate"),
     "errors": ("StackbounceError",),
+    "measure": ("read",),
     "result": ("Result", "Status"),
     "simulate": ("simulate",),
     "sweep": ("sweep",),

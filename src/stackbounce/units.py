@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidType, UnitError, finite, shown
 if TYPE_CHECKING:
     import pint
 
-__all__ = ["Unit", "factor", "quantity"]
+__all__ = ["Unit", "factor", "in_si", "quantity"]
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
@@ -29,6 +29,21 @@ _KINDS = {
     "N s/m": ("a damping", "7 N s/m"),
     "s/m": ("a dissipation", "0.2 s/m"),
     "Pa": ("a pressure", "210 GPa"),
+}
+
+# The SI units that columns of measurements come in, and how programs write the commonest ones.
+_SI = ("s", "m", "N", "V", "1", "m/s", "m/s^2", "kg", "J", "Pa", "Hz", "A", "N/m", "N s", "kg m/s")
+_WRITTEN_OUT = {
+    "m/s²": "m/s^2", "m/s/s": "m/s^2", "ms^-2": "m/s^2", "m/s2": "m/s^2", "g0": "standard_gravity",
+    "sec": "s", "secs": "s", "second": "s", "seconds": "s", "Second": "s", "Seconds": "s",
+    "msec": "ms", "us": "µs", "μs": "µs", "μm": "µm", "μV": "µV",
+    "Volt": "V", "Volts": "V", "volt": "V", "volts": "V", "newton": "N", "Newton": "N", "lbs": "lb",
+}  # fmt: skip
+_PIXEL = re.compile(r"px|pix|pixels?|dots?", re.IGNORECASE)  # a length on paper to pint
+_PREFIXES = {"k": 1e3, "": 1.0, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
+_COMMON = {f"{p}{unit}": (size, unit) for p, size in _PREFIXES.items() for unit in "smNV"} | {
+    "m/s": (1.0, "m/s"),
+    "m/s^2": (1.0, "m/s^2"),
 }
 
 
@@ -109,6 +124,42 @@ def factor(written: str, unit: str, name: str = "value") -> float:
     0.001
     """
     return _factor(written, unit, _message(name, written, unit))
+
+
+@functools.lru_cache(maxsize=1000)
+def in_si(written: str, *, common: bool = False) -> tuple[float, str] | None:
+    """Return how much of which SI unit one of a unit is, whatever it measures.
+
+    Parameters
+    ----------
+    written : str
+        The unit, as the header of a column has it.
+    common : bool, optional
+        Know only those units that measurements of bounces are written in: seconds, metres, newtons
+        and volts with their prefixes, where any letter could be meant as a unit or not.
+
+    Returns
+    -------
+    tuple of float and str, or None
+        None where no unit is written that is known and proportional to an SI unit: a pixel and a
+        degree Celsius are not.
+
+    Examples
+    --------
+    >>> in_si("ms"), in_si("kN"), in_si("px")
+    ((0.001, 's'), (1000.0, 'N'), None)
+    """
+    written = _WRITTEN_OUT.get(written.strip(), written.strip())
+    if written in _COMMON or common:
+        return _COMMON.get(written)
+    if not written or len(written) > 30 or _PIXEL.fullmatch(written):
+        return None
+    for unit in _SI:
+        try:
+            return _factor(written, unit, ""), unit
+        except UnitError:
+            continue
+    return None
 
 
 def _factor(written: str, unit: str, message: str) -> float:

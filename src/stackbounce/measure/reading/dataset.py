@@ -1,0 +1,239 @@
+"""Columns -> the Dataset of what they hold."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import FileError, InvalidValue
+from stackbounce.measure.reading.bounces import INFERRED, bounces
+from stackbounce.measure.reading.roles import ACCELERATIONS, Column
+from stackbounce.measure.reading.series import in_time, step_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["HOLDS", "assemble", "holds_of"]
+
+Values = NDArray[np.float64]
+_NEEDS: dict[str, tuple[tuple[str, ...], ...]] = {  # what a kind needs: one role of each
+    "waveform": (("time",), ("force", "voltage")),
+    "sound": (("time",), ("sound",)),
+    "track": (("time",), ("y", "x")),
+    "knocks": (("knock_time",),),
+    "bounces": (),
+    "press curve": (("force",), ("compression",)),
+    "acceleration": (("time",), tuple(reversed(ACCELERATIONS))),
+    "table": (),
+}
+HOLDS = tuple(_NEEDS)
+"""What a file can hold."""
+
+_ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
+_UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
+
+
+def holds_of(columns: Sequence[Column]) -> str:
+    """Return what columns hold, by their roles."""
+    roles = {one.role for one in columns}
+    lengths = [one for one in columns if one.unit == "m" and one.role != "force"]
+    if "knock_time" in roles:
+        return "knocks"
+    if "time" not in roles:
+        pressed = "force" in roles and ("compression" in roles or len(lengths) == 1)
+        return "press curve" if pressed else "table"
+    if {"force", "compression"} <= roles:
+        return "press curve"
+    for kind, signs in (
+        ("waveform", {"force", "voltage"}),
+        ("sound", {"sound"}),
+        ("track", {"x", "y"}),
+        ("acceleration", set(ACCELERATIONS)),
+    ):
+        if signs & roles:
+            return kind
+    return "table"
+
+
+def assemble(
+    holds: str, columns: Sequence[Column], values: Values, run: object
+) -> tuple["xr.Dataset", list[str]]:
+    """Return the Dataset of columns, without its attributes, and what is unsure.
+
+    Parameters
+    ----------
+    holds : str
+        What it is to hold, one of `HOLDS`.
+    columns : sequence of Column
+        What they are.
+    values : numpy.ndarray, shape (rows, columns)
+        Their numbers, as in the file.
+    run : object
+        The run that is wanted, where there are several below each other.
+
+    Raises
+    ------
+    InvalidValue
+        If the columns cannot hold that.
+    FileError
+        If there is no row of it.
+    """
+    if holds == "bounces":
+        return bounces(columns, values), [INFERRED]
+    columns = _fitting(holds, columns)
+    doubts = [one.doubt for one in columns if one.doubt]
+    columns = _assumed(columns, doubts)
+    for k, one in enumerate(columns):
+        if one.factor != 1.0:
+            values[:, k] *= one.factor
+    data, more = _BUILDERS.get(holds, _series)(columns, values, run)
+    return data, doubts + more
+
+
+def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
+    """Return columns, those in the roles that are needed which can be in them."""
+    found = list(columns)
+    taken: set[int] = set()
+    missing = []
+    for roles in _NEEDS[holds]:
+        at = next((k for k, one in enumerate(found) if one.role in roles), None)
+        if at is None:
+            missing.append(roles)
+        else:
+            taken.add(at)
+    for roles in missing:
+        wanted = _UNITS[roles[0]]
+        fits = ("", wanted, "V") if roles[0] == "sound" else ("", wanted)
+        free = [k for k, one in enumerate(found) if k not in taken and one.unit in fits]
+        free.sort(key=lambda k: found[k].unit != wanted)
+        if not free:
+            needs = " and ".join(" or ".join(one) for one in _NEEDS[holds])
+            names = ", ".join(one.heading.text or f"column {one.index + 1}" for one in found[:20])
+            raise InvalidValue(
+                f"holds: a {holds} needs columns of {needs}; it has {names}: "
+                f"names={{…: '{roles[0]}'}} tells which"
+            )
+        taken.add(free[0])
+        found[free[0]] = replace(found[free[0]], role=roles[0], named="")
+    return found
+
+
+def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
+    """Return columns, those without a unit in SI where only that can be meant."""
+    without = [one for one in columns if one.role in _ASSUMED and not one.unit]
+    told = [one for one in without if not one.heading.unit]
+    if told:
+        names = dict.fromkeys(one.heading.name or one.variable for one in told)
+        units = dict.fromkeys(_ASSUMED[one.role] for one in told)
+        doubts.append(
+            f"no unit is told for {', '.join(names)}: taken as {', '.join(units)}; "
+            f"units={{{', '.join(f'{one!r}: …' for one in names)}}} tells another"
+        )
+    return [replace(one, unit=_ASSUMED[one.role]) if one in told else one for one in columns]
+
+
+def _said(one: Column) -> dict[str, str]:
+    return {"units": one.unit, "long_name": one.heading.text or f"column {one.index + 1}"}
+
+
+def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
+    """Return names for columns, each only once."""
+    names: list[str] = list(without)
+    for one in columns:
+        name, k = one.variable, 1
+        while name in names:
+            k += 1
+            name = f"{one.variable}_{k}"
+        names.append(name)
+    return names[len(without) :]
+
+
+def _data(
+    columns: Sequence[Column], values: Values, dimension: str, skip: int = -1
+) -> dict[str, Any]:
+    kept = [k for k in range(len(columns)) if k != skip]
+    names = _named([columns[k] for k in kept], [dimension])
+    return {
+        name: (dimension, np.ascontiguousarray(values[:, k]), _said(columns[k]))
+        for name, k in zip(names, kept, strict=True)
+    }
+
+
+_Built = tuple["xr.Dataset", list[str]]
+
+
+def _series(columns: Sequence[Column], values: Values, run: object) -> _Built:
+    """Return waveforms, sounds and accelerations: anything over time."""
+    import xarray as xr
+
+    at = _at(columns, "time")
+    rows, doubts = in_time(values[:, at], run, gaps=True)
+    values = values[rows]
+    data = _data(columns, values, "time", skip=at)
+    if "sound" in data:
+        data["sound"][2]["rate"] = 1.0 / step if (step := step_of(values[:, at])) > 0.0 else np.nan
+    return xr.Dataset(data, coords={"time": ("time", values[:, at], _said(columns[at]))}), doubts
+
+
+def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
+    """Return x and y of each track, and what else there is of it."""
+    import xarray as xr
+
+    at = _at(columns, "time")
+    rows, doubts = in_time(values[:, at], run, gaps=False)
+    values = values[rows]
+    others = [k for k in range(len(columns)) if k != at]
+    tracks = list(dict.fromkeys(columns[k].track for k in others))
+    names: list[list[str]] = [
+        _named([columns[k] for k in others if columns[k].track == one], ["time", "track"])
+        for one in tracks
+    ]
+    blank = np.full((len(values), len(tracks)), np.nan)
+    data: dict[str, Any] = {
+        axis: (("time", "track"), blank.copy(), {"units": "m", "long_name": axis}) for axis in "xy"
+    }
+    for k, track in enumerate(tracks):
+        own = [j for j in others if columns[j].track == track]
+        for name, j in zip(names[k], own, strict=True):
+            place = data.setdefault(name, (("time", "track"), blank.copy(), _said(columns[j])))
+            place[1][:, k] = values[:, j]
+            place[2].update(_said(columns[j]))
+    coords = {
+        "time": ("time", values[:, at], _said(columns[at])),
+        "track": [one or f"track {k}" for k, one in enumerate(tracks, 1)],
+    }
+    if not any(columns[k].role == "x" for k in others):
+        doubts.append("only one position: taken as the height y, upwards")
+    return xr.Dataset(data, coords=coords), doubts
+
+
+def _rows(dimension: str, *roles: str) -> Callable[[Sequence[Column], Values, object], _Built]:
+    """Return a builder of rows in which the columns of some roles are numbers."""
+
+    def build(columns: Sequence[Column], values: Values, run: object) -> _Built:
+        import xarray as xr
+
+        if run is not None:
+            raise InvalidValue("run: there is none to choose, as this holds no times")
+        whole = np.ones(len(values), dtype=bool)
+        for role in roles:
+            whole &= np.isfinite(values[:, _at(columns, role)])
+        if not whole.any():
+            raise FileError(f"it has no row with {' and '.join(roles)}")
+        return xr.Dataset(_data(columns, values[whole], dimension)), []
+
+    return build
+
+
+_BUILDERS: dict[str, Callable[[Sequence[Column], Values, object], _Built]] = {
+    "track": _track,
+    "press curve": _rows("point", "force", "compression"),
+    "knocks": _rows("knock", "knock_time"),
+    "table": _rows("row"),
+}
+
+
+def _at(columns: Sequence[Column], role: str) -> int:
+    return next(k for k, one in enumerate(columns) if one.role == role)

@@ -1,0 +1,84 @@
+"""What is refused before it can hurt: folders, devices, files too large, files of another kind."""
+
+import os
+import stat
+from pathlib import Path
+
+from stackbounce.errors import FileError, InvalidType, shown
+
+__all__ = ["BYTES", "CELLS", "COLUMNS", "LINE", "content_of", "refuse_others"]
+
+BYTES = 2**28
+"""Bytes of a file, and of the tables in a zip archive together, at most."""
+
+CELLS = 2**26
+"""Numbers that a table or a sound may have, at most."""
+
+COLUMNS = 1000
+"""Columns of a table, at most."""
+
+LINE = 2**20
+"""Characters in a line, at most."""
+
+# How files begin that are often at hand instead: (where, what, what it is, what to do).
+_OTHERS = (
+    (4, b"ftyp", "a video or a sound in MPEG-4", "track a video first, or save the sound as WAV"),
+    (0, b"ID3", "an MP3 sound", "save it as WAV"),
+    (0, b"\xff\xfb", "an MP3 sound", "save it as WAV"),
+    (0, b"OggS", "an Ogg sound", "save it as WAV"),
+    (0, b"fLaC", "a FLAC sound", "save it as WAV"),
+    (0, b"caff", "a Core Audio sound", "save it as WAV"),
+    (0, b"FORM", "an AIFF sound", "save it as WAV"),
+    (0, b"\x89PNG", "a picture", "export the numbers"),
+    (0, b"\xff\xd8\xff", "a picture", "export the numbers"),
+    (0, b"%PDF", "a PDF document", "export the numbers as CSV"),
+    (0, b"\xd0\xcf\x11\xe0", "an old spreadsheet or document", "save it as CSV"),
+    (0, b"\x89HDF", "an HDF5 file", "export the numbers as CSV"),
+    (0, b"MATLAB", "a MATLAB file", "export the numbers as CSV"),
+    (0, b"\x1f\x8b", "compressed by gzip", "unpack it"),
+    (0, b"7z\xbc\xaf", "a 7z archive", "unpack it"),
+    (0, b"Rar!", "a RAR archive", "unpack it"),
+    (0, b"<", "XML or HTML, such as a program's own project", "export its table as text or CSV"),
+)
+
+
+def content_of(path: object) -> tuple[str, bytes]:
+    """Return the name of a file and its bytes.
+
+    Raises
+    ------
+    InvalidType
+        If `path` is neither a string nor a path.
+    FileError
+        If it cannot be read, is no ordinary file, is empty, or larger than `BYTES`.
+    """
+    name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
+    if not isinstance(name, str):
+        raise InvalidType(f"path must be a string or a path, got {shown(path)}")
+    try:
+        mode = os.stat(name).st_mode  # noqa: PTH116  # Path("") is the folder one is in
+        if stat.S_ISDIR(mode):
+            raise FileError(f"{name} is a folder: give one of its files")
+        if not stat.S_ISREG(mode):  # a pipe or a device may never end
+            raise FileError(f"{name} is no ordinary file: copy what it gives into one")
+        with Path(name).open("rb") as file:  # which has room made for all that is asked for
+            content = file.read(min(os.fstat(file.fileno()).st_size, BYTES) + 1)
+    except OSError as error:
+        if isinstance(error, FileError):
+            raise
+        raise FileError(f"{shown(name)} cannot be read: {error.strerror or error}") from error
+    except ValueError as error:  # a null character in the name
+        raise FileError(f"{shown(name)} cannot be read: {error}") from error
+    if len(content) > BYTES:
+        raise FileError(f"{name} is larger than {BYTES >> 20} MiB: cut out what is of interest")
+    if not content:
+        raise FileError(f"{name} is empty")
+    return name, content
+
+
+def refuse_others(content: bytes) -> None:
+    """Refuse the kinds of files that are often at hand instead of a table or a sound."""
+    begin = content[:64].removeprefix(b"\xef\xbb\xbf").lstrip()
+    for where, what, kind, remedy in _OTHERS:
+        if begin[where:].startswith(what):
+            raise FileError(f"it is {kind}, not a table or a WAV sound: {remedy}")

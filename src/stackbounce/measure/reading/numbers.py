@@ -1,0 +1,166 @@
+"""The rows of a table -> an array; what is no number there is counted, not hidden."""
+
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import FileError
+from stackbounce.measure.reading.limits import CELLS, LINE
+from stackbounce.measure.reading.text import Text, number, split
+
+__all__ = ["Table", "rows_of"]
+
+_CHUNK = 2**22  # characters that are read at once
+_ODD = 2**23  # characters that are looked at one by one, at most: some seconds
+
+
+@dataclass
+class Table:
+    """The numbers of a table.
+
+    Parameters
+    ----------
+    values : numpy.ndarray, shape (rows, columns)
+        NaN where there is no number, or an infinite one.
+    strange : numpy.ndarray, shape (columns,)
+        How many cells of each column are neither numbers nor missing.
+    first : str
+        The first of these.
+    infinite : int
+        How many numbers are infinite: beyond the range of an instrument.
+    words : int
+        How many lines have no number at all.
+    word : str
+        The first of these.
+    longer, shorter : int
+        How many rows have more cells, or fewer, than there are columns.
+    """
+
+    values: NDArray[np.float64]
+    strange: NDArray[np.int64]
+    first: str = ""
+    infinite: int = 0
+    words: int = 0
+    word: str = ""
+    longer: int = 0
+    shorter: int = 0
+
+
+def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
+    """Return the numbers of some columns, from one of the first lines to the end.
+
+    Parameters
+    ----------
+    text : Text
+        The table.
+    first : int
+        The first row of numbers, as an index to its first lines.
+    used : sequence of int
+        The columns that are wanted, in order.
+
+    Raises
+    ------
+    FileError
+        If a line is endless, or there are more than `limits.CELLS` numbers.
+    """
+    table = Table(np.empty((0, len(used))), np.zeros(len(used), dtype=np.int64))
+    blocks, count, odd = [], 0, 0
+    for chunk in _chunks(text.content, text.starts[first]):
+        if not chunk or chunk.isspace():
+            continue
+        lines = chunk.split("\n")
+        if len(max(lines, key=len)) > LINE:
+            raise FileError(f"it has a line of more than {LINE} characters")
+        block = _plain(lines, text, used)
+        if block is None:  # perhaps for blank cells only
+            block = _plain(_filled(chunk, text.delimiter), text, used)
+        if block is None:
+            odd += len(chunk)
+            if odd > _ODD:
+                raise FileError("too many of its lines are not just numbers")
+            block = _any(lines, text, used, table)
+        count += block.size
+        if count > CELLS:
+            raise FileError(f"it has more than {CELLS} numbers: cut out what is of interest")
+        blocks.append(block)
+    if blocks:
+        values = np.concatenate(blocks)
+        blank = np.isnan(values).all(axis=1)
+        table.values = values[~blank] if blank.any() else values
+    infinite = np.isinf(table.values)
+    table.infinite = int(infinite.sum())
+    if table.infinite:
+        table.values[infinite] = np.nan
+    return table
+
+
+def _chunks(content: str, start: int) -> Iterator[str]:
+    while start < len(content):
+        end = content.rfind("\n", start, start + _CHUNK) if len(content) > start + _CHUNK else -1
+        if end < 0 and len(content) > start + _CHUNK:
+            raise FileError(f"it has a line of more than {LINE} characters")
+        end = len(content) if end < 0 else end
+        yield content[start:end]
+        start = end + 1
+
+
+def _plain(lines: list[str], text: Text, used: Sequence[int]) -> NDArray[np.float64] | None:
+    """Return rows in which each wanted cell is a plain number, or None where they are others."""
+    if text.decimal == ",":
+        if any("." in line for line in lines):  # between thousands
+            return None
+        lines = [line.replace(",", ".") for line in lines] if text.delimiter != "," else lines
+    width = len(split(lines[0], text.delimiter))
+    if width < 1 or max(used) >= width or not any(line.strip() for line in lines):
+        return None
+    every = list(used) == list(range(width))
+    try:
+        block = np.loadtxt(
+            lines,
+            delimiter=None if text.delimiter == " " else text.delimiter,
+            comments=None,
+            quotechar='"',
+            usecols=None if every else list(used),
+            ndmin=2,
+        )
+    except (ValueError, OverflowError):
+        return None
+    return block if block.shape[1] == len(used) else None
+
+
+def _filled(chunk: str, delimiter: str) -> list[str]:
+    """Return lines in which blank cells say that they are none."""
+    if delimiter == " ":
+        return chunk.split("\n")
+    ends = rf"{delimiter}\n"
+    return re.sub(rf"(?m)(?<={delimiter})(?=[{ends}]|\Z)|^(?={delimiter})", "nan", chunk).split(
+        "\n"
+    )
+
+
+def _any(lines: list[str], text: Text, used: Sequence[int], table: Table) -> NDArray[np.float64]:
+    """Return rows of whatever cells."""
+    rows = []
+    need, nan = max(used) + 1, math.nan
+    for line in lines:
+        cells = split(line, text.delimiter)
+        if not any(cells):
+            continue
+        table.longer += any(cells[need:])
+        table.shorter += len(cells) < need
+        row = [number(cells[k], text.decimal) if k < len(cells) else nan for k in used]
+        if None in row:
+            if all(one is None or one != one for one in row):  # a line of words among the numbers
+                table.word = table.word or line[:60]
+                table.words += 1
+                continue
+            table.first = table.first or next(
+                cells[k] for k, one in zip(used, row, strict=True) if one is None
+            )
+            table.strange += [one is None for one in row]
+        rows.append([nan if one is None else one for one in row])
+    return np.array(rows, dtype=np.float64).reshape(len(rows), len(used))

@@ -1,0 +1,115 @@
+"""What the caller tells of a file, and what that makes of its columns."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.measure.reading.dataset import HOLDS
+from stackbounce.measure.reading.headings import slug
+from stackbounce.measure.reading.roles import Column
+from stackbounce.units import in_si
+
+__all__ = ["Told", "as_told", "of_run", "told_by"]
+
+_Key = str | int
+
+
+@dataclass(frozen=True)
+class Told:
+    """What the caller tells."""
+
+    holds: str | None = None
+    table: str | None = None
+    run: str | int | None = None
+    names: Mapping[_Key, str] = field(default_factory=dict)
+    units: Mapping[_Key, str] = field(default_factory=dict)
+    decimal: str | None = None
+
+
+def told_by(
+    holds: object, table: object, run: object, names: object, units: object, decimal: object
+) -> Told:
+    """Return the options of `read`, checked as far as they can be without a file."""
+    if holds is not None and not (isinstance(holds, str) and holds in HOLDS):
+        raise InvalidValue(
+            f"holds must be what a file holds, got {shown(holds)}; {nearest(holds, HOLDS)}"
+        )
+    if not isinstance(table, str | None):
+        raise InvalidType(f"table must be a name, got {shown(table)}")
+    if isinstance(run, bool) or not isinstance(run, str | int | None):
+        raise InvalidType(f"run must be a name or a number, got {shown(run)}")
+    if not isinstance(decimal, str | None):
+        raise InvalidType(f'decimal must be "." or ",", got {shown(decimal)}')
+    called, measured = _mapping("names", names), _mapping("units", units)
+    for name in called.values():
+        if not name.isidentifier():
+            raise InvalidValue(f"names: {shown(name)} is no name, such as 'force'")
+    for unit in measured.values():
+        if in_si(unit) is None:
+            raise InvalidValue(f"units: {shown(unit)} is no unit that is known, such as 'mm'")
+    return Told(holds, table, run, called, measured, decimal)
+
+
+def _mapping(option: str, given: object) -> dict[_Key, str]:
+    """Return columns and what is told of each."""
+    if given is None:
+        return {}
+    if not isinstance(given, Mapping):
+        raise InvalidType(f"{option} must be a mapping of columns, got {shown(given)}")
+    told = {}
+    for key, value in given.items():
+        if not isinstance(key, str | int) or not isinstance(value, str):
+            raise InvalidType(f"{option} must map columns to text, got {shown({key: value})}")
+        told[key] = value
+    return told
+
+
+def as_told(columns: Sequence[Column], told: Told) -> list[Column]:
+    """Return columns with the names and units that the caller tells."""
+    found = list(columns)
+    for option, mapping in (("units", told.units), ("names", told.names)):
+        for key, value in mapping.items():
+            places = [k for k, one in enumerate(found) if _is(one, key)]
+            if not places:
+                known = [one.heading.text or str(one.index + 1) for one in found[:50]]
+                raise InvalidValue(
+                    f"{option}: there is no column {shown(key)}; {nearest(key, known)}"
+                )
+            for k in places:
+                if option == "names":
+                    found[k] = found[k].called(value, None)
+                else:
+                    found[k] = found[k].called("", value)
+    return found
+
+
+def _is(column: Column, key: _Key) -> bool:
+    if str(key).isascii() and str(key).isdigit():
+        return column.index + 1 == int(str(key)[:9])
+    word = str(key).strip().casefold()
+    said = column.heading
+    return word in (said.text.casefold(), said.name.casefold(), slug(said.name), column.variable)
+
+
+def of_run(
+    columns: Sequence[Column], run: str | int | None, doubts: list[str]
+) -> tuple[list[Column], bool]:
+    """Return the columns of one run, and whether there are several of them side by side."""
+    runs = list(dict.fromkeys(one.heading.run for one in columns if one.heading.run))
+    if len(runs) < 2:
+        return list(columns), False
+    if run is None:
+        chosen = runs[0]
+        doubts.append(f"{len(runs)} runs; {chosen!r} is read, run={runs[1]!r} reads another")
+    else:
+        word = str(run).casefold()
+        named = [one for k, one in enumerate(runs, 1) if word in (one.casefold(), str(k))]
+        if not named:
+            raise InvalidValue(
+                f"run must be one that is there, got {shown(run)}; {nearest(run, runs)}"
+            )
+        chosen = named[0]
+    own = [one for one in columns if one.heading.run in (chosen, "")]
+    if not any(one.role == "time" for one in own):  # one time for all runs
+        own = [one for one in columns if one.role == "time"][:1] + own
+    return own, True

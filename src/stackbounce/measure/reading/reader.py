@@ -1,0 +1,219 @@
+"""The one function: a file, whatever wrote it -> a Dataset that says what it holds."""
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import (
+    FileError,
+    InvalidValue,
+    StackbounceError,
+    shown,
+)
+from stackbounce.measure.reading import layouts, wav, zipped
+from stackbounce.measure.reading.dataset import assemble, holds_of
+from stackbounce.measure.reading.limits import content_of, refuse_others
+from stackbounce.measure.reading.numbers import Table, rows_of
+from stackbounce.measure.reading.options import Told, as_told, of_run, told_by
+from stackbounce.measure.reading.roles import Column
+from stackbounce.measure.reading.scopes import scopes
+from stackbounce.measure.reading.text import decode, tabulate
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["read"]
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    holds: str | None = None,
+    table: str | None = None,
+    run: str | int | None = None,
+    names: Mapping[str | int, str] | None = None,
+    units: Mapping[str | int, str] | None = None,
+    decimal: str | None = None,
+) -> "xr.Dataset":
+    r"""Return what a file of measurements holds, recognised by its content, in SI units.
+
+    Tables of Tracker, phyphox (also its zip archives), Vernier, Logger Pro, PASCO Capstone,
+    oscilloscopes of Rigol, Pico and Tektronix, any other table of numbers with names and units in
+    its header, and WAV sound. All options are for files that are not told right without them.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file; its name does not matter.
+    holds : str, optional
+        What it holds: ``"waveform"``, ``"sound"``, ``"track"``, ``"knocks"``, ``"bounces"``,
+        ``"press curve"``, ``"acceleration"`` or ``"table"``.
+    table : str, optional
+        Which table of a zip archive, such as ``"Raw Data.csv"`` or ``"Raw Data"``.
+    run : str or int, optional
+        Which run of a table with several, by its name or counted from 1; by default the first.
+    names : mapping, optional
+        What columns are, by their names in the file or counted from 1, such as
+        ``{1: "time", 2: "force"}``: ``"time"``, ``"force"``, ``"voltage"``, ``"compression"``,
+        ``"x"``, ``"y"``, ``"sound"``, ``"knock_time"``, ``"acceleration_x"`` … or any other name.
+    units : mapping, optional
+        Units of columns, by their names or counted from 1, such as ``{"x": "cm", "y": "cm"}``.
+    decimal : str, optional
+        The decimal mark, ``"."`` or ``","``.
+
+    Returns
+    -------
+    xarray.Dataset
+        A variable for each column, with attributes `units` (SI; empty where unknown) and
+        `long_name` (as in the file). By what the Dataset `holds`:
+
+        - waveform: `force` or `voltage` (time), further channels `force_2` …
+        - sound: `sound` (time) of full scale 1, channels averaged; its attribute `rate` in Hz
+        - acceleration: `acceleration_x`, `_y`, `_z`, `_absolute` (time), as far as they are there
+        - track: `x`, `y` (time, track), NaN where a track has no point
+        - knocks: `knock_time` (knock)
+        - bounces: `knock_time` (knock), `height` and `energy` (bounce), by phyphox
+        - press curve: `compression`, `force` (point)
+        - table: whatever there is (row)
+
+        Its attributes are `format`, the program; `why`, what in the content told; `holds`;
+        `doubt`, what is unsure and how to tell it, or empty; `source`, the name of the file.
+
+    Raises
+    ------
+    FileError
+        If the file cannot be read, or is nothing that can be told; if it is larger than 256 MiB
+        (a zip archive: unpacked), or has more than 1000 columns or 67 million numbers.
+    InvalidValue, InvalidType
+        If an option makes no sense for this file.
+
+    Notes
+    -----
+    Cells without a number are NaN, also those beyond an instrument's range (∞); rows without a
+    time are left out. Of a sound that is cut off, what is there is read. Both is said in `doubt`.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> path = getfixture("tmp_path") / "force.csv"
+    >>> _ = path.write_text("Time (ms),Force (kN)\n0.0,0.0\n0.1,1.5\n0.2,0.1\n")
+    >>> data = sb.read(path)
+    >>> data.attrs["holds"], data.attrs["why"]
+    ('waveform', 'a header names its columns: Time (ms), Force (kN)')
+    >>> data.force.values
+    array([   0., 1500.,  100.])
+    """
+    told = told_by(holds, table, run, names, units, decimal)
+    name, content = content_of(path)
+    try:
+        data = _read(content, told)
+    except StackbounceError as error:
+        raise type(error)(f"{name}: {error}") from error
+    except MemoryError as error:
+        raise FileError(f"{name} is too large for the memory of this machine") from error
+    data.attrs["source"] = Path(name).name
+    return data
+
+
+def _read(content: bytes, told: Told) -> "xr.Dataset":
+    if wav.is_wav(content):
+        data, why, doubts = wav.read_wav(content)
+        if told.holds not in (None, "sound"):
+            raise InvalidValue(f"holds: it is a sound, got {shown(told.holds)}")
+        return _signed(data, "WAV", why, "sound", doubts)
+    if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
+        return _from_zip(content, told)
+    if told.table is not None:
+        raise InvalidValue("table: there is one only, as it is no zip archive")
+    return _from_text(content, told)
+
+
+def _from_zip(content: bytes, told: Told) -> "xr.Dataset":
+    members, by_phyphox = zipped.members(content)
+    names = sorted(members, key=lambda one: (one.count("/"), one))
+    if told.table is not None:
+        names = [zipped.chosen(names, told.table)]
+    read: list[tuple[str, xr.Dataset]] = []
+    for name in names:
+        try:
+            read.append((name, _from_text(members.pop(name), told)))
+        except StackbounceError as error:
+            if name == names[-1] and not read:
+                raise type(error)(f"{name}: {error}") from error
+            continue
+        if read[-1][1].attrs["holds"] != "table":
+            break
+    name, data = next((one for one in read if one[1].attrs["holds"] != "table"), read[0])
+    if by_phyphox and not data.attrs["format"].startswith("phyphox"):
+        data.attrs["format"] = "phyphox"
+        data.attrs["why"] = f"its meta/device.csv is phyphox's; {data.attrs['why']}"
+    others = [one for one in names if one != name]
+    if others:
+        more = f"{name} of it is read; table={others[0]!r} reads another"
+        data.attrs["doubt"] = "; ".join(filter(None, [data.attrs["doubt"], more]))
+    return data
+
+
+def _from_text(content: bytes, told: Told) -> "xr.Dataset":
+    refuse_others(content)
+    text = tabulate(decode(content), told.decimal)
+    asked = (*layouts.tables, *scopes)
+    layout = next((found for one in asked if (found := one(text))), None) or layouts.generic(text)
+    columns = as_told(layout.columns, told)
+    doubts = [*text.doubts, *(() if told.names else layout.doubts)]
+    columns, runs = of_run(columns, told.run, doubts)
+    table = rows_of(text, layout.first, [one.index for one in columns])
+    if layout.clock:
+        table.values[:, 0] = layout.clock[0] + layout.clock[1] * table.values[:, 0]
+    doubts += _flaws(table)
+    is_bounces = layout.format == "phyphox: (in)elastic collision"
+    values = table.values
+    if not is_bounces:
+        columns, values = _numeric(columns, table)
+    holds = told.holds or ("bounces" if is_bounces else holds_of(columns))
+    if holds == "bounces" and not is_bounces:
+        raise InvalidValue("holds: only phyphox's (in)elastic collision holds bounces")
+    data, more = assemble(holds, columns, values, None if runs else told.run)
+    return _signed(data, layout.format, layout.why, holds, doubts + more)
+
+
+def _signed(
+    data: "xr.Dataset", form: str, why: str, holds: str, doubts: Sequence[str]
+) -> "xr.Dataset":
+    doubt = "; ".join(dict.fromkeys(doubts))
+    data.attrs = {"format": form, "why": why, "doubt": doubt, "holds": holds}
+    return data
+
+
+def _flaws(table: Table) -> list[str]:
+    rows = len(table.values)
+    strange = int(table.strange.sum())
+    flaws = []
+    if strange and table.strange.max() <= rows / 2:
+        flaws.append(
+            f"{strange} cells are no numbers, the first {shown(table.first)}: taken as missing"
+        )
+    if table.words:
+        first = shown(table.word)
+        flaws.append(f"{table.words} lines among the numbers are words, first {first}: left out")
+    if table.infinite:
+        flaws.append(f"{table.infinite} numbers are infinite, beyond the range: taken as missing")
+    if table.longer:
+        flaws.append(f"{table.longer} rows have more cells than the others")
+    if table.shorter:
+        flaws.append(f"{table.shorter} rows have fewer cells than the others")
+    return flaws
+
+
+def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], NDArray[np.float64]]:
+    """Return the columns that have numbers, and these."""
+    there = np.isfinite(table.values).any(axis=0) & (table.strange <= len(table.values) / 2)
+    if not there.any():
+        raise FileError("it has no column of numbers")
+    kept = [k for k in range(len(columns)) if there[k]]
+    values = table.values if len(kept) == len(columns) else table.values[:, kept]
+    return [columns[k] for k in kept], values

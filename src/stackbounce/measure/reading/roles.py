@@ -1,0 +1,136 @@
+"""Names and units -> what a column is: a time, a force, a position."""
+
+import re
+from dataclasses import dataclass, replace
+
+from stackbounce.measure.reading.headings import Heading, slug
+from stackbounce.units import in_si
+
+__all__ = ["ACCELERATIONS", "Column", "column"]
+
+_WORDS = {  # role: the whole name, folded, in the languages that files are often in
+    "knock_time": r"(event|knock|bounce|impact)s?[ _]?(times?)?|ereigniszeit",
+    "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|seconds?|sec",
+    "compression": r"(crosshead |compressive |standard)?(compress\w*|extension|deflection|stroke"
+    r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung)|c",
+    "force": r"((standard|normal|impact|contact) ?)?(force|kraft|load|last|fuerza|forza)"
+    r"( ?[a-z0-9])?|f([_ ]?[xyzn0-9])?",
+    "voltage": r"(voltage|volts?|spannung|tension|potential|signal|sensor|piezo|u)([ _]?[a-z0-9])?"
+    r"|ch(annel|an)?[ _]?[a-z0-9]|math[ _]?\d?",
+    "sound": r"(recording|audio|sound|sound pressure|microphone|mic|amplitude|aufnahme)",
+    "x": r"x|(x[ _-]?position|position[ _-]?x)",
+    "y": r"y|(y[ _-]?position|position[ _-]?y)|position|distance|height|höhe|abstand|ort",
+}
+_ROLES = {role: re.compile(words) for role, words in _WORDS.items()}
+_ACCELERATION = re.compile(
+    r"(?P<before>.*\b)?(acceleration|beschleunigung)(?P<rest>.*)|a(?P<axis>[_ ]?[xyz])?"
+)
+_WANTED = {  # the SI units that a column in a role can have
+    "knock_time": "s", "time": "s", "compression": "m", "force": "N kg", "voltage": "V A",
+    "sound": "V Pa 1", "x": "m", "y": "m",
+}  # fmt: skip
+_BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
+_BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # times, but not when
+_ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
+ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
+G = 9.80665
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table.
+
+    Parameters
+    ----------
+    index : int
+        Where it stands, from 0.
+    heading : Heading
+        What its header says.
+    role : str
+        ``time``, ``force``, ``x`` …; empty for anything else.
+    factor : float
+        From what the file has to SI.
+    unit : str
+        The SI unit; empty where it is unknown.
+    track : str
+        Whose it is, where a table has several tracks.
+    named : str
+        What it is to be called, where the caller says so.
+    doubt : str
+        What is unsure about it.
+    """
+
+    index: int
+    heading: Heading
+    role: str = ""
+    factor: float = 1.0
+    unit: str = ""
+    track: str = ""
+    named: str = ""
+    doubt: str = ""
+
+    @property
+    def variable(self) -> str:
+        """What it is called in the Dataset."""
+        return self.named or self.role or slug(self.heading.name or f"column {self.index + 1}")
+
+    def called(self, name: str, unit: str | None) -> "Column":
+        """Return it with another name or unit, as the caller tells."""
+        said = self.heading if unit is None else replace(self.heading, unit=unit)
+        role, factor, symbol, doubt = _role(name or self.heading.name, said.unit, self.role)
+        if name:
+            role = name if name in _ROLES or name in ACCELERATIONS else ""
+        changed = replace(self, heading=said, role=role, factor=factor, unit=symbol, doubt=doubt)
+        return replace(changed, named=name or self.named)
+
+
+def column(index: int, said: Heading, role: str = "", track: str = "") -> Column:
+    """Return a column by what its header says, its role told or found.
+
+    Examples
+    --------
+    >>> from stackbounce.measure.reading.headings import heading
+    >>> force = column(1, heading("Fz (kN) Run #1"))
+    >>> force.role, force.factor, force.unit
+    ('force', 1000.0, 'N')
+    """
+    found, factor, symbol, doubt = _role(said.name, said.unit, role)
+    return Column(index, said, found, factor, symbol, track, doubt=doubt)
+
+
+def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
+    """Return role, factor to SI, SI unit and a doubt."""
+    word = " ".join(name.casefold().replace("_", " ").split())
+    factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
+    doubt = ""
+    if unit and not symbol and re.search(r"\w", unit) and unit not in _ARBITRARY:
+        doubt = f"unit {unit!r} of {name!r} is not known here: its numbers are left as they are"
+    bend = _ACCELERATION.fullmatch(word)
+    if bend and (symbol in ("m/s^2", "") or unit == "g"):
+        factor, symbol = (G, "m/s^2") if unit == "g" else (factor, symbol)
+        return (
+            told or _axis(bend["rest"] or bend["axis"] or bend["before"] or ""),
+            factor,
+            symbol,
+            doubt,
+        )
+    role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
+    if symbol and role and symbol not in _WANTED.get(role, symbol).split():
+        role = ""
+    if role == "sound" and unit in _ARBITRARY:
+        symbol = "1"
+    if not role and symbol in _BY_UNIT and not _BETWEEN.search(word):
+        role = _BY_UNIT[symbol]
+    if role == "force" and symbol == "kg":
+        factor, symbol = factor * G, "N"
+        doubt = f"{name!r} in {unit} is taken as a weight: times {G} m/s^2"
+    if role == "sound" and unit in ("dB", "dBA"):
+        role = ""
+    return role, factor, symbol, doubt
+
+
+def _axis(rest: str) -> str:
+    rest = rest.strip(" _-")
+    if rest in ("x", "y", "z"):
+        return f"acceleration_{rest}"
+    return "acceleration_absolute" if rest.startswith(("abs", "mag", "betrag")) else "acceleration"

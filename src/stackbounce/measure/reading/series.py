@@ -1,0 +1,71 @@
+"""The rows of a table in time: its runs, gaps and repeats."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue, shown
+
+__all__ = ["in_time", "step_of"]
+
+_RUNS = 50
+"""Runs below each other, at most: with more, the column is no time."""
+
+
+def in_time(
+    time: NDArray[np.float64], run: object, *, gaps: bool
+) -> tuple[NDArray[np.intp], list[str]]:
+    """Return the rows of one run, whose times never run backwards, and what is unsure.
+
+    Parameters
+    ----------
+    time : numpy.ndarray
+        Times in s, NaN where there is none: such a row is none.
+    run : object
+        The run that is wanted, counted from 1, or None: the first.
+    gaps : bool
+        Whether missing rows are worth a word.
+
+    Raises
+    ------
+    InvalidValue
+        If times run backwards too often, or there is no such run.
+    """
+    rows = np.flatnonzero(np.isfinite(time))
+    if not rows.size:
+        raise InvalidValue("time: there is none in any row")
+    steps = np.diff(time[rows])
+    again = np.flatnonzero(steps < 0.0) + 1
+    doubts = []
+    if again.size >= _RUNS:
+        raise InvalidValue(
+            f"time runs backwards in {again.size} of {rows.size} rows: "
+            "names={…: 'time'} tells another column"
+        )
+    if again.size:
+        at = 1 if run is None else _counted(run, again.size + 1)
+        rows = np.split(rows, again)[at - 1]
+        steps = np.diff(time[rows])
+        doubts.append(f"time starts again {again.size} times; run {at} of {again.size + 1} is read")
+    elif run is not None:
+        _counted(run, 1)
+    repeated = int((steps == 0.0).sum())
+    if repeated:
+        doubts.append(f"{repeated} times are repeated: written with too few digits, perhaps")
+    usual = float(np.median(steps)) if steps.size else 0.0
+    if gaps and usual > 0.0 and np.mean(np.abs(steps - usual) < 0.01 * usual) > 0.5:
+        wide = np.flatnonzero(steps > 1.5 * usual)
+        if wide.size:
+            where = time[rows[wide[0]]]
+            doubts.append(f"{wide.size} gaps in time, the first after {where:.6g} s")
+    return rows, doubts
+
+
+def step_of(time: NDArray[np.float64]) -> float:
+    """Return the usual step of times, NaN of fewer than two."""
+    return float(np.median(np.diff(time))) if time.size > 1 else float("nan")
+
+
+def _counted(run: object, count: int) -> int:
+    if not str(run).isascii() or not str(run).isdigit() or not 1 <= int(str(run)[:9]) <= count:
+        raise InvalidValue(f"run must be one of the {count} that there are, got {shown(run)}")
+    return int(str(run))

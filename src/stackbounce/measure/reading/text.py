@@ -1,0 +1,244 @@
+"""Bytes -> text -> delimiter, decimal mark and the cells of the first lines."""
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from stackbounce.errors import FileError, InvalidValue, shown
+from stackbounce.measure.reading.limits import COLUMNS, LINE
+
+__all__ = ["Text", "decode", "number", "split", "tabulate"]
+
+HEAD = 200
+"""Lines that are looked at to tell what a table is."""
+
+_DELIMITERS = "\t;, "
+_MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "-", "--", "---", "null", "none", "*"])
+_INFINITE = frozenset(["inf", "infinity", "∞", "1.#inf"])
+_EXPONENT = r"(?:[eE][+-]?[0-9]{1,4})?"
+_NUMBER = re.compile(rf"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+){_EXPONENT}")
+_SPACES = "\u00a0\u202f\u2009 '\u2019"  # between thousands
+_CONTROL = re.compile(r"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
+
+
+@dataclass(frozen=True)
+class Text:
+    """A table as text, with what its first lines tell.
+
+    Parameters
+    ----------
+    content : str
+        All of it, lines ended by a line feed.
+    delimiter : str
+        A tab, ``;``, ``,`` or a space for any run of blanks.
+    decimal : str
+        The decimal mark, ``.`` or ``,``.
+    head : list of list of str
+        The cells of the first lines.
+    starts : list of int
+        Where each of these begins in `content`.
+    doubts : list of str, optional
+        What is unsure about that.
+    """
+
+    content: str
+    delimiter: str
+    decimal: str
+    head: list[list[str]]
+    starts: list[int]
+    doubts: list[str] = field(default_factory=list)
+
+    def line(self, index: int) -> str:
+        """Return one of the first lines."""
+        start = self.starts[index]
+        end = self.content.find("\n", start)
+        return self.content[start : end if end >= 0 else None]
+
+
+def decode(content: bytes) -> str:
+    """Return bytes as text with plain line ends; the encoding is told by a mark or tried.
+
+    Raises
+    ------
+    FileError
+        If they are no text in UTF-8, UTF-16 or Latin-1.
+    """
+    marks = ((b"\xef\xbb\xbf", "utf-8-sig"), (b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16"))
+    encoding = next((name for mark, name in marks if content.startswith(mark)), "")
+    start = content[:1000]
+    if not encoding and b"\0" in start:
+        low, high = start[::2].count(0), start[1::2].count(0)
+        encoding = "utf-16-le" if high > low else "utf-16-be"
+    try:
+        text = content.decode(encoding or "utf-8")
+    except UnicodeDecodeError as error:
+        if "16" in encoding:
+            raise FileError("it is no text: it looks like UTF-16 but is not") from error
+        text = content.decode("latin-1")
+    strange = len(_CONTROL.findall(text[:100_000]))
+    if strange > len(text[:100_000]) / 1000:
+        raise FileError("it is no text, nor any kind of file that is known here")
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return text
+
+
+def split(line: str, delimiter: str) -> list[str]:
+    """Return the cells of a line, without the quotes and blanks around them.
+
+    Examples
+    --------
+    >>> split('"Time (s)", 1.5,', ",")
+    ['Time (s)', '1.5', '']
+    """
+    if delimiter == " ":
+        return line.split()
+    if '"' in line:
+        try:
+            (cells,) = csv.reader([line], delimiter=delimiter, skipinitialspace=True)
+        except (csv.Error, ValueError):
+            pass
+        else:
+            return [cell.strip() for cell in cells]
+    return [cell.strip(' "') for cell in line.split(delimiter)]
+
+
+def number(cell: str, decimal: str) -> float | None:
+    """Return a cell as a number: NaN where it is missing, None where it is something else.
+
+    Examples
+    --------
+    >>> number("1.5e-3", "."), number("1 234,5", ","), number("n/a", "."), number("x", ".")
+    (0.0015, 1234.5, nan, None)
+    """
+    cell = cell.strip().replace("−", "-")
+    if not _NUMBER.fullmatch(cell):
+        word = cell.casefold()
+        if word in _MISSING:
+            return float("nan")
+        if word.lstrip("+-") in _INFINITE:
+            return float("-inf" if word.startswith("-") else "inf")
+        cell = _plain(cell, decimal)
+    elif decimal == "," and _thousands("").fullmatch(cell):
+        cell = cell.replace(".", "")
+    return float(cell) if _NUMBER.fullmatch(cell) else None
+
+
+def _plain(cell: str, decimal: str) -> str:
+    """Return a number without separators between thousands, and with a decimal point."""
+    other = "." if decimal == "," else ","
+    if len(cell) > 60 or not _thousands(decimal).fullmatch(cell):
+        return cell.replace(",", ".", 1) if decimal == "," and "." not in cell else ""
+    for mark in other + _SPACES:
+        cell = cell.replace(mark, "")
+    return cell.replace(",", ".")
+
+
+_GROUPED = {
+    decimal: re.compile(
+        rf"[+-]?[0-9]{{1,3}}(?:([{other}{_SPACES}])[0-9]{{3}})(?:\1[0-9]{{3}})*"
+        rf"(?:{re.escape(decimal)}[0-9]*)?{_EXPONENT}"
+    )
+    for decimal, other in ((".", ","), (",", "."))
+}
+_POINTS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+")
+
+
+def _thousands(decimal: str) -> re.Pattern[str]:
+    return _GROUPED[decimal] if decimal else _POINTS
+
+
+def tabulate(content: str, decimal: str | None = None) -> Text:
+    """Tell the delimiter and the decimal mark of a table by its first lines.
+
+    Raises
+    ------
+    FileError
+        If a line is endless, there are too many columns, or there is no row of numbers.
+    """
+    if decimal not in (None, ".", ","):
+        raise InvalidValue(f'decimal must be "." or ",", got {shown(decimal)}')
+    starts, lines = _head(content)
+    marks = decimal or ".,"
+    found = [_score(lines, delimiter, marks) for delimiter in _DELIMITERS]
+    if decimal == ",":  # a comma is no delimiter then, but where cells are quoted
+        quoted = any('"' in line for line in lines)
+        found[2] = found[2] if quoted else (0, 0)
+    best = max(range(len(found)), key=lambda k: found[k])
+    delimiter = _DELIMITERS[best] if found[best] > (0, 0) else "\t"
+    head = [split(line, delimiter) for line in lines]
+    wide = max(map(len, head), default=0)
+    if wide > COLUMNS:
+        raise FileError(f"it has a line of {wide} cells: at most {COLUMNS} columns are read")
+    mark, doubts = (decimal, []) if decimal else _decimal(head, delimiter)
+    if not any(_numbers(row, mark) for row in head):
+        raise FileError(
+            f"it has no row of numbers in its first {len(head)} lines; "
+            f"it begins with {shown(next((one for one in lines if one.strip()), ''))}"
+        )
+    return Text(content, delimiter, mark, head, starts, doubts)
+
+
+def _head(content: str) -> tuple[list[int], list[str]]:
+    starts: list[int] = []
+    lines: list[str] = []
+    start = 0
+    while start < len(content) and len(lines) < HEAD and start < LINE:
+        end = content.find("\n", start, start + LINE)
+        if end < 0 and len(content) > start + LINE:
+            raise FileError(f"line {len(lines) + 1} has more than {LINE} characters")
+        end = len(content) if end < 0 else end
+        starts.append(start)
+        lines.append(content[start:end])
+        start = end + 1
+    return starts, lines
+
+
+def _numbers(row: list[str], decimal: str) -> int:
+    """Return how many numbers a row has; 0 if any cell is something else."""
+    count = 0
+    for cell in row[:COLUMNS]:
+        value = number(cell, decimal)
+        if value is None:
+            return 0
+        count += value == value  # NaN is not itself
+    return count
+
+
+def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:
+    """Return how many rows of numbers, and how many numbers, a delimiter makes of lines."""
+    rows = cells = 0
+    widths: Counter[int] = Counter()
+    for line in lines:
+        row = split(line[: LINE // 8], delimiter)[:COLUMNS]
+        if len(row) < 2:
+            continue
+        marks = [mark for mark in decimals if not (mark == delimiter == "," and '"' not in line)]
+        count = max((_numbers(row, mark) for mark in marks), default=0)
+        rows += count > 0
+        widths[len(row)] += count > 0
+        if not rows:
+            cells += sum(
+                1 for cell in row if cell and any(number(cell, one) is not None for one in marks)
+            )
+    return max(widths.values(), default=0), 0 if rows else cells
+
+
+def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
+    """Return the decimal mark, and a doubt where commas could separate thousands as well."""
+    cells = [cell for row in head for cell in row if "," in cell]
+    commas = [one for one in cells if re.fullmatch(rf"[+-]?[0-9]*,[0-9]+{_EXPONENT}", one)]
+    points = [one for one in _all(head) if re.fullmatch(rf"[+-]?[0-9]*\.[0-9]+{_EXPONENT}", one)]
+    grouped = [one for one in commas if re.fullmatch(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}", one)]
+    if not commas or (points and len(grouped) == len(commas)):
+        mixed = [one for one in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", one)]
+        return ("," if mixed and delimiter != "," else "."), []
+    if len(grouped) == len(commas):
+        return ",", [f"{grouped[0]!r} is read with a decimal comma: decimal='.' if it is not one"]
+    return ",", []
+
+
+def _all(head: list[list[str]]) -> Iterator[str]:
+    return (cell for row in head for cell in row)

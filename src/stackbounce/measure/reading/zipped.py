@@ -1,0 +1,88 @@
+"""The tables of a zip archive, unpacked in memory and never beyond a limit."""
+
+import io
+import zipfile
+import zlib
+
+from stackbounce.errors import FileError, InvalidValue, nearest, shown
+from stackbounce.measure.reading.limits import BYTES
+
+__all__ = ["chosen", "members"]
+
+_MEMBERS = 1000
+_RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
+_BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError)
+_ENDINGS = (".csv", ".tsv", ".txt", ".dat")
+
+
+def members(content: bytes) -> tuple[dict[str, bytes], bool]:
+    """Return the tables of an archive by their names, and whether phyphox wrote it.
+
+    Names are names only: nothing is written anywhere. Archives inside are left alone.
+
+    Raises
+    ------
+    FileError
+        If the archive is broken, locked, a spreadsheet, without tables, or unpacks to too much.
+    """
+    if content.count(b"PK\x01\x02") > _MEMBERS:
+        raise FileError(f"it is a zip archive of more than {_MEMBERS} files")
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            return _tables(archive)
+    except FileError:
+        raise
+    except _BROKEN as error:
+        raise FileError(f"it is a broken zip archive: {' '.join(str(error).split())}") from error
+
+
+def _tables(archive: zipfile.ZipFile) -> tuple[dict[str, bytes], bool]:
+    entries = archive.infolist()
+    names = {entry.filename for entry in entries}
+    if "[Content_Types].xml" in names:
+        raise FileError("it is a spreadsheet or document: save it as CSV")
+    wanted = [
+        entry for entry in entries
+        if entry.filename.casefold().endswith(_ENDINGS)
+        and not entry.filename.startswith(("meta/", "__MACOSX/"))
+    ]  # fmt: skip
+    if not wanted:
+        raise FileError("it is a zip archive without any table (.csv, .tsv, .txt, .dat)")
+    found: dict[str, bytes] = {}
+    left = BYTES
+    for entry in wanted:
+        name = shown(entry.filename)
+        if entry.flag_bits & 1:
+            raise FileError(f"its {name} is locked by a password: unpack it")
+        if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+            raise FileError(f"its {name} is packed in an unusual way: unpack it")
+        if entry.file_size > 2**20 and entry.file_size > _RATIO * max(entry.compress_size, 1):
+            raise FileError(f"its {name} would unpack to more than {_RATIO} times its size")
+        found[entry.filename] = _unzip(archive, entry, left)
+        left -= len(found[entry.filename])
+    return found, "meta/device.csv" in names
+
+
+def _unzip(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, left: int) -> bytes:
+    """Return the bytes of an entry, at most so many as are left, whatever it says of its size."""
+    with archive.open(entry) as file:
+        content = file.read(left + 1)
+    if len(content) > left:
+        raise FileError(f"its tables would unpack to more than {BYTES >> 20} MiB")
+    return content
+
+
+def chosen(names: list[str], table: object) -> str:
+    """Return the name of the table that is asked for, by its name or the last part of it."""
+    word = str(table).casefold()
+    found = []
+    for name in names:
+        whole = name.casefold()
+        last = whole.rpartition("/")[2]
+        if word in (whole, last, last.rpartition(".")[0]):
+            found.append(name)
+    if len(found) != 1:
+        raise InvalidValue(
+            f"table must be one in the archive, got {shown(table)}; {nearest(table, names)}"
+        )
+    return found[0]

@@ -1,0 +1,387 @@
+"""Broken, odd and hostile files: one clear line, or a doubt; never much memory or time."""
+
+import io
+import os
+import tracemalloc
+import zipfile
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+import stackbounce as sb
+from measure import make_files as made
+from stackbounce.errors import FileError, InvalidType, InvalidValue, StackbounceError
+from stackbounce.measure.reading import limits, zipped
+
+
+@pytest.fixture
+def read(tmp_path):
+    def reader(content, **options):
+        path = tmp_path / "file"
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return sb.read(path, **options)
+
+    return reader
+
+
+def refused(read, content, message, error=FileError, **options):
+    with pytest.raises(error) as caught:
+        read(content, **options)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 500
+
+
+# --- what is no file
+
+
+def test_no_file(tmp_path):
+    with pytest.raises(FileError, match="cannot be read: No such file"):
+        sb.read(tmp_path / "missing")
+    with pytest.raises(FileError, match="is a folder"):
+        sb.read(tmp_path)
+    with pytest.raises(FileError, match="cannot be read: embedded null"):
+        sb.read("a\0b")
+    with pytest.raises(FileError, match="cannot be read: "):
+        sb.read("x" * 100_000)
+    with pytest.raises(InvalidType, match="path must be"):
+        sb.read(b"x")
+    with pytest.raises(InvalidType, match="path must be"):
+        sb.read(None)
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes here")
+def test_a_pipe_is_not_waited_for(tmp_path):
+    os.mkfifo(tmp_path / "pipe")
+    with pytest.raises(FileError, match="is no ordinary file"):
+        sb.read(tmp_path / "pipe")
+
+
+def test_no_permission(tmp_path, monkeypatch):
+    def refuse(*_args, **_options):
+        raise PermissionError(13, "Permission denied")
+
+    path = tmp_path / "locked"
+    path.write_bytes(made.force_ms())
+    monkeypatch.setattr("pathlib.Path.open", refuse)
+    with pytest.raises(FileError, match="locked' cannot be read: Permission denied"):
+        sb.read(path)
+
+
+def test_too_large_a_file_is_not_read(tmp_path):
+    path = tmp_path / "large"
+    with path.open("wb") as file:
+        file.truncate(limits.BYTES + 1)
+    with pytest.raises(FileError, match="larger than 256 MiB"):
+        sb.read(path)
+
+
+# --- what is no table
+
+
+@pytest.mark.parametrize(("content", "message"), [
+    (b"", "is empty"),
+    (b"\n\n\n", "no row of numbers"),
+    (b" ", "no row of numbers"),
+    (b"\xef\xbb\xbf", "no row of numbers"),
+    (b"words and words\nand more", "no row of numbers in its first 2 lines; it begins with 'words"),
+    (b"Time (s),Force (N)\n", "no row of numbers"),
+    (b"#multi:\n,a,,\nt,x,y,\n", "no row of numbers"),
+    (b"Vernier Format 2\n1\t2\n", "no row of numbers"),
+    (b"Vernier Format 2\na\nb\n1\t2\n3\t4\n", "lacks the names"),
+    (b"X,CH1,Start,Increment\nSequence,Volt,,\n0,1,,\n", "no start and increment"),
+    (bytes(range(256)) * 8, "it is no text"),
+    (b"\0" * 1000, "it is no text"),
+    (b"\xff\xfe1", "UTF-16"),
+    (b"<?xml version='1.0'?><tracker/>", "it is XML or HTML"),
+    (b"\xef\xbb\xbf  <html>", "it is XML or HTML"),
+    (b"\x89PNG\r\n\x1a\n" + bytes(100), "it is a picture"),
+    (b"\0\0\0\x18ftypmp42" + bytes(100), "it is a video"),
+    (b"ID3\x03" + bytes(100), "save it as WAV"),
+    (b"%PDF-1.7", "it is a PDF"),
+    (b"t,x\n0,1\n" + b"1," * 2000, "at most 1000 columns"),
+    (b"1," * 5000, "at most 1000 columns"),
+    (b"1," * 600_000, "more than 1048576 characters"),
+    (b"t,x\n0,1\n" + b"1" * 1_100_000, "more than 1048576 characters"),
+    (b"t,x\n" + b"0,1\n" * 500 + b"1" * 5_000_000, "more than 1048576 characters"),
+    (b"t,F\n0,0,0,1\n0,1,0,2\n0,2,0,3\n", "decimal comma between commas"),
+])  # fmt: skip
+def test_refused(read, content, message):
+    refused(read, content, message)
+
+
+def test_words_below_the_numbers(read):
+    doubt = read("t (s),F (N)\n0,1\n" + "words,words\n" * 300).attrs["doubt"]
+    assert doubt == "300 lines among the numbers are words, first 'words,words': left out"
+
+
+# --- zip archives
+
+
+def archive(files, method=zipfile.ZIP_DEFLATED):
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", method) as out:
+        for name, data in files.items():
+            out.writestr(name, data)
+    return content.getvalue()
+
+
+def test_a_bomb_does_not_go_off(read):
+    bomb = archive({"Raw Data.csv": b"0,0\n" * 20_000_000})
+    tracemalloc.start()
+    refused(read, bomb, "would unpack to more than 400 times its size")
+    assert tracemalloc.get_traced_memory()[1] < 2**22
+    tracemalloc.stop()
+
+
+def test_a_bomb_that_lies_of_its_size(read, monkeypatch):
+    monkeypatch.setattr(zipped, "BYTES", 2**20)
+    content = bytearray(archive({"a.csv": b"0,0\n" * 300_000}))
+    at = content.rindex(b"PK\x01\x02") + 24
+    content[at : at + 4] = (2**21).to_bytes(4, "little")
+    refused(read, bytes(content), "would unpack to more than")
+
+
+def test_many_small_bombs_count_together(read, monkeypatch):
+    monkeypatch.setattr(zipped, "BYTES", 2**20)
+    files = {f"{k}.csv": b"0,0\n" * 50_000 for k in range(10)}
+    refused(read, archive(files), "its tables would unpack to more than 1 MiB")
+
+
+@pytest.mark.parametrize(("content", "message"), [
+    (archive({"inner.zip": archive({"a.csv": "1,2\n"})}), "without any table"),
+    (archive({}), "without any table"),
+    (archive({f"{k}.csv": "" for k in range(1001)}), "more than 1000 files"),
+    (archive({"[Content_Types].xml": "", "a.csv": "1,2"}), "it is a spreadsheet"),
+    (archive({"a.csv": "1,2"}, zipfile.ZIP_BZIP2), "packed in an unusual way"),
+    (archive({"a.csv": "1,2\n" * 100})[:-30], "broken zip archive"),
+    (archive({"a.csv": "words"}), "a.csv: it has no row of numbers"),
+    (archive({"a.csv": made.wav()}), "a.csv: it is no text"),
+    (b"PK\x03\x04", "broken zip archive"),
+])  # fmt: skip
+def test_archives_refused(read, content, message):
+    refused(read, content, message)
+
+
+def test_a_locked_archive(read):
+    content = bytearray(archive({"a.csv": "1,2\n"}))
+    content[content.rindex(b"PK\x01\x02") + 8] |= 1
+    refused(read, bytes(content), "locked by a password")
+
+
+def test_a_damaged_table(read):
+    content = bytearray(archive({"a.csv": made.force_ms()}, zipfile.ZIP_STORED))
+    content[100] ^= 1
+    refused(read, bytes(content), "broken zip archive: Bad CRC-32")
+
+
+def test_names_in_archives_are_names_only(read, tmp_path):
+    data = read(archive({"../../evil.csv": made.force_ms(), "/abs.csv": made.press()}))
+    assert "table=" in data.attrs["doubt"]
+    assert {path.name for path in tmp_path.rglob("*")} == {"file"}
+
+
+def test_which_table_of_an_archive(read):
+    names, cells = made.acceleration()
+    content = made.phyphox_zip({
+        "Aside.csv": (["a", "b"], [[1.0, 2.0], [3.0, 4.0]]), "Raw Data.csv": (names, cells)
+    })  # fmt: skip
+    assert read(content).attrs["holds"] == "acceleration"
+    assert "table='Aside.csv'" in read(content).attrs["doubt"]
+    for name in ("Aside.csv", "aside"):
+        told = read(content, table=name)
+        assert told.attrs["holds"] == "table"
+        assert told.attrs["format"] == "phyphox"
+        assert told.attrs["doubt"] == ""
+    refused(read, content, "did you mean Aside.csv?", InvalidValue, table="Asides.csv")
+
+
+# --- encodings, decimals, cells
+
+
+@pytest.mark.parametrize(
+    "encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "latin-1", "cp1252"]
+)
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r"])
+def test_encodings(read, encoding, end):
+    text = end.join(["Zeit (µs);Höhe (mm)", "0;1,5", "1;2,5", ""])
+    data = read(text.encode(encoding))
+    np.testing.assert_allclose(data.time, [0.0, 1e-6])
+    np.testing.assert_allclose(data.y[:, 0], [0.0015, 0.0025])
+
+
+@pytest.mark.parametrize(("text", "values", "doubtful"), [
+    ("t;F\n0,5;1,25\n1;2\n", [1.25, 2.0], False),
+    ("t;F\n0;1.234,5\n1;2,25\n", [1234.5, 2.25], False),
+    ("t;F\n0,0;1.234\n1,0;2,25\n", [1234.0, 2.25], False),
+    ("t;F\n0;1,234.5\n1;2.25\n", [1234.5, 2.25], False),
+    ("t;F\n0.5;1,234\n1;2.25\n", [1234.0, 2.25], False),
+    ("t;F\n0;1,234\n1;2,345\n", [1.234, 2.345], True),
+    ("t;F\n0;0,234\n1;2,345\n", [0.234, 2.345], False),
+    ("t;F\n0;1 234,5\n1;2,5\n", [1234.5, 2.5], False),
+    ("t;F\n0;1'234.5\n1;2.5\n", [1234.5, 2.5], False),
+    ("t;F\n0;1\u202f234\n1;2\n", [1234.0, 2.0], False),
+    ('t,F\n"0,5","1,5"\n"1,0","2,5"\n', [1.5, 2.5], False),
+    ("t F\n0,5 1,5\n1,0 2,5\n", [1.5, 2.5], False),
+    ("t,F\n0, 1e3\n1,\t-2E-1\n", [1e3, -0.2], False),
+    ("t;F\n0;−1.5\n1;.5\n", [-1.5, 0.5], False),
+])  # fmt: skip
+def test_marks_in_numbers(read, text, values, doubtful):
+    data = read(text, units={"t": "s", "F": "N"})
+    np.testing.assert_allclose(data.force, values, rtol=1e-15)
+    assert bool(data.attrs["doubt"]) == doubtful
+
+
+def test_a_decimal_mark_that_is_told(read):
+    text = "t (s);F (N)\n0;1,234\n1;2,345\n"
+    for decimal, values in ((",", [1.234, 2.345]), (".", [1234.0, 2345.0])):
+        data = read(text, decimal=decimal)
+        np.testing.assert_allclose(data.force, values)
+        assert data.attrs["doubt"] == ""
+
+
+def test_cells_that_are_no_numbers(read):
+    text = "t (s),F (N)\n0,1\n1,NaN\n2,\n3,n/a\n4,-\n5,inf\n6,oops\n7,٣\n8,1_0\n9,0x1\n10,7\n"
+    data = read(text)
+    np.testing.assert_array_equal(np.isfinite(data.force), [1] + [0] * 9 + [1])
+    assert "4 cells are no numbers, the first 'oops'" in data.attrs["doubt"]
+    assert "1 numbers are infinite" in data.attrs["doubt"]
+
+
+def test_a_column_of_words_is_left_out(read):
+    text = "t (s),F (N),remark\n" + "".join(
+        f"{k},{k},{'fine' if k > 3 else ''}\n" for k in range(9)
+    )
+    assert list(read(text).data_vars) == ["force"]
+
+
+def test_rows_without_a_time_and_lines_of_words_are_left_out(read):
+    data = read("t (s),F (N)\n0,1\n,5\n1,2\nend of run,\n2,3\n\n\n")
+    np.testing.assert_array_equal(data.force, [1, 2, 3])
+
+
+def test_ragged_rows(read):
+    data = read("t (s),F (N)\n0,1\n1,2,9\n2\n3,4\n4,5\n")
+    np.testing.assert_array_equal(data.force, [1, 2, np.nan, 4, 5])
+    assert data.attrs["doubt"] == (
+        "1 rows have more cells than the others; 1 rows have fewer cells than the others"
+    )
+
+
+def test_names_that_come_twice_or_not_at_all(read):
+    data = read(
+        "t (s),F (N),F (N),time,,a b,a-b\n" + "".join(f"{k},1,2,3,4,5,6\n" for k in range(5))
+    )
+    names = ["force", "force_2", "time_2", "column_5", "a_b", "a_b_2"]
+    assert list(data.data_vars) == names
+    assert [int(data[name][0]) for name in names] == [1, 2, 3, 4, 5, 6]
+
+
+def test_units_that_are_not_known(read):
+    data = read("t (s),F (grunts)\n0,1\n1,2\n")
+    assert data.force.attrs["units"] == ""
+    assert "unit 'grunts' of 'F' is not known here" in data.attrs["doubt"]
+    weight = read("t (s),Load (kg)\n0,1\n1,2\n")
+    np.testing.assert_allclose(weight.force, [9.80665, 2 * 9.80665])
+    assert "taken as a weight" in weight.attrs["doubt"]
+
+
+# --- times
+
+
+def test_times_that_start_again(read):
+    text = "t (s),F (N)\n" + "".join(f"{k % 10},{k}\n" for k in range(20))
+    data = read(text)
+    assert data.sizes == {"time": 10}
+    assert "time starts again 1 times; run 1 of 2 is read" in data.attrs["doubt"]
+    np.testing.assert_array_equal(read(text, run=2).force, range(10, 20))
+    refused(read, text, "run must be one of the 2", InvalidValue, run=3)
+
+
+def test_times_that_are_none(read):
+    text = "t (s),F (N)\n" + "".join(f"{k * 7 % 13},{k}\n" for k in range(200))
+    refused(read, text, "time runs backwards in", InvalidValue)
+
+
+def test_gaps_and_repeats(read):
+    times = [0.0, 0.1, 0.2, 0.2, 0.3, 0.4, 0.9, 1.0, 1.1, 1.2]
+    data = read("t (s),F (N)\n" + "".join(f"{t},1\n" for t in times))
+    assert "1 times are repeated" in data.attrs["doubt"]
+    assert "1 gaps in time, the first after 0.4 s" in data.attrs["doubt"]
+
+
+# --- much of it
+
+
+def test_a_long_file_is_read_fast_and_whole(read):
+    count = 300_000
+    lines = [f"{k * 1e-6:.6f},{k % 1000 / 8}" for k in range(count)]
+    lines[200_000] = "0.2,"  # read cell by cell from there on to the end of its part
+    data = read("Time (s),Force (N)\n" + "\n".join(lines))
+    wanted = np.arange(count) % 1000 / 8
+    wanted[200_000] = np.nan
+    np.testing.assert_array_equal(data.force, wanted)
+
+
+def test_too_many_odd_lines(read, monkeypatch):
+    monkeypatch.setattr("stackbounce.measure.reading.numbers._ODD", 100)
+    refused(read, "t,F\n0,1\n" + "1,2_3\n" * 50, "too many of its lines are not just numbers")
+
+
+def test_blank_cells_are_as_fast(read, monkeypatch):
+    monkeypatch.setattr("stackbounce.measure.reading.numbers._ODD", 0)
+    data = read("t (s),F (N),G,\n,,,\n0,1,,\n1,,3,\n,7,,\n2,,,")
+    np.testing.assert_array_equal(data.time, [0, 1, 2])
+    np.testing.assert_array_equal(data.force, [1, np.nan, np.nan])
+    np.testing.assert_array_equal(data["g"], [np.nan, 3, np.nan])
+
+
+def test_too_many_numbers(read, monkeypatch):
+    monkeypatch.setattr("stackbounce.measure.reading.numbers.CELLS", 50)
+    refused(read, made.force_ms(), "more than 50 numbers")
+    monkeypatch.setattr("stackbounce.measure.reading.wav.CELLS", 50)
+    refused(read, made.wav(), "more than 50 samples")
+
+
+# --- anything at all
+
+FILES = {name: maker() for name, maker in made.MAKERS.items()}
+PIECES = [
+    b"", b",", b";", b"\t", b"\n", b'"', b"NaN", b"inf", b"-", b"1e400", b"\0", b"\xff", b"1,5",
+    "٣".encode(), b"#multi:", b"t,x,y", b"Run #1", b"(ms)", b"PK\x03\x04", b"RIFF", b"1:", b"//",
+    b"Vernier Format 2\n", b"X,CH1,Start,Increment\n", b"9" * 400, b"(", b"\x80\x80", b"TIME",
+    b"Record Length",
+]  # fmt: skip
+
+
+@st.composite
+def mutated(draw):
+    content = bytearray(FILES[draw(st.sampled_from(sorted(FILES)))])
+    for _ in range(draw(st.integers(1, 6))):
+        start = draw(st.integers(0, len(content)) | st.integers(0, min(120, len(content))))
+        stop = start + draw(st.integers(0, 12) | st.sampled_from([50, 10**6]))
+        piece = draw(st.sampled_from(PIECES) | st.binary(max_size=4))
+        content[start:stop] = piece * draw(st.sampled_from([1, 1, 1, 2, 30]))
+    return bytes(content)
+
+
+@given(mutated() | st.binary(max_size=60), st.sampled_from([None, "waveform", "track", "table"]))
+@example(b"0,0;0", None)
+@example(b"t,x\n1,", None)
+def test_only_our_own_errors_come_of_anything(tmp_path_factory, content, holds):
+    path = tmp_path_factory.getbasetemp() / "mutated"
+    path.write_bytes(content)
+    try:
+        data = sb.read(path, holds=holds)
+    except StackbounceError as error:
+        message = str(error)
+        assert "\n" not in message
+    else:
+        assert data.attrs["holds"]
+        assert max(data.sizes.values()) > 0
+        for name in data.variables:
+            if name != "track":
+                assert data[name].dtype == np.float64
+                assert not np.isinf(data[name]).any()

@@ -1,0 +1,96 @@
+"""Sound of every kind of WAV."""
+
+import struct
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from measure import make_files as made
+from stackbounce.errors import FileError, InvalidValue
+
+
+@pytest.fixture
+def read(tmp_path):
+    def reader(content, **options):
+        path = tmp_path / "sound"
+        path.write_bytes(content)
+        return sb.read(path, **options)
+
+    return reader
+
+
+@pytest.mark.parametrize("channels", [1, 2, 5])
+@pytest.mark.parametrize("extensible", [False, True])
+@pytest.mark.parametrize(
+    ("bits", "floating"), [(8, 0), (16, 0), (24, 0), (32, 0), (32, 1), (64, 1)]
+)
+def test_every_kind(read, bits, floating, extensible, channels):
+    data = read(made.wav(bits, channels, floating, extensible))
+    assert (data.attrs["holds"], data.attrs["format"], data.attrs["doubt"]) == ("sound", "WAV", "")
+    assert f"{bits} bit" in data.attrs["why"]
+    mean = made.sound() * np.mean(1.0 / np.arange(1, channels + 1))
+    step = 1e-7 if floating else 2.0 ** (1 - bits)
+    np.testing.assert_allclose(
+        data.sound, mean, rtol=0, atol=1.01 * step * (1 if floating else 1.5)
+    )
+    np.testing.assert_array_equal(data.time, np.arange(800) / 8000)
+    assert data.sound.attrs == {"units": "1", "long_name": "sound", "rate": 8000.0}
+
+
+def test_cut_off_is_read_as_far_as_it_goes(read):
+    data = read(made.wav()[:-801])  # in the midst of a sample
+    assert data.sizes == {"time": 399}
+    assert data.attrs["doubt"] == "it is cut off: 0.050 s of 0.100 s are there"
+
+
+@pytest.mark.parametrize("size", [0, 0xFFFFFFFF])
+def test_a_stream_does_not_know_its_end(read, size):
+    data = read(made.wav(size=size))
+    assert data.sizes == {"time": 800}
+    assert data.attrs["doubt"] == ""
+
+
+def test_clipping_is_told(read):
+    content = bytearray(made.wav(8))
+    content[-3] = 255
+    assert "full scale" in read(bytes(content)).attrs["doubt"]
+
+
+def test_samples_that_are_no_numbers(read):
+    content = made.wav(32, floating=True)[:-4] + struct.pack("<f", np.nan)
+    data = read(content)
+    assert data.sound[-1] == 0.0
+    assert "1 samples are no numbers" in data.attrs["doubt"]
+
+
+def changed(offset, kind, value):
+    content = bytearray(made.wav())
+    struct.pack_into(kind, content, offset, value)
+    return bytes(content)
+
+
+@pytest.mark.parametrize(("content", "message"), [
+    (made.wav()[:4] + made.wav()[4:12], "the format of its sound is missing"),
+    (made.wav()[:30], "its format is cut off"),
+    (made.wav()[:40], "sound is missing"),
+    (made.wav()[:58], "without a sample"),
+    (changed(20, "<H", 0x11), "compressed as IMA ADPCM"),
+    (changed(20, "<H", 0x1234), "number 0x1234"),
+    (changed(22, "<H", 0), "0 channels"),
+    (changed(24, "<I", 0), "of 0 Hz"),
+    (changed(34, "<H", 99), "99 bits"),
+    (changed(16, "<I", 2**32 - 1), "sound is missing"),
+    (b"RIFX" + made.wav()[4:], "high byte first"),
+    (b"RIFF\0\0\0\0AVI LIST", "no text"),
+])  # fmt: skip
+def test_broken(read, content, message):
+    with pytest.raises(FileError, match=message) as caught:
+        read(content)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_sound_is_no_track(read):
+    with pytest.raises(InvalidValue, match="it is a sound, got 'track'"):
+        read(made.wav(), holds="track")
+    assert read(made.wav(), holds="sound").sizes == {"time": 800}
