@@ -1,0 +1,156 @@
+"""Where the record is quiet: its level, its drift, its hum, its noise."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.waveform.record import Array, Record
+
+__all__ = ["Quiet", "first_guess", "quiet_parts"]
+
+_SHARE = 0.25  # of a record that is surely quiet
+_MAD = 0.6745  # of a normal deviate: its middle size
+_MAINS = (50.0, 60.0)  # Hz
+_LAGS = 200
+_ENOUGH = 24  # quiet samples for a fit with hum
+
+
+@dataclass(frozen=True, eq=False)
+class Quiet:
+    """The baseline of a record, and what scatters around it.
+
+    Parameters
+    ----------
+    baseline : ndarray
+        (n,) at each sample: a line, and the hum of the mains.
+    noise : float
+        Standard deviation of one sample.
+    density : float
+        Standard deviation of one sample that, if all were independent, would give averages their
+        true error: `noise` times the root of the correlation of neighbours.
+    error : float
+        Of the baseline's level, one standard deviation.
+    hum : float
+        Amplitude of the hum; 0 where there is none.
+    mains : float
+        Its frequency in Hz; 0 where there is none.
+    """
+
+    baseline: Array
+    noise: float
+    density: float
+    error: float
+    hum: float
+    mains: float
+
+
+def first_guess(record: Record) -> tuple[float, float]:
+    """Return level and noise of the quiet part before anything is known of the contacts.
+
+    The level is the middle of the shortest range that holds a quarter of all values.
+    """
+    ordered = np.sort(record.values)
+    count = max(3, int(_SHARE * len(ordered)))
+    widths = ordered[count - 1 :] - ordered[: len(ordered) - count + 1]
+    at = int(np.argmin(widths))
+    inside = ordered[at : at + count]
+    jumps = np.abs(np.diff(record.values))
+    noise = float(np.median(jumps)) / (_MAD * np.sqrt(2.0))
+    return float(np.median(inside)), max(noise, _floor(record))
+
+
+def quiet_parts(record: Record, quiet: NDArray[np.bool_]) -> Quiet:
+    """Return baseline and noise from the samples that are marked as quiet.
+
+    Parameters
+    ----------
+    record : Record
+        What was measured.
+    quiet : ndarray of bool
+        (n,) which samples belong to no contact.
+
+    Returns
+    -------
+    Quiet
+    """
+    if quiet.sum() < 3:
+        level, noise = first_guess(record)
+        return Quiet(np.full(len(quiet), level), noise, noise, noise, 0.0, 0.0)
+    times = record.times - record.times[0]
+    span = max(float(times[-1]), record.step)
+    line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
+    if quiet.sum() < 6:
+        line = line[:, :1]
+    best, base = line, _fitted(line, record.values, quiet)
+    hum = mains = 0.0
+    if quiet.sum() >= _ENOUGH:
+        for tone in _tones(span, record.step):
+            waves = _waves(times, tone)
+            tried = np.concatenate([line, waves], axis=1)
+            own = _fitted(tried, record.values, quiet)
+            old, new = (np.sum((record.values - one)[quiet] ** 2) for one in (base, own))
+            # two more numbers for each wave must pay for themselves many times over
+            if old > (1.0 + 40.0 / quiet.sum()) * new:
+                best, base, mains = tried, own, tone
+                hum = float(np.ptp(own - _fitted(line, own, quiet))) / 2.0
+    rest = (record.values - base)[quiet]
+    freedom = max(1, len(rest) - best.shape[1])
+    noise = max(_robust(rest) * np.sqrt(len(rest) / freedom), _floor(record))
+    density = noise * np.sqrt(_correlation(rest))
+    error = float(np.hypot(density / np.sqrt(len(rest)), _stuck(record, noise)))
+    return Quiet(base, float(noise), float(density), error, hum, mains)
+
+
+def _tones(span: float, step: float) -> list[float]:
+    """Return the frequencies in Hz tried for the mains, as fine as the record can tell them."""
+    if span < 0.5 / _MAINS[0] or step > 0.2 / _MAINS[1]:
+        return []
+    if span < 0.1:
+        return list(_MAINS)
+    fine = np.linspace(-0.3, 0.3, int(min(31, 3 + 12 * span)))
+    return [float(main + off) for main in _MAINS for off in fine]
+
+
+def _waves(times: Array, tone: float) -> Array:
+    angle = 2.0 * np.pi * tone * times
+    return np.stack([np.sin(angle), np.cos(angle)], axis=1)
+
+
+def _fitted(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
+    """Return the columns' best sum, found where it is quiet, everywhere."""
+    weights = np.linalg.lstsq(columns[quiet], values[quiet], rcond=None)[0]
+    fitted: Array = columns @ weights
+    return fitted
+
+
+def _robust(rest: Array) -> float:
+    """Return the standard deviation, by the middle one where a few stand out."""
+    plain = float(np.sqrt(np.mean(rest**2)))
+    middle = float(np.median(np.abs(rest))) / _MAD
+    return middle if plain > 1.5 * middle > 0.0 else plain
+
+
+def _floor(record: Record) -> float:
+    """Return the least noise: that of the converter, or round-off."""
+    return max(record.quantum / np.sqrt(12.0), 1e-6 * float(np.ptp(record.values)), 1e-300)
+
+
+def _stuck(record: Record, noise: float) -> float:
+    """Return the baseline's error by a converter whose steps the noise does not smear out."""
+    return record.quantum / np.sqrt(12.0) if noise < 0.5 * record.quantum else 0.0
+
+
+def _correlation(rest: Array) -> float:
+    """Return by how much the variance of an average exceeds that of independent samples."""
+    count = len(rest)
+    if count < 2 * _ENOUGH:
+        return 1.0
+    power = float(np.mean(rest**2))
+    total = 1.0
+    for lag in range(1, min(_LAGS, count // 4)):
+        rho = float(np.mean(rest[lag:] * rest[:-lag])) / power if power > 0.0 else 0.0
+        if rho < 2.0 / np.sqrt(count):
+            break
+        total += 2.0 * rho
+    return total
