@@ -8,7 +8,7 @@ import numpy as np
 
 import stackbounce as sb
 from stackbounce.measure.synthetic.waveform import waveform as record_of
-from stackbounce.measure.waveform import waveform
+from stackbounce.measure.waveform import delay, gap_from_delay, waveform
 
 MASS, SPEED, TIME = 0.101, 1.98, 4.3e-3  # the paper's ball B1
 
@@ -47,6 +47,15 @@ def _bounce(seed: int, exponent: float | None, **how: Any) -> list[tuple[str, An
     ]
 
 
+def _gap(seed: int, gap: float, **how: Any) -> list[tuple[str, Any, float]]:
+    """Analyse two channels of two balls on springs that fall a gap apart."""
+    result = _run(1.0, gap)
+    record = record_of(result, seed=seed, contacts=[0, 1], **how)
+    later = delay(record[[*record][:1]], record[[*record][1:]])
+    found = gap_from_delay(later, SPEED, contact_time=TIME)
+    return [("delay", later, float(result.first_touch[1])), ("gap", found, gap)]
+
+
 NOISY: dict[str, Any] = {"rate": 5e4, "noise": 2.0}
 SCOPE: dict[str, Any] = {"rate": 1e5, "noise": 0.01, "bits": 8, "full_scale": 2.0, "sensitivity": 0.01}
 PIEZO: dict[str, Any] = {"rate": 5e4, "noise": 1.0, "time_constant": 0.02, "offset": 3.0}
@@ -58,7 +67,9 @@ CASES: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
     "Hertz, 8 bits": partial(_bounce, exponent=1.5, **SCOPE),
     "spring, droop": partial(_bounce, exponent=1.0, **PIEZO),
     "Hertz, droop": partial(_bounce, exponent=1.5, **PIEZO),
-    "any law, 20 samples": partial(_bounce, exponent=None, rate=5e3, noise=4.0, before=0.02),
+    "any law, 20 samples": partial(_bounce, exponent=None, rate=7e3, noise=3.0, before=0.02),
     "any law, hum": partial(_bounce, exponent=None, rate=2e4, noise=2.0, hum=4.0, before=0.05),
+    "gap of 1 mm": partial(_gap, gap=1e-3, rate=5e4, noise=1.0),
+    "gap of 12 mm": partial(_gap, gap=12e-3, rate=5e4, noise=1.0),
 }
 """Case name to a trial: seed to (quantity, estimate, truth)."""

@@ -22,8 +22,7 @@ if TYPE_CHECKING:
 __all__ = ["waveform"]
 
 _MARGIN = 0.2  # of a contact, on each side of it, that is not taken as quiet
-_CALM = 12  # quiet samples that are enough
-_ROUNDS = 3
+_ROUNDS = 4
 _FEW = 6  # samples of a contact that are few
 _UNDERSHOOT = 5.0  # errors
 
@@ -146,24 +145,24 @@ def _see(record: Record, threshold: float | None, sign: int | None) -> _Seen:
     quiet = Quiet(np.full(len(record.times), level), noise, noise, noise, 0.0, 0.0)
     stretches: list[Stretch] = []
     short, own = 0, sign or 1
-    for _ in range(_ROUNDS):
+    for k in range(_ROUNDS):
         bare = record.values - quiet.baseline
         own = sign or which_sign(bare, quiet.noise)
         stretches, short = find_stretches(own * bare, quiet.noise, quiet.density, threshold)
-        quiet = quiet_parts(record, _outside(len(bare), stretches))
+        quiet = quiet_parts(record, _outside(len(bare), stretches), hum=k > 0)
     signal = own * (record.values - quiet.baseline)
     return _Seen(signal, quiet, stretches, short, own)
 
 
 def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
     """Tell which samples are clear of all contacts."""
-    for share in (_MARGIN, 0.0):
-        quiet = np.ones(count, dtype=bool)
-        for one in stretches:
-            margin = int(share * len(one)) + 2
-            quiet[max(0, one.first - margin) : one.last + margin + 1] = False
-        if quiet.sum() >= _CALM:
-            break
+    quiet = np.ones(count, dtype=bool)
+    ends = [-1, *(one.last for one in stretches)]
+    starts = [*(one.first for one in stretches), count]
+    for k, one in enumerate(stretches):
+        margin = int(_MARGIN * len(one)) + 2
+        before, after = (one.first - ends[k]) // 3, (starts[k + 1] - one.last) // 3
+        quiet[one.first - min(margin, before) : one.last + min(margin, after) + 1] = False
     return quiet
 
 

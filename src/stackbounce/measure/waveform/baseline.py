@@ -7,12 +7,16 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.waveform.record import Array, Record
 
-__all__ = ["Quiet", "first_guess", "quiet_parts"]
+__all__ = ["Quiet", "first_guess", "quiet_parts", "scatter", "stuck"]
 
 _SHARE = 0.25  # of a record that is surely quiet
 _MAD = 0.6745  # of a normal deviate: its middle size
+_FIFTH = (0.2, 0.2533)  # of normal deviates are within this
 _MAINS = (50.0, 60.0)  # Hz
 _LAGS = 200
+_LEVERAGE = 5.0  # of a sample over that of a typical quiet one
+_ONE = 0.683  # of normal deviates are within one standard deviation
+_CLIPS, _CLIP = 4, 4.0  # times that what lies beyond so many standard deviations is left out
 _ENOUGH = 24  # quiet samples for a fit with hum
 
 
@@ -56,11 +60,13 @@ def first_guess(record: Record) -> tuple[float, float]:
     at = int(np.argmin(widths))
     inside = ordered[at : at + count]
     jumps = np.abs(np.diff(record.values))
-    noise = float(np.median(jumps)) / (_MAD * np.sqrt(2.0))
-    return float(np.median(inside)), max(noise, _floor(record))
+    level = float(np.median(inside))
+    fast = float(np.median(jumps)) / (_MAD * np.sqrt(2.0))
+    slow = float(np.quantile(np.abs(record.values - level), _FIFTH[0])) / _FIFTH[1]
+    return level, max(fast, slow, _floor(record))
 
 
-def quiet_parts(record: Record, quiet: NDArray[np.bool_]) -> Quiet:
+def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet:
     """Return baseline and noise from the samples that are marked as quiet.
 
     Parameters
@@ -69,6 +75,8 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_]) -> Quiet:
         What was measured.
     quiet : ndarray of bool
         (n,) which samples belong to no contact.
+    hum : bool
+        Whether to look for hum.
 
     Returns
     -------
@@ -80,26 +88,49 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_]) -> Quiet:
     times = record.times - record.times[0]
     span = max(float(times[-1]), record.step)
     line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
-    if quiet.sum() < 6:
+    if not _holds(line, quiet):
         line = line[:, :1]
     best, base = line, _fitted(line, record.values, quiet)
-    hum = mains = 0.0
-    if quiet.sum() >= _ENOUGH:
+    height = mains = 0.0
+    if hum and quiet.sum() >= _ENOUGH:
         for tone in _tones(span, record.step):
             waves = _waves(times, tone)
             tried = np.concatenate([line, waves], axis=1)
+            if not _holds(tried, quiet):
+                continue
             own = _fitted(tried, record.values, quiet)
             old, new = (np.sum((record.values - one)[quiet] ** 2) for one in (base, own))
             # two more numbers for each wave must pay for themselves many times over
             if old > (1.0 + 40.0 / quiet.sum()) * new:
                 best, base, mains = tried, own, tone
-                hum = float(np.ptp(own - _fitted(line, own, quiet))) / 2.0
+                height = float(np.ptp(own - _fitted(line, own, quiet))) / 2.0
     rest = (record.values - base)[quiet]
-    freedom = max(1, len(rest) - best.shape[1])
-    noise = max(_robust(rest) * np.sqrt(len(rest) / freedom), _floor(record))
-    density = noise * np.sqrt(_correlation(rest))
-    error = float(np.hypot(density / np.sqrt(len(rest)), _stuck(record, noise)))
-    return Quiet(base, float(noise), float(density), error, hum, mains)
+    noise, density = scatter(rest, best.shape[1], record.quantum)
+    floor = _floor(record)
+    noise, density = max(noise, floor), max(density, floor)
+    error = float(np.hypot(density / np.sqrt(len(rest)), stuck(record.quantum, noise)))
+    return Quiet(base, noise, density, error, height, mains)
+
+
+def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
+    """Return the noise of one sample and of averages, see `Quiet`, from what a fit left.
+
+    Parameters
+    ----------
+    rest : ndarray
+        (n,) quiet samples without their baseline.
+    fitted : int
+        How many numbers were fitted to them.
+    quantum : float
+        The step of the converter, 0 where none is seen.
+
+    Returns
+    -------
+    (float, float)
+    """
+    noise = _robust(rest, quantum) * float(np.sqrt(len(rest) / max(1, len(rest) - fitted)))
+    noise = max(noise, quantum / np.sqrt(12.0))
+    return float(noise), float(noise * np.sqrt(_correlation(rest)))
 
 
 def _tones(span: float, step: float) -> list[float]:
@@ -110,6 +141,14 @@ def _tones(span: float, step: float) -> list[float]:
         return list(_MAINS)
     fine = np.linspace(-0.3, 0.3, int(min(31, 3 + 12 * span)))
     return [float(main + off) for main in _MAINS for off in fine]
+
+
+def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
+    """Tell whether a fit where it is quiet says enough of what is between."""
+    normal = columns[quiet].T @ columns[quiet] / quiet.sum()
+    some = columns[:: max(1, len(columns) // 500)]
+    errors = np.sum(some * (some @ np.linalg.pinv(normal, hermitian=True)), axis=1)
+    return bool(errors.max() < _LEVERAGE * columns.shape[1])
 
 
 def _waves(times: Array, tone: float) -> Array:
@@ -124,11 +163,15 @@ def _fitted(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
     return fitted
 
 
-def _robust(rest: Array) -> float:
-    """Return the standard deviation, by the middle one where a few stand out."""
-    plain = float(np.sqrt(np.mean(rest**2)))
-    middle = float(np.median(np.abs(rest))) / _MAD
-    return middle if plain > 1.5 * middle > 0.0 else plain
+def _robust(rest: Array, quantum: float) -> float:
+    """Return the standard deviation without what stands out."""
+    scale = float(np.quantile(np.abs(rest), _ONE)) + 0.5 * quantum
+    for _ in range(_CLIPS):
+        inside = rest[np.abs(rest) <= _CLIP * scale]
+        if not len(inside) or not inside.any():
+            break
+        scale = float(np.sqrt(np.mean(inside**2)))
+    return scale if rest.any() else 0.0
 
 
 def _floor(record: Record) -> float:
@@ -136,9 +179,9 @@ def _floor(record: Record) -> float:
     return max(record.quantum / np.sqrt(12.0), 1e-6 * float(np.ptp(record.values)), 1e-300)
 
 
-def _stuck(record: Record, noise: float) -> float:
-    """Return the baseline's error by a converter whose steps the noise does not smear out."""
-    return record.quantum / np.sqrt(12.0) if noise < 0.5 * record.quantum else 0.0
+def stuck(quantum: float, noise: float) -> float:
+    """Return a level's error by a converter whose steps the noise does not smear out."""
+    return quantum / float(np.sqrt(12.0)) if noise < 0.5 * quantum else 0.0
 
 
 def _correlation(rest: Array) -> float:

@@ -1,12 +1,12 @@
 """One contact: its own baseline, its flanks, peaks and impulse."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.waveform.baseline import Quiet
+from stackbounce.measure.waveform.baseline import Quiet, scatter, stuck
 from stackbounce.measure.waveform.flanks import FALL, RISE, Flank, fit_flank
 from stackbounce.measure.waveform.found import Contact
 from stackbounce.measure.waveform.intervals import Stretch
@@ -20,8 +20,9 @@ __all__ = ["Local", "measure_contact"]
 
 _BESIDE = 2  # contacts' lengths of baseline on each side
 _SOME = 4  # quiet samples that tell a level
+_MANY = 60  # quiet samples that tell the noise
 _LEAST = 40  # samples of baseline looked at on each side
-_MOST = 400  # samples of a contact; more are averaged for the flanks
+_AVERAGES = 80  # over a contact, to see where its flanks are
 _TAIL = 0.25  # of a contact's length that its end may still reach
 
 
@@ -58,13 +59,18 @@ class Local:
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """The samples around a contact, without the baseline beside it, whose error is `offset`."""
+    """The samples around a contact, without the baseline beside it, whose error is `offset`.
+
+    The noise is that beside the contact, where there are samples enough to tell.
+    """
 
     times: Array
     values: Array
     first: int
     last: int
     offset: float
+    noise: float
+    density: float
 
 
 def measure_contact(
@@ -84,18 +90,17 @@ def measure_contact(
     Contact
     """
     part = _part(local, before, one, after)
-    density = local.level.density
     pad = len(one) // 20 + 2
     inner = slice(max(0, part.first - pad), part.last + pad + 1)
-    peaks = find_peaks(part.times[inner], part.values[inner], local.level.noise, density)
+    peaks = find_peaks(part.times[inner], part.values[inner], part.noise, part.density)
     whole = one.first > 1, one.last < len(local.times) - 2
-    rise = _flank(part, peaks[0], density, RISE, forward=True) if whole[0] else None
-    fall = _flank(part, peaks[-1], density, FALL, forward=False) if whole[1] else None
+    rise = _flank(part, peaks[0], RISE, forward=True) if whole[0] else None
+    fall = _flank(part, peaks[-1], FALL, forward=False) if whole[1] else None
     ends = (
         rise.time if rise else float(part.times[part.first]),
         fall.time if fall else float(part.times[part.last]),
     )
-    area = impulse_of(part.times, part.values, density, part.offset, ends)
+    area = impulse_of(part.times, part.values, part.density, part.offset, ends)
     clipped = flat_top(local.raw[one.first : one.last + 1], local.quantum)
     return _contact(peaks, (rise, fall), area, clipped, len(one))
 
@@ -143,20 +148,22 @@ def _part(local: Local, before: Stretch | None, one: Stretch, after: Stretch | N
     times, values = local.times[low : high + 1], local.signal[low : high + 1]
     quiet = local.quiet[low : high + 1]
     sides = quiet[: one.first - low].sum(), quiet[one.last - low :].sum()
-    stuck = local.quantum / np.sqrt(12.0) if local.level.noise < 0.5 * local.quantum else 0.0
-    offset = local.level.error
+    offset, noise, density = local.level.error, local.level.noise, local.level.density
     if sum(sides) >= _SOME:
         middle = 0.5 * (times[0] + times[-1])
         columns = np.stack([np.ones_like(times), times - middle], axis=1)
         columns = columns if min(sides) >= _SOME else columns[:, :1]
         weights = np.linalg.lstsq(columns[quiet], values[quiet], rcond=None)[0]
         values = values - columns @ weights
-        offset = float(np.hypot(local.level.density / np.sqrt(sum(sides)), stuck))
-    return _Part(times, values, one.first - low, one.last - low, offset)
+        if sum(sides) >= _MANY:
+            noise, density = scatter(values[quiet], columns.shape[1], local.quantum)
+            density = max(density, 1e-6 * float(np.ptp(values)))
+        offset = float(np.hypot(density / np.sqrt(sum(sides)), stuck(local.quantum, noise)))
+    return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
 
 
 def _flank(
-    part: _Part, peak: Peak, density: float, prior: tuple[float, float], *, forward: bool
+    part: _Part, peak: Peak, prior: tuple[float, float], *, forward: bool
 ) -> Flank | None:
     """Return the flank before the first peak, or with time reversed the one after the last."""
     top = int(np.searchsorted(part.times, peak.time))
@@ -164,11 +171,9 @@ def _flank(
         times, values = part.times[: top + 1], part.values[: top + 1]
     else:
         times, values = -part.times[top - 1 :][::-1], part.values[top - 1 :][::-1]
-    width = (part.last - part.first) // _MOST + 1
-    lead = len(times) % width
-    times, values = (one[lead:].reshape(-1, width).mean(axis=1) for one in (times, values))
-    sigma = np.full(len(times), density / np.sqrt(width))
-    found = fit_flank(times, values, sigma, peak=peak.force, offset=part.offset, prior=prior)
+    width = 2 * ((part.last - part.first) // _AVERAGES // 2) + 1
+    how: Any = {"peak": peak.force, "offset": part.offset, "width": width, "prior": prior}
+    found = fit_flank(times, values, part.density, **how)
     if found is None or forward:
         return found
     return Flank(

@@ -10,11 +10,13 @@ presses or accelerates, the second is the ball's own slowing down. All of t0, p,
 level before the touch are unknown, and the error of t0 holds what the others leave open.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.measure.waveform.intervals import smoothed
 from stackbounce.measure.waveform.record import Array
 
 __all__ = ["FALL", "RISE", "Flank", "fit_flank"]
@@ -32,6 +34,7 @@ _MOST = 36  # points; more are averaged
 _AROUND = 4.5  # standard deviations on the fine grid
 _LEVELS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1)
 _FEW = 8  # points on a flank, below which it is not cut shorter
+_CLEAR, _FEWEST = 3.0, 3  # noise levels of the lowest level; samples
 _SLACK = 3.0  # standard deviations of chi squared
 
 
@@ -62,9 +65,12 @@ class Flank:
 
 @dataclass(frozen=True, eq=False)
 class _Points:
+    """Samples, or averages over blocks of them between `edges`."""
+
     times: Array
+    edges: Array | None
     values: Array
-    sigma: Array
+    sigma: float
     height: float
     offset: float
 
@@ -72,10 +78,11 @@ class _Points:
 def fit_flank(
     times: Array,
     values: Array,
-    sigma: Array,
+    sigma: float,
     *,
     peak: float,
     offset: float,
+    width: int = 1,
     prior: tuple[float, float] = RISE,
 ) -> Flank | None:
     """Return the beginning of a rise from the baseline, or None where nothing rises.
@@ -86,12 +93,14 @@ def fit_flank(
         (n,) ascending, in s, from well before the rise to its peak.
     values : ndarray
         (n,) without baseline.
-    sigma : ndarray
-        (n,) standard deviations.
+    sigma : float
+        Standard deviation of a value.
     peak : float
         The height of the first peak.
     offset : float
         How far the baseline may be off, one standard deviation.
+    width : int, optional
+        How many samples are averaged to see where the rise is; odd.
     prior : (float, float), optional
         Mean and standard deviation of ln p before the data are seen.
 
@@ -103,55 +112,65 @@ def fit_flank(
     --------
     >>> times = np.arange(0.0, 1.0, 0.01)
     >>> values = np.sin(np.maximum(times - 0.314, 0.0))
-    >>> flank = fit_flank(times, values, np.full(100, 0.001), peak=0.6, offset=0.0)
+    >>> flank = fit_flank(times, values, 0.001, peak=0.6, offset=0.0)
     >>> abs(flank.time - 0.314) < 2 * flank.error < 0.02
     True
     """
     found: Flank | None = None
+    even = smoothed(values, width)
+    calm = sigma / np.sqrt(width)
     for level in _LEVELS:
-        points, on_flank = _cut(times, values, sigma, level * peak, offset)
-        if points is None or (found is not None and on_flank < _FEW):
+        cut = _cut(times, even, calm, level * peak)
+        if cut is None or (found is not None and (cut.stop - cut.foot) // width < _FEW):
             break
-        found, chi, freedom = _fit(points, prior)
+        points = _points(times, values, sigma, cut)
+        found, chi, freedom = _fit(replace(points, height=level * peak, offset=offset), prior)
         if chi < freedom + _SLACK * np.sqrt(2.0 * freedom):
             break
     return found
 
 
-def _cut(
-    times: Array, values: Array, sigma: Array, level: float, offset: float
-) -> tuple[_Points | None, int]:
-    """Return the points up to the first two in a row above a level; how many rise."""
-    if level < 3.0 * float(sigma[-1]) or len(values) < 3:
-        return None, 0
-    over = values >= level
-    above = np.flatnonzero(over[:-1] & over[1:])  # one sample may be noise
+class _Cut(NamedTuple):
+    start: int
+    foot: int
+    stop: int
+
+
+def _cut(times: Array, even: Array, calm: float, level: float) -> _Cut | None:
+    """Return where a rise is: from well before its foot to the first two values above a level."""
+    if level < _CLEAR * calm or len(even) < _FEWEST:
+        return None
+    over = even >= level
+    above = np.flatnonzero(over[:-1] & over[1:])  # one may be noise
     if len(above) and above[0] == 0:
-        return None, 0
-    last = int(above[0]) if len(above) else len(values) - 1
-    low = np.flatnonzero(values[: last + 1] < max(0.1 * level, 2.0 * float(sigma[last])))
+        return None
+    last = int(above[0]) if len(above) else len(even) - 1
+    low = np.flatnonzero(even[: last + 1] < max(0.1 * level, 2.0 * calm))
     foot = int(low[-1]) if len(low) else 0
     rise = max(times[last] - times[foot], times[last] - times[last - 1])
-    first = int(np.searchsorted(times, times[foot] - 2.0 * rise))
-    first = min(first, max(0, foot - 4))
-    part = slice(first, last + 1)
-    width = max(1, (last + 1 - first) // _MOST)
-    averages = (_averaged(one[part], width) for one in (times, values))
-    scatter = _averaged(sigma[part], width) / np.sqrt(width)
-    return _Points(*averages, scatter, level, offset), (last - foot) // width
+    start = min(int(np.searchsorted(times, times[foot] - 2.0 * rise)), max(0, foot - 4))
+    return _Cut(start, foot, last + 1)
 
 
-def _averaged(values: Array, width: int) -> Array:
-    """Return averages over blocks; what does not fill one is left out at the beginning."""
-    averages: Array = values[len(values) % width :].reshape(-1, width).mean(axis=1)
-    return averages
+def _points(times: Array, values: Array, sigma: float, cut: _Cut) -> _Points:
+    """Return the samples of a cut, averaged over blocks where they are many."""
+    width = max(1, (cut.stop - cut.start) // _MOST)
+    first = cut.start + (cut.stop - cut.start) % width
+    t, y = times[first : cut.stop], values[first : cut.stop]
+    if width == 1:
+        return _Points(t, None, y, sigma, 0.0, 0.0)
+    half = 0.5 * (t[1] - t[0])
+    inner = 0.5 * (t[width - 1 : -1 : width] + t[width::width])
+    edges = np.concatenate([[t[0] - half], inner, [t[-1] + half]])
+    t, y = (one.reshape(-1, width).mean(axis=1) for one in (t, y))
+    return _Points(t, edges, y, float(sigma / np.sqrt(width)), 0.0, 0.0)
 
 
 def _fit(points: _Points, prior: tuple[float, float]) -> tuple[Flank, float, int]:
     """Return the flank, chi squared of the best curve, and its degrees of freedom."""
     times = points.times
     end = times[-1]
-    low = np.flatnonzero(points.values < max(0.3 * points.height, 2.0 * float(points.sigma[-1])))
+    low = np.flatnonzero(points.values < max(0.3 * points.height, 2.0 * points.sigma))
     latest = times[low[-1] + 1] if len(low) and low[-1] + 1 < len(times) else end
     span = end - times[0]
     starts = np.linspace(times[0], min(latest, end - 1e-6 * span), _COARSE[0])
@@ -186,10 +205,21 @@ def _moments(grid: Array, weight: Array) -> tuple[float, float]:
     return mean, float(np.sqrt(np.sum((grid - mean) ** 2 * weight)))
 
 
-def _basis(u: Array, p: Array) -> Array:
-    """Return the rows u**p, u**(p+1), u**(2p+1) and 1, where u is 0 before the touch."""
-    first = np.maximum(u, 0.0) ** p
-    return np.stack([first, first * u, first * first * u, np.ones_like(first)], axis=-2)
+def _basis(u: Array, p: Array, *, averaged: bool) -> Array:
+    """Return the rows u**p, u**(p+1), u**(2p+1) and 1, where u is 0 before the touch.
+
+    They are taken at each u, or averaged between each and the next.
+    """
+    wide = np.diff(u, axis=-1) if averaged else None
+    u = np.maximum(u, 0.0)
+    first = u**p
+    if wide is not None:
+        one = first * u
+        areas = (one / (p + 1.0), one * u / (p + 2.0), one * one / (2.0 * p + 2.0))
+        rows = [np.diff(area, axis=-1) / wide for area in areas]
+    else:
+        rows = [first, first * u, first * first * u]
+    return np.stack([*rows, np.ones_like(rows[0])], axis=-2)
 
 
 def _scan(
@@ -201,8 +231,9 @@ def _scan(
     squared of the best pair, and what its curve needs.
     """
     unit = float(points.times[-1] - points.times[0])
-    u = (points.times[None, :] - starts[:, None]) / unit
-    rows = _basis(u[:, None, :], np.exp(logs)[None, :, None])
+    where = points.times if points.edges is None else points.edges
+    u = (where[None, :] - starts[:, None]) / unit
+    rows = _basis(u[:, None, :], np.exp(logs)[None, :, None], averaged=points.edges is not None)
     heights = np.maximum(rows[..., -1:], 1e-300)  # so that each is 1 at the end of the flank
     rows = rows / heights / points.sigma
     values = points.values / points.sigma
@@ -228,5 +259,5 @@ def _curve(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the best curve, from the touch on."""
     times = np.linspace(start, points.times[-1], 60)
-    force: Array = scaled @ _basis((times - start) / unit, np.array(p))
+    force: Array = scaled @ _basis((times - start) / unit, np.array(p), averaged=False)
     return times, force
