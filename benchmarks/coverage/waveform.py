@@ -57,7 +57,13 @@ def _gap(seed: int, gap: float, **how: Any) -> list[tuple[str, Any, float]]:
 
 
 NOISY: dict[str, Any] = {"rate": 5e4, "noise": 2.0}
-SCOPE: dict[str, Any] = {"rate": 1e5, "noise": 0.01, "bits": 8, "full_scale": 2.0, "sensitivity": 0.01}
+SCOPE: dict[str, Any] = {
+    "rate": 1e5,
+    "noise": 0.01,
+    "bits": 8,
+    "full_scale": 2.0,
+    "sensitivity": 0.01,
+}
 PIEZO: dict[str, Any] = {"rate": 5e4, "noise": 1.0, "time_constant": 0.02, "offset": 3.0}
 
 CASES: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {

@@ -1,6 +1,11 @@
 """Error bars of what is read off force records hold the truth as often as they claim."""
 
+import sys
+from pathlib import Path
+
 import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from benchmarks.coverage.shares import shares
 from benchmarks.coverage.waveform import CASES

@@ -145,7 +145,9 @@ def _times(
     ends = result.intervals["end"]
     last = max([0.0, *ends[np.isfinite(ends)].tolist()])
     lead = 0.5 * last if before is None else finite("before", before)
-    span = lead + last + lead if duration is None else positive("duration", duration, "seconds")
+    stopped = result.status.name in ("TIME_REACHED", "EVENT_LIMIT", "INVALID")
+    stop = min(last + lead, result.end_time) if stopped else last + lead
+    span = lead + stop - step if duration is None else positive("duration", duration, "seconds")
     if span / step > _MOST:
         raise InvalidValue(f"rate must give {_MOST} samples at most, got {span / step:.3g}")
     count = int(span / step) + 1

@@ -118,7 +118,11 @@ def waveform(
         measure_contact(local, around[k], one, around[k + 2])
         for k, one in enumerate(seen.stretches)
     )
-    notes = [*record.notes, *_notes(original, seen, contacts, m), *_droops(seen, local, time_constant)]
+    notes = [
+        *record.notes,
+        *_notes(original, seen, contacts, m),
+        *_droops(seen, local, time_constant),
+    ]
     sensitivity, why = sensitivity_of(contacts, record.unit, m, v)
     return Waveform(
         contacts=contacts,
@@ -182,9 +186,7 @@ def _level(quiet: Quiet) -> Any:
     return ufloat(float(np.median(quiet.baseline)), quiet.error)
 
 
-def _notes(
-    record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
-) -> list[str]:
+def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
     """Return what should be known about the record."""
     notes = []
     if not contacts:

@@ -162,9 +162,7 @@ def _part(local: Local, before: Stretch | None, one: Stretch, after: Stretch | N
     return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
 
 
-def _flank(
-    part: _Part, peak: Peak, prior: tuple[float, float], *, forward: bool
-) -> Flank | None:
+def _flank(part: _Part, peak: Peak, prior: tuple[float, float], *, forward: bool) -> Flank | None:
     """Return the flank before the first peak, or with time reversed the one after the last."""
     top = int(np.searchsorted(part.times, peak.time))
     if forward:
