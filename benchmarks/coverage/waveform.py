@@ -11,18 +11,20 @@ from stackbounce.measure.synthetic.waveform import waveform as record_of
 from stackbounce.measure.waveform import delay, gap_from_delay, waveform
 
 MASS, SPEED, TIME = 0.101, 1.98, 4.3e-3  # the paper's ball B1
+_EXPONENTS = (1.0, 1.125, 1.25, 1.375, 1.5)  # from a linear spring to Hertz's law
 
 
 @cache
-def _run(exponent: float, gap: float | None = None) -> sb.Result:
-    """Return the run of one ball, or of B2 on B1."""
+def _run(exponent: float, gap: float | None = None, between: float = 1.0) -> sb.Result:
+    """Return the run of one ball, or of B2 on B1, with exponents of floor and balls."""
     law = sb.calibrate(
         sb.PowerLaw, mass=MASS, contact_time=TIME, impact_speed=SPEED, exponent=exponent
     )
     balls, contacts = [sb.Ball(MASS)], [law]
     if gap is not None:
         balls.append(sb.Ball(0.0248))
-        contacts.append(sb.Spring(1.6e4))
+        lasting = {"mass": (MASS, 0.0248), "contact_time": 3.5e-3, "impact_speed": SPEED}
+        contacts.append(sb.calibrate(sb.PowerLaw, exponent=between, **lasting))
     gaps = [] if gap is None else [gap]
     return sb.simulate(sb.Drop(balls, contacts, gaps=gaps, impact_speed=SPEED))
 
@@ -30,7 +32,7 @@ def _run(exponent: float, gap: float | None = None) -> sb.Result:
 def _bounce(seed: int, exponent: float | None, **how: Any) -> list[tuple[str, Any, float]]:
     """Analyse one bounce; with no exponent a law between a linear spring and Hertz's."""
     if exponent is None:
-        exponent = (1.0, 1.125, 1.25, 1.375, 1.5)[seed % 5]
+        exponent = _EXPONENTS[seed % 5]
     result = _run(exponent)
     row = result.intervals[0]
     record = record_of(result, seed=seed, **how)
@@ -48,8 +50,8 @@ def _bounce(seed: int, exponent: float | None, **how: Any) -> list[tuple[str, An
 
 
 def _gap(seed: int, gap: float, **how: Any) -> list[tuple[str, Any, float]]:
-    """Analyse two channels of two balls on springs that fall a gap apart."""
-    result = _run(1.0, gap)
+    """Analyse two channels of two balls that fall a gap apart, the lower one on a spring."""
+    result = _run(1.0, gap, _EXPONENTS[seed % 5])
     record = record_of(result, seed=seed, contacts=[0, 1], **how)
     later = delay(record[[*record][:1]], record[[*record][1:]])
     found = gap_from_delay(later, SPEED, contact_time=TIME)

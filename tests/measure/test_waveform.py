@@ -156,7 +156,7 @@ def test_pure_noise_has_no_contacts(seed):
 def test_a_constant_record_has_no_contacts():
     found = waveform((np.arange(100) * 1e-3, np.full(100, 2.5)))
     assert found.contacts == ()
-    assert found.baseline.nominal_value == 2.5
+    assert found.baseline.nominal_value == pytest.approx(2.5)
     draw(None, found)
 
 

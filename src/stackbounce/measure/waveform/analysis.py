@@ -183,7 +183,7 @@ def _undrooped(record: Record, seen: _Seen, time_constant: float) -> Record:
 def _level(quiet: Quiet) -> Any:
     from uncertainties import ufloat
 
-    return ufloat(float(np.median(quiet.baseline)), quiet.error)
+    return ufloat(float(np.median(quiet.baseline)), max(quiet.error, 1e-300))
 
 
 def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
@@ -235,15 +235,20 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
 
 def _droops(seen: _Seen, local: Local, time_constant: float | None) -> list[str]:
     """Return a note if the baseline lies lower after a contact, as a high-pass makes it."""
-    if time_constant is not None or not seen.stretches:
+    if time_constant is not None or not seen.stretches or seen.quiet.hum:
         return []
     one = seen.stretches[0]
     after = np.flatnonzero(local.quiet[one.last :])[: max(8, len(one) // 2)] + one.last
     before = np.flatnonzero(local.quiet[: one.first])[-max(8, len(one)) :]
     if len(after) < 4 or len(before) < 4:
         return []
-    low = float(np.mean(seen.signal[after]) - np.mean(seen.signal[before]))
-    error = seen.quiet.density * np.hypot(len(after) ** -0.5, len(before) ** -0.5)
+    part = np.concatenate([before, after])
+    later = (part > one.last).astype(float)
+    times = local.times[part] - local.times[one.first]
+    columns = np.stack([later, np.ones_like(times), times], axis=1)  # a step on a drift
+    weights = np.linalg.lstsq(columns, local.raw[part], rcond=None)[0]
+    low, scatter = float(weights[0]), float(np.std(local.raw[part] - columns @ weights))
+    error = scatter * np.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0])
     top = float(smoothed(seen.signal, 3)[one.first : one.last + 1].max())
     if low > -max(_UNDERSHOOT * error, 0.005 * top):
         return []

@@ -10,9 +10,13 @@ from stackbounce.measure.waveform.record import Array, Record
 __all__ = ["Quiet", "first_guess", "quiet_parts", "scatter", "stuck"]
 
 _SHARE = 0.25  # of a record that is surely quiet
+_FAR = 0.2  # of a record's range: the ends are not at this level
 _MAD = 0.6745  # of a normal deviate: its middle size
 _FIFTH = (0.2, 0.2533)  # of normal deviates are within this
 _MAINS = (50.0, 60.0)  # Hz
+_BLOCK = 1e-3  # s, over which a hum hardly changes
+_WORTH = 40.0
+_PERIODS = 2.0  # below, hum is a drift
 _LAGS = 200
 _LEVERAGE = 5.0  # of a sample over that of a typical quiet one
 _ONE = 0.683  # of normal deviates are within one standard deviation
@@ -54,16 +58,26 @@ def first_guess(record: Record) -> tuple[float, float]:
 
     The level is the middle of the shortest range that holds a quarter of all values.
     """
-    ordered = np.sort(record.values)
-    count = max(3, int(_SHARE * len(ordered)))
+    values = record.values
+    level = _densest(values)
+    ends = np.concatenate([one[: max(3, len(values) // 50)] for one in (values, values[::-1])])
+    limits = (values == values.max()) | (values == values.min())
+    at_limit = level in (values.max(), values.min())
+    if at_limit and not limits.all() and abs(np.median(ends) - level) > _FAR * np.ptp(values):
+        level = _densest(values[~limits])  # at the recorder's limit it is as even
+    jumps = np.abs(np.diff(values))
+    fast = float(np.median(jumps)) / (_MAD * np.sqrt(2.0))
+    slow = float(np.quantile(np.abs(values - level), _FIFTH[0])) / _FIFTH[1]
+    return level, max(fast, slow, _floor(record))
+
+
+def _densest(values: Array) -> float:
+    """Return the middle of the shortest range that holds a quarter of the values."""
+    ordered = np.sort(values)
+    count = min(max(3, int(_SHARE * len(ordered))), len(ordered))
     widths = ordered[count - 1 :] - ordered[: len(ordered) - count + 1]
     at = int(np.argmin(widths))
-    inside = ordered[at : at + count]
-    jumps = np.abs(np.diff(record.values))
-    level = float(np.median(inside))
-    fast = float(np.median(jumps)) / (_MAD * np.sqrt(2.0))
-    slow = float(np.quantile(np.abs(record.values - level), _FIFTH[0])) / _FIFTH[1]
-    return level, max(fast, slow, _floor(record))
+    return float(np.median(ordered[at : at + count]))
 
 
 def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet:
@@ -93,17 +107,11 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     best, base = line, _fitted(line, record.values, quiet)
     height = mains = 0.0
     if hum and quiet.sum() >= _ENOUGH:
-        for tone in _tones(span, record.step):
-            waves = _waves(times, tone)
-            tried = np.concatenate([line, waves], axis=1)
-            if not _holds(tried, quiet):
-                continue
-            own = _fitted(tried, record.values, quiet)
-            old, new = (np.sum((record.values - one)[quiet] ** 2) for one in (base, own))
-            # two more numbers for each wave must pay for themselves many times over
-            if old > (1.0 + 40.0 / quiet.sum()) * new:
-                best, base, mains = tried, own, tone
-                height = float(np.ptp(own - _fitted(line, own, quiet))) / 2.0
+        tone = _tone(times, record, quiet)
+        waves = np.concatenate([line, _waves(times, tone)], axis=1)
+        if tone and _holds(waves, quiet):
+            best, mains, base = waves, tone, _fitted(waves, record.values, quiet)
+            height = float(np.ptp(base - _fitted(line, base, quiet))) / 2.0
     rest = (record.values - base)[quiet]
     noise, density = scatter(rest, best.shape[1], record.quantum)
     floor = _floor(record)
@@ -135,12 +143,33 @@ def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
 
 def _tones(span: float, step: float) -> list[float]:
     """Return the frequencies in Hz tried for the mains, as fine as the record can tell them."""
-    if span < 0.5 / _MAINS[0] or step > 0.2 / _MAINS[1]:
+    if span < _PERIODS / _MAINS[0] or step > 0.2 / _MAINS[1]:
         return []
     if span < 0.1:
         return list(_MAINS)
     fine = np.linspace(-0.3, 0.3, int(min(31, 3 + 12 * span)))
     return [float(main + off) for main in _MAINS for off in fine]
+
+
+def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
+    """Return the frequency in Hz of a hum that stands out, or 0."""
+    width = max(1, int(_BLOCK / record.step))
+    count = len(times) // width * width
+    calm = quiet[:count].reshape(-1, width).all(axis=1)
+    t, y = (one[:count].reshape(-1, width).mean(axis=1)[calm] for one in (times, record.values))
+    every = np.ones(len(t), dtype=bool)
+    line = np.stack([np.ones_like(t), t], axis=1)
+    if len(t) < _ENOUGH:
+        return 0.0
+    found, least = 0.0, float(np.sum((y - _fitted(line, y, every)) ** 2))
+    # two more numbers must pay for themselves many times over
+    least /= 1.0 + _WORTH / len(t)
+    for tone in _tones(float(times[-1]), record.step):
+        columns = np.concatenate([line, _waves(t, tone)], axis=1)
+        left = float(np.sum((y - _fitted(columns, y, every)) ** 2))
+        if left < least:
+            found, least = tone, left
+    return found
 
 
 def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:

@@ -30,18 +30,20 @@ class Stretch:
 
 
 def smoothed(values: Array, width: int) -> Array:
-    """Return moving averages over an odd number of samples; the ends are held.
+    """Return moving averages over an odd number of samples; over fewer at the ends.
 
     Examples
     --------
     >>> smoothed(np.array([0.0, 3.0, 0.0, 0.0]), 3)
-    array([1., 1., 1., 0.])
+    array([1.5, 1. , 1. , 0. ])
     """
     if width <= 1:
         return values
-    half = width // 2
-    total = np.concatenate([[0.0], np.cumsum(np.pad(values, half, mode="edge"))])
-    averages: Array = (total[2 * half + 1 :] - total[: -2 * half - 1]) / (2 * half + 1)
+    half, count = width // 2, len(values)
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    at = np.arange(count)
+    low, high = np.maximum(at - half, 0), np.minimum(at + half + 1, count)
+    averages: Array = (total[high] - total[low]) / (high - low)
     return averages
 
 
@@ -75,10 +77,12 @@ def find_stretches(
     """
     high = max(_OUT * noise, _SMALL * float(signal.max())) if threshold is None else threshold
     rough = _runs(signal, high, min(_LOW * noise, 0.5 * high), 2)
-    wide = [len(one) for one in rough if len(one) >= _WIDE]
-    if not wide:
+    wide = np.sort([len(one) for one in rough if len(one) >= _WIDE])
+    if not len(wide):
         return [], len(rough)
-    width = 2 * (min(int(np.median(wide)), _WIDEST) // _SMOOTH // 2) + 1
+    # noise breaks the flanks of long ones to pieces: half of all samples are in longer ones
+    usual = int(wide[np.searchsorted(np.cumsum(wide), 0.5 * wide.sum())])
+    width = 2 * (min(usual, _WIDEST) // _SMOOTH // 2) + 1
     if width == 1:
         return [one for one in rough if len(one) >= _WIDE], len(rough) - len(wide)
     calm = density / np.sqrt(width)

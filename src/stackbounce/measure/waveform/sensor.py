@@ -77,7 +77,8 @@ def sensitivity_of(
     if second is not None and second.start is not None and first.end is not None:
         flight = second.start - first.end
         e = STANDARD_GRAVITY * flight / (2.0 * speed)
-        if flight > _APART * first.time and e.nominal_value <= 1.0 + 3.0 * e.std_dev:
+        long = flight.nominal_value > _APART * first.time.nominal_value
+        if long and e.nominal_value <= 1.0 + 3.0 * e.std_dev:
             weight = mass * STANDARD_GRAVITY * first.time
             note = f"calibrated by the first bounce, with restitution {e:.2u}"
             return first.impulse / (mass * speed * (1.0 + e) + weight), [note]
