@@ -1,1 +1,1 @@
-"""How often error bars hold the truth: records are made, analysed, and compared with what went in."""
+"""How often error bars hold the truth: records made, analysed and compared with what went in."""

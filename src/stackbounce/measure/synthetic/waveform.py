@@ -151,8 +151,7 @@ def _times(
     if span / step > _MOST:
         raise InvalidValue(f"rate must give {_MOST} samples at most, got {span / step:.3g}")
     count = int(span / step) + 1
-    times: NDArray[np.float64] = -lead + step * (np.arange(count) + random.uniform())
-    return times
+    return np.asarray(step * (np.arange(count) + random.uniform()) - lead, dtype=np.float64)
 
 
 def _converted(
@@ -160,12 +159,14 @@ def _converted(
 ) -> NDArray[np.float64]:
     """Return what a converter makes of the values: steps, and no value beyond its range."""
     if full_scale is not None:
-        values = np.clip(values, -positive("full_scale", full_scale), full_scale)
+        limit = positive("full_scale", full_scale)
+        values = np.clip(values, -limit, limit).astype(float)
     if bits is None:
         return values
     top = full_scale or 2.0 ** np.ceil(np.log2(max(float(np.max(np.abs(values))), 1e-300)))
     step = top / 2.0 ** (whole("bits", bits, 1, 32) - 1)
-    steps: NDArray[np.float64] = np.clip(np.round(values / step), -top / step, top / step - 1.0)
+    most = top / step
+    steps: NDArray[np.float64] = np.clip(np.round(values / step), -most, most - 1.0)
     return step * steps
 
 

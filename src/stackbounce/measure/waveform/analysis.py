@@ -28,7 +28,7 @@ _UNDERSHOOT = 5.0  # errors
 
 
 class _Seen(NamedTuple):
-    """A record on its way: signal upward, quiet parts, stretches, things too short to be contacts."""
+    """A record on its way: signal upward, quiet parts, contacts, things too short to be any."""
 
     signal: Array
     quiet: Quiet
@@ -221,8 +221,8 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
     if seen.quiet.hum:
         notes.append(
-            f"hum of {seen.quiet.mains:.0f} Hz, amplitude {seen.quiet.hum:.3g} {record.unit}".rstrip()
-            + ", was taken off"
+            f"hum of {seen.quiet.mains:.0f} Hz was taken off, amplitude "
+            f"{seen.quiet.hum:.3g} {record.unit}".rstrip()
         )
     whole = next((one for one in contacts if one.time is not None), None)
     if mass is not None and whole is not None and len(whole.peaks) > 1:
@@ -253,7 +253,8 @@ def _droops(seen: _Seen, local: Local, time_constant: float | None) -> list[str]
     if low > -max(_UNDERSHOOT * error, 0.005 * top):
         return []
     area = float(np.sum(seen.signal[one.first : one.last + 1])) * local.step
-    return [
+    note = (
         f"after the contact the signal lies {-low / top:.1%} of its peak too low, as by the droop "
         f"of a piezo sensor: give time_constant (about {area / -low:.2g} s)"
-    ]
+    )
+    return [note]

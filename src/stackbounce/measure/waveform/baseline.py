@@ -1,5 +1,6 @@
 """Where the record is quiet: its level, its drift, its hum, its noise."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -205,12 +206,12 @@ def _robust(rest: Array, quantum: float) -> float:
 
 def _floor(record: Record) -> float:
     """Return the least noise: that of the converter, or round-off."""
-    return max(record.quantum / np.sqrt(12.0), 1e-6 * float(np.ptp(record.values)), 1e-300)
+    return max(record.quantum / math.sqrt(12.0), 1e-6 * float(np.ptp(record.values)), 1e-300)
 
 
 def stuck(quantum: float, noise: float) -> float:
     """Return a level's error by a converter whose steps the noise does not smear out."""
-    return quantum / float(np.sqrt(12.0)) if noise < 0.5 * quantum else 0.0
+    return quantum / math.sqrt(12.0) if noise < 0.5 * quantum else 0.0
 
 
 def _correlation(rest: Array) -> float:

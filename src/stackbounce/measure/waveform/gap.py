@@ -208,7 +208,7 @@ def _checked(
     if m is None and (stiffness is not None or (contact is not None and not _rigid(contact))):
         raise InvalidValue(f"mass must be given with {given[0]}, got {shown(mass)}")
     k, tau = known("stiffness", stiffness, "N/m"), known("contact_time", contact_time, "seconds")
-    if k is not None:
+    if k is not None and m is not None:
         tau = math.pi * (m / k) ** 0.5
     return known(name, value), known("impact_speed", speed, "m/s"), tau
 
@@ -230,9 +230,9 @@ def _simulated_gap(contact: Any, t: float, v: float, mass: float | None) -> floa
     return v * t + float(single.sample([t]).position.values[0, 0])
 
 
-def _inverted(gap_of: Callable[[float], float], gap: float, v: float) -> float:
+def _inverted(gap_of: Callable[[float], float], gap: float, v: Any) -> float:
     """Return when the gap is closed: it grows with the delay all the time."""
-    high = gap / v
+    high = float(gap / v)
     for _ in range(_TURNS):
         if gap_of(high) >= gap:
             break
@@ -251,7 +251,7 @@ def _through(function: Callable[..., float], *given: Any) -> "UFloat":
     """
     from uncertainties import UFloat, nominal_value, ufloat
 
-    values = [None if one is None else nominal_value(one) for one in given]
+    values: list[Any] = [None if one is None else nominal_value(one) for one in given]
     result = function(*values)
     total: Any = result
     for k, one in enumerate(given):
@@ -268,4 +268,4 @@ def _through(function: Callable[..., float], *given: Any) -> "UFloat":
 
 def _exact(value: float, ufloat: Any) -> "UFloat":
     """Return a number whose inputs had no errors: its own is that of round-off."""
-    return ufloat(value, max(abs(value) * 1e-15, 1e-300))  # type: ignore[no-any-return]
+    return ufloat(value, max(abs(value) * 1e-15, 1e-300))

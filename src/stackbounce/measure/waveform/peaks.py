@@ -1,6 +1,7 @@
 """The peaks of a contact, their heights, and its impulse."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -67,7 +68,7 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
     tops = maxima(padded, prominence=stand_out)[0] - 1
     if not len(tops):
         tops = np.array([int(np.argmax(even))])
-    dips = [int(a + np.argmin(even[a:b])) for a, b in zip(tops[:-1], tops[1:], strict=True)]
+    dips = [int(a + np.argmin(even[a:b])) for a, b in pairwise(tops)]
     edges = [0, *dips, len(even) - 1]
     return [
         _cap(times, values, even, int(top), _Cap(*edges[k : k + 2]), density)
