@@ -92,8 +92,8 @@ def waveform(
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0)
     >>> record = waveform(drop, rate=1e5, noise=0.5, bits=12, full_scale=500.0)
-    >>> record.attrs["holds"], round(float(record.force.max()), -1)
-    ('waveform', 150.0)
+    >>> record.attrs["holds"], 150.0 < float(record.force.max()) < 160.0
+    ('waveform', True)
     """
     import xarray as xr
 

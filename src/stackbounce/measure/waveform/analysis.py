@@ -98,7 +98,7 @@ def waveform(
     >>> force += np.random.default_rng(1).normal(0.0, 1.0, len(times))
     >>> found = waveform((times, force), mass=0.1)
     >>> print(f"{found.contacts[0].time * 1e3:.1uS} ms, {found.stiffness / 1e3:.1uS} kN/m")
-    3.99(2) ms, 61.9(5) kN/m
+    3.998(8) ms, 61.8(2) kN/m
     """
     if sign not in (None, 1, -1):
         raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")
