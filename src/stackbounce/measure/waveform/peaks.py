@@ -61,9 +61,9 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
     from scipy.signal import find_peaks as maxima
 
     width = 2 * (len(values) // _AVERAGES // 2) + 1
-    even = smoothed(values, width)
+    even = np.maximum(smoothed(values, width), 0.0)  # what noise does below zero is no dip
     calm = density / np.sqrt(width)
-    padded = np.concatenate([[even.min()], even, [even.min()]])
+    padded = np.concatenate([[0.0], even, [0.0]])
     stand_out = max(_STAND_OUT * max(calm, noise / width), _SHARE * float(even.max()))
     tops = maxima(padded, prominence=stand_out)[0] - 1
     if not len(tops):
