@@ -1,0 +1,1 @@
+"""Records as an instrument would have made them, of drops whose truth is known."""
