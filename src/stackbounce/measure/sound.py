@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.loudness import Rises, find_rises, whitened
-from stackbounce.measure.sequence import Chain, find_chain
+from stackbounce.measure.sequence import Chain, find_chain, roughness
 from stackbounce.measure.table import Row
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ __all__ = ["Dropped", "Knocks", "knocks"]
 _DEAD = 8e-3  # s: two knocks closer than that are one impact
 _AS_LATE = 1.5e-3  # s by which the delay of an echo may differ
 _SECOND_SERIES = 4
+_ROUGH = 2.0
 _CLIPPED = 4  # samples in a row at the largest value
 
 
@@ -113,7 +114,8 @@ def knocks(
     Notes
     -----
     The time of a knock is where the variance of the sound changes, with the error of that (its
-    posterior, tempered where neighbouring samples go together).
+    posterior, for several times of rise). Where the knocks scatter more than that about a
+    restitution that falls steadily with speed, their errors are widened by as much.
 
     Examples
     --------
@@ -313,9 +315,15 @@ def _result(
     from uncertainties import ufloat
 
     at = list(chain.indices)
+    wider = roughness(rises.times[at], rises.errors[at], chain.missed)
+    if wider > _ROUGH:
+        notes.append(
+            f"The knocks scatter {wider:.1f} times more than their onsets are unsure, about a "
+            "restitution that falls steadily: their errors are as wide as that."
+        )
     loudness = rises.amplitudes[at]
     return Knocks(
-        tuple(ufloat(origin + rises.times[k], rises.errors[k]) for k in at),
+        tuple(ufloat(origin + rises.times[k], wider * rises.errors[k]) for k in at),
         loudness / loudness.max(),
         chain.missed,
         tuple(Dropped(origin + one.time, one.why) for one in sorted(dropped, key=lambda d: d.time)),
