@@ -79,7 +79,7 @@ class Bounces:
         Their mean, each counted by its error, as if there were one restitution.
     laws : tuple of RestitutionLaw
         Its fall with speed, linear and as a power law; empty for fewer than three restitutions.
-    drop_height : ufloat or None
+    drop_height : ufloat or float or None
         In m: as given, or inferred.
     inferred : bool
         Whether the drop height is inferred from the mean energy kept, as phyphox does.
@@ -98,7 +98,7 @@ class Bounces:
     restitutions: "tuple[UFloat, ...]"
     mean: "UFloat"
     laws: tuple[RestitutionLaw, ...]
-    drop_height: "UFloat | None"
+    drop_height: "UFloat | float | None"
     inferred: bool
     scatter: float
     gravity: float
@@ -130,7 +130,7 @@ class Bounces:
         kept = min(float(self.mean.nominal_value), 1.0)
         parts: dict[str, object] = {"contact": {"law": "Rigid", "restitution": kept}}
         if self.drop_height is not None:
-            parts["height"] = float(self.drop_height.nominal_value)
+            parts["height"] = _nominal(self.drop_height)
         return parts
 
 
@@ -187,6 +187,8 @@ def bounces(
     >>> f"{found.drop_height:.2f}", found.inferred
     ('1.23+/-0.01', True)
     """
+    from uncertainties import UFloat
+
     gravity = positive("gravity", gravity, "m/s^2")
     contact_time = non_negative("contact_time", contact_time, "seconds")
     notes: list[str] = []
@@ -198,7 +200,7 @@ def bounces(
         raise InvalidValue(
             "times must hold two neighbouring flights, got none without a missing bounce between"
         )
-    if all(one.std_dev == 0.0 for one in moments):
+    if not isinstance(moments[0], UFloat):
         moments, flights, numbers, speeds, kept = _with_errors_from_scatter(
             moments, missed, contact_time, height, gravity, notes
         )
@@ -236,7 +238,7 @@ def bounces(
 
 
 def _moments(times: Any, error: float | None, notes: list[str]) -> tuple[list[Any], list[int]]:
-    """Return times as ufloats, and how many bounces are missing after each but the last."""
+    """Return times, as ufloats where their errors are known, and how many bounces are missing after each but the last."""
     from uncertainties import UFloat, ufloat
 
     if isinstance(times, Knocks):
@@ -247,19 +249,16 @@ def _moments(times: Any, error: float | None, notes: list[str]) -> tuple[list[An
         values, missed = _plain(times), None
     if error is not None:
         error = positive("time_error", error, "seconds")
-    moments = [
-        one
-        if isinstance(one, UFloat) and one.std_dev > 0.0
-        else ufloat(float(getattr(one, "nominal_value", one)), error or 0.0)
-        for one in values
-    ]
-    if len(moments) < 3:
-        raise InvalidValue(f"times must hold at least three bounces, got {len(moments)}")
-    if any(one.std_dev == 0.0 for one in moments):  # some without: none can be told
-        moments = [ufloat(one.nominal_value, 0.0) for one in moments]
-    plain = np.array([one.nominal_value for one in moments])
+    plain = np.array([_nominal(one) for one in values])
+    if len(plain) < 3:
+        raise InvalidValue(f"times must hold at least three bounces, got {len(plain)}")
     if not np.isfinite(plain).all():
         raise InvalidValue("times must be finite numbers of seconds, got one that is not")
+    moments: list[Any] = [float(one) for one in plain]
+    if all(isinstance(one, UFloat) and one.std_dev > 0.0 for one in values):
+        moments = values
+    elif error is not None:
+        moments = [ufloat(one, error) for one in moments]
     steps = np.diff(plain)
     if (steps <= 0.0).any():
         k = int(np.argmax(steps <= 0.0))
@@ -268,11 +267,11 @@ def _moments(times: Any, error: float | None, notes: list[str]) -> tuple[list[An
         )
     if missed is None:
         missed = missed_between(steps)
-        for k in np.flatnonzero(missed):
-            notes.append(
-                f"A bounce seems to be missing between {plain[k]:.4g} s and {plain[k + 1]:.4g} s: "
-                "its flights are left out."
-            )
+        notes.extend(
+            f"A bounce seems to be missing between {plain[k]:.4g} s and {plain[k + 1]:.4g} s: "
+            "its flights are left out."
+            for k in np.flatnonzero(missed)
+        )
     return moments, missed
 
 
@@ -295,7 +294,7 @@ def _plain(times: Any) -> list[Any]:
     try:
         values = list(times)
         for one in values:
-            float(getattr(one, "nominal_value", one))
+            _nominal(one)
     except (TypeError, ValueError):
         raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}") from None
     return values
@@ -309,23 +308,24 @@ def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float)
     flights: list[Any] = []
     for k, lost in enumerate(missed):
         flight = moments[k + 1] - moments[k] - contact_time
-        if flight.nominal_value <= 0.0:
+        if _nominal(flight) <= 0.0:
             raise InvalidValue(
                 f"contact_time must be shorter than every interval, got {contact_time:g} s and an "
-                f"interval of {flight.nominal_value + contact_time:g} s"
+                f"interval of {_nominal(flight) + contact_time:g} s"
             )
         flights.append(None if lost else flight)
     return flights
 
 
 def _height(height: "float | UFloat | None") -> Any:
-    from uncertainties import UFloat, ufloat
+    if height is None:
+        return None
+    positive("drop_height", getattr(height, "nominal_value", height), "metres")
+    return height
 
-    if height is None or isinstance(height, UFloat):
-        if height is not None:
-            positive("drop_height", height.nominal_value, "metres")
-        return height
-    return ufloat(positive("drop_height", height, "metres"), 0.0)
+
+def _nominal(number: Any) -> float:
+    return float(getattr(number, "nominal_value", number))
 
 
 def _restitutions(
@@ -359,7 +359,7 @@ def _with_errors_from_scatter(
     from uncertainties import ufloat
 
     def again(error: float) -> tuple[list[Any], list[Any], list[int], list[Any], list[Any]]:
-        timed = [ufloat(one.nominal_value, error) for one in moments]
+        timed = [ufloat(one, error) for one in moments]
         flights = _flights(timed, missed, contact_time)
         return timed, flights, *_restitutions(flights, missed, height, gravity)
 
@@ -389,7 +389,7 @@ def _straight(
 
     x = [umath.log(speed) for speed in speeds] if power else list(speeds)
     y = [umath.log(one) for one in kept] if power else list(kept)
-    design = np.vander([one.nominal_value for one in x], degree + 1, increasing=True)
+    design = np.vander([_nominal(one) for one in x], degree + 1, increasing=True)
     values = np.array([one.nominal_value for one in y])
     slope, more, fit = 0.0, 0.0, None
     for _ in range(3):
@@ -435,4 +435,4 @@ def _energy_kept(kept: Sequence[Any]) -> Any:
 
     squares = [one**2 for one in kept]
     spread = float(np.std([one.nominal_value for one in squares], ddof=1)) if kept[1:] else 0.0
-    return sum(squares) / len(squares) + ufloat(0.0, spread)
+    return sum(squares) / len(squares) + (ufloat(0.0, spread) if spread > 0.0 else 0.0)

@@ -122,7 +122,9 @@ class _Sums:
         sigma: float,
     ) -> None:
         terms = np.stack([x, flown, held, x * x, x * flown, flown * flown, held * held])
-        sums = np.cumsum(terms / np.array([1, sigma, sigma, 1, sigma, sigma**2, sigma**2])[:, None], axis=1)
+        sums = np.cumsum(
+            terms / np.array([1, sigma, sigma, 1, sigma, sigma**2, sigma**2])[:, None], axis=1
+        )
         self._sums = np.concatenate([np.zeros((7, 1)), sums], axis=1)
         self._counts = np.arange(len(x) + 1, dtype=np.float64)
 

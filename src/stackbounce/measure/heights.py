@@ -1,12 +1,13 @@
 """Heights of successive bounces -> restitution of each, wherever on the ball they were read."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.chance import widening
 from stackbounce.measure.table import Row
 
@@ -94,7 +95,8 @@ def heights(
     measured_to : {"bottom", "centre", "top"} or a pair of them
         Where on the ball the heights were read; a pair has the drop's first and then the bounces'.
     height_error : float, optional
-        The error in m of each height that has none of its own.
+        The error in m of each height that has none of its own; without it the errors are unknown
+        (NaN).
     repeated : bool, optional
         Whether `bounce_heights` are the first bounce's, from drop after drop, rather than
         successive ones.
@@ -124,7 +126,9 @@ def heights(
     0.758(4)
     """
     places = _places(measured_to)
-    error = 0.0 if height_error is None else non_negative("height_error", height_error, "metres")
+    error = math.nan
+    if height_error is not None:
+        error = positive("height_error", height_error, "metres")
     size = _size(diameter, places)
     listed = _listed(bounce_heights)
     start = _counted("drop_height", _number("drop_height", drop_height, error), places[0], size)
@@ -169,7 +173,8 @@ def _number(name: str, value: Any, error: float) -> Any:
     if isinstance(value, UFloat):
         positive(name, value.nominal_value, "metres")
         return value
-    return ufloat(positive(name, value, "metres"), error)
+    number = positive(name, value, "metres")
+    return number if error == 0.0 else ufloat(number, error)
 
 
 def _size(diameter: Any, places: tuple[str, str]) -> Any:
@@ -180,7 +185,7 @@ def _size(diameter: Any, places: tuple[str, str]) -> Any:
                 f"diameter must be given where a height was measured to the {away[0]}, got None"
             )
         return 0.0
-    return _number("diameter", diameter, 0.0)
+    return _number("diameter", diameter, 0.0)  # a number is taken to be exact
 
 
 def _counted(name: str, height: Any, place: str, size: Any) -> Any:
@@ -205,15 +210,17 @@ def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
     if len(counted) > 1:
         # What single heights scatter by holds all of their own reading errors already.
         values = np.array([one.nominal_value for one in counted])
-        error = values.std(ddof=1) / np.sqrt(len(values)) * widening(len(values) - 1)
-        mean = ufloat(values.mean(), max(float(error), 0.0))
+        error = float(values.std(ddof=1)) / math.sqrt(len(values)) * widening(len(values) - 1)
+        mean = ufloat(values.mean(), error) if error else mean
     return (mean / start) ** 0.5
 
 
 def _notes(start: Any, counted: list[Any], repeated: bool) -> list[str]:
     notes = []
-    if all(one.std_dev == 0.0 for one in [start, *counted]):
-        notes.append("The heights have no errors, so that the restitutions have none either.")
+    if any(math.isnan(one.std_dev) for one in [start, *counted]):
+        notes.append(
+            "A height has no error, so that those of the restitutions are unknown: give height_error."
+        )
     before = [start] * len(counted) if repeated else [start, *counted[:-1]]
     for k, (first, after) in enumerate(zip(before, counted, strict=True)):
         if after.nominal_value > first.nominal_value:

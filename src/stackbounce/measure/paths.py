@@ -14,6 +14,7 @@ __all__ = ["Columns", "Upward", "columns", "flights_of", "tilt_of", "upward"]
 
 _MOVES = 0.03  # of the range of a track, within a window
 _JUMP = 5.0  # errors that make a velocity's jump a bounce
+_LEAST_JUMP = 0.1  # of the largest one; smaller ones are a hand's
 _ROUNDS = 4
 _FEW = 1500  # points up to which more guesses of the acceleration are tried
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
@@ -109,9 +110,7 @@ def upward(found: Columns, axis: str | None) -> Upward:
         return Upward(name, sign)
     best = ("y", 1.0, 0.0)
     for name in found.positions[0]:
-        falls = [
-            one for p in found.positions for one in _accelerations(found.times, p[name], None)
-        ]
+        falls = [one for p in found.positions for one in _accelerations(found.times, p[name], None)]
         middle = float(np.median(falls)) if falls else 0.0
         if abs(middle) > best[2]:
             best = (name, -math.copysign(1.0, middle), abs(middle))
@@ -209,7 +208,8 @@ def _joined(
             joined = Flight(flights[j].first, flights[j + 1].last)
             flights = [*flights[:j], joined, *flights[j + 2 :]]
             continue
-        bounces = [j for j, (jump, _, before) in enumerate(jumps) if jump > 0.0 and before < 0.0]
+        least = _LEAST_JUMP * max((jump for jump, *_ in jumps), default=0.0)
+        bounces = [j for j, (jump, _, before) in enumerate(jumps) if jump > least and before < 0.0]
         used = sorted({j for b in bounces for j in (b, b + 1)})
         if len(used) == len(flights) or not used:
             return fitted, bounces

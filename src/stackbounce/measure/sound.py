@@ -281,16 +281,19 @@ def _note_series(
 ) -> None:
     """Say where a bounce is missing, where there is too little, and where there is more."""
     times = origin + rises.times[list(chain.indices)]
-    for k in np.flatnonzero(chain.missed):
-        notes.append(
-            f"A bounce seems to be missing between {times[k]:.4g} s and {times[k + 1]:.4g} s."
-        )
+    notes.extend(
+        f"A bounce seems to be missing between {times[k]:.4g} s and {times[k + 1]:.4g} s."
+        for k in np.flatnonzero(chain.missed)
+    )
     if len(times) < 4:
         notes.append(
             f"Only {len(times)} knock{'s' * (len(times) != 1)}: too few to tell bounces from "
             "other sounds."
         )
-    for side, left in (("before", slice(0, chain.indices[0])), ("after", slice(chain.indices[-1] + 1, None))):
+    for side, left in (
+        ("before", slice(0, chain.indices[0])),
+        ("after", slice(chain.indices[-1] + 1, None)),
+    ):
         rest = Rises(*(column[left] for column in rises))
         if len(rest.times) < _SECOND_SERIES:
             continue

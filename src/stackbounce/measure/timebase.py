@@ -77,9 +77,7 @@ def check_time_base(gravity: "UFloat", true: float, frame_rate: float) -> TimeBa
     sensible = min((*_FACTORS, *_FACTORS_MORE), key=lambda one: abs(math.log(one / factor)))
     slack = max(_NEAR, 1.5 * float(ratio.std_dev) / value)
     near = abs(math.log(sensible / factor)) < slack
-    beginning = (
-        f"Gravity comes out as {gravity:.2uS} m/s^2 instead of {true:g}: "
-    )
+    beginning = f"Gravity comes out as {gravity:.2uS} m/s^2 instead of {true:g}: "
     if near and abs(factor - 1.0) > 0.1:
         rates = _rates(frame_rate, sensible)
         clock = f"the video's frame rate is wrong by a factor of {sensible:.3g}{rates}"

@@ -186,11 +186,11 @@ def track(
     --------
     >>> import numpy as np
     >>> times = np.arange(40) / 60
-    >>> heights = np.where(times < 0.4, 0.8 - 4.9 * times**2, 2.9 * (times - 0.4) - 4.9 * (times - 0.4)**2)
-    >>> heights[times < 0.4] -= 0.8 - 4.9 * 0.4**2
-    >>> ball = track((times, heights + np.random.default_rng(1).normal(0, 1e-3, 40))).balls[0]
-    >>> round(ball.restitutions[0].nominal_value, 2)
-    0.74
+    >>> since = times - 0.4
+    >>> heights = np.where(since < 0, -3.92 * since, 2.94 * since) - 4.9 * since**2
+    >>> seen = heights + np.random.default_rng(1).normal(0.0, 1e-3, 40)
+    >>> print(f"{track((times, seen)).balls[0].restitutions[0]:.1uS}")
+    0.750(1)
     """
     gravity = positive("gravity", gravity, "m/s^2")
     clock = positive("frame_rate_factor", frame_rate_factor)
@@ -250,9 +250,12 @@ def _fitted(
                     "vertical, as the flights show; heights are counted along the vertical."
                 )
                 return tilted, again
-    for name in found.names:
-        if name not in [one for one, _ in fitted]:
-            notes.append(f"{name}: no bounce was found, and it is left out.")
+    known = [name for name, _ in fitted]
+    notes.extend(
+        f"{name}: no bounce was found, and it is left out."
+        for name in found.names
+        if name not in known
+    )
     return up, fitted
 
 
@@ -295,7 +298,10 @@ def _track(
             level = low + before * since - 0.5 * fall * since**2
             rows.append((middle + since, level, fall * since - before, after - fall * since))
         else:
-            speeds = [_at_level(speed, place - floor, fall) for place, speed in ((low, before), (high, after))]
+            speeds = [
+                _at_level(speed, place - floor, fall)
+                for place, speed in ((low, before), (high, after))
+            ]
             rows.append((middle + since, low * 0.0 + floor, *speeds))
     moments, levels, impacts, rebounds = (tuple(column) for column in zip(*rows, strict=True))
     return Track(
@@ -305,7 +311,7 @@ def _track(
         impacts,
         rebounds,
         impacts[0] ** 2 / (2.0 * fall),
-        tuple(abs(speed) * speed / (2.0 * fall) for speed in rebounds),
+        tuple(math.copysign(0.5, speed.nominal_value) * speed**2 / fall for speed in rebounds),
         tuple(after / before for before, after in zip(impacts, rebounds, strict=True)),
         fall,
         times,
