@@ -20,7 +20,7 @@ def recorded(fall: Falls, **options: Any) -> Trial:
     """Return a trial: a recording, its knocks, and what they tell."""
 
     def trial(seed: int) -> list[tuple[str, Any, float]]:
-        data = sound(fall, rate=24000.0, before=0.2, after=0.2, seed=seed, **options)
+        data = sound(fall, before=0.1, after=0.1, seed=seed, **options)
         found = knocks(data)
         if len(found.times) < 4 or any(found.missed):
             return []

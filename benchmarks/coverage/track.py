@@ -15,7 +15,7 @@ Trial = Callable[[int], list[tuple[str, Any, float]]]
 
 ONE = falls(0.5, 0.8)
 BALLS = ([Ball(0.6), Ball(0.1)], [Rigid(0.8)] * 2)
-STACK = simulate(Drop(*BALLS, height=0.5, gravity=ONE.gravity), until=0.25)
+STACK = simulate(Drop(*BALLS, height=0.5, gravity=ONE.gravity), until=0.2)
 RATIOS = simulate(Drop(*BALLS, height=0.5)).rebound_ratios  # right after the impact
 
 

@@ -180,13 +180,13 @@ def _chances(
 ) -> NDArray[np.float64]:
     """Return how probable it is that the knock begins at each sample."""
     count = len(squares)
-    since = np.subtract.outer(np.arange(count), np.arange(count))  # (sample, onset)
+    at = np.arange(count)
+    since = np.maximum(np.subtract.outer(at, at), -1) + 1  # 0 before the onset; (sample, onset)
     logs = []
     for rise in _RISES:
-        times = np.maximum(since + 0.5, 0.0) / rate
-        grown = (-np.expm1(-times / rise)) ** 2 if rise else (since >= 0).astype(np.float64)
-        variance = before + more * np.where(since >= 0, grown, 0.0)
-        terms = squares[:, None] / variance + np.log(variance)
+        grown = (-np.expm1(-(at + 0.5) / rate / rise)) ** 2 if rise else np.ones(count)
+        variance = before + more * np.concatenate([[0.0], grown])
+        terms = squares[:, None] * (1.0 / variance)[since] + np.log(variance)[since]
         logs.append(-0.5 * channels * terms.sum(axis=0))
     likelihood = np.array(logs)
     chances = np.exp(likelihood - likelihood.max()).sum(axis=0)

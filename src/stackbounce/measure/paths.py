@@ -16,6 +16,8 @@ _MOVES = 0.03  # of the range of a track, within a window
 _JUMP = 5.0  # errors that make a velocity's jump a bounce
 _LEAST_JUMP = 0.1  # of the largest one; smaller ones are a hand's
 _ROUNDS = 4
+_WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
+_ALIKE = 0.05
 _FEW = 1500  # points up to which more guesses of the acceleration are tried
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
 
@@ -99,8 +101,8 @@ def _from_dataset(data: Any) -> Columns:
     return Columns(times, names or [f"ball {k}" for k in range(count)], positions)
 
 
-def upward(found: Columns, axis: str | None) -> Upward:
-    """Return which way is up: opposite to the acceleration that most of the movement has."""
+def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
+    """Return which way is up: along which falling at one acceleration explains most."""
     if axis is not None:
         if axis not in _AXES:
             raise InvalidValue(f"axis must be x, y, -x or -y, got {shown(axis)}")
@@ -108,26 +110,52 @@ def upward(found: Columns, axis: str | None) -> Upward:
         if name not in found.positions[0]:
             raise InvalidValue(f"axis must be one of the track's, got {shown(axis)}")
         return Upward(name, sign)
-    best = ("y", 1.0, 0.0)
+    best = ("y" if "y" in found.positions[0] else "x", 1.0, 0.0)
     for name in found.positions[0]:
-        falls = [one for p in found.positions for one in _accelerations(found.times, p[name], None)]
-        middle = float(np.median(falls)) if falls else 0.0
-        if abs(middle) > best[2]:
-            best = (name, -math.copysign(1.0, middle), abs(middle))
+        for sign in (1.0, -1.0):
+            gain = 0.0
+            for position in found.positions:
+                good = np.isfinite(position[name])
+                if good.sum() > 4 and np.ptp(position[name][good]) > 0.0:
+                    times, heights = found.times[good], sign * position[name][good]
+                    none = find_flights(times, heights, _noise(heights), 0.0)[1]
+                    gain += none - _guess(times, heights, gravity)[1]
+            if gain > best[2]:
+                best = (name, sign, gain)
     return Upward(*best[:2])
 
 
+def _guess(
+    times: NDArray[np.float64], heights: NDArray[np.float64], gravity: float
+) -> tuple[float, float]:
+    """Return the acceleration that explains most, of those worth trying, and what it leaves.
+
+    Of windows of several widths, and of gravity with usual mistakes of the clock.
+    """
+    guesses = []
+    for wide in _WIDTHS:
+        falls = -_accelerations(times, heights, wide)
+        if len(falls):
+            guesses.append(float(np.median(falls)))
+    if len(heights) <= _FEW:
+        guesses.extend([gravity, gravity / 16.0])
+    tried: list[tuple[float, float]] = []
+    sigma = _noise(heights)
+    for one in guesses:
+        if one > 0.0 and all(abs(one / other - 1.0) > _ALIKE for _, other in tried):
+            tried.append((find_flights(times, heights, sigma, one)[1], one))
+    cost, acceleration = min(tried, default=(math.inf, gravity))
+    return acceleration, cost
+
+
 def _accelerations(
-    times: NDArray[np.float64], values: NDArray[np.float64], wide: int | None
+    times: NDArray[np.float64], heights: NDArray[np.float64], wide: int
 ) -> NDArray[np.float64]:
-    """Return the accelerations of parabolas through windows of points in which something moves."""
-    good = np.isfinite(values)
-    t, u = times[good], values[good]
-    wide = wide or int(np.clip(len(u) // 25, 3, 7))
-    if len(u) < wide:
+    """Return the accelerations of parabolas through windows of points in which the ball moves."""
+    if len(heights) < wide:
         return np.zeros(0)
-    t, u = (np.lib.stride_tricks.sliding_window_view(one, wide) for one in (t, u))
-    moves = np.ptp(u, axis=1) > _MOVES * np.ptp(values[good])
+    t, u = (np.lib.stride_tricks.sliding_window_view(one, wide) for one in (times, heights))
+    moves = np.ptp(u, axis=1) > _MOVES * np.ptp(heights)
     t, u = t[moves], u[moves]
     since = t - t.mean(axis=1, keepdims=True)
     # Least squares of 1, t, t² in each window, by making t² orthogonal to the others.
@@ -146,9 +174,7 @@ def flights_of(
     The acceleration is the track's own, whatever its clock and ruler are.
     """
     sigma = _noise(heights)
-    guesses = _guesses(times, heights, gravity)
-    costs = [(find_flights(times, heights, sigma, one)[1], one) for one in guesses]
-    acceleration = min(costs)[1] if costs else gravity
+    acceleration, _ = _guess(times, heights, gravity)
     fitted, jumps = None, []
     for _ in range(_ROUNDS):
         flights, _ = find_flights(times, heights, sigma, acceleration)
@@ -177,20 +203,6 @@ def _noise_floor(heights: NDArray[np.float64]) -> float:
     steps = steps[steps > 1e-9 * np.ptp(heights)]
     step = float(steps.min()) if len(steps) else 0.0
     return max(step / math.sqrt(12.0), 1e-5 * float(np.ptp(heights)), 1e-12)
-
-
-def _guesses(
-    times: NDArray[np.float64], heights: NDArray[np.float64], gravity: float
-) -> list[float]:
-    """Return accelerations worth trying: of windows of several widths, and of usual mistakes."""
-    found = []
-    for wide in (3, 5, 7, 11):
-        falls = -_accelerations(times, heights, wide)
-        if len(falls):
-            found.append(float(np.median(falls)))
-    if len(heights) <= _FEW:
-        found.extend(gravity * factor for factor in (1.0, 1 / 16, 1 / 4))
-    return [one for one in found if one > 0.0]
 
 
 def _joined(

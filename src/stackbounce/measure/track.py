@@ -202,7 +202,7 @@ def track(
         [{name: ruler * one for name, one in p.items()} for p in found.positions],
     )
     notes: list[str] = []
-    up = upward(found, axis)
+    up = upward(found, axis, gravity)
     if axis is None and up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
     up, fitted = _fitted(found, up, gravity, notes)

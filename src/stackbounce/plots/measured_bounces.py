@@ -89,4 +89,4 @@ def _formula(law: Any) -> str:
         return f"e = {law.coefficient.nominal_value:.3f} − {law.slope:.1uS} v/(m/s)".replace(
             "− -", "+ "
         )
-    return f"e = {law.coefficient.nominal_value:.3f} (v/(m/s))^{-law.slope:.1uS}"
+    return f"e = {law.coefficient.nominal_value:.3f} (v/(m/s))$^{{{-law.slope:.1uS}}}$"

@@ -56,7 +56,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
 
 def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
     used = np.isfinite(ball.fit.residuals)
-    label = ball.name if named else "tracked"
+    label = _label(ball, named)
     axes.plot(ball.times[used], ball.heights[used], "o", color=color, markersize=3.4, label=label)
     axes.plot(
         ball.times[~used],
@@ -80,14 +80,9 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
     for k, (time, level, kept) in enumerate(rows):
         at = (time.nominal_value, level.nominal_value)
         axes.plot(*at, "v", color=color, markersize=7, markeredgecolor="white")
-        if not named or k == 0:
-            words = (
-                f"e = {kept:.1uS}"
-                if not named
-                else f"{ball.impact_speeds[k]:.1uS} → {ball.rebound_speeds[k]:.1uS} m/s"
-            )
+        if not named:
             axes.annotate(
-                words,
+                f"e = {kept:.1uS}",
                 at,
                 xytext=(0, -14),
                 textcoords="offset points",
@@ -95,6 +90,12 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
                 fontsize=9,
                 color=color,
             )
+
+
+def _label(ball: Any, named: bool) -> str:
+    if not named:
+        return "tracked"
+    return f"{ball.name}: {ball.impact_speeds[0]:.1uS} m/s down, {ball.rebound_speeds[0]:.1uS} m/s up"
 
 
 def _summary(found: Any) -> str:
