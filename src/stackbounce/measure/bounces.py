@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
-from stackbounce.measure.chance import Fit, extra_scatter, least_squares, widening
+from stackbounce.measure.chance import widening
+from stackbounce.measure.restitution_law import RestitutionLaw, laws_of, straight
 from stackbounce.measure.sequence import missed_between
 from stackbounce.measure.sound import Knocks
 from stackbounce.measure.table import Row
@@ -17,46 +17,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Bounces", "RestitutionLaw", "bounces"]
-
-
-@dataclass(frozen=True)
-class RestitutionLaw:
-    """How restitution falls with speed: ``e = coefficient - slope v`` or ``coefficient v**-slope``.
-
-    Attributes
-    ----------
-    form : {"linear", "power law"}
-        Which of the two.
-    coefficient : ufloat
-        The restitution at no speed (linear), or at 1 m/s (power law).
-    slope : ufloat
-        In s/m (linear), or the exponent (power law); above 0 where the restitution falls. The
-        errors of the two go together, as `uncertainties` knows.
-    chi_squared : float
-        Of the fit, with `freedom` degrees of freedom.
-    freedom : int
-        Bounces less 2.
-    """
-
-    form: Literal["linear", "power law"]
-    coefficient: "UFloat"
-    slope: "UFloat"
-    chi_squared: float
-    freedom: int
-
-    @property
-    def covariance(self) -> NDArray[np.float64]:
-        """Covariance of coefficient and slope, (2, 2)."""
-        from uncertainties import covariance_matrix
-
-        return np.array(covariance_matrix([self.coefficient, self.slope]))
-
-    def at(self, speed: "float | UFloat") -> "UFloat":
-        """Return the restitution at an impact speed in m/s."""
-        if self.form == "linear":
-            return self.coefficient - self.slope * speed
-        return self.coefficient * speed ** (-self.slope)
+__all__ = ["Bounces", "bounces"]
 
 
 @dataclass(frozen=True)
@@ -208,7 +169,7 @@ def bounces(
         notes.append(
             "A restitution above 1: a bounce was missed before it, or it was not left to itself."
         )
-    mean, laws, scatter = _laws(speeds, kept)
+    mean, laws, scatter = laws_of(speeds, kept)
     if scatter:
         notes.append(
             f"Restitution differs by {scatter:.2g} from bounce to bounce, more than the errors of "
@@ -368,65 +329,13 @@ def _with_errors_from_scatter(
     if len(kept) < 2:
         notes.append("One restitution and no errors of its times: its error cannot be told.")
         return again(float("nan"))
-    fit, _ = _straight(speeds, kept, 1 if len(kept) > 2 else 0, 0.0)
+    fit, _ = straight(speeds, kept, 1 if len(kept) > 2 else 0, 0.0)
     error = small * np.sqrt(fit.chi_squared / fit.freedom) * widening(fit.freedom)
     notes.append(
         "The times have no errors: those of the restitutions follow from their scatter about a "
         f"{'straight line' if len(kept) > 2 else 'constant'} ({1e3 * error:.2g} ms for each time)."
     )
     return again(max(float(error), 1e-12))
-
-
-def _straight(
-    speeds: Sequence[Any], kept: Sequence[Any], degree: int, scatter: float, power: bool = False
-) -> tuple[Fit, float]:
-    """Return the fit of a polynomial in the speed, or of logarithms, and its extra scatter.
-
-    The speeds have errors too, which go together with the restitutions': the covariance is that of
-    the residuals.
-    """
-    from uncertainties import covariance_matrix, umath
-
-    x = [umath.log(speed) for speed in speeds] if power else list(speeds)
-    y = [umath.log(one) for one in kept] if power else list(kept)
-    design = np.vander([_nominal(one) for one in x], degree + 1, increasing=True)
-    values = np.array([one.nominal_value for one in y])
-    slope, more, fit = 0.0, 0.0, None
-    for _ in range(3):
-        residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
-        covariance = np.array(covariance_matrix(residuals))
-        more = extra_scatter(design, values, covariance) if scatter < 0.0 else scatter
-        fit = least_squares(design, values, covariance + more**2 * np.eye(len(values)))
-        slope = float(fit.values[1]) if degree else 0.0
-    assert fit is not None
-    return fit, more
-
-
-def _laws(
-    speeds: Sequence[Any], kept: Sequence[Any]
-) -> "tuple[UFloat, tuple[RestitutionLaw, ...], float]":
-    """Return the mean restitution, its two laws, and the scatter about the linear one."""
-    from uncertainties import correlated_values, umath
-
-    if any(np.isnan(one.std_dev) for one in kept):
-        return sum(kept) / len(kept), (), 0.0
-    laws: list[RestitutionLaw] = []
-    scatter = 0.0
-    if len(kept) > 2:
-        for form, power in (("linear", False), ("power law", True)):
-            fit, more = _straight(speeds, kept, 1, -1.0, power)
-            wider = widening(fit.freedom) ** 2 if more else 1.0
-            first, second = correlated_values(fit.values, wider * fit.covariance)
-            if not power:
-                scatter = more
-            coefficient = umath.exp(first) if power else first
-            laws.append(
-                RestitutionLaw(form, coefficient, -second, fit.chi_squared, fit.freedom)  # type: ignore[arg-type]
-            )
-    fit, more = _straight(speeds, kept, 0, -1.0)
-    wider = widening(fit.freedom) ** 2 if more else 1.0
-    (mean,) = correlated_values(fit.values, wider * fit.covariance)
-    return mean, tuple(laws), scatter
 
 
 def _energy_kept(kept: Sequence[Any]) -> Any:

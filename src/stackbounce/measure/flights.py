@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Flight", "Flights", "find_flights", "fit_flights"]
+__all__ = ["Flight", "Flights", "find_flights", "fit_flights", "unexplained"]
 
 _PRICE = 14.0  # of a further piece, in variances
 _STRAY = 9.0  # of a point that belongs to no piece
@@ -56,8 +56,8 @@ class Flights(NamedTuple):
 
 def find_flights(
     times: NDArray[np.float64], heights: NDArray[np.float64], sigma: float, acceleration: float
-) -> tuple[list[Flight], float]:
-    """Return the free flights in a track, and how badly they explain it.
+) -> list[Flight]:
+    """Return the free flights in a track.
 
     The track is cut into flights, rests and stray points so that the sum of squares and of prices
     is least (R. Bellman's dynamic programming).
@@ -73,8 +73,7 @@ def find_flights(
 
     Returns
     -------
-    flights : list of Flight
-    cost : float
+    list of Flight
 
     Examples
     --------
@@ -82,7 +81,7 @@ def find_flights(
     >>> heights = np.where(times < 0.5, 1.25 - 5 * times**2, 0.0) + np.where(
     ...     times >= 0.5, 4 * (times - 0.5) - 5 * (times - 0.5) ** 2, 0.0
     ... )
-    >>> find_flights(times, heights, 1e-3, 10.0)[0]
+    >>> find_flights(times, heights, 1e-3, 10.0)
     [Flight(first=0, last=10), Flight(first=10, last=21)]
     """
     count = len(times)
@@ -108,7 +107,57 @@ def find_flights(
         if kind[end] == 1:
             flights.append(Flight(int(before[end]), end))
         end = int(before[end])
-    return flights[::-1], best[count]
+    return flights[::-1]
+
+
+def unexplained(
+    times: NDArray[np.float64],
+    heights: NDArray[np.float64],
+    sigma: float,
+    accelerations: NDArray[np.float64],
+) -> NDArray[np.float64]:
+    """Return how badly flights of each acceleration explain a track; see `find_flights`.
+
+    Parameters
+    ----------
+    times, heights, sigma
+        As in `find_flights`.
+    accelerations : ndarray
+        (K,) in m/s², above 0 downward.
+
+    Returns
+    -------
+    ndarray
+        (K,) sums of squares and prices, in variances.
+    """
+    count = len(times)
+    x = times - times.mean()
+    y = (heights - heights.mean()) / sigma
+    flown = y + 0.5 * np.asarray(accelerations)[:, None] * x**2 / sigma
+    flown -= flown.mean(axis=1, keepdims=True)
+    # Running sums: of x, x², y, y² (one row), and of what is left of flights, times x, squared.
+    single = _running(np.stack([x, x * x, y, y * y]))
+    many = _running(np.stack([flown, x * flown, flown * flown]))
+    best = np.zeros((len(flown), count + 1))
+    counts = np.arange(count + 1, dtype=np.float64)
+    for end in range(1, count + 1):
+        best[:, end] = best[:, end - 1] + _STRAY
+        if end < _LEAST:
+            continue
+        part = slice(max(0, end - _LONGEST), end - _LEAST + 1)
+        n = end - counts[part]
+        sx, sxx, sy, syy = single[:, end, None] - single[:, part]
+        f, xf, ff = many[:, :, end, None] - many[:, :, part]
+        mean = sx / n
+        misfit = ff - f * f / n - (xf - mean * f) ** 2 / np.maximum(sxx - mean * sx, 1e-300)
+        misfit = np.minimum(np.maximum(misfit, 0.0), np.maximum(syy - sy * sy / n, 0.0))
+        cheapest = (best[:, part] + misfit).min(axis=1) + _PRICE
+        best[:, end] = np.minimum(best[:, end], cheapest)
+    return best[:, -1]
+
+
+def _running(terms: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.concatenate([np.zeros((*terms.shape[:-1], 1)), np.cumsum(terms, axis=-1)], axis=-1)
 
 
 class _Sums:

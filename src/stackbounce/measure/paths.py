@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.measure.flights import Flight, Flights, find_flights, fit_flights
+from stackbounce.measure.flights import Flight, Flights, find_flights, fit_flights, unexplained
 
 __all__ = ["Columns", "Upward", "columns", "flights_of", "tilt_of", "upward"]
 
@@ -17,8 +17,9 @@ _JUMP = 5.0  # errors that make a velocity's jump a bounce
 _LEAST_JUMP = 0.1  # of the largest one; smaller ones are a hand's
 _ROUNDS = 4
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
+_UNSEEN = 4.0  # errors by which a released ball has fallen before it is seen to
+_SURE = 5  # points that a fall keeps
 _ALIKE = 0.05
-_FEW = 1500  # points up to which more guesses of the acceleration are tried
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
 
 
@@ -112,40 +113,34 @@ def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
         return Upward(name, sign)
     best = ("y" if "y" in found.positions[0] else "x", 1.0, 0.0)
     for name in found.positions[0]:
-        for sign in (1.0, -1.0):
-            gain = 0.0
-            for position in found.positions:
-                good = np.isfinite(position[name])
-                if good.sum() > 4 and np.ptp(position[name][good]) > 0.0:
-                    times, heights = found.times[good], sign * position[name][good]
-                    none = find_flights(times, heights, _noise(heights), 0.0)[1]
-                    gain += none - _guess(times, heights, gravity)[1]
+        gains = [0.0, 0.0]  # upward, downward
+        for position in found.positions:
+            good = np.isfinite(position[name])
+            times, heights = found.times[good], position[name][good]
+            if good.sum() < 5 or np.ptp(heights) == 0.0:
+                continue
+            falls = _guesses(times, heights, gravity)
+            both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
+            costs = unexplained(times, heights, _noise(heights), both)
+            gains[0] += float(costs[0] - costs[1 : 1 + len(falls)].min())
+            gains[1] += float(costs[0] - costs[1 + len(falls) :].min())
+        for sign, gain in zip((1.0, -1.0), gains, strict=True):
             if gain > best[2]:
                 best = (name, sign, gain)
     return Upward(*best[:2])
 
 
-def _guess(
+def _guesses(
     times: NDArray[np.float64], heights: NDArray[np.float64], gravity: float
-) -> tuple[float, float]:
-    """Return the acceleration that explains most, of those worth trying, and what it leaves.
-
-    Of windows of several widths, and of gravity with usual mistakes of the clock.
-    """
-    guesses = []
+) -> NDArray[np.float64]:
+    """Return accelerations worth trying: of windows, and gravity with a usual wrong clock."""
+    guesses = [gravity, gravity / 16.0]
     for wide in _WIDTHS:
         falls = -_accelerations(times, heights, wide)
-        if len(falls):
-            guesses.append(float(np.median(falls)))
-    if len(heights) <= _FEW:
-        guesses.extend([gravity, gravity / 16.0])
-    tried: list[tuple[float, float]] = []
-    sigma = _noise(heights)
-    for one in guesses:
-        if one > 0.0 and all(abs(one / other - 1.0) > _ALIKE for _, other in tried):
-            tried.append((find_flights(times, heights, sigma, one)[1], one))
-    cost, acceleration = min(tried, default=(math.inf, gravity))
-    return acceleration, cost
+        one = float(np.median(falls)) if len(falls) else 0.0
+        if one > 0.0 and all(abs(one / other - 1.0) > _ALIKE for other in guesses):
+            guesses.append(one)
+    return np.array(guesses)
 
 
 def _accelerations(
@@ -174,10 +169,11 @@ def flights_of(
     The acceleration is the track's own, whatever its clock and ruler are.
     """
     sigma = _noise(heights)
-    acceleration, _ = _guess(times, heights, gravity)
+    guesses = _guesses(times, heights, gravity)
+    acceleration = float(guesses[np.argmin(unexplained(times, heights, sigma, guesses))])
     fitted, jumps = None, []
     for _ in range(_ROUNDS):
-        flights, _ = find_flights(times, heights, sigma, acceleration)
+        flights = find_flights(times, heights, sigma, acceleration)
         fitted, jumps = _joined(times, heights, flights)
         if fitted is None or not jumps:
             return None
@@ -187,7 +183,29 @@ def flights_of(
         if new <= 0.0 or steady:
             break
         acceleration, sigma = new, wider
-    return None if fitted is None or fitted.values[0] <= 0.0 else (fitted, jumps)
+    if fitted is None or fitted.values[0] <= 0.0:
+        return None
+    return fit_flights(times, heights, _released(times, fitted, jumps)), jumps
+
+
+def _released(times: NDArray[np.float64], fitted: Flights, bounces: list[int]) -> list[Flight]:
+    """Return the flights, less the first points of a fall that follows a rest.
+
+    Near its release a ball has hardly moved: which points still belong to the rest cannot be seen,
+    and choosing those that fit best would pull the parabola.
+    """
+    flights = list(fitted.flights)
+    fall = float(fitted.values[0])
+    for j in bounces:
+        first, last = flights[j]
+        if j - 1 in bounces or first == 0:
+            continue
+        apex = fitted.origins[j] + fitted.values[2 + 2 * j] / fall
+        after = apex + math.sqrt(2.0 * _UNSEEN * fitted.sigma / fall)
+        start = max(first, int(np.searchsorted(times, after)))
+        if last - start >= _SURE:
+            flights[j] = Flight(start, last)
+    return flights
 
 
 def _noise(heights: NDArray[np.float64]) -> float:

@@ -95,7 +95,9 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
 def _label(ball: Any, named: bool) -> str:
     if not named:
         return "tracked"
-    return f"{ball.name}: {ball.impact_speeds[0]:.1uS} m/s down, {ball.rebound_speeds[0]:.1uS} m/s up"
+    return (
+        f"{ball.name}: {ball.impact_speeds[0]:.1uS} m/s down, {ball.rebound_speeds[0]:.1uS} m/s up"
+    )
 
 
 def _summary(found: Any) -> str:
