@@ -15,7 +15,7 @@ KEPT, SIZE, ERROR = 0.8, 0.065, 0.005
 
 
 def successive(seed: int) -> list[tuple[str, Any, float]]:
-    """Return restitutions of three bounces, the drop read at the bottom and the bounces at the top."""
+    """Return restitutions of three bounces, the drop read at the bottom, the bounces at the top."""
     random = np.random.default_rng(seed)
     true = KEPT ** (2.0 * np.arange(4))
     read = true + np.array([0.0, SIZE, SIZE, SIZE]) + random.normal(0.0, ERROR, 4)

@@ -87,7 +87,7 @@ class Bounces:
         return rows
 
     def parts(self) -> dict[str, object]:
-        """Return the floor's contact and, where it is known, the drop height, as in a drop's TOML."""
+        """Return the floor's contact and, if it is known, the drop height, as in a drop's TOML."""
         kept = min(float(self.mean.nominal_value), 1.0)
         parts: dict[str, object] = {"contact": {"law": "Rigid", "restitution": kept}}
         if self.drop_height is not None:
@@ -199,7 +199,7 @@ def bounces(
 
 
 def _moments(times: Any, error: float | None, notes: list[str]) -> tuple[list[Any], list[int]]:
-    """Return times, as ufloats where their errors are known, and how many bounces are missing after each but the last."""
+    """Return times, as ufloats if their errors are known, and the bounces missing after each."""
     from uncertainties import UFloat, ufloat
 
     if isinstance(times, Knocks):
@@ -224,7 +224,7 @@ def _moments(times: Any, error: float | None, notes: list[str]) -> tuple[list[An
     if (steps <= 0.0).any():
         k = int(np.argmax(steps <= 0.0))
         raise InvalidValue(
-            f"times must ascend, got {plain[k + 1]:g} s after {plain[k]:g} s (times {k} and {k + 1})"
+            f"times must ascend, got {plain[k + 1]:g} s after {plain[k]:g} s (time {k + 1})"
         )
     if missed is None:
         missed = missed_between(steps)

@@ -242,7 +242,7 @@ def _under(
     blocks: _Blocks,
     apart: _Blocks,
 ) -> tuple[float, NDArray[np.float64]]:
-    """Return variance of a point and covariance of the parameters, errors correlating as they do."""
+    """Return variance of a point and covariance of the parameters under a correlation."""
     middle = np.zeros_like(spread)
     for block, steps in zip(blocks, apart, strict=True):
         part = design[block]

@@ -121,7 +121,9 @@ def heights(
 
     A drop measured to the bottom of a ball of 65 mm and a rebound measured to its top:
 
-    >>> found = heights(1.0, 0.64, diameter=0.065, measured_to=("bottom", "top"), height_error=0.005)
+    >>> found = heights(
+    ...     1.0, 0.64, diameter=0.065, measured_to=("bottom", "top"), height_error=0.005
+    ... )
     >>> print(f"{found.mean:.1uS}")
     0.758(4)
     """
@@ -147,7 +149,7 @@ def _places(measured_to: object) -> tuple[str, str]:
     pair = (measured_to, measured_to) if isinstance(measured_to, str) else measured_to
     if not (isinstance(pair, tuple | list) and len(pair) == 2):
         raise InvalidType(
-            f"measured_to must be bottom, centre or top, or a pair of them, got {shown(measured_to)}"
+            f"measured_to must be bottom, centre or top, or a pair, got {shown(measured_to)}"
         )
     for place in pair:
         if place not in _UP:
@@ -219,14 +221,14 @@ def _notes(start: Any, counted: list[Any], repeated: bool) -> list[str]:
     notes = []
     if any(math.isnan(one.std_dev) for one in [start, *counted]):
         notes.append(
-            "A height has no error, so that those of the restitutions are unknown: give height_error."
+            "A height has no error, so that the restitutions' are unknown: give height_error."
         )
     before = [start] * len(counted) if repeated else [start, *counted[:-1]]
     for k, (first, after) in enumerate(zip(before, counted, strict=True)):
         if after.nominal_value > first.nominal_value:
             notes.append(
                 f"Height {k} ({after.nominal_value:g} m) is above the one that the ball fell from "
-                f"({first.nominal_value:g} m): it gained energy, as the upper ball of a stack does; "
+                f"({first.nominal_value:g} m): it gained energy, as a stack's upper ball does; "
                 "no restitution of one contact is above 1."
             )
     return notes

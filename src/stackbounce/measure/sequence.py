@@ -1,4 +1,4 @@
-"""Which of many sounds are one ball's bounces: intervals that shrink by a nearly constant factor."""
+"""Which of many sounds are one ball's bounces: their intervals shrink by a steady factor."""
 
 import math
 from collections.abc import Sequence
@@ -23,7 +23,7 @@ _RANGE = math.log(_SHRINKS[1] / _SHRINKS[0]) / _RANGES
 
 
 class Chain(NamedTuple):
-    """Indices of the knocks of a series, and how many bounces are missing after each but the last."""
+    """Indices of a series' knocks, and how many bounces are missing after each but the last."""
 
     indices: tuple[int, ...]
     missed: tuple[int, ...]
