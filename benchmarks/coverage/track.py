@@ -14,7 +14,7 @@ __all__ = ["CASES"]
 Trial = Callable[[int], list[tuple[str, Any, float]]]
 
 ONE = falls(0.5, 0.8)
-BALLS = ([Ball(0.6), Ball(0.1)], [Rigid(0.8)] * 2)
+BALLS = ([Ball(0.6, diameter=0.2), Ball(0.1, diameter=0.1)], [Rigid(0.8)] * 2)
 STACK = simulate(Drop(*BALLS, height=0.5, gravity=ONE.gravity), until=0.2)
 RATIOS = simulate(Drop(*BALLS, height=0.5)).rebound_ratios  # right after the impact
 
@@ -51,7 +51,7 @@ def two_balls(seed: int) -> list[tuple[str, Any, float]]:
 
 CASES: dict[str, Trial] = {
     "track, 60 frames per second": one_ball(),
-    "track, errors that go together": one_ball(correlation=0.5, frame_rate=100.0),
+    "track, errors that go together": one_ball(correlation=0.5, frame_rate=100.0, until=1.2),
     "track, pixels of 4 mm": one_ball(pixel=0.004, noise=1e-3),
     "track, one point in five missing": one_ball(missing=0.2),
     "track, axes tilted by 4 degrees": one_ball(tilt=0.07, drift=0.1),

@@ -69,7 +69,10 @@ def test_a_missing_bounce_is_seen_and_left_out():
     assert found.flights[3] is None
     assert found.numbers == (1, 2, 6, 7, 8)
     assert any("missing" in note for note in found.notes)
-    kept = {number: one.nominal_value for number, one in zip(found.numbers, found.restitutions)}
+    kept = {
+        number: one.nominal_value
+        for number, one in zip(found.numbers, found.restitutions, strict=True)
+    }
     assert kept[6] == pytest.approx(FALL.restitutions[6], abs=1e-3)
 
 
@@ -145,7 +148,7 @@ def test_heights_wherever_they_were_read(place, added):
     assert found.mean.nominal_value == pytest.approx(0.8)
     assert found.drop_height.nominal_value == pytest.approx(1.0)
     assert found.parts()["contact"] == {"law": "Rigid", "restitution": pytest.approx(0.8)}
-    assert [row.name for row in found.rows()][0] == "restitution"
+    assert found.rows()[0].name == "restitution"
 
 
 def test_heights_above_the_drop_are_a_stack_s():

@@ -245,11 +245,11 @@ def _plain(times: Any) -> list[Any]:
                 "times must hold a variable knock_time, got a Dataset with "
                 f"{', '.join(map(str, times.data_vars)) or 'none'}"
             )
-        values = np.asarray(column, dtype=np.float64).ravel()
-        values = values[np.isfinite(values)]
-        while len(values) > 1 and values[-1] <= values[-2] and values[-1] == 0.0:
-            values = values[:-1]  # what phyphox writes for knocks that did not come
-        return list(values)
+        known = np.asarray(column, dtype=np.float64).ravel()
+        known = known[np.isfinite(known)]
+        while len(known) > 1 and known[-1] == 0.0:
+            known = known[:-1]  # what phyphox writes for knocks that did not come
+        return list(known)
     if isinstance(times, str | bytes):
         raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}")
     try:

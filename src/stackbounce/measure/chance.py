@@ -45,7 +45,7 @@ def least_squares(
     (2.0, 0.25, 2.0, 3)
     """
     inverse = np.linalg.pinv(covariance, hermitian=True)
-    spread = np.linalg.inv(design.T @ inverse @ design)
+    spread = np.asarray(np.linalg.inv(design.T @ inverse @ design), dtype=np.float64)
     parameters = spread @ design.T @ inverse @ values
     residuals = values - design @ parameters
     chi_squared = float(residuals @ inverse @ residuals)

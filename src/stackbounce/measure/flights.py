@@ -213,7 +213,7 @@ def fit_flights(
     residuals = np.full(len(times), np.nan)
     residuals[rows] = left
     freedom = len(rows) - design.shape[1]
-    spread = np.linalg.pinv(design.T @ design, hermitian=True)
+    spread = np.asarray(np.linalg.pinv(design.T @ design, hermitian=True), dtype=np.float64)
     blocks = [np.flatnonzero(owner == j) for j in range(len(flights))]
     steps = np.round(times / max(float(np.median(np.diff(times))), 1e-300)).astype(np.int64)
     apart = [np.abs(np.subtract.outer(steps[rows[b]], steps[rows[b]])) for b in blocks]
@@ -285,7 +285,7 @@ def _correlation(
         total -= float(np.trace(spread @ middle))
         beside -= 2.0 * float(np.trace(spread @ cross))
         beside += float(np.trace(spread @ sides @ spread @ middle))
-        return beside / max(total, 1e-9) - seen
+        return float(beside / max(total, 1e-9) - seen)
 
     if excess(0.0) >= 0.0:
         return 0.0

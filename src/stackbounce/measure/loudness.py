@@ -47,13 +47,14 @@ def whitened(samples: NDArray[np.float32]) -> NDArray[np.float32]:
     for channel, values in enumerate(samples):
         chunks = values[: len(values) // _CHUNK * _CHUNK].reshape(-1, _CHUNK)
         energies = np.einsum("ij,ij->i", chunks, chunks)
-        quiet = chunks[(energies <= np.median(energies)) & (energies > 0.0)] if len(chunks) else []
+        middle = np.median(energies) if len(chunks) else 0.0
+        quiet = chunks[(energies <= middle) & (energies > 0.0)]
         if not len(quiet):
             found[channel] = values
             continue
-        quiet = quiet[:: max(1, len(quiet) // 512)].astype(np.float64)
+        some = quiet[:: max(1, len(quiet) // 512)].astype(np.float64)
         products = [
-            float(np.einsum("ij,ij->", quiet[:, lag:], quiet[:, : _CHUNK - lag]))
+            float(np.einsum("ij,ij->", some[:, lag:], some[:, : _CHUNK - lag]))
             for lag in range(_ORDER + 1)
         ]
         products[0] *= 1.0 + 1e-7

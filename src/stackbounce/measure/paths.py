@@ -84,8 +84,8 @@ def _from_dataset(data: Any) -> Columns:
         if "position" in data.data_vars:  # a motion detector's
             data, axes = data.rename(position="y"), ["y"]
         else:
-            names = ", ".join(map(str, data.data_vars)) or "none"
-            raise InvalidType(f"data must hold variables x and y of a track, got {names}")
+            held = ", ".join(map(str, data.data_vars)) or "none"
+            raise InvalidType(f"data must hold variables x and y of a track, got {held}")
     times = np.asarray(data["time"].values, dtype=np.float64)
     if "track" not in data[axes[0]].dims:
         whole = {axis: np.asarray(data[axis].values, dtype=np.float64) for axis in axes}
@@ -171,7 +171,8 @@ def flights_of(
     sigma = _noise(heights)
     guesses = _guesses(times, heights, gravity)
     acceleration = float(guesses[np.argmin(unexplained(times, heights, sigma, guesses))])
-    fitted, jumps = None, []
+    fitted: Flights | None = None
+    jumps: list[int] = []
     for _ in range(_ROUNDS):
         flights = find_flights(times, heights, sigma, acceleration)
         fitted, jumps = _joined(times, heights, flights)

@@ -77,13 +77,13 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
         level, speed = ball.fit.values[1 + 2 * j : 3 + 2 * j]
         axes.plot(at, level + speed * since - 0.5 * fall * since**2, color=color, linewidth=1.4)
     rows = zip(ball.impact_times, ball.levels, ball.restitutions, strict=True)
-    for k, (time, level, kept) in enumerate(rows):
-        at = (time.nominal_value, level.nominal_value)
-        axes.plot(*at, "v", color=color, markersize=7, markeredgecolor="white")
+    for time, level, kept in rows:
+        place = (time.nominal_value, level.nominal_value)
+        axes.plot(*place, "v", color=color, markersize=7, markeredgecolor="white")
         if not named:
             axes.annotate(
                 f"e = {kept:.1uS}",
-                at,
+                place,
                 xytext=(0, -14),
                 textcoords="offset points",
                 ha="center",
