@@ -77,12 +77,12 @@ def find_flights(
 
     Examples
     --------
-    >>> times = np.linspace(0.0, 1.0, 21)
+    >>> times = np.linspace(0.0, 1.0, 20)
     >>> heights = np.where(times < 0.5, 1.25 - 5 * times**2, 0.0) + np.where(
     ...     times >= 0.5, 4 * (times - 0.5) - 5 * (times - 0.5) ** 2, 0.0
     ... )
     >>> find_flights(times, heights, 1e-3, 10.0)
-    [Flight(first=0, last=10), Flight(first=10, last=21)]
+    [Flight(first=0, last=10), Flight(first=10, last=20)]
     """
     count = len(times)
     middle = times - times.mean()

@@ -190,7 +190,7 @@ def track(
     >>> heights = np.where(since < 0, -3.92 * since, 2.94 * since) - 4.9 * since**2
     >>> seen = heights + np.random.default_rng(1).normal(0.0, 1e-3, 40)
     >>> print(f"{track((times, seen)).balls[0].restitutions[0]:.1uS}")
-    0.750(1)
+    0.7507(8)
     """
     gravity = positive("gravity", gravity, "m/s^2")
     clock = positive("frame_rate_factor", frame_rate_factor)

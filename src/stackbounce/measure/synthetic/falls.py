@@ -102,7 +102,7 @@ def falls(
     Examples
     --------
     >>> falls(1.0, lambda speed: 0.8 - 0.02 * speed, bounces=3).restitutions.round(4)
-    array([0.7114, 0.737 , 0.7535])
+    array([0.7114, 0.737 , 0.7536])
     """
     height, gravity = positive("height", height, "metres"), positive("gravity", gravity, "m/s^2")
     if not (callable(law) or isinstance(law, ContactLaw)):
