@@ -1,1 +1,5 @@
+<<<<<<< HEAD
 """Records as an instrument would write them, made from the simulator: the truth is known."""
+=======
+"""Records as an instrument would have made them, of drops whose truth is known."""
+>>>>>>> m-s
