@@ -1,0 +1,1 @@
+"""How often error bars cover the truth."""

@@ -1,0 +1,1 @@
+"""Records whose truth is known: what the simulator and the laws say, measured with noise."""
