@@ -41,7 +41,7 @@ def _truth(law: Any, peak: float) -> dict[str, float]:
 
 def _case(law: Any, names: str, **how: Any) -> Callable[[int], Trial]:
     """Return a trial that presses a law and compares what is found with what went in."""
-    own = {"peak": PEAK, "points": 240, "slack": 1e-3} | how
+    own = {"peak": PEAK, "points": 300, "slack": 1e-3} | how
     truth = _truth(law, own["peak"])
     # the best straight line of a curve is that of the curve without noise
     quiet = own | {"noise": 0.0, "jitter": 0.0, "force_step": 0.0, "drift": 0.0}
@@ -70,7 +70,11 @@ def _series(seed: int) -> Trial:
     truth = [(30.0 / law.stiffness) ** (1.0 / law.exponent) for law in (lower, upper, both)]
     ends = [(32.0 / law.stiffness) ** (1.0 / law.exponent) for law in (lower, upper, both)]
     found = [
-        press(press_record(law, peak=end, points=160, slack=0.1 * end, noise=0.15, seed=3 * seed + i))
+        press(
+            press_record(
+                law, peak=end, points=200, slack=0.1 * end, noise=0.15, seed=3 * seed + i
+            ).isel(point=slice(0, 100))  # the way in
+        )
         for i, (law, end) in enumerate(zip((lower, upper, both), ends, strict=True))
     ]
     split = split_series(*found, force=30.0)
@@ -88,7 +92,9 @@ def _compliant(seed: int) -> Trial:
     generator = np.random.default_rng(10_000 + seed)
     true = 2e-6
     known = ufloat(generator.normal(true, 0.1 * true), 0.1 * true)
-    data = press_record(LINEAR, peak=PEAK, points=160, slack=1e-3, noise=0.1, compliance=true, seed=seed)
+    data = press_record(
+        LINEAR, peak=PEAK, points=160, slack=1e-3, noise=0.1, compliance=true, seed=seed
+    )
     found = press(data, compliance=known)
     truth = _truth(LINEAR, PEAK)
     names = ("peak_compression", "secant_stiffness", "work_in", "restitution")
@@ -97,11 +103,17 @@ def _compliant(seed: int) -> Trial:
 
 CASES: dict[str, Callable[[int], Trial]] = {
     "white noise": _case(BALL, _ALL, noise=0.15),
-    "no slack": _case(BALL, "stiffness exponent restitution energy_exponent", slack=0.0, noise=0.15),
+    "no slack": _case(
+        BALL, "stiffness exponent restitution energy_exponent", slack=0.0, noise=0.15
+    ),
     "a straight line": _case(LINEAR, _ALL, noise=0.3),
     "noise of both": _case(BALL, _ALL, noise=0.1, jitter=10e-6),
     "noise that remembers": _case(
-        BALL, "stiffness exponent linear_stiffness work_in restitution", noise=0.1, memory=8.0
+        BALL,
+        "stiffness exponent linear_stiffness work_in restitution",
+        noise=0.1,
+        memory=8.0,
+        points=600,
     ),
     "a drifting zero": _case(
         BALL, "stiffness exponent linear_stiffness work_in restitution", noise=0.1, drift=2.0

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 __all__ = ["press"]
 
 
-
 def press(
     data: "xr.Dataset | Any",
     *,
@@ -97,9 +96,7 @@ def _press(record: Record, cycle: int | None) -> Press:
     if not len(found[chosen].loading):
         return unloading_only(record, found[chosen], chosen, len(found))
     all_of_them = {
-        i: result_of(record, one, i, len(found))
-        for i, one in enumerate(found)
-        if len(one.loading)
+        i: result_of(record, one, i, len(found)) for i, one in enumerate(found) if len(one.loading)
     }
     own = all_of_them.pop(chosen)
     own = replace(own, others=tuple(all_of_them.values()))

@@ -1,6 +1,6 @@
 """A press record, sorted: its sign, its cycles, their loading and unloading."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -59,6 +59,8 @@ class Cycle:
         Where the press stood still at the peak.
     peak, peak_error : float
         The compression in m at which it turned, and its standard error.
+    sampled : bool
+        Whether the peak is the last point of the loading, and shares its error.
     """
 
     loading: NDArray[np.intp]
@@ -66,6 +68,7 @@ class Cycle:
     held: NDArray[np.intp]
     peak: float
     peak_error: float
+    sampled: bool = False
 
 
 def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> Record:
@@ -142,9 +145,7 @@ def _columns(data: Any) -> tuple[Array, Array]:
     return compression, force
 
 
-def _oriented(
-    compression: Array, force: Array, sign: int | None
-) -> tuple[Array, Array, list[str]]:
+def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array, Array, list[str]]:
     """Return both columns so that they grow as the ball is pressed, and what was turned."""
     notes = []
     if sign is None:
@@ -198,7 +199,8 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
         held = np.arange(first, last + 1)
         return _branches(start, first, last, end, held, middle, error)
     level, error = _turn(record, start, peak, end)
-    return _branches(start, peak, peak + 1, end, np.empty(0, np.intp), level, error)
+    whole = _branches(start, peak, peak + 1, end, np.empty(0, np.intp), level, error)
+    return replace(whole, sampled=level == path[peak])
 
 
 def _branches(

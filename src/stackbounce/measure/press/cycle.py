@@ -1,7 +1,6 @@
 """One cycle of a press record, analysed: fits, works, and the covariance of it all."""
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +22,8 @@ Array = NDArray[np.float64]
 MOST = 4000
 """Points of a branch; longer ones are averaged in groups."""
 
+_ALIKE = 1.5  # times, that the residuals of one branch may be larger than the other's
+_EVEN = 0.9  # of the largest noise: above it all points weigh the same
 _MARGIN = 0.03  # of the compression, which no slack point may be nearer to the contact
 _TAIL = 0.05  # of the points in contact, whose mean residual corrects the peak force
 
@@ -89,7 +90,8 @@ def analysed(record: Record, cycle: Cycle) -> Found:
     )
     fit = fit_loading(up.x, up.y, cycle.peak, start, 1.0)
     scale = _scale(record, up, cycle.peak, fit)
-    fit = fit_loading(up.x, up.y, cycle.peak, (start[0], start[1]), scale)
+    if scale.min() < _EVEN * scale.max():
+        fit = fit_loading(up.x, up.y, cycle.peak, start, scale)
     length = float(np.exp(fit.values[2]))
     back = _unloaded(record, down, cycle.peak, length)
     work = _Rows(len(up.x), len(down.x), zero, up, down)
@@ -100,12 +102,8 @@ def analysed(record: Record, cycle: Cycle) -> Found:
         residual, back_scale = back.residual, _scale(record, down, cycle.peak, back, length)
         values |= work.unloading(back, cycle.peak, length)
     values, rows = _ordered(values, work.rows)
-    first = Noise(fit.residual / scale, fit.jacobian / scale[:, None])
-    covariance = first.covariance(rows[:, : len(up.x)] * scale)
-    if back is not None:
-        second = Noise(residual / back_scale, back.jacobian / back_scale[:, None])
-        covariance = covariance + second.covariance(rows[:, len(up.x) :] * back_scale)
-    covariance = covariance + _turned(values, cycle.peak_error)
+    covariance = _covariance(rows, (fit, back), (scale, back_scale))
+    covariance = covariance + _turned(values, rows[:, len(up.x) - 1], cycle)
     if zero.method != "given":
         covariance = covariance + _digits(rows, record, zero)
     return Found(
@@ -116,6 +114,32 @@ def analysed(record: Record, cycle: Cycle) -> Found:
         up,
         down,
         (fit.residual, residual),
+    )
+
+
+def _covariance(
+    rows: Array, fits: tuple[PowerFit, PowerFit | None], scales: tuple[Array, Array]
+) -> Array:
+    """Return the covariance of rows, from the residuals of both branches, one after the other.
+
+    They have one noise if their residuals are about as large; else one of the two does not fit as
+    well as the other, and each has its own.
+    """
+    up, back = fits
+    count = len(up.residual)
+    first = (up.residual / scales[0], up.jacobian / scales[0][:, None])
+    if back is None:
+        return Noise(*first).covariance(rows * scales[0])
+    second = (back.residual / scales[1], back.jacobian / scales[1][:, None])
+    sizes = [float(np.sqrt((one[0] ** 2).mean())) for one in (first, second)]
+    if max(sizes) <= _ALIKE * min(sizes):
+        jacobian = np.zeros((rows.shape[1], first[1].shape[1] + second[1].shape[1]))
+        jacobian[:count, : first[1].shape[1]] = first[1]
+        jacobian[count:, first[1].shape[1] :] = second[1]
+        noise = Noise(np.concatenate([first[0], second[0]]), jacobian)
+        return noise.covariance(rows * np.concatenate(scales))
+    return Noise(*first).covariance(rows[:, :count] * scales[0]) + Noise(*second).covariance(
+        rows[:, count:] * scales[1]
     )
 
 
@@ -170,9 +194,7 @@ def _zero(up: Branch, down: Branch, contact: float, peak: float, record: Record)
 
 def _columns(zero: _Zero, branch: Branch) -> Array:
     """Return how the zero of each point follows from the values of the zero."""
-    both = np.column_stack(
-        [np.ones(len(branch.time)), (branch.time - zero.middle) / zero.length]
-    )
+    both = np.column_stack([np.ones(len(branch.time)), (branch.time - zero.middle) / zero.length])
     return both[:, : len(zero.values)]
 
 
@@ -192,10 +214,10 @@ def _scale(
     ratio = np.clip(1.0 - (peak - branch.x) / c, 0.0, None)
     slope = top * p / c * power(ratio, max(p - 1.0, 0.0))
     noise = np.hypot(record.hiss, slope * record.jitter)
-    largest = float(noise.max())
-    if largest == 0.0:
+    unit = np.hypot(record.hiss, top / c * record.jitter)
+    if unit <= 0.0 or not np.isfinite(noise).all():
         return np.ones(len(branch.x))
-    return np.clip(noise / largest, 1e-3, None)
+    return np.clip(noise / unit, 1e-3, 1e3)
 
 
 def _unloaded(record: Record, down: Branch, peak: float, length: float) -> PowerFit | None:
@@ -203,7 +225,11 @@ def _unloaded(record: Record, down: Branch, peak: float, length: float) -> Power
         return None
     back = fit_unloading(down.x, down.y, peak, length, 1.0)
     scale = _scale(record, down, peak, back, length)
-    return fit_unloading(down.x, down.y, peak, length, scale)
+    return (
+        back
+        if scale.min() >= _EVEN * scale.max()
+        else fit_unloading(down.x, down.y, peak, length, scale)
+    )
 
 
 class _Rows:
@@ -228,6 +254,7 @@ class _Rows:
         self.rows["top"] = theta[0]
         self.rows["exponent"] = p * theta[1]
         self.rows["length"] = c * theta[2]
+        self.rows["contact"] = -c * theta[2]
         tail = np.flatnonzero(touched > 0.0)
         tail = tail[-max(3, int(_TAIL * len(tail))) :]
         rest = np.zeros(self.size)
@@ -237,12 +264,11 @@ class _Rows:
         lift = float(fit.residual[tail].mean())
         self.rows["peak_force"] = theta[0] + rest
         values = {"top": top, "exponent": p, "length": c, "peak_force": top + lift}
+        values["contact"] = peak - c
         values["work_in"] = self._work_in(fit, peak, touched)
         values["linear"] = self._linear(peak, c, touched)
         values["zero"] = float(self.zero.values[0]) if len(self.zero.values) else 0.0
-        self.rows["zero"] = (
-            self.zero.weights[0] if len(self.zero.values) else np.zeros(self.size)
-        )
+        self.rows["zero"] = self.zero.weights[0] if len(self.zero.values) else np.zeros(self.size)
         return values
 
     def _work_in(self, fit: PowerFit, peak: float, touched: Array) -> float:
@@ -270,8 +296,8 @@ class _Rows:
         row[places] = x / square
         row -= (x / square) @ _columns(self.zero, self.up)[places] @ self.zero.weights
         # by ln C, which moves all x: dk = (Σ y - 2 k Σ x) C/Σ x² · dlnC
-        self.rows["linear"] = row + c * (float(y.sum()) - 2.0 * slope * float(x.sum())) / square * (
-            self.theta[2]
+        self.rows["linear"] = (
+            row + c * (float(y.sum()) - 2.0 * slope * float(x.sum())) / square * (self.theta[2])
         )
         return slope
 
@@ -329,15 +355,13 @@ def _area(values: Array, peak: float, end: float) -> tuple[float, Array]:
     return top * unit, np.array([unit, by_p, by_c])
 
 
-def _ordered(
-    values: dict[str, float], rows: dict[str, Array]
-) -> tuple[dict[str, float], Array]:
+def _ordered(values: dict[str, float], rows: dict[str, Array]) -> tuple[dict[str, float], Array]:
     """Return values and rows in one order."""
     ordered = {name: values[name] for name in rows}
     return ordered, np.array(list(rows.values()))
 
 
-def _turned(values: dict[str, float], error: float) -> Array:
+def _turned(values: dict[str, float], last: Array, cycle: Cycle) -> Array:
     """Return the covariance that follows from the error of the compression at which it turned."""
     slope = values["top"] * values["exponent"] / values["length"]
     moves: dict[str, float] = {
@@ -350,7 +374,11 @@ def _turned(values: dict[str, float], error: float) -> Array:
         moves["work_out"] = values["top_out"]
         moves["top_out"] = values["top_out"] * values["unloading"] / values["length"]
     row = np.array([moves.get(name, 0.0) for name in values])
-    return np.outer(row, row) * error**2
+    result = np.outer(row, row)
+    if cycle.sampled:  # whose force is then too small by the slope times the same error
+        shared = -slope * np.outer(row, last)
+        result += shared + shared.T
+    return np.asarray(result * cycle.peak_error**2)
 
 
 def _digits(rows: Array, record: Record, zero: _Zero) -> Array:

@@ -86,7 +86,9 @@ def rough_contact(x: Array, y: Array) -> tuple[float, float]:
     return best[1], best[2]
 
 
-def fit_loading(x: Array, y: Array, peak: float, start: tuple[float, float], scale: Any) -> PowerFit:
+def fit_loading(
+    x: Array, y: Array, peak: float, start: tuple[float, float], scale: Any
+) -> PowerFit:
     """Fit ``P ((x - peak + C)/C)**p``, with P, ln p and ln C open.
 
     Parameters

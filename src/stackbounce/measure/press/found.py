@@ -195,6 +195,4 @@ class Press:
             contact["exponent"] = float(p.nominal_value)
         if e is None or self.lossless:
             return {"contact": {"law": "Spring" if straight else "PowerLaw", **contact}}
-        return {
-            "contact": {"law": "Hysteretic", **contact, "restitution": float(e.nominal_value)}
-        }
+        return {"contact": {"law": "Hysteretic", **contact, "restitution": float(e.nominal_value)}}

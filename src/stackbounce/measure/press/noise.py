@@ -7,7 +7,8 @@ independent are then far too small. The model here is
     residual = scale · (white noise + noise with a memory of τ points),
 
 with both shares and τ open. Each combination on a grid is weighed by its likelihood, with the
-parameters of the fit integrated out (REML), and the covariance is the mean over the grid.
+parameters of the fit integrated out (REML) and Schwarz's price of two more numbers for the memory
+(G. Schwarz, Ann. Stat. 6, 461, 1978); the covariance is the mean over the grid.
 """
 
 from functools import cached_property
@@ -20,8 +21,8 @@ __all__ = ["Noise", "spread"]
 
 Array = NDArray[np.float64]
 
-_SHARES = (0.03, 0.12, 0.35, 0.65, 0.9, 0.99)  # of the variance that has a memory
-_MEMORIES = 6  # of them, from one point on
+_SHARES = (0.1, 0.4, 0.8, 0.99)  # of the variance that has a memory
+_MEMORIES = 7  # of them, from one point on
 _LONGEST = 0.5  # of the record
 
 
@@ -76,7 +77,7 @@ class Noise:
                 found.append((float(phi), share, *_likelihood(both, solved, log_det, free)))
         best = max(row[2] for row in found)
         weights = np.array([np.exp(row[2] - best) for row in found])
-        weights[0] *= len(found) - 1  # white noise is as likely beforehand as all others together
+        weights[1:] /= count  # for two numbers more, as in Schwarz's criterion
         weights /= weights.sum()
         white = 0.0
         kept = dict.fromkeys((float(phi) for phi in phis), 0.0)
@@ -107,10 +108,11 @@ def _likelihood(both: Array, solved: Array, log_det: float, free: int) -> tuple[
     """Return the log-likelihood up to a constant, and the variance that goes with it."""
     gram = both.T @ solved
     inner = gram[1:, 1:]
-    inner = inner + 1e-12 * np.trace(inner) / len(inner) * np.eye(len(inner))
-    explained = gram[0, 1:] @ np.linalg.solve(inner, gram[1:, 0])
-    square = max(float(gram[0, 0] - explained), 1e-300)
-    _, log_inner = np.linalg.slogdet(inner)
+    values, vectors = np.linalg.eigh(inner)
+    values = np.maximum(values, 1e-12 * values[-1])
+    explained = float((((gram[0, 1:] @ vectors) ** 2) / values).sum())
+    square = max(float(gram[0, 0]) - explained, 1e-300)
+    log_inner = float(np.log(values).sum())
     return -0.5 * (free * np.log(square) + log_det + log_inner), square / free
 
 
@@ -130,8 +132,8 @@ def _solved(both: Array, phi: float, share: float) -> tuple[Array, float]:
     inverse = band.copy()
     band *= 1.0 - share
     band[1] += share
-    factor = cholesky_banded(band)
-    half = cho_solve_banded((factor, False), both)
+    factor = cholesky_banded(band, check_finite=False)
+    half = cho_solve_banded((factor, False), both, check_finite=False)
     solved = inverse[1][:, None] * half
     solved[1:] += inverse[0, 1:, None] * half[:-1]
     solved[:-1] += inverse[0, 1:, None] * half[1:]

@@ -54,7 +54,7 @@ def result_of(record: Record, cycle: Cycle, place: int, count: int) -> Press:
         restitution=restitution,
         unloading_exponent=numbers.get("unloading"),
         energy_exponent=energy,
-        contact=cycle.peak - length,
+        contact=numbers["contact"],
         zero=numbers["zero"],
         relaxed=relaxed,
         loading=_curve(up.x - contact, up.y, residual[0], height),
@@ -123,7 +123,9 @@ def unloading_only(record: Record, cycle: Cycle, place: int, count: int) -> Pres
     Press
     """
     # Read backwards it is a loading, whose exponent is n.
-    back = Cycle(cycle.unloading[::-1], np.empty(0, np.intp), cycle.held, cycle.peak, cycle.peak_error)
+    back = Cycle(
+        cycle.unloading[::-1], np.empty(0, np.intp), cycle.held, cycle.peak, cycle.peak_error
+    )
     mirror = result_of(record, back, place, count)
     note = "There is no loading: only the peak, the work given back and n can be known."
     return Press(
