@@ -9,7 +9,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.coverage.stiffness import CASES
 
-SEEDS = 250
+SEEDS = 200
 
 
 @pytest.mark.parametrize("case", CASES)

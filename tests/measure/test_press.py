@@ -236,7 +236,9 @@ def test_options_are_checked():
 
 def test_parts_make_a_contact():
     contact = press(press_record(BALL, **USUAL)).parts()["contact"]
-    drop = sb.Drop.from_dict({"balls": [{"mass": 0.1}], "contacts": [contact], "impact_speed": 1.0})
+    drop = sb.Drop.from_mapping(
+        {"balls": [{"mass": 0.1}], "contacts": [contact], "impact_speed": 1.0}
+    )
     assert isinstance(drop.contacts[0], sb.Hysteretic)
     linear = press(press_record(sb.Hysteretic(1e4, restitution=0.8), **USUAL)).parts()["contact"]
     assert set(linear) == {"law", "stiffness", "restitution"}

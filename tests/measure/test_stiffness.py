@@ -50,9 +50,10 @@ def test_constants_are_those_of_calibrate(law):
 
 def test_constants_know_their_correlation():
     found = law_constants("Dashpot", **MEASURED).constants
-    matrix = correlation_matrix([found["stiffness"], found["damping"], MEASURED["contact_time"]])
+    names = ("contact_time", "restitution")
+    matrix = correlation_matrix([*found.values(), *(MEASURED[name] for name in names)])
     assert matrix[0, 2] < -0.9
-    assert 0.1 < matrix[0, 1] < 0.9
+    assert matrix[1, 3] < -0.9
 
 
 @pytest.mark.parametrize(
@@ -73,7 +74,7 @@ def test_at_the_ends_of_a_range(law, given):
     assert all(value.std_dev >= 0.0 for value in found.constants.values())
     contact = found.parts()["contact"]
     assert contact["law"] == law.__name__
-    sb.Drop.from_dict({"balls": [{"mass": 0.1}], "contacts": [contact], "impact_speed": 1.0})
+    sb.Drop.from_mapping({"balls": [{"mass": 0.1}], "contacts": [contact], "impact_speed": 1.0})
     assert found.rows()[0].value == law.__name__
 
 
@@ -161,9 +162,9 @@ def test_figure_seven(bench):
     lengths = [bench.measured(f"static.{name}") for name in ("basketball", "tennis", "both")]
     split = split_series(*lengths, force=bench.measured("static.force"))
     assert f"{1e3 * split.bottom:.2fP}" == "9.30±0.03"
-    assert f"{1e3 * split.top:.2fP}" == "15.50±0.07"
+    assert f"{1e3 * split.top:.2fP}" == "15.50±0.08"
     assert f"{1e3 * split.excess:.2fP}" == "6.20±0.09"
-    assert f"{split.ratio:.3fP}" == "1.823±0.009"  # printed 1.8
+    assert f"{split.ratio:.3fP}" == "1.823±0.010"  # printed 1.8
     with_all = (split.top + split.upper) / split.bottom
     without = split.top / split.bottom
     assert f"{with_all:.2fP} {without:.2fP}" == "1.98±0.01 1.67±0.01"
@@ -173,7 +174,7 @@ def test_figure_seven(bench):
 
 @pytest.mark.parametrize(
     ("upper", "fit", "expected"),
-    [("B2", "fig13", "2.16±0.11"), ("B3", "B3_fit", "1.62±0.12")],
+    [("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")],
 )
 def test_two_superballs_in_series_are_stiffer_than_the_fits(bench, upper, fit, expected):
     """What section VI calls series accounts for most of the softness between the balls."""

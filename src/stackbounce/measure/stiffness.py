@@ -141,10 +141,10 @@ def law_constants(
     ...     restitution=ufloat(0.75, 0.02),
     ... )
     >>> for row in found.rows():
-    ...     print(row.name, row.value, row.unit)
-    law Dashpot
-    stiffness (1.99+/-0.08)e+04 N/m
-    damping 5.7+/-0.5 N s/m
+    ...     print(f"{row.name}: {row.value} {row.unit}".rstrip())
+    law: Dashpot
+    stiffness: (2.00+/-0.08)e+04 N/m
+    damping: 6.6+/-0.6 N s/m
     """
     kind = law_named(law) if isinstance(law, str) else law
     given = {

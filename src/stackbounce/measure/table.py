@@ -9,7 +9,7 @@ __all__ = ["Row"]
 
 
 class Row(NamedTuple):
-    """A quantity that was found: its name, its value (with an error where it has one) and SI unit."""
+    """A quantity that was found: its name, value (with an error where it has one) and SI unit."""
 
     name: str
     value: "UFloat | float | int | str"

@@ -74,8 +74,8 @@ def press(
     >>> law = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
     >>> data = press_record(law, peak=5e-3, slack=1e-3, noise=0.1, seed=1)
     >>> found = press(data)
-    >>> print(f"{found.exponent:.1uS} {found.restitution:.1uS} {found.linear_stiffness:.2g}")
-    1.299(1) 0.7799(3) 7.8e+03+/-0.0e+03
+    >>> print(f"exponent {found.exponent:.1uS}, restitution {found.restitution:.1uS}")
+    exponent 1.298(3), restitution 0.7798(6)
     >>> found.parts()["contact"]["law"]
     'Hysteretic'
     """
@@ -110,14 +110,10 @@ def _chosen(found: list[Cycle], cycle: int | None) -> int:
         if not len(found[place].loading) and not len(found[place].unloading):
             raise InvalidValue(f"cycle must be one with enough points, got {cycle}")
         return place % len(found)
-    for wanted in (
-        lambda one: len(one.loading) and len(one.unloading),
-        lambda one: len(one.loading),
-        lambda one: len(one.unloading),
-    ):
-        places = [i for i, one in enumerate(found) if wanted(one)]
-        if places:
-            return places[-1]
+    # both branches before a loading alone, that before an unloading alone, the last of each
+    worth = [2 * bool(len(one.loading)) + bool(len(one.unloading)) for one in found]
+    if max(worth) > 0:
+        return len(worth) - 1 - worth[::-1].index(max(worth))
     raise InvalidValue("a press curve must have a loading or an unloading of 6 points, got none")
 
 

@@ -1,6 +1,7 @@
 """A press record, sorted: its sign, its cycles, their loading and unloading."""
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -122,8 +123,8 @@ def cycles(record: Record) -> list[Cycle]:
     peaks = find_peaks(padded, prominence=min(deep, 0.9 * (high - low)))[0] - 1
     if not len(peaks):  # a plateau over the whole of it
         peaks = np.array([int(path.argmax())])
-    valleys = [int(a + path[a : b + 1].argmin()) for a, b in zip(peaks, peaks[1:], strict=False)]
-    starts = [0, *(valley for valley in valleys)]
+    valleys = [int(a + path[a : b + 1].argmin()) for a, b in pairwise(peaks)]
+    starts = [0, *valleys]
     ends = [*valleys, len(path) - 1]
     return [
         _cycle(record, start, int(peak), end)

@@ -208,7 +208,7 @@ def _line(zero: _Zero) -> tuple[float, float]:
 def _scale(
     record: Record, branch: Branch, peak: float, fit: PowerFit, length: float | None = None
 ) -> Array:
-    """Return the relative noise of each point: of the force, and of the compression by the slope."""
+    """Return the relative noise of the points: of force, and of compression by the slope."""
     top, p = float(fit.values[0]), float(np.exp(fit.values[1]))
     c = float(np.exp(fit.values[2])) if length is None else length
     ratio = np.clip(1.0 - (peak - branch.x) / c, 0.0, None)
@@ -217,7 +217,7 @@ def _scale(
     unit = np.hypot(record.hiss, top / c * record.jitter)
     if unit <= 0.0 or not np.isfinite(noise).all():
         return np.ones(len(branch.x))
-    return np.clip(noise / unit, 1e-3, 1e3)
+    return np.asarray(np.clip(noise / unit, 1e-3, 1e3))
 
 
 def _unloaded(record: Record, down: Branch, peak: float, length: float) -> PowerFit | None:
@@ -249,7 +249,7 @@ class _Rows:
         theta = -(fit.weights @ columns) @ self.zero.weights
         theta[:, up] += fit.weights
         self.theta = theta
-        top, p, c = float(fit.values[0]), *np.exp(fit.values[1:]).tolist()
+        top, p, c = _plain(fit.values)
         touched = 1.0 - (peak - self.up.x) / c
         self.rows["top"] = theta[0]
         self.rows["exponent"] = p * theta[1]
@@ -333,6 +333,11 @@ class _Rows:
         return values | {"work_out": float(weights @ y) + rest}
 
 
+def _plain(values: Array) -> tuple[float, float, float]:
+    """Return P, p and C of the values of a fit."""
+    return float(values[0]), float(np.exp(values[1])), float(np.exp(values[2]))
+
+
 def _trapezoid(x: Array) -> Array:
     """Return the weights with which values at x add up to their integral along the path."""
     weights = np.zeros(len(x))
@@ -344,7 +349,7 @@ def _trapezoid(x: Array) -> Array:
 
 def _area(values: Array, peak: float, end: float) -> tuple[float, Array]:
     """Return the fit's integral from the contact to `end`, and its derivatives by the values."""
-    top, p, c = float(values[0]), *np.exp(values[1:]).tolist()
+    top, p, c = _plain(values)
     t = max(0.0, 1.0 - (peak - end) / c)
     if t == 0.0:
         return 0.0, np.zeros(3)

@@ -24,6 +24,7 @@ Array = NDArray[np.float64]
 _SHARES = (0.1, 0.4, 0.8, 0.99)  # of the variance that has a memory
 _MEMORIES = 7  # of them, from one point on
 _LONGEST = 0.5  # of the record
+_NONE = 1e-6  # a weight that does not count
 
 
 class Noise:
@@ -57,35 +58,50 @@ class Noise:
         white, remembered = self._grid
         result = white * (rows @ rows.T)
         for phi, weight in remembered:
-            if weight > 0.0:
-                product = _remember(rows, phi) @ rows.T
-                result = result + 0.5 * weight * (product + product.T)
+            product = _remember(rows, phi) @ rows.T
+            result = result + 0.5 * weight * (product + product.T)
         return np.asarray(result)
 
     @cached_property
     def _grid(self) -> tuple[float, list[tuple[float, float]]]:
         """Return the mean variance of the white part, and that of the part with each memory."""
         count, width = self.jacobian.shape
-        memories = np.geomspace(1.0, max(2.0, _LONGEST * count), _MEMORIES)
-        phis = np.exp(-1.0 / memories)
+        longest = max(2.0, _LONGEST * count)
         both = np.column_stack([self.residual, self.jacobian])
         free = max(1, count - width)
-        found = [(0.0, 0.0, *_likelihood(both, both, 0.0, free))]
-        for phi in phis:
-            for share in _SHARES:
-                solved, log_det = _solved(both, float(phi), share)
-                found.append((float(phi), share, *_likelihood(both, solved, log_det, free)))
-        best = max(row[2] for row in found)
-        weights = np.array([np.exp(row[2] - best) for row in found])
-        weights[1:] /= count  # for two numbers more, as in Schwarz's criterion
-        weights /= weights.sum()
-        white = 0.0
-        kept = dict.fromkeys((float(phi) for phi in phis), 0.0)
-        for (phi, share, _, variance), weight in zip(found, weights.tolist(), strict=True):
-            white += weight * variance * (1.0 - share)
-            if share > 0.0:
-                kept[phi] += weight * variance * share
-        return white, list(kept.items())
+        found = [(1.0, 0.0, *_likelihood(both, both, 0.0, free))]
+
+        def look(memories: Array) -> None:
+            for memory in memories.tolist():
+                for share in _SHARES:
+                    solved, log_det = _solved(both, float(np.exp(-1.0 / memory)), share)
+                    found.append((memory, share, *_likelihood(both, solved, log_det, free)))
+
+        look(np.geomspace(1.0, longest, _MEMORIES))
+        best = max(found[1:], key=lambda row: row[2])
+        if best[2] - np.log(count) > found[0][2]:  # it has one: look closer
+            ratio = longest ** (1.0 / (_MEMORIES - 1))
+            look(best[0] * ratio ** (np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]) / 4.0))
+        return _mean(found, count)
+
+
+def _mean(
+    found: list[tuple[float, float, float, float]], count: int
+) -> tuple[float, list[tuple[float, float]]]:
+    """Return the mean over (memory, share, log-likelihood, variance), white noise being first."""
+    best = max(row[2] for row in found)
+    weights = np.array([np.exp(row[2] - best) for row in found])
+    # all with a memory together: the best likelihood, less for two numbers more (Schwarz)
+    weights[1:] *= weights[1:].max() / max(weights[1:].sum(), 1e-300) / count
+    weights /= weights.sum()
+    white = 0.0
+    kept: dict[float, float] = {}
+    for (memory, share, _, variance), weight in zip(found, weights.tolist(), strict=True):
+        white += weight * variance * (1.0 - share)
+        if share * weight > _NONE:
+            phi = float(np.exp(-1.0 / memory))
+            kept[phi] = kept.get(phi, 0.0) + weight * variance * share
+    return white, list(kept.items())
 
 
 def spread(values: Array) -> float:

@@ -27,20 +27,18 @@ def sentences(found: Press, held: int) -> list[str]:
     p: Any = found.exponent
     notes = []
     if found.zero.nominal_value == 0.0 and found.zero.std_dev == 0.0:
-        notes.append(
-            "There is no part with nothing pressed, so the force was taken as zeroed before contact."
-        )
+        notes.append("There is no part with nothing pressed: the force was taken as zeroed before.")
         assert found.loading is not None
         least = float(found.loading.compression.min())
         if least > 0.1 * found.peak_compression.nominal_value:
             notes.append(
-                "The record begins with the ball already pressed; the contact, and with it exponent "
-                "and works, follow from the curve before it."
+                "The record begins with the ball already pressed; the contact, and with it "
+                "exponent and works, follow from the curve before it."
             )
     if p.nominal_value < 1.0 - _CLEAR * p.std_dev:
         notes.append(
-            "The ball gets softer as it is pressed (exponent below 1), which no law of this package "
-            "does: the straight line stands for it."
+            "The ball gets softer as it is pressed (exponent below 1), which no law of this "
+            "package does: the straight line stands for it."
         )
     notes += _on_fits(found)
     notes += _on_loss(found, held)
