@@ -240,9 +240,7 @@ def measure(
         list[str] | None,
         typer.Option(metavar="COLUMN=UNIT", help="Unit of a column: x=cm; once per column."),
     ] = None,
-    table: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Which table of a zip.")
-    ] = None,
+    table: Annotated[str | None, typer.Option(metavar="NAME", help="Which table of a zip.")] = None,
     which_run: Annotated[
         str | None, typer.Option("--run", metavar="RUN", help="Which of several runs in a file.")
     ] = None,

@@ -13,7 +13,17 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
 
-__all__ = ["Measured", "check_save", "numbers", "pairs", "picture", "run", "save", "summary", "tell"]
+__all__ = [
+    "Measured",
+    "check_save",
+    "numbers",
+    "pairs",
+    "picture",
+    "run",
+    "save",
+    "summary",
+    "tell",
+]
 
 _UNITS = {
     "mass": "kg",

@@ -24,12 +24,13 @@ from stackbounce.measure.reading import read
 from stackbounce.measure.sound import knocks
 from stackbounce.measure.stiffness import dynamic_stiffness, law_constants
 from stackbounce.measure.track import track
-from stackbounce.measure.waveform import waveform
+from stackbounce.measure.waveform import gap_from_delay, waveform
 
 __all__ = [
     "analyse",
     "bounces",
     "dynamic_stiffness",
+    "gap_from_delay",
     "heights",
     "knocks",
     "law_constants",

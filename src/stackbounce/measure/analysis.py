@@ -25,7 +25,7 @@ def analyse(
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> tuple[Any, ...]:
-    """Return what is found in a measurement by the analysis, or analyses, that fit its kind.
+    r"""Return what is found in a measurement by the analysis, or analyses, that fit its kind.
 
     Parameters
     ----------
@@ -59,7 +59,7 @@ def analyse(
     --------
     >>> import stackbounce as sb
     >>> path = getfixture("tmp_path") / "knocks.csv"
-    >>> text = '"Event time (s)","Interval (s)"\\n0,0\\n0.8,0.8\\n1.44,0.64\\n1.952,0.512\\n'
+    >>> text = '"Event time (s)","Interval (s)"\n0,0\n0.8,0.8\n1.44,0.64\n1.952,0.512\n'
     >>> _ = path.write_text(text)
     >>> (found,) = analyse(sb.read(path))
     >>> f"{found.mean.nominal_value:.3f}"
