@@ -75,7 +75,7 @@ CASES: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
     "Hertz, 8 bits": partial(_bounce, exponent=1.5, **SCOPE),
     "spring, droop": partial(_bounce, exponent=1.0, **PIEZO),
     "Hertz, droop": partial(_bounce, exponent=1.5, **PIEZO),
-    "any law, 20 samples": partial(_bounce, exponent=None, rate=7e3, noise=3.0, before=0.02),
+    "any law, 30 samples": partial(_bounce, exponent=None, rate=7e3, noise=3.0, before=0.02),
     "any law, hum": partial(_bounce, exponent=None, rate=2e4, noise=2.0, hum=4.0, before=0.05),
     "gap of 1 mm": partial(_gap, gap=1e-3, rate=5e4, noise=1.0),
     "gap of 12 mm": partial(_gap, gap=12e-3, rate=5e4, noise=1.0),
