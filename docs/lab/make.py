@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 
 import stackbounce as sb
-from stackbounce.measure import synthetic
 from stackbounce.measure.synthetic import press, sound, track, waveform
 from stackbounce.measure.synthetic.falls import falls
 
@@ -20,15 +19,13 @@ TENNIS_LAW = sb.Hysteretic(2.25e4, restitution=0.75)
 BASKETBALL_LAW = sb.Hysteretic(2.5e3, restitution=0.77)
 HEIGHT = 1.0  # m
 
-__all__ = ["FILES", "synthetic"]
-
 
 def bounces(path, law, seed):
-    """Write a recording of a bouncing ball: 8 bit, 8 kHz."""
-    data = sound.sound(falls(HEIGHT, law, bounces=9), rate=8000.0, bits=8, seed=seed)
+    """Write a recording of a bouncing ball: 16 bit, 11025 Hz."""
+    data = sound.sound(falls(HEIGHT, law, bounces=7), rate=11025.0, seed=seed)
     with wave.open(str(path), "wb") as file:
-        file.setparams((1, 1, 8000, 0, "NONE", "NONE"))
-        file.writeframes((np.round(data.sound.values * 127.0) + 128.0).astype(np.uint8).tobytes())
+        file.setparams((1, 2, 11025, 0, "NONE", "NONE"))
+        file.writeframes(np.round(data.sound.values * 32767.0).astype("<i2").tobytes())
 
 
 def force(path):
@@ -57,7 +54,7 @@ def video(path):
 
 def pressed(path):
     """Write what a materials testing machine records of a basketball."""
-    data = press.press_record(BASKETBALL_LAW, peak=30.0, points=300, noise=0.05, seed=5)
+    data = press.press_record(BASKETBALL_LAW, peak=0.012, points=300, noise=0.05, seed=5)
     rows = np.column_stack([data.compression.values * 1e3, data.force.values])
     lines = "".join(f"{c:.4f},{f:.3f}\n" for c, f in rows)
     path.write_text("Compression (mm),Force (N)\n" + lines, encoding="ascii")

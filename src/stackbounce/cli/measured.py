@@ -135,7 +135,7 @@ def picture(done: Sequence[Measured]) -> "Figure":
     from stackbounce import plots
 
     (one,) = done
-    return plots.measured(one.data, one.found[0])
+    return plots.measured(one.data, one.found[-1])  # what was found first
 
 
 def check_save(path: Path, known: Mapping[str, float]) -> None:

@@ -45,7 +45,7 @@ def analyse(
     Returns
     -------
     tuple
-        Of a sound `Knocks` and `Bounces`; of knock times and of phyphox's bounces `Bounces`; of a
+        Of a sound `Bounces` and `Knocks`; of knock times and of phyphox's bounces `Bounces`; of a
         track `Tracks`; of a force waveform `Waveform`; of a press curve `Press`.
 
     Raises
@@ -70,7 +70,7 @@ def analyse(
         raise InvalidType(f"data must be a Dataset from read, got {shown(data)}")
     if holds == "sound":
         heard = knocks(data)
-        return heard, bounces(heard, drop_height=height, gravity=gravity)
+        return bounces(heard, drop_height=height, gravity=gravity), heard
     if holds in ("knocks", "bounces"):
         return (bounces(data, drop_height=height, gravity=gravity),)
     if holds == "track":

@@ -8,6 +8,7 @@ from stackbounce.model import Drop
 
 __all__ = ["one_ball"]
 
+_EXPONENTS = {"Spring": 1.0, "Hertz": 1.5, "PowerLaw": 1.0, "Hysteretic": 1.0}  # where not told
 _HEIGHT = 1.0  # m: from where a ball falls whose drop height is not known
 
 
@@ -66,15 +67,13 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     if len(contacts) == 1:
         return dict(contacts[0])
     rigid = [one for one in contacts if one["law"] == "Rigid"]
-    sprung = [one for one in contacts if one["law"] in ("Spring", "Hertz", "PowerLaw")]
+    sprung = [one for one in contacts if one["law"] in _EXPONENTS]
     if len(contacts) == 2 and len(rigid) == len(sprung) == 1:
-        exponents = {"Spring": 1.0, "Hertz": 1.5}
         law = sprung[0]
-        exponent = exponents.get(law["law"], law.get("exponent"))
         return {
             "law": "Hysteretic",
             "stiffness": law["stiffness"],
-            "exponent": exponent,
+            "exponent": law.get("exponent", _EXPONENTS[law["law"]]),
             "restitution": rigid[0]["restitution"],
         }
     names = ", ".join(one["law"] for one in contacts)
