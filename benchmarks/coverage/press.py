@@ -109,7 +109,11 @@ CASES: dict[str, Callable[[int], Trial]] = {
     "a straight line": _case(LINEAR, _ALL, noise=0.3),
     "noise of both": _case(BALL, _ALL, noise=0.1, jitter=10e-6),
     "noise that remembers": _case(
-        BALL, "stiffness exponent linear_stiffness work_in restitution", noise=0.1, memory=4.0
+        BALL,
+        "stiffness exponent linear_stiffness work_in restitution",
+        noise=0.1,
+        memory=4.0,
+        points=900,
     ),
     "a drifting zero": _case(
         BALL, "stiffness exponent linear_stiffness work_in restitution", noise=0.1, drift=2.0

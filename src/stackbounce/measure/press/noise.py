@@ -21,7 +21,7 @@ __all__ = ["Noise", "spread"]
 
 Array = NDArray[np.float64]
 
-_SHARES = (0.1, 0.4, 0.8, 0.99)  # of the variance that has a memory
+_SHARES = (0.2, 0.6, 0.9, 1.0)  # of the variance that has a memory
 _MEMORIES = 7  # of them, from one point on
 _LONGEST = 0.5  # of the record
 _NONE = 1e-6  # a weight that does not count
