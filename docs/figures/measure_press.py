@@ -1,8 +1,6 @@
 """The pictures of `measure-press.md`."""
 
-import matplotlib as mpl
-from matplotlib._pylab_helpers import Gcf
-from matplotlib.backends.backend_agg import new_figure_manager_given_figure
+from shown import show
 
 import stackbounce as sb
 from stackbounce.measure import press
@@ -21,7 +19,4 @@ def record():
 def curve():
     """Force against compression of a ball in a press, and what was found in it."""
     data = record()
-    with mpl.rc_context(mpl.rcParamsDefault):  # as outside these pages
-        figure = draw(data, press(data))
-    # To pyplot, where the page looks for it.
-    Gcf._set_new_active_manager(new_figure_manager_given_figure(1, figure))
+    show(draw, data, press(data))

@@ -1,8 +1,6 @@
 """The pictures of `measure-waveform.md`: force records made from the simulator, and analysed."""
 
-import matplotlib as mpl
-from matplotlib._pylab_helpers import Gcf
-from matplotlib.backends.backend_agg import new_figure_manager_given_figure
+from shown import show
 
 import stackbounce as sb
 from stackbounce.measure.synthetic.waveform import waveform as record_of
@@ -19,10 +17,7 @@ SMALL_BELOW = sb.Drop(
 
 
 def _draw(record):
-    with mpl.rc_context(mpl.rcParamsDefault):  # as outside these pages
-        figure = draw(record, waveform(record))
-    # To pyplot, where the page looks for it.
-    Gcf._set_new_active_manager(new_figure_manager_given_figure(1, figure))
+    show(draw, record, waveform(record))
 
 
 def floor():

@@ -1,8 +1,6 @@
 """The pictures of `measure-sound.md` and `measure-track.md`, of records made by the simulator."""
 
-import matplotlib as mpl
-from matplotlib._pylab_helpers import Gcf
-from matplotlib.backends.backend_agg import new_figure_manager_given_figure
+from shown import show
 
 import stackbounce as sb
 from stackbounce.measure.bounces import bounces
@@ -22,13 +20,6 @@ STACK = sb.Drop(
 )
 
 
-def _show(draw, data, found):
-    with mpl.rc_context(mpl.rcParamsDefault):  # as outside these pages
-        figure = draw(data, found)
-    # To pyplot, where the page looks for it.
-    Gcf._set_new_active_manager(new_figure_manager_given_figure(1, figure))
-
-
 def _recording():
     return recorded(FALL, noise=0.004, hum=0.02, echo=(0.07, 0.35), seed=1)
 
@@ -36,19 +27,19 @@ def _recording():
 def sound():
     """A recording with hum and echoes, and its knocks."""
     data = _recording()
-    _show(measured_sound.draw, data, knocks(data))
+    show(measured_sound.draw, data, knocks(data))
 
 
 def restitution():
     """Restitution of each bounce of that recording against impact speed."""
     found = knocks(_recording())
-    _show(measured_bounces.draw, found, bounces(found))
+    show(measured_bounces.draw, found, bounces(found))
 
 
 def one_ball():
     """The track of one ball at 60 frames per second."""
     data = tracked(falls(1.0, 0.8), frame_rate=60.0, noise=0.002)
-    _show(measured_track.draw, data, track(data))
+    show(measured_track.draw, data, track(data))
 
 
 def two_balls():
@@ -60,4 +51,4 @@ def two_balls():
         noise=0.002,
         names=["basketball", "tennis ball"],
     )
-    _show(measured_track.draw, data, track(data))
+    show(measured_track.draw, data, track(data))
