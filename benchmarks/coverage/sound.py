@@ -46,6 +46,6 @@ def recorded(fall: Falls, **options: Any) -> Trial:
 CASES: dict[str, Trial] = {
     "sound, quiet": recorded(STEADY),
     "sound, noise and hum": recorded(STEADY, noise=0.01, hum=0.05),
-    "sound, echo and second sounds": recorded(STEADY, echo=(0.045, 0.3), double=(0.003, 0.6)),
+    "sound, echo and second sounds": recorded(STEADY, echo=(0.03, 0.3), double=(0.003, 0.6)),
     "sound, restitution that falls with speed": recorded(FALLING, noise=0.005),
 }

@@ -87,7 +87,8 @@ def extra_scatter(
         wider = covariance + scatter**2 * np.eye(len(values))
         return least_squares(design, values, wider).chi_squared - fit.freedom
 
-    return float(brentq(excess, 0.0, 10.0 * float(np.ptp(values)) + 1e-300, xtol=1e-12))
+    most = 10.0 * float(np.ptp(values)) + 1e-300
+    return float(brentq(excess, 0.0, most, xtol=1e-6 * most))
 
 
 def widening(freedom: float) -> float:

@@ -71,7 +71,7 @@ def straight(
     )
     values = np.array([one.nominal_value for one in y])
     slope, more, fit = 0.0, 0.0, None
-    for _ in range(3):
+    for _ in range(2):
         residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
         covariance = np.array(covariance_matrix(residuals))
         more = extra_scatter(design, values, covariance) if scatter < 0.0 else scatter
