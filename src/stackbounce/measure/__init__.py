@@ -19,7 +19,7 @@ from stackbounce.measure.analysis import analyse
 from stackbounce.measure.assembly import one_ball
 from stackbounce.measure.bounces import bounces
 from stackbounce.measure.heights import heights
-from stackbounce.measure.press import press, split_series
+from stackbounce.measure.press import press, series_stiffness, split_series
 from stackbounce.measure.reading import read
 from stackbounce.measure.sound import knocks
 from stackbounce.measure.stiffness import dynamic_stiffness, law_constants
@@ -37,6 +37,7 @@ __all__ = [
     "one_ball",
     "press",
     "read",
+    "series_stiffness",
     "split_series",
     "track",
     "waveform",

@@ -8,7 +8,22 @@ from stackbounce.errors import InvalidValue, non_negative, positive, shown
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["measured"]
+__all__ = ["known_to", "measured"]
+
+
+def known_to(value: float, error: float) -> "UFloat":
+    """Return a number with an error of its own, which may be 0.
+
+    Examples
+    --------
+    >>> known_to(0.057, 0.001), known_to(0.057, 0.0)
+    (0.057+/-0.001, 0.057+/-0)
+    """
+    from uncertainties import UFloat, ufloat
+    from uncertainties.core import LinearCombination
+
+    # ufloat warns of an error of 0
+    return ufloat(value, error) if error > 0.0 else UFloat(value, LinearCombination({}))
 
 
 def measured(
@@ -48,12 +63,10 @@ def measured(
     (0.057+/-0, 0.057+/-0.001)
     """
     from uncertainties import UFloat
-    from uncertainties.core import LinearCombination
 
     known: Any = value
     if not isinstance(value, UFloat):
-        # ufloat warns of an error of 0
-        return UFloat(check(name, value, of), LinearCombination({}))
+        return known_to(check(name, value, of), 0.0)
     check(name, known.nominal_value, of)
     try:
         non_negative(name, known.std_dev)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.errors import InvalidValue, positive, shown
+from stackbounce.measure.uncertain import known_to
 from stackbounce.measure.waveform.baseline import Quiet, first_guess, quiet_parts
 from stackbounce.measure.waveform.contact import Local, measure_contact
 from stackbounce.measure.waveform.droop import undrooped
@@ -181,9 +182,7 @@ def _undrooped(record: Record, seen: _Seen, time_constant: float) -> Record:
 
 
 def _level(quiet: Quiet) -> Any:
-    from uncertainties import ufloat
-
-    return ufloat(float(np.median(quiet.baseline)), max(quiet.error, 1e-300))
+    return known_to(float(np.median(quiet.baseline)), quiet.error)
 
 
 def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.measure.uncertain import known_to
 from stackbounce.measure.waveform.baseline import Quiet, scatter, stuck
 from stackbounce.measure.waveform.flanks import FALL, RISE, Flank, fit_flank
 from stackbounce.measure.waveform.found import Contact
@@ -112,20 +113,18 @@ def _contact(
     clipped: bool,
     samples: int,
 ) -> Contact:
-    from uncertainties import ufloat
-
-    start, end = (ufloat(one.time, one.error) if one else None for one in flanks)
+    start, end = (known_to(one.time, one.error) if one else None for one in flanks)
     tops: list[tuple[UFloat, UFloat]] = [
-        (ufloat(one.time, one.time_error), ufloat(one.force, one.force_error)) for one in peaks
+        (known_to(one.time, one.time_error), known_to(one.force, one.force_error)) for one in peaks
     ]
-    powers = tuple(ufloat(one.exponent, one.exponent_error) if one else None for one in flanks)
+    powers = tuple(known_to(one.exponent, one.exponent_error) if one else None for one in flanks)
     return Contact(
         start=start,
         end=end,
         time=None if start is None or end is None else end - start,
         peaks=tuple(tops),
         peak_force=max((force for _, force in tops), key=lambda force: force.nominal_value),
-        impulse=ufloat(*area),
+        impulse=known_to(*area),
         rise=None if start is None else tops[0][0] - start,
         fall=None if end is None else end - tops[-1][0],
         exponents=(powers[0], powers[1]),

@@ -14,6 +14,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidValue, fraction, shown
+from stackbounce.measure.uncertain import known_to
 from stackbounce.measure.waveform.analysis import waveform
 from stackbounce.measure.waveform.found import Waveform
 from stackbounce.measure.waveform.sensor import known
@@ -128,7 +129,7 @@ def delay_from_gap(
     Examples
     --------
     >>> print(f"{delay_from_gap(1e-3, 1.98, contact_time=4.3e-3) * 1e3:.2f} ms")
-    1.84+/-0.00 ms
+    1.84+/-0 ms
     """
     d, v, spring = _checked("gap", gap, impact_speed, mass, stiffness, contact_time, contact)
     fraction("restitution", restitution)
@@ -249,7 +250,7 @@ def _through(function: Callable[..., float], *given: Any) -> "UFloat":
 
     Where a quotient on both sides differs, as at a corner, their mean is taken.
     """
-    from uncertainties import UFloat, nominal_value, ufloat
+    from uncertainties import UFloat, nominal_value
 
     values: list[Any] = [None if one is None else nominal_value(one) for one in given]
     result = function(*values)
@@ -263,9 +264,4 @@ def _through(function: Callable[..., float], *given: Any) -> "UFloat":
                 moved[k] = values[k] + side
                 ends.append(function(*moved))
             total = total + (ends[0] - ends[1]) / (2.0 * step) * (one - values[k])
-    return total if isinstance(total, UFloat) else _exact(result, ufloat)
-
-
-def _exact(value: float, ufloat: Any) -> "UFloat":
-    """Return a number whose inputs had no errors: its own is that of round-off."""
-    return ufloat(value, max(abs(value) * 1e-15, 1e-300))
+    return total if isinstance(total, UFloat) else known_to(result, 0.0)
