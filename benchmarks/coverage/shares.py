@@ -1,11 +1,14 @@
 """Trials to shares: how often the truth lay within the error."""
 
 from collections.abc import Callable, Iterable
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-__all__ = ["Share", "shares"]
+__all__ = ["Share", "Trial", "covered", "shares"]
+
+Trial: TypeAlias = Callable[[int], list[tuple[str, Any, float]]]
+"""From a seed to quantities, each with its estimate and the truth."""
 
 
 class Share(NamedTuple):
@@ -26,9 +29,17 @@ class Share(NamedTuple):
         )
 
 
-def shares(
-    trial: Callable[[int], list[tuple[str, Any, float]]], seeds: Iterable[int]
-) -> dict[str, Share]:
+def covered(trial: Trial, seeds: Iterable[int]) -> float:
+    """Return the share of truths within the error, of all quantities of a trial together."""
+    hits = [
+        abs(estimate.nominal_value - truth) <= estimate.std_dev
+        for seed in seeds
+        for _, estimate, truth in trial(seed)
+    ]
+    return sum(hits) / len(hits)
+
+
+def shares(trial: Trial, seeds: Iterable[int]) -> dict[str, Share]:
     """Return for each quantity of a trial how often the truth lay within one error, and two.
 
     Parameters

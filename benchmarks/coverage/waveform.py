@@ -1,4 +1,8 @@
-"""Coverage of what is read off force records: times, impulses, peaks, stiffness, delays, gaps."""
+"""Coverage of what is read off force records: times, impulses, peaks, stiffness, delays, gaps.
+
+An error allows for not knowing the law, so that it holds the truth as often as it claims over laws
+from a spring's to Hertz's; for one law alone, and little noise, it may do so more often.
+"""
 
 from collections.abc import Callable
 from functools import cache, partial
@@ -71,10 +75,8 @@ PIEZO: dict[str, Any] = {"rate": 5e4, "noise": 1.0, "time_constant": 0.02, "offs
 CASES: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
     "spring, 1 % noise": partial(_bounce, exponent=1.0, **NOISY),
     "Hertz, 1 % noise": partial(_bounce, exponent=1.5, **NOISY),
-    "spring, 8 bits": partial(_bounce, exponent=1.0, **SCOPE),
-    "Hertz, 8 bits": partial(_bounce, exponent=1.5, **SCOPE),
-    "spring, droop": partial(_bounce, exponent=1.0, **PIEZO),
-    "Hertz, droop": partial(_bounce, exponent=1.5, **PIEZO),
+    "any law, 8 bits": partial(_bounce, exponent=None, **SCOPE),
+    "any law, droop": partial(_bounce, exponent=None, **PIEZO),
     "any law, 30 samples": partial(_bounce, exponent=None, rate=7e3, noise=3.0, before=0.02),
     "any law, hum": partial(_bounce, exponent=None, rate=2e4, noise=2.0, hum=4.0, before=0.05),
     "gap of 1 mm": partial(_gap, gap=1e-3, rate=5e4, noise=1.0),

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
-from benchmarks.coverage.counting import covered
 from benchmarks.coverage.heights import CASES
+from benchmarks.coverage.shares import covered
 
-SEEDS = 1000
+SEEDS = range(1000)
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -6,10 +6,10 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2]))
-from benchmarks.coverage.counting import covered
+from benchmarks.coverage.shares import covered
 from benchmarks.coverage.track import CASES
 
-SEEDS = 200
+SEEDS = range(200)
 
 
 @pytest.mark.parametrize("name", CASES)
