@@ -25,7 +25,7 @@ paper: $(RUNTIME)  ## recompute the paper: figures, tables and audit, in build/p
 	@echo "Open $(CURDIR)/build/paper/index.html"
 
 test: $(DEV)  ## run the tests
-	@$(BIN)/python -m pytest
+	@$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
 
 bench: $(DEV)  ## growth, accuracy and speed, also of other solvers (extra: bench), in build/bench
 	@$(BIN)/python -m benchmarks --out build/bench

@@ -3,6 +3,7 @@
 import importlib.util
 import re
 import shlex
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +24,7 @@ COMMANDS = [shlex.split(fence.replace("\\\n", " "))[1:] for fence in FENCES]
 
 @pytest.fixture(scope="module")
 def sweeps():
+    sys.path.insert(0, str(DOCS / "figures"))
     spec = importlib.util.spec_from_file_location("sweeps", DOCS / "figures" / "sweeps.py")
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)

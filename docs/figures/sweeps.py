@@ -1,9 +1,7 @@
 """The pictures of `sweeps.md`, drawn by the package itself: what its commands draw."""
 
-import matplotlib as mpl
 import numpy as np
-from matplotlib._pylab_helpers import Gcf
-from matplotlib.backends.backend_agg import new_figure_manager_given_figure
+from shown import show as hand_over
 
 import stackbounce as sb
 from stackbounce import plots
@@ -46,11 +44,8 @@ SWEEPS = {  # the store of the page's command: drop, what varies
 
 def _draw(name, show="rebound_ratio", **which):
     drop, over = SWEEPS[name]
-    with mpl.rc_context(mpl.rcParamsDefault):  # as outside these pages
-        draw = plots.lines if len(over) == 1 else plots.heatmap
-        figure = draw(sb.sweep(drop, over), show, **which)
-    # To pyplot, where the page looks for it.
-    Gcf._set_new_active_manager(new_figure_manager_given_figure(1, figure))
+    draw = plots.lines if len(over) == 1 else plots.heatmap
+    hand_over(draw, sb.sweep(drop, over), show, **which)
 
 
 def mass():

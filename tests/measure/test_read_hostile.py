@@ -66,7 +66,7 @@ def test_no_permission(tmp_path, monkeypatch):
     path = tmp_path / "locked"
     path.write_bytes(made.force_ms())
     monkeypatch.setattr("pathlib.Path.open", refuse)
-    with pytest.raises(FileError, match="locked' cannot be read: Permission denied"):
+    with pytest.raises(FileError, match="locked cannot be read: Permission denied"):
         sb.read(path)
 
 

@@ -187,6 +187,109 @@ def sweep(
         swept.tell(_console(), done, out, plot)
 
 
+@app.command(
+    epilog="For example: stackbounce measure bounces.wav --mass 57g --height 1m --save ball.toml, "
+    "then: stackbounce simulate ball.toml"
+)
+def measure(
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILE...",
+            readable=False,
+            help="Sound, force waveform, video track, times of bounces or press curve, as Tracker, "
+            "phyphox, Vernier, PASCO, oscilloscopes and spreadsheets write them.",
+            show_default=False,
+        ),
+    ],
+    mass: Annotated[
+        str | None, typer.Option(metavar="MASS", help="Of the ball, such as 57g.")
+    ] = None,
+    diameter: Annotated[
+        str | None, typer.Option(metavar="LENGTH", help="Of the ball, such as 66mm.")
+    ] = None,
+    name: Annotated[
+        str | None, typer.Option(metavar="NAME", help="Of the ball, for --save.")
+    ] = None,
+    height: Height = None,
+    speed: Speed = None,
+    time_constant: Annotated[
+        str | None,
+        typer.Option(metavar="TIME", help="Of a piezo sensor's droop, such as 0.1s: undoes it."),
+    ] = None,
+    gravity: Annotated[
+        str | None,
+        typer.Option(metavar="ACCELERATION", help="Where it was measured, such as 9.81m/s^2."),
+    ] = None,
+    holds: Annotated[
+        str | None,
+        typer.Option(
+            metavar="KIND",
+            help="What the file holds, where it is unsure: sound, knocks, bounces, track, "
+            "waveform or 'press curve'.",
+        ),
+    ] = None,
+    column: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="COLUMN=MEANING",
+            help="What a column is, by its name or its number from 1: 2=force; once per column.",
+        ),
+    ] = None,
+    unit: Annotated[
+        list[str] | None,
+        typer.Option(metavar="COLUMN=UNIT", help="Unit of a column: x=cm; once per column."),
+    ] = None,
+    table: Annotated[str | None, typer.Option(metavar="NAME", help="Which table of a zip.")] = None,
+    which_run: Annotated[
+        str | None, typer.Option("--run", metavar="RUN", help="Which of several runs in a file.")
+    ] = None,
+    save: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            readable=False,
+            help="Write the ball as a scenario for simulate: ball.toml.",
+        ),
+    ] = None,
+    plot: Plot = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
+    from stackbounce.cli import machine, measured, output
+
+    if plot is not None:
+        output.check_picture(plot)
+        if len(files) > 1:
+            raise InvalidValue(f"--plot draws one file, got {len(files)}")
+    ball = measured.numbers(mass=mass, diameter=diameter)
+    about = measured.numbers(
+        height=height, speed=speed, time_constant=time_constant, gravity=gravity
+    )
+    if save is not None:
+        measured.check_save(save, ball)
+    reading = {
+        "holds": holds,
+        "names": measured.pairs(column, "--column", "COLUMN=MEANING, such as 2=force"),
+        "units": measured.pairs(unit, "--unit", "COLUMN=UNIT, such as x=cm"),
+        "table": table,
+        "run": which_run,
+    }
+    weight = {key: ball[key] for key in ("mass",) if key in ball}
+    done = measured.run(files, reading, weight | about)
+    saved = {} if save is None else measured.save(done, save, **ball, name=name)
+    if plot is not None:
+        output.draw(lambda: measured.picture(done), plot)
+    if as_json:
+        typer.echo(machine.text(measured.summary(done, saved)))
+        return
+    measured.tell(_console(), done)
+    if save is not None:
+        typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
+    if plot is not None:
+        typer.echo(f"Picture: {plot}")
+
+
 @app.command()
 def balls(as_json: AsJson = False) -> None:
     """List the catalogue: the paper's balls, each figure with its source."""

@@ -1,11 +1,11 @@
 """Tables I and II recomputed, with the paper's errors carried through by `uncertainties`."""
 
 from dataclasses import dataclass
-from math import pi
 from typing import TYPE_CHECKING
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks_tables import HEIGHTS, RATIOS
+from stackbounce.measure.stiffness import dynamic_stiffness
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -41,7 +41,7 @@ def table_one(bench: Bench) -> Table:
         time = bench.measured(f"{ball}.contact_time")
         diameter = bench.measured(f"{ball}.diameter")
         static = bench.measured(f"{ball}.static_stiffness")
-        dynamic = bench.measured(f"{ball}.mass") * (pi / time) ** 2
+        dynamic = dynamic_stiffness(bench.measured(f"{ball}.mass"), time)
         rows.append(
             (
                 ball,

@@ -66,9 +66,9 @@ def content_of(path: object) -> tuple[str, bytes]:
     except OSError as error:
         if isinstance(error, FileError):
             raise
-        raise FileError(f"{shown(name)} cannot be read: {error.strerror or error}") from error
+        raise FileError(f"{name} cannot be read: {error.strerror or error}") from error
     except ValueError as error:  # a null character in the name
-        raise FileError(f"{shown(name)} cannot be read: {error}") from error
+        raise FileError(f"{name!r} cannot be read: {error}") from error
     if len(content) > BYTES:
         raise FileError(f"{name} is larger than {BYTES >> 20} MiB: cut out what is of interest")
     if not content:

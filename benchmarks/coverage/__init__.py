@@ -1,0 +1,1 @@
+"""How often error bars hold the truth: records made, analysed and compared with what went in."""

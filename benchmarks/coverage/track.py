@@ -1,0 +1,60 @@
+"""Coverage of what `track` finds in tracks of one ball and of two."""
+
+from collections.abc import Callable
+from typing import Any
+
+from stackbounce.measure.synthetic.falls import falls
+from stackbounce.measure.synthetic.track import track as tracked
+from stackbounce.measure.track import track
+from stackbounce.model import Ball, Drop, Rigid
+from stackbounce.simulate import simulate
+
+__all__ = ["CASES"]
+
+Trial = Callable[[int], list[tuple[str, Any, float]]]
+
+ONE = falls(0.5, 0.8)
+BALLS = ([Ball(0.6, diameter=0.2), Ball(0.1, diameter=0.1)], [Rigid(0.8)] * 2)
+STACK = simulate(Drop(*BALLS, height=0.5, gravity=ONE.gravity), until=0.2)
+RATIOS = simulate(Drop(*BALLS, height=0.5)).rebound_ratios  # right after the impact
+
+
+def one_ball(**options: Any) -> Trial:
+    """Return a trial: a track of one ball that bounces twice."""
+    factor = options.get("read_as", options.get("frame_rate", 60.0)) / options.get(
+        "frame_rate", 60.0
+    )
+
+    def trial(seed: int) -> list[tuple[str, Any, float]]:
+        options_here = {"frame_rate": 60.0, "until": 0.95, "noise": 1.5e-3} | options
+        ball = track(tracked(ONE, seed=seed, **options_here)).balls[0]
+        return [
+            ("drop height", ball.drop_height, ONE.height),
+            ("impact speed", ball.impact_speeds[0], float(ONE.speeds[0]) * factor),
+            ("rebound speed", ball.rebound_speeds[0], float(ONE.rebounds[0]) * factor),
+            ("apex height", ball.apex_heights[0], ONE.height * 0.8**2),
+            ("restitution", ball.restitutions[0], 0.8),
+            ("gravity of the flights", ball.gravity, ONE.gravity * factor**2),
+        ]
+
+    return trial
+
+
+def two_balls(seed: int) -> list[tuple[str, Any, float]]:
+    """Return the rebound ratios of two balls that touch."""
+    found = track(tracked(STACK, frame_rate=120.0, noise=1.5e-3, seed=seed))
+    return [
+        (f"rebound ratio {k}", ratio, float(true))
+        for k, (ratio, true) in enumerate(zip(found.rebound_ratios, RATIOS, strict=True))
+    ]
+
+
+CASES: dict[str, Trial] = {
+    "track, 60 frames per second": one_ball(),
+    "track, errors that go together": one_ball(correlation=0.5, frame_rate=100.0, until=1.2),
+    "track, pixels of 4 mm": one_ball(pixel=0.004, noise=1e-3),
+    "track, one point in five missing": one_ball(missing=0.2),
+    "track, axes tilted by 4 degrees": one_ball(tilt=0.07, drift=0.1),
+    "track, 240 frames per second read as 60": one_ball(frame_rate=240.0, read_as=60.0, until=0.7),
+    "track, two balls": two_balls,
+}

@@ -1,0 +1,85 @@
+"""Coverage of what is read off force records: times, impulses, peaks, stiffness, delays, gaps.
+
+An error allows for not knowing the law, so that it holds the truth as often as it claims over laws
+from a spring's to Hertz's; for one law alone, and little noise, it may do so more often.
+"""
+
+from collections.abc import Callable
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+
+import stackbounce as sb
+from stackbounce.measure.synthetic.waveform import waveform as record_of
+from stackbounce.measure.waveform import delay, gap_from_delay, waveform
+
+MASS, SPEED, TIME = 0.101, 1.98, 4.3e-3  # the paper's ball B1
+_EXPONENTS = (1.0, 1.125, 1.25, 1.375, 1.5)  # from a linear spring to Hertz's law
+
+
+@cache
+def _run(exponent: float, gap: float | None = None, between: float = 1.0) -> sb.Result:
+    """Return the run of one ball, or of B2 on B1, with exponents of floor and balls."""
+    law = sb.calibrate(
+        sb.PowerLaw, mass=MASS, contact_time=TIME, impact_speed=SPEED, exponent=exponent
+    )
+    balls, contacts = [sb.Ball(MASS)], [law]
+    if gap is not None:
+        balls.append(sb.Ball(0.0248))
+        lasting = {"mass": (MASS, 0.0248), "contact_time": 3.5e-3, "impact_speed": SPEED}
+        contacts.append(sb.calibrate(sb.PowerLaw, exponent=between, **lasting))
+    gaps = [] if gap is None else [gap]
+    return sb.simulate(sb.Drop(balls, contacts, gaps=gaps, impact_speed=SPEED))
+
+
+def _bounce(seed: int, exponent: float | None, **how: Any) -> list[tuple[str, Any, float]]:
+    """Analyse one bounce; with no exponent a law between a linear spring and Hertz's."""
+    if exponent is None:
+        exponent = _EXPONENTS[seed % 5]
+    result = _run(exponent)
+    row = result.intervals[0]
+    record = record_of(result, seed=seed, **how)
+    found = waveform(record, mass=MASS, time_constant=how.get("time_constant"))
+    (contact,) = found.contacts
+    gain = how.get("sensitivity", 1.0)
+    true_time = row["end"] - row["start"]
+    return [
+        ("touch", contact.start, record.attrs["touch"]),
+        ("contact time", contact.time, true_time),
+        ("stiffness", found.stiffness, MASS * (np.pi / true_time) ** 2),
+        ("impulse", contact.impulse, gain * row["impulse"]),
+        ("peak force", contact.peak_force, gain * row["peak_force"]),
+    ]
+
+
+def _gap(seed: int, gap: float, **how: Any) -> list[tuple[str, Any, float]]:
+    """Analyse two channels of two balls that fall a gap apart, the lower one on a spring."""
+    result = _run(1.0, gap, _EXPONENTS[seed % 5])
+    record = record_of(result, seed=seed, contacts=[0, 1], **how)
+    later = delay(record[[*record][:1]], record[[*record][1:]])
+    found = gap_from_delay(later, SPEED, contact_time=TIME)
+    return [("delay", later, float(result.first_touch[1])), ("gap", found, gap)]
+
+
+NOISY: dict[str, Any] = {"rate": 5e4, "noise": 2.0}
+SCOPE: dict[str, Any] = {
+    "rate": 1e5,
+    "noise": 0.01,
+    "bits": 8,
+    "full_scale": 2.0,
+    "sensitivity": 0.01,
+}
+PIEZO: dict[str, Any] = {"rate": 5e4, "noise": 1.0, "time_constant": 0.02, "offset": 3.0}
+
+CASES: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
+    "spring, 1 % noise": partial(_bounce, exponent=1.0, **NOISY),
+    "Hertz, 1 % noise": partial(_bounce, exponent=1.5, **NOISY),
+    "any law, 8 bits": partial(_bounce, exponent=None, **SCOPE),
+    "any law, droop": partial(_bounce, exponent=None, **PIEZO),
+    "any law, 30 samples": partial(_bounce, exponent=None, rate=7e3, noise=3.0, before=0.02),
+    "any law, hum": partial(_bounce, exponent=None, rate=2e4, noise=2.0, hum=4.0, before=0.05),
+    "gap of 1 mm": partial(_gap, gap=1e-3, rate=5e4, noise=1.0),
+    "gap of 12 mm": partial(_gap, gap=12e-3, rate=5e4, noise=1.0),
+}
+"""Case name to a trial: seed to (quantity, estimate, truth)."""

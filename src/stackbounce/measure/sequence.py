@@ -1,0 +1,230 @@
+"""Which of many sounds are one ball's bounces: their intervals shrink by a steady factor."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.chance import least_squares
+
+__all__ = ["Chain", "find_chain", "missed_between", "roughness"]
+
+_LONGEST = 3.0  # s in the air: a bounce of 11 m
+_SHRINKS = (0.15, 1.03)  # ratio of neighbouring flights
+_STEADY = 0.06  # by how much its logarithm may change from bounce to bounce
+_LIMIT = 3.0  # times that much, and no more
+_LOUDNESS = 1.0  # by how much ln(loudness) scatters about that of the speed
+_MISSED = 2.5  # what leaving out a bounce costs; a clear knock is worth 1 to 3
+_START = 1.0  # what beginning costs
+_RANGES = 8  # of the ratio
+_RANGE = math.log(_SHRINKS[1] / _SHRINKS[0]) / _RANGES
+
+
+class Chain(NamedTuple):
+    """Indices of a series' knocks, and how many bounces are missing after each but the last."""
+
+    indices: tuple[int, ...]
+    missed: tuple[int, ...]
+
+
+def find_chain(
+    times: NDArray[np.float64],
+    worth: NDArray[np.float64],
+    loudness: NDArray[np.float64],
+    errors: NDArray[np.float64],
+    dead_time: float,
+) -> Chain:
+    """Return the series of bounces that explains most of the knocks.
+
+    Each flight is shorter than the one before by a factor that changes slowly, and loudness falls
+    with speed. One bounce in a row may be missing. Found by dynamic programming over pairs of
+    neighbouring bounces, each with the best series that ends in it.
+
+    Parameters
+    ----------
+    times : ndarray
+        (N,) of all knocks, ascending, in s.
+    worth : ndarray
+        (N,) what it is worth to explain each.
+    loudness : ndarray
+        (N,) amplitudes, above 0.
+    errors : ndarray
+        (N,) of the times, in s.
+    dead_time : float
+        The shortest flight in s.
+
+    Returns
+    -------
+    Chain
+        Empty if there is no knock.
+
+    Examples
+    --------
+    >>> times = np.array([0.0, 0.3, 1.0, 1.3, 1.8, 2.44])  # two are echoes
+    >>> find_chain(times, np.ones(6), np.array([5, 1, 4, 1, 3.2, 2.6]), np.full(6, 1e-4), 0.01)
+    Chain(indices=(0, 2, 4, 5), missed=(0, 0, 0))
+    """
+    count = len(times)
+    if count < 3:
+        return Chain(tuple(range(count)), (0,) * max(count - 1, 0))
+    pairs = _Pairs(count)
+    first = np.searchsorted(times, times - _LONGEST)
+    last = np.searchsorted(times, times - dead_time, side="right")
+    logs = np.log(loudness)
+    for k in range(count):
+        for j in range(first[k], min(last[k], k)):
+            flight = times[k] - times[j]
+            pairs.score[j, k, 0] = worth[j] + worth[k] - _START
+            pairs.flight[j, k, 0] = flight
+            step = _Step(flight, 2.0 * max(errors[j], errors[k]) / flight, logs[k] - logs[j])
+            _go_on(pairs, j, k, step, worth[k])
+    return pairs.best()
+
+
+class _Step(NamedTuple):
+    flight: float
+    error: float  # relative
+    louder: float  # logarithm
+
+
+class _Pairs:
+    """The best series that end in each pair of neighbouring bounces.
+
+    One that begins with the pair (slot 0), and one for each range of the ratio of its last two
+    flights, so that a wrong beginning does not hide a right one.
+    """
+
+    def __init__(self, count: int) -> None:
+        shape = (count, count, 1 + _RANGES)
+        self.score = np.full(shape, -np.inf)
+        self.flight = np.full(shape, np.nan)
+        self.ratio = np.full(shape, np.nan)
+        self.before = np.full((*shape, 2), -1)
+        self.missed = np.zeros(shape, dtype=np.int64)
+
+    def best(self) -> Chain:
+        j, k, slot = (int(i) for i in np.unravel_index(np.argmax(self.score), self.score.shape))
+        if not np.isfinite(self.score[j, k, slot]):
+            return Chain((0,), ())
+        indices, missed = [k], []
+        while j >= 0:
+            indices.append(j)
+            missed.append(int(self.missed[j, k, slot]))
+            before, new = (int(i) for i in self.before[j, k, slot])
+            j, k, slot = before, j, new
+        return Chain(tuple(indices[::-1]), tuple(missed[::-1]))
+
+
+def _go_on(pairs: _Pairs, j: int, k: int, step: _Step, worth: float) -> None:
+    """Write the best series that go on with the flight from j to k."""
+    scores = pairs.score[:j, j]
+    known = np.argwhere(np.isfinite(scores))
+    if not len(known):
+        return
+    at = tuple(known.T)
+    whole = step.flight / pairs.flight[:j, j][at]
+    previous = pairs.ratio[:j, j][at]
+    for missed in (0, 1):
+        # One bounce is missing: the interval holds two flights, r and r**2 times the last one.
+        ratio = 0.5 * (np.sqrt(1.0 + 4.0 * whole) - 1.0) if missed else whole
+        fresh = np.isnan(previous)
+        change = np.log(ratio / np.where(fresh, ratio, previous)) / math.hypot(_STEADY, step.error)
+        quieter = np.clip((step.louder - (1 + missed) * np.log(ratio)) / _LOUDNESS, -2.0, 2.0)
+        total = scores[at] + worth - 0.5 * change**2 - 0.5 * quieter**2 - missed * _MISSED
+        allowed = (ratio > _SHRINKS[0]) & (ratio < _SHRINKS[1] + step.error)
+        allowed &= np.abs(change) < _LIMIT
+        if missed:  # only a steady series tells that one is missing
+            allowed &= ~fresh
+        slots = 1 + np.clip((np.log(ratio / _SHRINKS[0]) / _RANGE).astype(int), 0, _RANGES - 1)
+        flights = step.flight * (ratio / (1.0 + ratio) if missed else np.ones_like(ratio))
+        for i in np.flatnonzero(allowed):
+            slot = slots[i]
+            if total[i] > pairs.score[j, k, slot]:
+                pairs.score[j, k, slot] = total[i]
+                pairs.flight[j, k, slot] = flights[i]
+                pairs.ratio[j, k, slot] = ratio[i]
+                pairs.before[j, k, slot] = known[i]
+                pairs.missed[j, k, slot] = missed
+
+
+def missed_between(steps: Sequence[float] | NDArray[Any]) -> list[int]:
+    """Return how many bounces seem to be missing in each interval: 0 or 1.
+
+    An interval that holds two flights is longer than the one before it by ``r (1 + r)``, where r is
+    what the others shrink by.
+
+    Parameters
+    ----------
+    steps : sequence of float
+        Intervals between successive bounces in s, above 0.
+
+    Returns
+    -------
+    list of int
+
+    Examples
+    --------
+    >>> missed_between([1.0, 0.8, 0.64 + 0.512, 0.4096, 0.32768])
+    [0, 0, 1, 0, 0]
+    """
+    lengths = [float(step) for step in steps]
+    ratios = np.array(lengths[1:]) / np.array(lengths[:-1])
+    usual = ratios[(ratios < _SHRINKS[1]) & (ratios > _SHRINKS[0])]
+    missed = [0] * len(lengths)
+    if len(usual) < 3:
+        return missed
+    r = float(np.median(usual))
+    flight = lengths[0]
+    for k in range(1, len(lengths)):
+        ratio = lengths[k] / flight
+        two = r * (1.0 + r)
+        if ratio > 1.1 * r and abs(math.log(ratio / two)) < min(0.12, abs(math.log(ratio / r))):
+            missed[k] = 1
+            flight = lengths[k] * r / (1.0 + r)
+        else:
+            flight = lengths[k]
+    return missed
+
+
+def roughness(
+    times: NDArray[np.float64], errors: NDArray[np.float64], missed: Sequence[int]
+) -> float:
+    """Return by which factor times scatter more than their errors about a steady fall.
+
+    Parameters
+    ----------
+    times, errors : ndarray
+        (N,) in s.
+    missed : sequence of int
+        How many bounces are missing after each but the last.
+
+    Returns
+    -------
+    float
+        The root of χ² over its degrees of freedom, of a restitution that falls linearly with
+        speed; 1 where it is less, and where fewer than four restitutions are known.
+
+    Examples
+    --------
+    >>> times = np.cumsum(0.8 ** np.arange(8))
+    >>> roughness(times, np.full(8, 1e-4), [0] * 7)
+    1.0
+    """
+    flights = np.diff(times)
+    whole = np.array(missed) == 0
+    known = np.flatnonzero(whole[:-1] & whole[1:])
+    if len(known) < 4:
+        return 1.0
+    ratio = flights[known + 1] / flights[known]
+    design = np.stack([np.ones(len(known)), flights[known]], axis=1)
+    slope = np.polyfit(flights[known], ratio, 1)[0]
+    jacobian = np.zeros((len(known), len(times)))
+    rows = np.arange(len(known))
+    by_before = -ratio / flights[known] - slope
+    jacobian[rows, known + 2] = 1.0 / flights[known]
+    jacobian[rows, known + 1] = -1.0 / flights[known] + by_before
+    jacobian[rows, known] = -by_before
+    fit = least_squares(design, ratio, (jacobian * errors**2) @ jacobian.T)
+    return math.sqrt(max(1.0, fit.chi_squared / fit.freedom))

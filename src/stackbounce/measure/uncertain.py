@@ -1,0 +1,75 @@
+"""Numbers with or without an error, as they come in."""
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.errors import InvalidValue, non_negative, positive, shown
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["known_to", "measured"]
+
+
+def known_to(value: float, error: float) -> "UFloat":
+    """Return a number with an error of its own, which may be 0.
+
+    Examples
+    --------
+    >>> known_to(0.057, 0.001), known_to(0.057, 0.0)
+    (0.057+/-0.001, 0.057+/-0)
+    """
+    from uncertainties import UFloat, ufloat
+    from uncertainties.core import LinearCombination
+
+    # ufloat warns of an error of 0
+    return ufloat(value, error) if error > 0.0 else UFloat(value, LinearCombination({}))
+
+
+def measured(
+    name: str,
+    value: object,
+    of: str = "",
+    check: Callable[[str, object, str], float] = positive,
+) -> "UFloat":
+    """Return a number, or a number with an error, as one with an error (0 if it has none).
+
+    Parameters
+    ----------
+    name : str
+        What it is called; messages begin with it.
+    value : float or UFloat
+        What came in. One with an error stays the same variable, so that correlations live on.
+    of : str, optional
+        The unit in words, for the message.
+    check : callable, optional
+        What its nominal value must pass: by default `stackbounce.errors.positive`.
+
+    Returns
+    -------
+    UFloat
+
+    Raises
+    ------
+    InvalidType
+        If it is no number.
+    InvalidValue
+        If its nominal value is out of range, or its error not finite.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> measured("mass", 0.057), measured("mass", ufloat(0.057, 0.001))
+    (0.057+/-0, 0.057+/-0.001)
+    """
+    from uncertainties import UFloat
+
+    known: Any = value
+    if not isinstance(value, UFloat):
+        return known_to(check(name, value, of), 0.0)
+    check(name, known.nominal_value, of)
+    try:
+        non_negative(name, known.std_dev)
+    except InvalidValue:
+        raise InvalidValue(f"{name} must have a finite error, got {shown(value)}") from None
+    return known

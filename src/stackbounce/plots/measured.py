@@ -1,0 +1,50 @@
+"""What was measured, and what was found in it: one picture for each kind of analysis."""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.errors import InvalidType, shown
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["measured"]
+
+_PICTURES = {
+    "Knocks": "measured_sound",
+    "Bounces": "measured_bounces",
+    "Tracks": "measured_track",
+    "Waveform": "measured_waveform",
+    "Press": "measured_press",
+}
+
+
+def measured(data: Any, found: Any) -> "Figure":
+    """Draw what an analysis found on what was measured.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        What was measured, as `read` gives it.
+    found : Knocks, Bounces, Tracks, Waveform or Press
+        What was found.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    InvalidType
+        If `found` is nothing that has a picture.
+
+    Examples
+    --------
+    >>> from stackbounce.measure import bounces
+    >>> figure = measured(None, bounces([0.0, 0.8, 1.44, 1.952]))
+    """
+    name = type(found).__name__
+    if name not in _PICTURES:
+        raise InvalidType(f"found must be what an analysis returns, got {shown(found)}")
+    figure: Figure = import_module(f"stackbounce.plots.{_PICTURES[name]}").draw(data, found)
+    return figure

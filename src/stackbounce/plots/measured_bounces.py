@@ -1,0 +1,92 @@
+"""Picture of restitution against impact speed, bounce by bounce."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.plots.style import COLORS, STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+_LINES = {"linear": "-", "power law": "--"}
+_FIRST_NUMBERS = 6  # further ones would be written on each other
+
+
+def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+    """Draw the restitution of each bounce against its impact speed, and the laws of its fall.
+
+    Parameters
+    ----------
+    data : object
+        What was measured; the picture needs only what was found.
+    found : Bounces
+        What was found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved.
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context():
+        mpl.rcParams.update(STYLE)
+        figure = Figure(figsize=(7.2, 4.4))
+        axes = figure.subplots()
+        speeds = np.array([getattr(one, "nominal_value", one) for one in found.impact_speeds])
+        kept = np.array([one.nominal_value for one in found.restitutions])
+        errors = np.nan_to_num([one.std_dev for one in found.restitutions])
+        grid = np.linspace(0.9 * speeds.min(), 1.04 * speeds.max(), 160)
+        for k, law in enumerate(found.laws):
+            line = [law.at(float(speed)) for speed in grid]
+            middle = np.array([one.nominal_value for one in line])
+            axes.plot(grid, middle, _LINES[law.form], color=COLORS[1 + k], label=_formula(law))
+            if law.form == "linear":
+                wide = np.array([one.std_dev for one in line])
+                axes.fill_between(
+                    grid, middle - wide, middle + wide, color=COLORS[1], alpha=0.15, linewidth=0
+                )
+        axes.errorbar(
+            speeds,
+            kept,
+            yerr=errors,
+            fmt="o",
+            color=COLORS[0],
+            capsize=3,
+            markersize=6,
+            elinewidth=1.3,
+            label=f"each bounce; mean {found.mean:.1uS}"
+            if found.mean.std_dev > 0
+            else "each bounce",
+        )
+        for number, speed, value in list(zip(found.numbers, speeds, kept, strict=True))[
+            :_FIRST_NUMBERS
+        ]:
+            axes.annotate(
+                f"{number}",
+                (speed, value),
+                xytext=(7, 6),
+                textcoords="offset points",
+                fontsize=9,
+                color=COLORS[0],
+            )
+        axes.set_xlabel("impact speed (m/s)")
+        axes.set_ylabel("restitution")
+        axes.set_xlim(0.0, 1.08 * float(speeds.max()))
+        middle, half = 0.5 * (kept.max() + kept.min()), 0.5 * float(np.ptp(kept))
+        reach = max(0.05, 1.6 * half + 1.2 * float(np.median(errors)))
+        axes.set_ylim(middle - reach, middle + reach)
+        axes.legend(loc="best", frameon=True, framealpha=0.9, edgecolor="none")
+    return figure
+
+
+def _formula(law: Any) -> str:
+    if law.form == "linear":
+        return f"e = {law.coefficient.nominal_value:.3f} − {law.slope:.1uS} v/(m/s)".replace(
+            "− -", "+ "
+        )
+    return f"e = {law.coefficient.nominal_value:.3f} (v/(m/s))$^{{{-law.slope:.1uS}}}$"

@@ -1,0 +1,126 @@
+"""Picture of a recording: the knocks that were found in it, and what was left out."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.plots.style import COLORS, STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+_COLUMNS = 2400  # of the envelope
+_MARGIN = 0.06
+_WORDS = {"echo": "echoes", "second sound of one impact": "second sounds of one impact"}
+_BLUE, _RED, _GREEN = COLORS[:3]
+
+
+def draw(data: Any, found: Any) -> "Figure":
+    """Draw a recording with its knocks, and the flights between them.
+
+    Parameters
+    ----------
+    data : Dataset or array_like
+        The recording, as `knocks` took it.
+    found : Knocks
+        What was found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved.
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context():
+        mpl.rcParams.update(STYLE)
+        figure = Figure(figsize=(7.2, 5.2))
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+        times = np.array([one.nominal_value for one in found.times])
+        _draw_sound(above, data, found, times)
+        _draw_flights(below, found, times)
+        pad = _MARGIN * max(float(np.ptp(times)), 0.1)
+        below.set_xlim(times[0] - 2.0 * pad, times[-1] + 2.0 * pad)
+        below.set_xlabel("time (s)")
+        figure.align_ylabels()
+    return figure
+
+
+def _draw_sound(axes: "Axes", data: Any, found: Any, times: NDArray[np.float64]) -> None:
+    samples, origin = _folded(data)
+    pad = 2.0 * _MARGIN * max(float(np.ptp(times)), 0.1)
+    first = max(0, int((times[0] - pad - origin) * found.rate))
+    last = min(len(samples), int((times[-1] + pad - origin) * found.rate) + 1)
+    part = samples[first:last]
+    step = max(1, len(part) // _COLUMNS)
+    rows = part[: len(part) // step * step].reshape(-1, step)
+    at = origin + (first + step * (np.arange(len(rows)) + 0.5)) / found.rate
+    axes.fill_between(
+        at, rows.min(axis=1), rows.max(axis=1), color="#9a9a9a", linewidth=0.4, edgecolor="#9a9a9a"
+    )
+    top = 1.12 * float(np.abs(part).max() or 1.0)
+    axes.plot(
+        times,
+        np.full(len(times), top),
+        "v",
+        color=_BLUE,
+        markersize=6,
+        label=f"{len(times)} knocks",
+        clip_on=False,
+    )
+    axes.vlines(times, -top, top, color=_BLUE, linewidth=0.7, alpha=0.55)
+    left = np.array([one.time for one in found.dropped])
+    left = left[(left > times[0] - pad) & (left < times[-1] + pad)]
+    if len(left):
+        axes.plot(
+            left,
+            np.full(len(left), top),
+            "x",
+            color=_RED,
+            markersize=5,
+            markeredgewidth=1.4,
+            label=f"{len(left)} left out ({_words(found)})",
+            clip_on=False,
+        )
+    axes.set_ylim(-top, top)
+    axes.set_ylabel("sound (full scale 1)")
+    axes.legend(loc="lower right", frameon=True, framealpha=0.9, edgecolor="none", ncols=2)
+
+
+def _folded(data: Any) -> tuple[NDArray[np.float64], float]:
+    """Return samples of one channel, (N,), and the time of the first one."""
+    origin = 0.0
+    if hasattr(data, "data_vars"):
+        column = data["sound"].transpose(..., "time")
+        if "time" in column.coords:
+            origin = float(column["time"][0])
+        data = column.values
+    values = np.atleast_2d(np.asarray(data, dtype=np.float64))
+    return np.nan_to_num(values[0]), origin
+
+
+def _words(found: Any) -> str:
+    whys = sorted({one.why for one in found.dropped})
+    return _WORDS.get(whys[0], whys[0]) if len(whys) == 1 else "echoes and other sounds"
+
+
+def _draw_flights(axes: "Axes", found: Any, times: NDArray[np.float64]) -> None:
+    flights = np.diff(times)
+    missed = np.array(found.missed, dtype=bool)
+    middle = 0.5 * (times[1:] + times[:-1])
+    for chosen, color, label in ((~missed, _BLUE, None), (missed, _RED, "a bounce is missing")):
+        axes.hlines(
+            1e3 * flights[chosen], times[:-1][chosen], times[1:][chosen], color=color, linewidth=2.2
+        )
+        axes.plot(
+            middle[chosen], 1e3 * flights[chosen], "o", color=color, markersize=5, label=label
+        )
+    axes.set_ylabel("flight (ms)")
+    axes.set_ylim(bottom=0.0)
+    if missed.any():
+        axes.legend(loc="upper right", frameon=False)

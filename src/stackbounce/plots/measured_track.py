@@ -1,0 +1,110 @@
+"""Picture of a track: the points, the parabolas of its flights, and what they leave over."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.plots.style import STYLE, color_of
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+_SAMPLES = 60  # of a parabola
+
+
+def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+    """Draw each ball's points and parabolas, its bounces, and the residuals.
+
+    Parameters
+    ----------
+    data : object
+        What was measured; the points that were used are in what was found.
+    found : Tracks
+        What was found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved.
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context():
+        mpl.rcParams.update(STYLE)
+        figure = Figure(figsize=(7.2, 5.8))
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
+        for k, ball in enumerate(found.balls):
+            _draw_ball(above, ball, color_of(k), len(found.balls) > 1)
+            left = 1e3 * ball.fit.residuals
+            below.plot(ball.times, left, "o", color=color_of(k), markersize=2.6)
+            sigma = 1e3 * ball.fit.sigma
+            below.axhspan(-sigma, sigma, color=color_of(k), alpha=0.10, linewidth=0)
+        below.axhline(0.0, color="#808080", linewidth=0.8)
+        above.set_ylabel("height (m)")
+        below.set_ylabel("residual (mm)")
+        below.set_xlabel("time (s)")
+        above.set_title(_summary(found), loc="left", fontsize=10)
+        above.margins(y=0.12)
+        above.legend(loc="best", frameon=True, framealpha=0.9, edgecolor="none")
+        figure.align_ylabels()
+    return figure
+
+
+def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
+    used = np.isfinite(ball.fit.residuals)
+    label = _label(ball, named)
+    axes.plot(ball.times[used], ball.heights[used], "o", color=color, markersize=3.4, label=label)
+    axes.plot(
+        ball.times[~used],
+        ball.heights[~used],
+        "o",
+        color=color,
+        markersize=3.4,
+        markerfacecolor="white",
+        markeredgewidth=0.9,
+    )
+    fall = ball.fit.values[0]
+    impacts = dict(zip(ball.bounces, (one.nominal_value for one in ball.impact_times), strict=True))
+    for j, (first, last) in enumerate(ball.fit.flights):
+        start = impacts.get(j - 1, ball.times[first])
+        stop = impacts.get(j, ball.times[last - 1])
+        at = np.linspace(start, stop, _SAMPLES)
+        since = at - ball.fit.origins[j]
+        level, speed = ball.fit.values[1 + 2 * j : 3 + 2 * j]
+        axes.plot(at, level + speed * since - 0.5 * fall * since**2, color=color, linewidth=1.4)
+    rows = zip(ball.impact_times, ball.levels, ball.restitutions, strict=True)
+    for time, level, kept in rows:
+        place = (time.nominal_value, level.nominal_value)
+        axes.plot(*place, "v", color=color, markersize=7, markeredgecolor="white")
+        if not named:
+            axes.annotate(
+                f"e = {kept:.1uS}",
+                place,
+                xytext=(0, -14),
+                textcoords="offset points",
+                ha="center",
+                fontsize=9,
+                color=color,
+            )
+
+
+def _label(ball: Any, named: bool) -> str:
+    if not named:
+        return "tracked"
+    return (
+        f"{ball.name}: {ball.impact_speeds[0]:.1uS} m/s down, {ball.rebound_speeds[0]:.1uS} m/s up"
+    )
+
+
+def _summary(found: Any) -> str:
+    base = found.time_base
+    words = f"gravity of the flights {base.gravity:.1uS} m/s²"
+    if base.agrees:
+        return words
+    if base.frame_rate_factor:
+        return f"{words}: is the frame rate wrong by a factor of {base.frame_rate_factor:.3g}?"
+    return f"{words}: frame rate or scale are wrong"

@@ -1,0 +1,71 @@
+"""The lab guide: its files are what its script writes, its commands print what the page shows."""
+
+import importlib.util
+import re
+import shlex
+import shutil
+from pathlib import Path
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.measure import analyse
+
+DOCS = Path(__file__).parents[2] / "docs"
+TEXT = (DOCS / "lab.md").read_text(encoding="utf-8")
+FENCES = re.findall(r"^```console\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
+FILES = sorted(path for path in (DOCS / "lab").iterdir() if path.suffix in (".wav", ".csv", ".txt"))
+
+
+def steps():
+    """Yield each command with the lines that the page shows of what it prints."""
+    for fence in FENCES:
+        for block in fence.replace("\\\n", " ").split("$ ")[1:]:
+            command, *lines = block.splitlines()
+            yield shlex.split(command)[1:], [" ".join(line.split()) for line in lines]
+
+
+def test_the_files_are_what_the_script_writes(tmp_path):
+    spec = importlib.util.spec_from_file_location("make_lab", DOCS / "lab" / "make.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    module.main(tmp_path)
+    assert [path.name for path in FILES] == sorted(path.name for path in tmp_path.iterdir())
+    for path in FILES:
+        assert (tmp_path / path.name).read_bytes() == path.read_bytes(), path.name
+
+
+def test_the_commands_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys):
+    for path in FILES:
+        shutil.copy(path, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    asked = list(steps())
+    assert len(asked) == 8
+    for command, shown in asked:
+        assert main(command) == 0, command
+        printed = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
+        for line in shown:
+            assert any(one.startswith(line) for one in printed), (command, line)
+    for name in ("tennis", "force", "press", "stack"):
+        assert (tmp_path / f"{name}.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(("name", "restitution"), [("tennis", 0.75), ("basketball", 0.77)])
+def test_the_restitution_that_went_in_comes_out(name, restitution):
+    found = analyse(sb.read(DOCS / "lab" / f"{name}.wav"), height=1.0)[0].mean
+    assert abs(found.nominal_value - restitution) < 3.0 * found.std_dev
+
+
+def test_the_contact_time_that_went_in_comes_out():
+    contact = analyse(sb.read(DOCS / "lab" / "tennis-force.csv"))[0].contacts[0].time
+    law = sb.Hysteretic(2.25e4, restitution=0.75)
+    truth = sb.simulate(sb.Drop([sb.Ball(0.057)], [law], height=1.0)).intervals[0]
+    assert abs(contact.nominal_value - (truth["end"] - truth["start"])) < 3.0 * contact.std_dev
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.name)
+def test_each_file_is_recognised_without_its_name(path, tmp_path):
+    other = tmp_path / "file"
+    shutil.copy(path, other)
+    assert sb.read(other).attrs["holds"] in ("sound", "waveform", "press curve", "track")

@@ -1,0 +1,162 @@
+"""`stackbounce measure`: each layout from the command line, a table, JSON, a picture, a ball."""
+
+import json
+import math
+import shutil
+from pathlib import Path
+
+import pytest
+
+import stackbounce as sb
+from measure import make_files as made
+from stackbounce.cli import main
+from stackbounce.measure import one_ball
+
+LAB = Path(__file__).parents[2] / "docs" / "lab"
+RIGID = {"contact": {"law": "Rigid", "restitution": 0.8}}
+SPRING = {"contact": {"law": "Spring", "stiffness": 2e4}}
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    made.main(tmp_path / "made")
+    for path in LAB.iterdir():
+        if path.suffix != ".py" and path.is_file():
+            shutil.copy(path, tmp_path)
+
+
+@pytest.fixture
+def run(capfd):
+    def run_main(*arguments):
+        code = main(["measure", *arguments])
+        out, err = capfd.readouterr()
+        return code, out, err
+
+    return run_main
+
+
+LAYOUTS = {
+    "made/capstone.csv": ("PASCO Capstone", "contact time"),
+    "made/force_ms.csv": ("table of numbers", "contact time"),
+    "made/logger_pro.txt": ("Logger Pro", "contacts"),
+    "made/phyphox_collision.zip": ("phyphox: (in)elastic collision", "restitution, mean"),
+    "made/phyphox_stopwatch.zip": ("phyphox: acoustic stopwatch", "restitution, mean"),
+    "made/picoscope.csv": ("PicoScope", "contacts"),
+    "made/press.csv": ("table of numbers", "exponent"),
+    "made/rigol.csv": ("Rigol oscilloscope", "contacts"),
+    "made/tek_mdo.csv": ("Tektronix MDO oscilloscope", "contacts"),
+    "made/tek_tds.csv": ("Tektronix TDS2000 oscilloscope", "contacts"),
+    "made/vernier_data_set.csv": ("Vernier", "contacts"),
+    "made/vernier_latest.csv": ("Vernier", "contacts"),
+    "tennis.wav": ("WAV", "restitution, mean"),
+    "stack-video.txt": ("Tracker", "tennis: rebound ratio"),
+}
+
+
+@pytest.mark.parametrize("name", LAYOUTS)
+def test_each_layout_is_read_and_analysed(run, name):
+    code, out, err = run(name, "--json")
+    assert (code, err) == (0, "")
+    (told,) = json.loads(out)["files"]
+    form, first = LAYOUTS[name]
+    assert told["format"] == form
+    assert first in [row["name"] for row in told["found"]]
+    code, out, err = run(name)
+    assert (code, err) == (0, "")
+    assert out.startswith(f"{name}: {form}\n")
+    assert first in out
+    assert max(map(len, out.splitlines())) <= 100
+
+
+@pytest.mark.parametrize("name", ["tennis.wav", "made/phyphox_collision.zip", "tennis-force.csv"])
+def test_a_picture(run, name, tmp_path):
+    code, out, err = run(name, "--plot", "found.svg")
+    assert (code, err) == (0, "")
+    assert out.endswith("Picture: found.svg\n")
+    assert (tmp_path / "found.svg").read_bytes().startswith(b"<?xml")
+
+
+def test_a_ball_is_saved_and_dropped(run, capfd):
+    known = ["--mass", "57g", "--diameter", "66 mm", "--height", "1m", "--name", "tennis"]
+    code, out, _ = run("tennis.wav", "tennis-force.csv", *known, "--save", "ball.toml", "--json")
+    assert code == 0
+    drop = sb.Drop.from_toml("ball.toml")
+    assert json.loads(out)["ball"] == drop.to_mapping()
+    assert (drop.balls[0], drop.height) == (sb.Ball(0.057, 0.066, "tennis"), 1.0)
+    assert drop.contacts[0].restitution == pytest.approx(0.75, abs=1e-3)
+    assert main(["simulate", "ball.toml", "--json"]) == 0
+    ratio = json.loads(capfd.readouterr().out)["rebound_ratios"][0]
+    assert ratio == pytest.approx(drop.contacts[0].restitution)
+
+
+def test_numbers_without_an_error_are_null_in_json(run):
+    rows = json.loads(run("tennis.wav", "--json")[1])["files"][0]["found"]
+    errors = {row["name"]: row["error"] for row in rows}
+    assert errors["knocks"] is None
+    assert errors["restitution, mean"] > 0.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["none.wav"], "cannot be read: No such file or directory"),
+        (["."], ". is a folder: give one of its files"),
+        (["tennis.wav", "--save", "ball.toml"], "--save needs the mass of the ball, such as"),
+        (["tennis.wav", "--mass", "1g", "--save", "b.txt"], "--save must end in .toml, got b.txt"),
+        (["tennis.wav", "--mass", "1g", "--save", "no/b.toml"], "there is no folder no"),
+        (["tennis.wav", "--mass", "1m"], "--mass must be"),
+        (["tennis.wav", "tennis-force.csv", "--plot", "a.png"], "--plot draws one file, got 2"),
+        (["tennis.wav", "--unit", "x"], "--unit must be COLUMN=UNIT, such as x=cm, got 'x'"),
+        (["tennis.wav", "--column", "=x"], "--column must be COLUMN=MEANING"),
+        (["made/phyphox_acceleration.zip"], "there is no analysis of acceleration"),
+        (["made/tracker_one.txt"], "made/tracker_one.txt: data must hold a ball that falls"),
+    ],
+)
+def test_bad_input_is_one_line(run, arguments, expected):
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert expected in err
+    assert err.count("\n") == 1
+
+
+def test_nothing_is_saved_where_no_contact_was_found(run, tmp_path):
+    code, _, err = run("stack-video.txt", "--mass", "57g", "--save", "ball.toml")
+    assert code == 2
+    assert "no contact was found, which needs" in err
+    assert not (tmp_path / "ball.toml").exists()
+
+
+@pytest.mark.parametrize(
+    ("parts", "law"),
+    [
+        ([RIGID], sb.Rigid(0.8)),
+        ([SPRING], sb.Spring(2e4)),
+        ([RIGID, SPRING], sb.Hysteretic(2e4, restitution=0.8)),
+        (
+            [{"contact": {"law": "Hertz", "stiffness": 1e6}}, RIGID],
+            sb.Hysteretic(1e6, exponent=1.5, restitution=0.8),
+        ),
+        (
+            [
+                {"contact": {"law": "Hysteretic", "stiffness": 1e3, "restitution": 0.5}},
+                RIGID,
+            ],
+            sb.Hysteretic(1e3, restitution=0.8),
+        ),
+    ],
+)
+def test_contacts_found_together(parts, law):
+    assert one_ball(parts, mass=0.1).contacts == (law,)
+
+
+def test_what_a_ball_needs():
+    assert one_ball([RIGID], mass=0.1).height == 1.0
+    assert one_ball([RIGID | {"impact_speed": 2.0}], mass=0.1).impact_speed == 2.0
+    later = one_ball([{"height": 3.0}, RIGID | {"impact_speed": 2.0}], mass=0.1)
+    assert (later.height, later.impact_speed) == (None, 2.0)
+    with pytest.raises(sb.StackbounceError, match="mass is not known"):
+        one_ball([RIGID])
+    with pytest.raises(sb.StackbounceError, match="got Rigid, Rigid"):
+        one_ball([RIGID, RIGID], mass=0.1)
+    assert math.isclose(one_ball([RIGID, {"ball": {"mass": 0.2}}]).balls[0].mass, 0.2)

@@ -1,0 +1,289 @@
+"""Press curves: what went in comes out, whatever the record looks like."""
+
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+from uncertainties import ufloat
+
+import stackbounce as sb
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import press, series_stiffness, split_series
+from stackbounce.measure.synthetic.press import press_record
+from stackbounce.plots.measured_press import draw
+
+BALL = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
+USUAL = {"peak": 5e-3, "slack": 1e-3, "noise": 0.1, "seed": 1}
+
+
+def near(found, truth, errors=4.0):
+    return abs(found.nominal_value - truth) <= errors * found.std_dev + 1e-9 * abs(truth)
+
+
+def way_in(data):
+    return data.isel(point=slice(0, int(data.compression.values.argmax()) + 1))
+
+
+def way_out(data):
+    return data.isel(point=slice(int(data.compression.values.argmax()), None))
+
+
+@pytest.mark.parametrize(
+    "law",
+    [
+        sb.Spring(1e4),
+        sb.Hertz(5e5),
+        sb.PowerLaw(3e8, 3.0),
+        BALL,
+        sb.Hysteretic(1e4, restitution=0.5),
+    ],
+    ids=repr,
+)
+def test_what_went_in_comes_out(law):
+    found = press(press_record(law, **USUAL))
+    assert near(found.exponent, law.exponent)
+    assert near(found.stiffness, law.stiffness)
+    assert near(found.restitution, getattr(law, "restitution", 1.0))
+    assert near(found.unloading_exponent, getattr(law, "unloading_exponent", law.exponent))
+    assert near(found.peak_compression, 5e-3)
+    assert found.loading.fits
+    assert found.unloading.fits
+
+
+def test_without_noise_it_is_exact():
+    found = press(press_record(BALL, peak=5e-3, points=2000))
+    assert found.exponent.nominal_value == pytest.approx(1.3, rel=1e-6)
+    assert found.stiffness.nominal_value == pytest.approx(4e4, rel=1e-5)
+    assert found.restitution.nominal_value == pytest.approx(0.78, rel=1e-5)
+
+
+def test_units_scale():
+    data = press_record(BALL, **USUAL)
+    own = press(data)
+    small = press((1e-6 * data.compression.values, 1e-9 * data.force.values))
+    assert small.exponent.nominal_value == pytest.approx(own.exponent.nominal_value, rel=1e-6)
+    assert small.exponent.std_dev == pytest.approx(own.exponent.std_dev, rel=1e-3)
+
+
+@pytest.mark.parametrize(("force", "compression"), [(-1, 1), (1, -1), (-1, -1)])
+def test_any_sign(force, compression):
+    data = press_record(BALL, **USUAL)
+    own = press(data)
+    turned = press((compression * data.compression.values, force * data.force.values))
+    assert turned.exponent.nominal_value == pytest.approx(own.exponent.nominal_value, rel=1e-9)
+    assert any("other sign" in note for note in turned.notes)
+
+
+def test_a_shifted_scale_and_a_zero_that_is_off():
+    data = press_record(BALL, offset=-3.0, **USUAL)
+    found = press((data.compression.values + 0.4, data.force.values))
+    assert near(found.contact, 0.4)
+    assert near(found.zero, -3.0)
+    assert near(found.exponent, 1.3)
+
+
+def test_a_drift_is_seen_where_there_is_slack_on_both_sides():
+    found = press(press_record(BALL, drift=5.0, **USUAL))
+    assert near(found.restitution, 0.78)
+
+
+def test_loading_only():
+    found = press(way_in(press_record(BALL, **USUAL)))
+    assert near(found.exponent, 1.3)
+    assert found.work_out is found.restitution is found.unloading is found.loss is None
+    assert any("no unloading" in note for note in found.notes)
+    assert found.parts()["contact"]["law"] == "PowerLaw"
+    assert draw(None, found).axes
+
+
+def test_unloading_only():
+    found = press(way_out(press_record(BALL, **USUAL)))
+    assert found.exponent is found.loading is None
+    assert near(found.unloading_exponent, BALL.unloading_exponent)
+    assert found.parts() == {}
+    assert found.rows()
+    assert draw(None, found).axes
+    with pytest.raises(InvalidValue, match="loading"):
+        found.compression_at(1.0)
+
+
+def test_a_force_that_is_never_zero():
+    data = press_record(BALL, peak=5e-3, noise=0.02, points=800, seed=2)
+    found = press(data.where(data.compression > 1.5e-3, drop=True))
+    assert near(found.exponent, 1.3)
+    assert near(found.work_in, 4e4 * 5e-3**2.3 / 2.3)
+    assert any("already pressed" in note for note in found.notes)
+
+
+def test_a_hold_at_the_peak_and_a_force_that_relaxes():
+    found = press(press_record(BALL, hold=60, relaxation=0.1, **USUAL))
+    top = 4e4 * 5e-3**1.3
+    assert near(found.relaxed, 0.1 * top)
+    assert near(found.exponent, 1.3)
+    assert near(found.restitution, 0.78 * 0.9**0.5)
+    assert any("stood still" in note for note in found.notes)
+
+
+def test_a_jump_at_the_turn():
+    found = press(press_record(BALL, relaxation=0.1, **USUAL))
+    assert near(found.relaxed, 0.1 * 4e4 * 5e-3**1.3)
+    assert any("at the turn" in note for note in found.notes)
+
+
+def test_several_cycles():
+    data = press_record(BALL, cycles=3, **USUAL)
+    found = press(data)
+    assert (found.cycle, found.cycles, len(found.others)) == (2, 3, 2)
+    assert press(data, cycle=0).cycle == 0
+    assert press(data, cycle=-3).cycle == 0
+    assert all(near(one.restitution, 0.78) for one in (found, *found.others))
+    with pytest.raises(InvalidValue, match="cycle must be a whole number from -3 to 2"):
+        press(data, cycle=3)
+    assert draw(data, found).axes
+
+
+def test_small_reversals_on_the_way_in():
+    way = np.concatenate([np.linspace(0, 2, 80), np.linspace(2, 1.8, 10), np.linspace(1.8, 5, 120)])
+    way = 1e-3 * np.concatenate([way, np.linspace(5, 0, 200)])
+    rng = np.random.default_rng(3)
+    found = press((way, 1e4 * way + rng.normal(0.0, 0.1, len(way))))
+    assert found.cycles == 1
+    assert near(found.work_in, 0.125)
+    assert near(found.exponent, 1.0)
+    assert found.parts() == {
+        "contact": {"law": "Spring", "stiffness": pytest.approx(1e4, rel=0.01)}
+    }
+
+
+def test_the_machine_gives_way():
+    data = press_record(BALL, compliance=5e-6, **USUAL)
+    assert not near(press(data).peak_compression, 5e-3)
+    assert near(press(data, compliance=5e-6).peak_compression, 5e-3)
+    unsure = press(data, compliance=ufloat(5e-6, 1e-6))
+    top = 4e4 * 5e-3**1.3
+    assert unsure.peak_compression.std_dev == pytest.approx(1e-6 * top, rel=0.1)
+
+
+def test_an_unloading_that_is_no_power_law_is_told():
+    way = 1e-3 * np.concatenate([np.linspace(0, 5, 200), np.linspace(5, 0, 200)])
+    force = 1e4 * way
+    force[200:] *= np.clip(1.0 - 4e2 * (5e-3 - way[200:]), 0.2, None)
+    found = press((way, force + np.random.default_rng(1).normal(0.0, 0.05, 400)))
+    assert found.loading.fits
+    assert not found.unloading.fits
+    assert any("unloading is not well described" in note for note in found.notes)
+
+
+def test_numbers_that_are_missing():
+    data = press_record(BALL, **USUAL)
+    data.force.values[::7] = np.nan
+    found = press(data)
+    assert near(found.exponent, 1.3)
+    assert any("without a number" in note for note in found.notes)
+
+
+def test_a_million_points_in_no_time():
+    data = press_record(BALL, points=1_000_000, **USUAL)
+    start = time.perf_counter()
+    found = press(data)
+    assert time.perf_counter() - start < 10.0
+    assert near(found.exponent, 1.3, 5.0)
+    assert found.exponent.std_dev < 2e-3
+
+
+def test_noise_with_a_memory_has_larger_errors():
+    quiet = press(press_record(BALL, peak=5e-3, slack=1e-3, noise=0.1, points=600, seed=4))
+    slow = press(
+        press_record(BALL, peak=5e-3, slack=1e-3, noise=0.1, memory=20, points=600, seed=4)
+    )
+    assert slow.linear_stiffness.std_dev > 2.5 * quiet.linear_stiffness.std_dev
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (([0.0, 1.0], [0.0, 1.0]), "at least 6 points"),
+        ((np.arange(9.0), np.ones(9)), "force must change"),
+        ((np.ones(9), np.arange(9.0)), "compression must change"),
+        ((np.arange(9.0), np.full(9, np.nan)), "at least 6 points"),
+        ((np.arange(9.0), np.arange(8.0)), "one length"),
+        ((np.arange(200.0), np.random.default_rng(1).normal(0, 1, 200)), "rise with the compress"),
+    ],
+    ids=["two points", "constant force", "constant compression", "nan", "lengths", "noise"],
+)
+def test_what_is_no_press_curve(data, message):
+    with pytest.raises(InvalidValue, match=message) as caught:
+        press(data)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize("data", [None, 3.0, "file.csv", xr.Dataset({"x": ("point", [1.0])})])
+def test_what_is_no_data(data):
+    with pytest.raises(InvalidType, match="data must be"):
+        press(data)
+
+
+def test_options_are_checked():
+    data = press_record(BALL, **USUAL)
+    with pytest.raises(InvalidValue, match="sign"):
+        press(data, sign=2)
+    with pytest.raises(InvalidValue, match="compliance"):
+        press(data, compliance=-1.0)
+    with pytest.raises(InvalidType, match="law must be"):
+        press_record(sb.Dashpot(1.0, damping=1.0), peak=1.0)
+
+
+def test_parts_make_a_contact():
+    contact = press(press_record(BALL, **USUAL)).parts()["contact"]
+    drop = sb.Drop.from_mapping(
+        {"balls": [{"mass": 0.1}], "contacts": [contact], "impact_speed": 1.0}
+    )
+    assert isinstance(drop.contacts[0], sb.Hysteretic)
+    linear = press(press_record(sb.Hysteretic(1e4, restitution=0.8), **USUAL)).parts()["contact"]
+    assert set(linear) == {"law", "stiffness", "restitution"}
+
+
+def test_numbers_know_their_correlation():
+    found = press(press_record(BALL, **USUAL))
+    again = found.peak_force / found.peak_compression
+    assert (again - found.secant_stiffness).std_dev < 1e-6 * again.std_dev
+    at = found.compression_at(0.5 * found.peak_force.nominal_value)
+    both = (at.std_dev / at.nominal_value, found.stiffness.std_dev / found.stiffness.nominal_value)
+    assert both[0] < 0.3 * both[1]
+
+
+def test_rows_name_what_was_found():
+    rows = press(press_record(BALL, **USUAL)).rows()
+    assert rows[0].unit == "N/m"
+    assert {"exponent", "restitution", "energy lost"} <= {row.name for row in rows}
+
+
+def test_the_picture_shows_curve_and_residuals():
+    data = press_record(BALL, **USUAL)
+    above, below = draw(data, press(data)).axes
+    assert "out" in above.get_legend().get_texts()[1].get_text()
+    assert below.get_xlabel() == "compression from contact (mm)"
+
+
+def test_springs_in_series_have_no_excess():
+    k = [3e3, 9e3]
+    both = series_stiffness(*k)
+    found = [
+        press(press_record(sb.Spring(one), peak=30.0 / one, noise=0.05, seed=i))
+        for i, one in enumerate([*k, both.nominal_value])
+    ]
+    split = split_series(*found)
+    assert near(split.excess, 0.0)
+    assert any("in series" in note for note in split.notes) or abs(split.excess) < 1e-4
+    assert split.rows()[0].name.startswith("stiffness ratio")
+    assert split.parts()["contact"]["law"] == "Spring"
+
+
+def test_split_series_is_checked():
+    with pytest.raises(InvalidValue, match="force must be given"):
+        split_series(1e-3, 1e-3, 3e-3)
+    with pytest.raises(InvalidType, match="upper must be what press found"):
+        split_series(1e-3, "2 mm", 3e-3, force=1.0)
+    with pytest.raises(InvalidValue, match="both must be compressed"):
+        split_series(3e-3, 1e-3, 1e-3, force=1.0)

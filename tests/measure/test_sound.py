@@ -1,0 +1,172 @@
+"""Knocks in recordings, ordinary and bad ones."""
+
+import math
+import time
+
+import numpy as np
+import pytest
+
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure.bounces import bounces
+from stackbounce.measure.sound import knocks
+from stackbounce.measure.synthetic.falls import falls
+from stackbounce.measure.synthetic.sound import sound
+from stackbounce.plots import measured_bounces, measured_sound
+
+FALL = falls(0.5, 0.8, bounces=10)
+
+
+def as_true(found, fall, before=0.5):
+    """Tell whether each bounce was found, and nothing else."""
+    seen = np.array([one.nominal_value for one in found.times])
+    true = fall.touches - fall.touches[0] + before
+    return len(seen) == len(true) and np.abs(seen - true).max() < 1.5e-3
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"noise": 0.01},
+        {"hum": 0.1},
+        {"echo": (0.09, 0.5)},
+        {"echo": (0.2, 0.5)},
+        {"double": (0.003, 0.8)},
+        {"level": 3.0},
+        {"rate": 44100.0, "bits": 8, "noise": 0.01},
+        {"rate": 8000.0},
+        {"noise": 0.0},
+        {"attack": 0.5e-3},
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_each_bounce_is_found_and_nothing_else(options, seed):
+    assert as_true(knocks(sound(FALL, seed=seed, **options)), FALL)
+
+
+def test_speech_before_the_series_is_left_out():
+    found = knocks(sound(FALL, speech=0.1, before=2.0, seed=1))
+    assert as_true(found, FALL, 2.0)
+    assert any(one.why == "before the series" for one in found.dropped)
+
+
+def test_echoes_are_told():
+    found = knocks(sound(FALL, echo=(0.05, 0.4), seed=1))
+    assert any("echo 50.0 ms later" in note for note in found.notes)
+    assert sum(one.why == "echo" for one in found.dropped) >= 5
+
+
+def test_clipping_is_told_and_does_little_harm():
+    found = knocks(sound(FALL, level=3.0, seed=1))
+    assert any("clipped" in note for note in found.notes)
+
+
+def test_fast_bounces_at_the_end():
+    fall = falls(0.1, 0.8, bounces=13)
+    assert np.diff(fall.touches)[-1] < 0.021
+    assert as_true(knocks(sound(fall, seed=2)), fall)
+
+
+def test_two_hundred_knocks():
+    fall = falls(0.05, 0.985, bounces=200)
+    found = knocks(sound(fall, noise=0.0005, seed=1))
+    assert len(found.times) >= 190
+    assert bounces(found).mean.nominal_value == pytest.approx(0.985, abs=1e-4)
+
+
+def test_a_missed_bounce_is_told():
+    quiet = sound(FALL, seed=3)
+    start = FALL.touches[4] - FALL.touches[0] + 0.5
+    lost = (quiet.time > start - 0.01) & (quiet.time < start + 0.1)
+    found = knocks(quiet.where(~lost, 0.0))
+    assert found.missed[3] == 1
+    assert any("missing" in note for note in found.notes)
+    kept = bounces(found)
+    assert kept.flights[3] is None
+    assert kept.mean.nominal_value == pytest.approx(0.8, abs=1e-3)
+
+
+def test_a_second_drop_is_told_and_can_be_chosen():
+    one = sound(FALL, seed=1).sound.values
+    both = np.concatenate([one, 0.9 * one])
+    found = knocks(both, rate=48000.0)
+    assert len(found.times) == 10
+    assert any("another series" in note for note in found.notes)
+    later = knocks(both, rate=48000.0, start=len(one) / 48000.0)
+    assert len(later.times) == 10
+    assert later.times[0].nominal_value > 3.0
+
+
+def test_two_microphones():
+    data = sound(FALL, seed=1).sound.values
+    late = np.roll(data, 40)
+    assert as_true(knocks(np.stack([data, late]), rate=48000.0), FALL)
+
+
+def test_one_knock_only():
+    found = knocks(sound(falls(0.5, 0.8, bounces=1), seed=1))
+    assert len(found.times) == 1
+    assert any("Only 1 knock" in note for note in found.notes)
+    with pytest.raises(InvalidValue, match="at least three"):
+        bounces(found)
+
+
+def test_pure_noise_has_no_knocks():
+    for seed in range(5):
+        noise = np.random.default_rng(seed).normal(0.0, 0.1, 96000)
+        with pytest.raises(InvalidValue, match="must hold a knock"):
+            knocks(noise, rate=48000.0)
+
+
+@pytest.mark.parametrize(
+    ("data", "options", "error", "words"),
+    [
+        (np.zeros(1000), {"rate": 8000.0}, InvalidValue, "silence"),
+        (np.full(1000, math.nan), {"rate": 8000.0}, InvalidValue, "silence"),
+        (np.ones(3), {"rate": 8000.0}, InvalidValue, "must hold a knock"),
+        (np.ones(0), {"rate": 8000.0}, InvalidValue, "must hold samples"),
+        (np.ones(1000), {}, InvalidValue, "rate must be given"),
+        (np.ones(1000), {"rate": -1.0}, InvalidValue, "rate must be"),
+        (np.ones(1000), {"rate": 1.0, "threshold": 0.5}, InvalidValue, "factor above 1"),
+        (np.ones(1000), {"rate": 1e3, "start": 5.0}, InvalidValue, "start and stop"),
+        ("a.wav", {"rate": 1.0}, InvalidType, "data must be"),
+    ],
+)
+def test_what_is_no_recording(data, options, error, words):
+    with pytest.raises(error, match=words):
+        knocks(data, **options)
+
+
+def test_ten_minutes_take_seconds():
+    noise = np.random.default_rng(1).normal(0.0, 0.002, 600 * 48000).astype(np.float32)
+    short = sound(FALL, seed=1).sound.values
+    noise[1_000_000 : 1_000_000 + len(short)] += short
+    start = time.process_time()
+    found = knocks(noise, rate=48000.0)
+    assert len(found.times) == 10
+    assert time.process_time() - start < 20.0
+
+
+def test_pictures():
+    data = sound(falls(0.5, 0.8, bounces=6), echo=(0.05, 0.4), seed=1)
+    found = knocks(data)
+    figure = measured_sound.draw(data, found)
+    assert [axes.get_ylabel() for axes in figure.axes] == ["sound (full scale 1)", "flight (ms)"]
+    labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
+    assert labels[0] == "6 knocks"
+    assert "left out" in labels[1]
+    figure = measured_bounces.draw(found, bounces(found))
+    assert figure.axes[0].get_xlabel() == "impact speed (m/s)"
+    assert measured_bounces.draw(None, bounces([0.0, 1.0, 1.8]))
+
+
+def test_a_law_bounces_as_it_is_calibrated():
+    import stackbounce as sb
+
+    law = sb.Dashpot(5e3, damping=2.0)
+    fall = falls(0.5, law, mass=0.05, bounces=4)
+    assert fall.restitutions == pytest.approx(sb.restitution(law, 0.05))
+    assert (fall.releases > fall.touches).all()
+    with pytest.raises(InvalidValue, match="restitution must be"):
+        falls(0.5, lambda _: 1.5)

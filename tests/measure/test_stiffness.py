@@ -1,0 +1,187 @@
+"""Contact times: stiffness and constants with errors, and the paper's own."""
+
+import pytest
+from uncertainties import correlation_matrix, ufloat
+
+import stackbounce as sb
+from stackbounce.cross2007 import PAPER
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.tables import table_one
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import dynamic_stiffness, law_constants, series_stiffness, split_series
+
+MEASURED = {
+    "mass": ufloat(0.0567, 0.0005),
+    "contact_time": ufloat(5e-3, 0.1e-3),
+    "restitution": ufloat(0.75, 0.02),
+    "impact_speed": ufloat(3.0, 0.05),
+}
+
+
+def test_errors_of_both():
+    k = dynamic_stiffness(MEASURED["mass"], MEASURED["contact_time"])
+    relative = ((0.0005 / 0.0567) ** 2 + (2 * 0.1 / 5.0) ** 2) ** 0.5
+    assert k.std_dev / k.nominal_value == pytest.approx(relative)
+    law = sb.calibrate(sb.Spring, mass=0.0567, contact_time=5e-3)
+    assert k.nominal_value == pytest.approx(law.stiffness)
+
+
+def test_two_balls_have_their_reduced_mass():
+    pair = dynamic_stiffness((ufloat(0.1, 0.01), 0.1), 1e-3)
+    assert pair.nominal_value == pytest.approx(dynamic_stiffness(0.05, 1e-3).nominal_value)
+    assert pair.std_dev / pair.nominal_value == pytest.approx(0.05)
+
+
+@pytest.mark.parametrize("law", [sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley, sb.Hysteretic])
+def test_constants_are_those_of_calibrate(law):
+    found = law_constants(law, **MEASURED)
+    at = {name: value.nominal_value for name, value in MEASURED.items()}
+    assert found.law == sb.calibrate(law, **at)
+    for name, value in found.constants.items():
+        assert value.nominal_value == getattr(found.law, name)
+    # to first order: with one number changed by its error, as much as its share of the error
+    moved = sb.calibrate(law, **(at | {"restitution": 0.77}))
+    for name, value in found.constants.items():
+        shares = value.error_components()
+        share = next((s for v, s in shares.items() if v is MEASURED["restitution"]), 0.0)
+        change = getattr(moved, name) - value.nominal_value
+        assert abs(change) == pytest.approx(share, rel=0.12, abs=1e-9 * value.nominal_value)
+
+
+def test_constants_know_their_correlation():
+    found = law_constants("Dashpot", **MEASURED).constants
+    names = ("contact_time", "restitution")
+    matrix = correlation_matrix([*found.values(), *(MEASURED[name] for name in names)])
+    assert matrix[0, 2] < -0.9
+    assert matrix[1, 3] < -0.9
+
+
+@pytest.mark.parametrize(
+    ("law", "given"),
+    [
+        (sb.Rigid, {"restitution": ufloat(0.0, 0.01)}),
+        (sb.Rigid, {"restitution": ufloat(1.0, 0.01)}),
+        (
+            sb.Spring,
+            {"mass": 0.1, "contact_time": ufloat(1e-3, 1e-5), "restitution": ufloat(1, 0.1)},
+        ),
+        (sb.PowerLaw, {**MEASURED, "restitution": 1.0, "exponent": ufloat(1.0, 0.1)}),
+        (sb.Hysteretic, {**MEASURED, "restitution": ufloat(1.0, 0.02)}),
+    ],
+)
+def test_at_the_ends_of_a_range(law, given):
+    found = law_constants(law, **given)
+    assert all(value.std_dev >= 0.0 for value in found.constants.values())
+    contact = found.parts()["contact"]
+    assert contact["law"] == law.__name__
+    sb.Drop.from_mapping({"balls": [{"mass": 0.1}], "contacts": [contact], "impact_speed": 1.0})
+    assert found.rows()[0].value == law.__name__
+
+
+def test_what_cannot_be():
+    with pytest.raises(InvalidValue, match="mass must be a positive number"):
+        dynamic_stiffness(ufloat(-1.0, 0.1), 1e-3)
+    with pytest.raises(InvalidType, match="contact_time must be"):
+        dynamic_stiffness(1.0, "5 ms")
+    with pytest.raises(InvalidValue, match="pair"):
+        dynamic_stiffness((1.0, 1.0, 1.0), 1e-3)
+    with pytest.raises(InvalidValue, match="error"):
+        dynamic_stiffness(ufloat(1.0, float("nan")), 1e-3)
+    with pytest.raises(InvalidValue, match="did you mean Spring"):
+        law_constants("Sprung", mass=1.0, contact_time=1.0)
+    with pytest.raises(InvalidValue, match="restitution must be 1"):
+        law_constants("Spring", mass=1.0, contact_time=1.0, restitution=0.9)
+
+
+# The paper's own numbers, with the errors that it states or its digits show.
+
+
+@pytest.fixture
+def bench():
+    return Bench(PAPER)
+
+
+@pytest.mark.parametrize(
+    ("ball", "expected"), [("B1", "5.39±0.25"), ("B2", "3.62±0.28"), ("B3", "2.32±0.24")]
+)
+def test_table_one_comes_out_with_errors(bench, ball, expected):
+    k = dynamic_stiffness(bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time"))
+    printed = bench(f"{ball}.dynamic_stiffness")
+    assert f"{1e-4 * k:.2fP}" == expected
+    assert abs(k.nominal_value - printed) < 500.0  # half a unit of the last digit
+    row = next(row for row in table_one(bench).rows if row[0] == ball)
+    assert f"{1e-4 * k:P}" in row
+
+
+def test_a_bounce_is_stiffer_than_a_press(bench):
+    ratios = {}
+    for ball in ("B1", "B2", "B3"):
+        k = dynamic_stiffness(
+            bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time")
+        )
+        ratios[ball] = k / bench.measured(f"{ball}.static_stiffness")
+    assert [f"{ratio:.1fP}" for ratio in ratios.values()] == ["1.3±0.2", "2.8±0.3", "1.9±0.2"]
+
+
+def test_the_tennis_ball(bench):
+    dynamic = dynamic_stiffness(
+        bench.measured("tennis.mass"), bench.measured("tennis.contact_time")
+    )
+    static = bench.measured("static.force") / bench.measured("static.tennis")
+    assert f"{1e-4 * dynamic:.2fP}" == "2.25±0.05"
+    assert f"{1e-4 * static:.2fP}" == "1.03±0.02"
+
+
+def test_hessels_steel_balls(bench):
+    """Both ratios are near the diameters', but the digits tell them apart."""
+    lengths = [bench.measured(f"steel.{size}_diameter") for size in ("large", "small")]
+    diameters = lengths[0] / lengths[1]
+    times, masses = bench.measured("steel.time_ratio"), bench.measured("steel.mass_ratio")
+    stiffness = dynamic_stiffness(masses, times) / dynamic_stiffness(1.0, 1.0)
+    assert f"{stiffness:.3fP}" == "1.422±0.001"
+    assert f"{diameters:.3fP}" == "1.411±0.003"
+    apart = stiffness - diameters
+    assert 3.0 < apart.nominal_value / apart.std_dev < 4.0  # "essentially the same": 0.8 % apart
+    cubes = masses - diameters**3
+    assert abs(cubes.nominal_value) < cubes.std_dev
+    # Hertz's law at one speed makes the times go as the diameters: 1.3 standard errors apart
+    late = diameters - times
+    assert 1.0 < late.nominal_value / late.std_dev < 2.0
+    # and its constant as their roots
+    hertz = [
+        law_constants("Hertz", mass=mass, contact_time=time, impact_speed=1.0).constants[
+            "stiffness"
+        ]
+        for mass, time in ((masses, times), (1.0, 1.0))
+    ]
+    assert f"{hertz[0] / hertz[1]:.3fP}" == "1.199±0.001"
+    assert f"{diameters**0.5:.3fP}" == "1.188±0.001"
+
+
+def test_figure_seven(bench):
+    lengths = [bench.measured(f"static.{name}") for name in ("basketball", "tennis", "both")]
+    split = split_series(*lengths, force=bench.measured("static.force"))
+    assert f"{1e3 * split.bottom:.2fP}" == "9.30±0.03"
+    assert f"{1e3 * split.top:.2fP}" == "15.50±0.08"
+    assert f"{1e3 * split.excess:.2fP}" == "6.20±0.09"
+    assert f"{split.ratio:.3fP}" == "1.823±0.010"  # printed 1.8
+    with_all = (split.top + split.upper) / split.bottom
+    without = split.top / split.bottom
+    assert f"{with_all:.2fP} {without:.2fP}" == "1.98±0.01 1.67±0.01"
+    assert f"{split.floor_stiffness:.0fP}" == "3226±54"
+    assert f"{split.ball_stiffness:.0fP}" == "1770±30"
+
+
+@pytest.mark.parametrize(
+    ("upper", "fit", "expected"),
+    [("B2", "fig13", "2.17±0.11"), ("B3", "B3_fit", "1.62±0.12")],
+)
+def test_two_superballs_in_series_are_stiffer_than_the_fits(bench, upper, fit, expected):
+    """What section VI calls series accounts for most of the softness between the balls."""
+    own = [
+        dynamic_stiffness(bench.measured(f"{ball}.mass"), bench.measured(f"{ball}.contact_time"))
+        for ball in ("B1", upper)
+    ]
+    both = series_stiffness(*own)
+    assert f"{1e-4 * both:.2fP}" == expected
+    assert both.nominal_value > bench(f"{fit}.ball_stiffness")

@@ -1,0 +1,185 @@
+"""Tracks of bouncing balls, ordinary and bad ones."""
+
+import math
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import stackbounce as sb
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure.synthetic.falls import falls
+from stackbounce.measure.synthetic.track import track as tracked
+from stackbounce.measure.track import track
+from stackbounce.plots import measured_track
+
+FALL = falls(1.0, 0.8)
+STACK = sb.Drop(
+    [sb.Ball(0.6, diameter=0.24), sb.Ball(0.06, diameter=0.065)],
+    [sb.Rigid(0.8)] * 2,
+    height=0.6,
+    gravity=9.80665,
+)
+
+
+def near(found, true, errors=4.0):
+    return abs(found.nominal_value - true) < errors * found.std_dev
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"frame_rate": 30.0},
+        {"frame_rate": 240.0},
+        {"missing": 0.2},
+        {"pixel": 0.003},
+        {"tilt": 0.1, "drift": 0.2},
+        {"tilt": -0.1},
+        {"down": True},
+        {"correlation": 0.6},
+        {"before": -0.2},
+        {"before": 0.6},
+        {"noise": 0.005},
+        {"noise": 1e-6},
+    ],
+    ids=str,
+)
+def test_what_went_in_comes_out(options):
+    found = track(tracked(FALL, seed=5, **options))
+    ball = found.balls[0]
+    assert near(ball.drop_height, 1.0)
+    assert near(ball.impact_speeds[0], FALL.speeds[0])
+    assert near(ball.rebound_speeds[0], FALL.rebounds[0])
+    assert near(ball.apex_heights[0], 0.64)
+    assert near(ball.restitutions[0], 0.8)
+    assert len(ball.impact_times) in (3, 4)
+    assert found.time_base.agrees
+
+
+def test_axes_are_found_and_told():
+    found = track(tracked(FALL, tilt=0.1, seed=1))
+    assert found.tilt == pytest.approx(0.1, abs=0.005)
+    assert any("degrees off" in note for note in found.notes)
+    found = track(tracked(FALL, down=True, seed=1))
+    assert found.axis == "-y"
+    data = tracked(FALL, seed=1).rename(x="y", y="x")
+    assert track(data).axis == "x"
+    assert track(data, axis="x").balls[0].restitutions
+    with pytest.raises(InvalidValue, match="axis must be"):
+        track(data, axis="z")
+
+
+@pytest.mark.parametrize(("rate", "read"), [(240, 60), (240, 30), (60, 30), (30, 60)])
+def test_a_wrong_frame_rate_is_told_never_corrected(rate, read):
+    data = tracked(FALL, frame_rate=float(rate), read_as=float(read), seed=2)
+    found = track(data)
+    assert found.time_base.frame_rate_factor == pytest.approx(rate / read)
+    (note,) = [one for one in found.notes if "Gravity comes out" in one]
+    assert f"{rate:.0f} frames per second read as {read:.0f}" in note
+    assert "lengths must be" in note
+    assert found.balls[0].drop_height.nominal_value == pytest.approx(1.0, abs=0.02)
+    right = track(data, frame_rate_factor=rate / read)
+    assert right.time_base.agrees
+    assert near(right.balls[0].impact_speeds[0], FALL.speeds[0])
+
+
+def test_a_wrong_scale_is_told():
+    data = tracked(FALL, seed=2) / 1.3
+    found = track(data)
+    assert not found.time_base.agrees
+    assert any("multiplied by 1.3" in note for note in found.notes)
+    assert near(track(data, scale=1.3).balls[0].drop_height, 1.0)
+
+
+def test_two_balls_of_a_stack():
+    data = tracked(sb.simulate(STACK, until=0.2), names=["basketball", "tennis"], seed=1)
+    found = track(data)
+    true = sb.simulate(sb.Drop(STACK.balls, STACK.contacts, height=0.6)).rebound_ratios
+    assert [ball.name for ball in found.balls] == ["basketball", "tennis"]
+    assert all(near(one, value) for one, value in zip(found.rebound_ratios, true, strict=True))
+    assert found.rows()[1].name == "tennis: rebound ratio"
+    assert list(found.parts()) == ["impact_speed"]
+
+
+def test_three_points_a_flight():
+    times = np.arange(0.0, 0.95, 0.07)
+    heights = falls(0.3, 0.7).position(times)
+    seen = heights + np.random.default_rng(1).normal(0.0, 1e-3, len(times))
+    found = track((times, seen))
+    assert near(found.balls[0].restitutions[0], 0.7)
+    assert any("points; a higher frame rate" in note for note in found.notes)
+
+
+def test_a_track_that_begins_late_says_so():
+    found = track(tracked(FALL, before=-0.25, seed=1))
+    assert any("begins 0.2" in note for note in found.notes)
+
+
+def test_the_floor_may_be_given():
+    found = track(tracked(FALL, seed=1), floor=0.0)
+    assert near(found.balls[0].drop_height, 1.0)
+    with pytest.raises(InvalidValue, match="floor must be a level"):
+        track(tracked(FALL, seed=1), floor=5.0)
+
+
+def test_parts_make_a_drop():
+    parts = track(tracked(FALL, seed=1)).parts()
+    drop = sb.Drop.from_mapping(
+        {
+            "balls": [{"mass": 0.05}],
+            "contacts": [parts["contact"]],
+            "impact_speed": parts["impact_speed"],
+        }
+    )
+    assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(0.8, abs=0.01)
+
+
+def test_a_second_ball_that_lies_still_is_left_out():
+    data = tracked(FALL, seed=1)
+    lying = data.assign_coords(track=["other"]) * 0.0 + np.random.default_rng(1).normal(0, 1e-3)
+    found = track(xr.concat([data, lying], "track"))
+    assert [ball.name for ball in found.balls] == ["ball 0"]
+    assert any("other: no bounce" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("data", "error", "words"),
+    [
+        ((np.arange(20.0), np.zeros(20)), InvalidValue, "falls and bounces"),
+        ((np.arange(20.0), np.arange(20.0)), InvalidValue, "falls and bounces"),
+        ((np.arange(20.0), np.full(20, math.nan)), InvalidValue, "falls and bounces"),
+        ((np.arange(20.0), -(np.arange(20.0) ** 2)), InvalidValue, "falls and bounces"),
+        ((np.zeros(20), np.zeros(20)), InvalidValue, "times must ascend"),
+        ((np.arange(20.0)[::-1], np.zeros(20)), InvalidValue, "times must ascend"),
+        ((np.arange(3.0), np.zeros(3)), InvalidValue, "at least 4"),
+        ((np.arange(20.0), np.zeros(3)), InvalidValue, "equal lengths"),
+        ("track.txt", InvalidType, "data must be"),
+        (3, InvalidType, "data must be"),
+        (xr.Dataset({"z": ("time", [1.0])}), InvalidType, "variables x and y"),
+    ],
+)
+def test_what_is_no_track(data, error, words):
+    with pytest.raises(error, match=words):
+        track(data)
+
+
+def test_noise_is_no_bounce():
+    random = np.random.default_rng(1)
+    times = np.arange(60) / 30.0
+    with pytest.raises(InvalidValue, match="falls and bounces"):
+        track((times, random.normal(0.0, 1e-3, 60)))
+
+
+def test_pictures():
+    data = tracked(FALL, seed=1)
+    figure = measured_track.draw(data, track(data))
+    assert [axes.get_ylabel() for axes in figure.axes] == ["height (m)", "residual (mm)"]
+    assert "gravity of the flights 9.8" in figure.axes[0].get_title(loc="left")
+    two = tracked(sb.simulate(STACK, until=0.2), frame_rate=240.0, read_as=60.0, seed=1)
+    assert "factor of 4" in measured_track.draw(two, track(two)).axes[0].get_title(loc="left")
+
+
+def test_what_cannot_be_tracked():
+    with pytest.raises(InvalidType, match="source must be"):
+        tracked("ball")

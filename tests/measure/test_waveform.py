@@ -1,0 +1,347 @@
+"""Force records: contacts, times, peaks, impulses, and records as bad as they come."""
+
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+from uncertainties import ufloat
+
+import stackbounce as sb
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure.synthetic.waveform import waveform as record_of
+from stackbounce.measure.waveform import waveform
+from stackbounce.plots.measured_waveform import draw
+
+ONE = sb.simulate(sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0))
+TIME = float(ONE.intervals["end"][0])
+PEAK = float(ONE.intervals["peak_force"][0])
+
+
+def near(value, truth, sigmas=4.0):
+    return abs(value.nominal_value - truth) <= sigmas * value.std_dev
+
+
+def pulses(count, *, apart=0.02, rate=5e4, noise=0.5, tau=4e-3, height=100.0, seed=0):
+    """Half sines, one after the other."""
+    times = np.arange(0.0, apart * (count + 0.5), 1.0 / rate)
+    phase = (times - 0.5 * apart) % apart
+    inside = (times >= 0.5 * apart) & (phase <= tau)
+    force = np.where(inside, height * np.sin(np.pi * phase / tau), 0.0)
+    return times, force + np.random.default_rng(seed).normal(0.0, noise, len(times))
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+@pytest.mark.parametrize("sensitivity", [None, 0.01])
+def test_one_bounce(sign, sensitivity):
+    gain = sensitivity or 1.0
+    how = {"noise": 1.0 * gain, "offset": 20.0 * gain, "drift": 3.0 * gain}
+    record = record_of(ONE, rate=1e5, sign=sign, sensitivity=sensitivity, **how)
+    found = waveform(record, mass=0.1)
+    (contact,) = found.contacts
+    assert found.sign == sign
+    assert found.unit == ("N" if sensitivity is None else "V")
+    assert near(contact.time, TIME)
+    assert contact.time.std_dev < 0.01 * TIME
+    assert near(contact.start, record.attrs["touch"])
+    assert near(contact.peak_force, gain * PEAK)
+    assert near(contact.impulse, gain * 0.4)
+    assert near(found.stiffness, 6e4)
+    assert near(contact.rise + contact.fall, TIME)
+    assert near(contact.exponents[0], 1.0)
+    assert found.noise == pytest.approx(1.0 * gain, rel=0.15)
+    assert not found.notes
+    assert found.parts()["contact"] == {
+        "law": "Spring",
+        "stiffness": found.stiffness.nominal_value,
+    }
+
+
+def test_rows_tell_all_with_units_and_parts_make_a_drop():
+    found = waveform(record_of(ONE, rate=1e5, noise=1.0), mass=ufloat(0.1, 0.001), impact_speed=2.0)
+    rows = {row.name: row for row in found.rows()}
+    assert rows["contacts"].value == 1
+    assert rows["contact time"].unit == "s"
+    assert rows["impulse"].unit == "N s"
+    assert rows["dynamic stiffness"].unit == "N/m"
+    parts = found.parts()
+    law = sb.Spring(parts["contact"]["stiffness"])
+    drop = sb.Drop([sb.Ball(**parts["ball"])], [law], impact_speed=parts["impact_speed"])
+    assert sb.simulate(drop).end_time == pytest.approx(TIME, rel=0.01)
+
+
+def test_hertz_is_told_from_a_spring_by_how_it_begins():
+    law = sb.calibrate(sb.Hertz, mass=0.1, contact_time=TIME, impact_speed=2.0)
+    drop = sb.Drop([sb.Ball(0.1)], [law], impact_speed=2.0)
+    (contact,) = waveform(record_of(drop, rate=1e5, noise=0.3)).contacts
+    assert near(contact.exponents[0], 1.5)
+    assert contact.exponents[0].std_dev < 0.1
+    assert near(contact.time, TIME)
+
+
+def test_a_force_that_begins_with_a_step():
+    drop = sb.Drop([sb.Ball(0.1)], [sb.Dashpot(6e4, 20.0)], impact_speed=2.0)
+    result = sb.simulate(drop)
+    record = record_of(result, rate=1e5, noise=0.5)
+    (contact,) = waveform(record).contacts
+    assert contact.start.nominal_value == pytest.approx(record.attrs["touch"], abs=4e-5)
+
+
+def test_several_peaks_in_one_contact():
+    drop = sb.Drop(
+        [sb.Ball(0.0248), sb.Ball(0.101)],
+        [sb.Spring(3.6e4), sb.Spring(1.6e4)],
+        gaps=[0.001],
+        impact_speed=2.0,
+    )
+    found = waveform(record_of(drop, rate=1e5, noise=0.6), mass=0.1)
+    (contact,) = found.contacts
+    assert len(contact.peaks) == 3
+    assert near(contact.time, 0.01067682)
+    assert any("3 peaks" in note for note in found.notes)
+    assert contact.peak_force.nominal_value == pytest.approx(115.16, rel=0.02)
+
+
+def test_separate_collisions_are_separate_contacts():
+    drop = sb.Drop(
+        [sb.Ball(0.0085), sb.Ball(0.101)],
+        [sb.Spring(2.3e4), sb.Spring(1.4e4)],
+        gaps=[0.012],
+        height=0.2,
+    )
+    result = sb.simulate(drop)
+    record = record_of(result, rate=5e4, noise=0.3, before=0.01, duration=0.04)
+    found = waveform(record)
+    rows = result.intervals[(result.intervals["contact"] == 0) & (result.intervals["end"] < 0.02)]
+    assert len(found.contacts) == len(rows) == 5
+    for contact, row in zip(found.contacts, rows, strict=True):
+        assert near(contact.start, record.attrs["touch"] + row["start"])
+        assert near(contact.time, row["end"] - row["start"])
+        assert near(contact.impulse, row["impulse"])
+
+
+def test_a_hundred_bounces():
+    began = time.perf_counter()
+    found = waveform(pulses(100))
+    assert time.perf_counter() - began < 30.0
+    assert len(found.contacts) == 100
+    times = [one.time for one in found.contacts]
+    inside = np.mean([near(one, 4e-3, 1.0) for one in times])
+    assert 0.5 < inside < 0.9
+    assert "further contacts, not listed" in [row.name for row in found.rows()]
+
+
+def test_a_million_samples_are_fast():
+    data = pulses(3, rate=1.4e7, noise=5.0)
+    assert len(data[0]) > 900_000
+    began = time.perf_counter()
+    found = waveform(data)
+    assert time.perf_counter() - began < 15.0
+    assert len(found.contacts) == 3
+    assert all(near(one.time, 4e-3) for one in found.contacts)
+    assert all(one.time.std_dev < 1e-5 for one in found.contacts)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_pure_noise_has_no_contacts(seed):
+    times = np.arange(20_000) * 1e-5
+    found = waveform((times, np.random.default_rng(seed).normal(3.0, 1.0, len(times))))
+    assert found.contacts == ()
+    assert found.noise == pytest.approx(1.0, rel=0.05)
+    assert any("no contact stands out" in note for note in found.notes)
+    assert found.parts() == {}
+    assert near(found.baseline, 3.0)
+
+
+def test_a_constant_record_has_no_contacts():
+    found = waveform((np.arange(100) * 1e-3, np.full(100, 2.5)))
+    assert found.contacts == ()
+    assert found.baseline.nominal_value == pytest.approx(2.5)
+    draw(None, found)
+
+
+def test_blanks_within_are_left_out_and_said():
+    times, force = pulses(1)
+    force[::7] = np.nan
+    found = waveform((times, force))
+    assert near(found.contacts[0].time, 4e-3)
+    assert any("blank" in note for note in found.notes)
+
+
+def test_uneven_time_steps():
+    random = np.random.default_rng(3)
+    times = np.cumsum(random.uniform(0.5e-5, 1.5e-5, 2500))
+    force = 100.0 * np.sin(np.pi * np.clip((times - 0.01) / 4e-3, 0.0, 1.0))
+    found = waveform((times, force + random.normal(0.0, 0.5, len(times))))
+    (contact,) = found.contacts
+    assert near(contact.start, 0.01)
+    assert near(contact.time, 4e-3)
+    assert near(contact.impulse, 100.0 * 4e-3 * 2.0 / np.pi)
+    assert any("uneven" in note for note in found.notes)
+
+
+def test_samples_out_of_order_are_sorted():
+    times, force = pulses(1)
+    order = np.random.default_rng(1).permutation(len(times))
+    found = waveform((times[order], force[order]))
+    assert near(found.contacts[0].time, 4e-3)
+    assert any("sorted" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("at", [100, 560])
+def test_a_spike_of_one_sample_is_left_out(at):
+    times, force = pulses(1)
+    force[at] += 300.0
+    found = waveform((times, force))
+    (contact,) = found.contacts
+    assert near(contact.time, 4e-3)
+    assert near(contact.peak_force, 100.0, 5.0)
+    assert any("1 spike" in note for note in found.notes)
+
+
+def test_things_of_two_samples_are_left_out_and_said():
+    times, force = pulses(1)
+    force[[100, 101]] += 50.0
+    found = waveform((times, force))
+    assert len(found.contacts) == 1
+    assert any("one or two samples" in note for note in found.notes)
+
+
+@pytest.mark.parametrize("bits", [None, 8])
+def test_a_clipped_record_is_told(bits):
+    record = record_of(ONE, rate=1e5, noise=0.5, full_scale=100.0, bits=bits)
+    found = waveform(record)
+    (contact,) = found.contacts
+    assert contact.clipped
+    assert any("clipped at" in note for note in found.notes)
+    assert near(contact.time, TIME)
+    rows = {row.name: row.value for row in found.rows()}
+    assert rows["peak force"].startswith("above")
+
+
+@pytest.mark.parametrize("bits", [6, 8, 12])
+def test_a_converter_s_steps_are_not_taken_for_clipping(bits):
+    record = record_of(ONE, rate=1e5, bits=bits, full_scale=256.0)
+    (contact,) = waveform(record).contacts
+    assert not contact.clipped
+    assert len(contact.peaks) == 1
+    assert contact.time.nominal_value == pytest.approx(TIME, rel=0.03)
+
+
+@pytest.mark.parametrize("mains", [50.0, 60.0])
+def test_hum_is_taken_off(mains):
+    record = record_of(ONE, rate=2e4, noise=0.5, hum=10.0, mains=mains, before=0.1)
+    found = waveform(record)
+    (contact,) = found.contacts
+    assert found.hum == pytest.approx(10.0, rel=0.05)
+    assert any(f"hum of {mains:.0f} Hz" in note for note in found.notes)
+    assert near(contact.time, TIME)
+    assert near(contact.impulse, 0.4)
+
+
+def test_hum_in_a_short_record_is_a_drift():
+    record = record_of(ONE, rate=1e5, noise=0.5, hum=5.0, seed=2)
+    (contact,) = waveform(record).contacts
+    assert contact.time.nominal_value == pytest.approx(TIME, rel=0.02)
+    assert contact.peak_force.nominal_value == pytest.approx(PEAK, rel=0.04)
+
+
+def test_few_samples_are_said_and_covered_by_the_error():
+    record = record_of(ONE, rate=1100.0, noise=0.5, before=0.02)
+    found = waveform(record)
+    (contact,) = found.contacts
+    assert contact.samples < 6
+    assert any("sample faster" in note for note in found.notes)
+    assert near(contact.time, TIME, 3.0)
+
+
+def test_a_record_that_begins_or_stops_within_a_contact():
+    times, force = pulses(3)
+    late = waveform((times[550:], force[550:]))
+    assert late.contacts[0].start is None
+    assert late.contacts[0].time is None
+    assert any("begins within" in note for note in late.notes)
+    early = waveform((times[:2580], force[:2580]))
+    assert early.contacts[-1].end is None
+    assert any("stops within" in note for note in early.notes)
+    assert near(early.contacts[0].time, 4e-3)
+    for found in (late, early):
+        draw(None, found)
+        assert found.rows()
+
+
+def test_two_bounces_calibrate_a_sensor():
+    drop = sb.Drop([sb.Ball(0.1)], [sb.Dashpot(6e4, 8.0)], impact_speed=2.0, gravity=9.80665)
+    result = sb.simulate(drop, until=0.6)
+    record = record_of(result, rate=2e4, noise=0.005, sensitivity=0.01, before=0.05)
+    found = waveform(record, mass=0.1, impact_speed=ufloat(2.0, 0.01))
+    assert near(found.sensitivity, 0.01)
+    assert found.sensitivity.std_dev < 1e-4
+    assert any("restitution 0.8" in note for note in found.notes)
+
+
+def test_one_bounce_calibrates_a_sensor_as_far_as_it_can():
+    record = record_of(ONE, rate=1e5, noise=0.01, sensitivity=0.01)
+    found = waveform(record, mass=0.1, impact_speed=2.0)
+    assert near(found.sensitivity, 0.01, 2.0)
+    assert found.sensitivity.std_dev > 1e-3
+
+
+def test_a_threshold_and_a_sign_are_obeyed():
+    times, force = pulses(2)
+    force[times > 0.03] *= 0.3
+    assert len(waveform((times, force)).contacts) == 2
+    assert len(waveform((times, force), threshold=50.0).contacts) == 1
+    assert waveform((times, force), sign=-1).contacts == ()
+
+
+def test_further_channels_are_named():
+    record = record_of(ONE, rate=1e5, noise=1.0, contacts=[0, 0])
+    assert any("not force_2" in note for note in waveform(record).notes)
+    assert waveform(record[["force_2"]]).contacts
+
+
+@pytest.mark.parametrize(
+    ("data", "error"),
+    [
+        (3, InvalidType),
+        ("record.csv", InvalidType),
+        (([1.0] * 20,), InvalidValue),
+        (([1, 2, 3], [1, 2, 3]), InvalidValue),
+        ((np.arange(20.0), np.full(20, np.nan)), InvalidValue),
+        ((np.arange(20.0), np.arange(19.0)), InvalidValue),
+        ((np.arange(9.0), ["a"] * 9), InvalidType),
+        ((np.zeros(20), np.arange(20.0)), InvalidValue),
+        (xr.Dataset({"sound": ("time", np.zeros(9))}, {"time": np.arange(9.0)}), InvalidValue),
+    ],
+)
+def test_what_is_no_waveform_is_refused_in_one_line(data, error):
+    with pytest.raises(error) as caught:
+        waveform(data)
+    assert str(caught.value).startswith("data must")
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "option",
+    [
+        {"mass": -1.0},
+        {"mass": "1 kg"},
+        {"impact_speed": 0.0},
+        {"time_constant": 0.0},
+        {"threshold": -3.0},
+        {"sign": 2},
+        {"mass": ufloat(1.0, np.inf)},
+    ],
+)
+def test_options_are_checked(option):
+    with pytest.raises((InvalidValue, InvalidType), match=next(iter(option))):
+        waveform(pulses(1), **option)
+
+
+def test_pictures_of_every_kind():
+    assert len(draw(None, waveform(pulses(1))).axes) == 1
+    figure = draw(None, waveform(pulses(5, apart=0.5, rate=1e4)))
+    assert len(figure.axes) == 2
+    record = record_of(ONE, rate=2e3, noise=0.5).assign_attrs(source="bounce.csv")
+    assert "bounce.csv" in draw(record, waveform(record)).axes[0].get_title(loc="left")
