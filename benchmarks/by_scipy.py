@@ -1,9 +1,11 @@
 """Two balls on a floor as one would solve them with `scipy.integrate.solve_ivp`: the comparison.
 
 A good script, not a straw man: it stops at every touch and release and goes on from there, so that
-no step goes over the place where c^1.5 is not smooth, and its tolerances fit each number's size.
+no step goes over the place where c^1.5 is not smooth or a force changes its curve, and its
+tolerances fit each number's size.
 """
 
+import math
 from typing import Any
 
 import numpy as np
@@ -13,45 +15,75 @@ END = 1.0  # s; all is over long before
 
 
 def rebound(case: dict[str, Any], rtol: float) -> np.ndarray:
-    """Return the velocities in m/s after the impact of two balls on Hertz or HuntCrossley contacts.
+    """Return the velocities in m/s after the impact of two balls on nonlinear contacts.
 
     Parameters
     ----------
     case : dict
-        Masses, contacts, gaps and velocities in SI units, as in `tests/data/laws.json`.
+        Masses, contacts, gaps and velocities in SI units, as in `tests/data/laws.json`. The laws
+        are Hertz, PowerLaw, HuntCrossley, Viscoelastic and Hysteretic.
     rtol : float
         The tolerance that DOP853 gets.
     """
     (m0, m1), (gap,) = case["masses"], case["gaps"]
-    k = [law["stiffness"] for law in case["contacts"]]
-    p = [law.get("exponent", 1.5) for law in case["contacts"]]
-    chi = [law.get("dissipation", 0.0) for law in case["contacts"]]
+    forces = [_Force(law) for law in case["contacts"]]
     speed = max(map(abs, case["velocities"]))
-    length = max((m0 * speed**2 / k[0]) ** (1.0 / (p[0] + 1.0)), gap)
+    p = forces[0].p
+    length = max((m0 * speed**2 / forces[0].k) ** (1.0 / (p + 1.0)), gap)
 
-    def force(i: int, c: float, rate: float) -> float:
-        return max(0.0, k[i] * c ** p[i] * (1.0 + chi[i] * rate)) if c > 0.0 else 0.0
+    def contacts(y: np.ndarray) -> tuple[tuple[float, float], ...]:
+        q0, q1, v0, v1 = y.tolist()
+        return (-q0, -v0), (q0 - q1 - gap, v0 - v1)
 
     def slope(_: float, y: np.ndarray) -> list[float]:
-        q0, q1, v0, v1 = y.tolist()
-        floor = force(0, -q0, -v0)
-        upper = force(1, q0 - q1 - gap, v0 - v1)
-        return [v0, v1, (floor - upper) / m0, upper / m1]
+        floor, upper = (one(c, rate) for one, (c, rate) in zip(forces, contacts(y), strict=True))
+        return [*y[2:].tolist(), (floor - upper) / m0, upper / m1]
 
-    def event(i: int, closed: bool) -> Any:
-        def compression(_: float, y: np.ndarray) -> float:
-            return -y[0] if i == 0 else y[0] - y[1] - gap
+    def event(i: int, part: int, level: float, direction: int) -> Any:
+        def distance(_: float, y: np.ndarray) -> float:
+            return contacts(y)[i][part] - level
 
-        compression.terminal, compression.direction = True, -1 if closed else 1
-        return compression
+        distance.terminal, distance.direction = True, direction
+        return distance
 
     t, y = 0.0, np.array([0.0, 0.0, *case["velocities"]])
     closed = [True, gap == 0.0]
     atol = rtol * np.array([length, length, speed, speed])
     while any(closed) or y[2] < 0.0 or y[3] < y[2]:
-        events = [event(i, closed[i]) for i in (0, 1)]
+        events = [event(i, 0, 0.0, -1 if closed[i] else 1) for i in (0, 1)]
+        turns = [i for i in (0, 1) if closed[i] and forces[i].n > forces[i].p]
+        for i in turns:  # onto the unloading curve, or back past the old peak
+            back = forces[i].peak < math.inf
+            events.append(event(i, 0, forces[i].peak, 1) if back else event(i, 1, 0.0, -1))
         done = solve_ivp(slope, (t, END), y, "DOP853", events=events, rtol=rtol, atol=atol)
         t, y = done.t[-1], done.y[:, -1]
+        happened = [len(times) > 0 for times in done.t_events]
         for i in (0, 1):
-            closed[i] ^= len(done.t_events[i]) > 0
+            closed[i] ^= happened[i]
+            if happened[i]:
+                forces[i].peak = math.inf
+        for i, turned in zip(turns, happened[2:], strict=True):
+            if turned and closed[i]:
+                forces[i].peak = math.inf if forces[i].peak < math.inf else contacts(y)[i][0]
     return y[2:]
+
+
+class _Force:
+    """The force of one contact; one with hysteresis knows the peak from which it unloads."""
+
+    def __init__(self, law: dict[str, Any]) -> None:
+        self.k = law["stiffness"]
+        self.p = law.get("exponent", 1.0 if law["law"] == "Hysteretic" else 1.5)
+        self.chi = law.get("dissipation", 0.0)
+        self.time = law.get("dissipative_time", 0.0)
+        e = law.get("restitution", 1.0)
+        self.n = law.get("unloading_exponent", (self.p + 1.0) / e**2 - 1.0)
+        self.peak = math.inf
+
+    def __call__(self, c: float, rate: float) -> float:
+        if c <= 0.0:
+            return 0.0
+        if self.peak < math.inf:
+            return float(self.k * self.peak**self.p * (c / self.peak) ** self.n)
+        elastic = c**self.p + 1.5 * self.time * math.sqrt(c) * rate
+        return float(max(0.0, self.k * elastic * (1.0 + self.chi * rate)))

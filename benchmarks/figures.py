@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from benchmarks.growth import LAWS, SHAPES, Cost
+from benchmarks.laws import Entry as LawEntry
 from benchmarks.race import PEERS, Entry
 from benchmarks.startup import Start
 from benchmarks.work_precision import DROPS, FAMILIES, TOLERANCES, Spread, Work
@@ -154,6 +155,26 @@ def work(runs: list[Work]) -> Figure:
         panels[0].set_ylabel("error of the velocities / $v_0$")
         _name_all(figure, *panels[0].get_legend_handles_labels())
         figure.subplots_adjust(left=0.09, right=0.985, top=0.89, bottom=0.145, wspace=0.06)
+    return figure
+
+
+def laws(entries: list[LawEntry]) -> Figure:
+    """Draw how much faster a sweep is than `solve_ivp`, against the error of that."""
+    with styled():
+        figure = Figure(figsize=(0.6 * WIDE, 3.3))
+        ax = figure.subplots()
+        for law, (mark, color) in zip(
+            dict.fromkeys(one.law for one in entries), MARKS.values(), strict=False
+        ):
+            row = [one for one in entries if one.law == law]
+            ratios = [one.seconds / one.our_seconds for one in row]
+            ax.semilogx([one.error for one in row], ratios, color=color, marker=mark, label=law)
+        ax.set_xlabel("median error of solve_ivp / $v_0$")
+        ax.set_ylabel("its time / time of a sweep no less exact")
+        ax.invert_xaxis()
+        ax.set_ylim(0.0, 1.3 * ax.get_ylim()[1])
+        ax.legend(loc="upper left", ncols=2)
+        figure.subplots_adjust(left=0.16, right=0.97, top=0.96, bottom=0.15)
     return figure
 
 

@@ -7,7 +7,7 @@ import pytest
 import stackbounce as sb
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-from benchmarks import figures, race, random_drops, report, startup
+from benchmarks import figures, laws, race, random_drops, report, startup
 from benchmarks.peers import by_scipy, by_steps
 from benchmarks.peers.common import Peer
 from benchmarks.random_drops import Drops
@@ -101,3 +101,22 @@ def test_starts_are_told_next_to_numpy():
     assert starts[0].clock < base.clock < starts[-1].clock
     assert report.startup_times(starts)[1][::2] == [startup.BASE, "1.00", "1.00"]
     assert len(figures.startup(starts).axes[0].patches) == 2 * len(starts)
+
+
+def test_other_laws_are_told_next_to_scipy_at_equal_error(monkeypatch):
+    monkeypatch.setattr(laws, "THEIRS", (1e-6,))
+    monkeypatch.setattr(laws, "ROUNDS", 1)
+    entries = laws.nonlinear(quiet, drops=4)
+    assert [one.law for one in entries] == list(laws.LAWS)
+    for one in entries:
+        assert 0.0 < one.our_error <= one.error < 1e-3
+        assert min(one.seconds, one.our_seconds) > 0.0
+    assert len(report.law_times(entries)) == len(figures.laws(entries).axes[0].lines) == 4
+
+
+def test_rigid_collisions_are_told_next_to_a_division(monkeypatch):
+    monkeypatch.setattr(laws, "RIGID", 100)
+    monkeypatch.setattr(laws, "DIVISIONS", 10**4)
+    found = laws.rigid(quiet)
+    assert min(found.division, found.collision) > 0.0
+    assert laws.divisions(2) == 1.5

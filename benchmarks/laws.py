@@ -1,0 +1,153 @@
+"""Sweeps of two balls on nonlinear contacts next to `solve_ivp`, and rigid ones next to a division.
+
+Random drops, half of them with a gap. The truth is this package's at its smallest tolerance, which
+`tests/test_laws.py` holds to 30 digits. Times are processor times, the shortest of some rounds;
+compilation is left out.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from time import process_time
+from typing import Any
+
+import numpy as np
+
+import stackbounce as sb
+from benchmarks.by_scipy import rebound
+from stackbounce.engine.kernel import compiled, kernel
+
+LAWS: dict[str, dict[str, Any]] = {
+    "Hertz": {"law": "Hertz"},
+    "Viscoelastic": {"law": "Viscoelastic", "dissipative_time": 2e-5},
+    "HuntCrossley": {"law": "HuntCrossley", "exponent": 1.5, "dissipation": 0.1},
+    "Hysteretic": {"law": "Hysteretic", "restitution": 0.8},
+}
+OURS = tuple(float(f"1e-{n}") for n in range(4, 14))
+THEIRS = (1e-6, 1e-9, 1e-12)
+TRUTH = 1e-14
+DROPS = 200  # of ours; every tenth is one of solve_ivp's
+SPEED = 3.0  # m/s
+DIVISIONS = 10**7
+RIGID = 10**5
+ROUNDS = 3
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One law at one tolerance of solve_ivp: its median error in units of v0, its time in s a drop.
+
+    Ours are those at the loosest tolerance whose error is no larger.
+    """
+
+    law: str
+    error: float
+    seconds: float
+    our_rtol: float
+    our_error: float
+    our_seconds: float
+
+
+@dataclass(frozen=True)
+class Rigid:
+    """Collisions of rigid balls and divisions that wait for each other, in s each."""
+
+    collision: float
+    division: float
+
+
+def nonlinear(progress: Callable[[str], None], drops: int = DROPS) -> list[Entry]:
+    """Return how sweeps of each law compare with `solve_ivp`."""
+    found = []
+    for law in LAWS:
+        cases, base, values = _drops(law, drops)
+        progress(f"{law}: a sweep")
+        truth = _swept(base, values, TRUTH)[0]
+        ours = [(rtol, *_swept(base, values, rtol)) for rtol in OURS]
+        few = cases[:: max(1, drops // 20)]
+        for rtol in THEIRS:
+            progress(f"{law}: solve_ivp at {rtol:g}")
+            begin = process_time()
+            theirs = np.array([rebound(case, rtol) for case in few]) / SPEED
+            seconds = (process_time() - begin) / len(few)
+            error = _error(theirs, truth[:: max(1, drops // 20)])
+            level, speeds, spent = next(
+                (one for one in ours if _error(one[1], truth) <= error), ours[-1]
+            )
+            found.append(Entry(law, error, seconds, level, _error(speeds, truth), spent))
+    return found
+
+
+def rigid(progress: Callable[[str], None]) -> Rigid:
+    """Return the time of a collision in a sweep of two rigid balls, and that of a division."""
+    progress("rigid balls")
+    rng = np.random.default_rng(1)
+    drop = sb.Drop([sb.Ball(1.0)] * 2, [sb.Rigid(0.9)] * 2, impact_speed=1.0)
+    values = {"balls.1.mass": np.exp(rng.uniform(*np.log((1.0, 50.0)), RIGID))}
+    sb.sweep(drop, values)
+    spent, count = [], 0
+    for _ in range(ROUNDS):
+        begin = process_time()
+        swept = sb.sweep(drop, values)
+        spent.append(process_time() - begin)
+        count = int(np.maximum(swept.collisions.values, 0).sum())
+    divide = compiled(divisions)
+    divide(10)
+    begin = process_time()
+    divide(DIVISIONS)
+    return Rigid(min(spent) / count, (process_time() - begin) / DIVISIONS)
+
+
+@kernel
+def divisions(count: int) -> float:
+    """Return what comes of so many divisions, each of which needs the last one's result."""
+    x = 1.5
+    for _ in range(count):
+        x = 3.0 / x
+    return x
+
+
+def _drops(law: str, count: int) -> tuple[list[dict[str, Any]], sb.Drop, dict[str, Any]]:
+    """Return random drops as cases, and as a base with what varies."""
+    import xarray as xr
+
+    rng = np.random.default_rng(2007)
+    mass, floor = 0.1, 3e4
+    upper = mass * np.exp(rng.uniform(*np.log((0.05, 5.0)), count))
+    stiff = floor * np.exp(rng.uniform(*np.log((0.1, 10.0)), count))
+    gap = rng.uniform(0.0, 5e-3, count) * (np.arange(count) % 2)
+    numbers = LAWS[law]
+    cases = [
+        {
+            "masses": [mass, m],
+            "gaps": [g],
+            "velocities": [-SPEED, -SPEED],
+            "contacts": [numbers | {"stiffness": floor}, numbers | {"stiffness": k}],
+        }
+        for m, k, g in zip(upper.tolist(), stiff.tolist(), gap.tolist(), strict=True)
+    ]
+    given = {key: value for key, value in numbers.items() if key != "law"}
+    make = partial(getattr(sb, law), floor, **given)
+    base = sb.Drop([sb.Ball(mass), sb.Ball(mass)], [make(), make()], impact_speed=SPEED)
+    names = ("balls.1.mass", "contacts.1.stiffness", "gaps.0")
+    values = {
+        name: xr.DataArray(one, dims="drop")
+        for name, one in zip(names, (upper, stiff, gap), strict=True)
+    }
+    return cases, base, values
+
+
+def _swept(base: sb.Drop, values: dict[str, Any], rtol: float) -> tuple[np.ndarray, float]:
+    """Return rebound ratios, and the time of one drop."""
+    spent = []
+    for _ in range(ROUNDS):
+        begin = process_time()
+        swept = sb.sweep(base, values, rtol=rtol)
+        spent.append(process_time() - begin)
+    ratios: np.ndarray = swept.rebound_ratio.values
+    return ratios, min(spent) / len(ratios)
+
+
+def _error(found: np.ndarray, truth: np.ndarray) -> float:
+    """Return the median over drops of the larger error of both velocities."""
+    return float(np.median(np.abs(found - truth).max(axis=1)))
