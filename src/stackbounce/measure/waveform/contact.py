@@ -1,6 +1,7 @@
 """One contact: its own baseline, its flanks, peaks and impulse."""
 
 from dataclasses import dataclass
+from math import hypot
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -103,11 +104,12 @@ def measure_contact(
     )
     area = impulse_of(part.times, part.values, part.density, part.offset, ends)
     clipped = flat_top(local.raw[one.first : one.last + 1], local.quantum)
-    return _contact(peaks, (rise, fall), area, clipped, len(one))
+    return _contact(peaks, part.offset, (rise, fall), area, clipped, len(one))
 
 
 def _contact(
     peaks: list[Peak],
+    offset: float,
     flanks: tuple[Flank | None, Flank | None],
     area: tuple[float, float],
     clipped: bool,
@@ -115,7 +117,11 @@ def _contact(
 ) -> Contact:
     start, end = (known_to(one.time, one.error) if one else None for one in flanks)
     tops: list[tuple[UFloat, UFloat]] = [
-        (known_to(one.time, one.time_error), known_to(one.force, one.force_error)) for one in peaks
+        (
+            known_to(one.time, one.time_error),
+            known_to(one.force, math.hypot(one.force_error, offset)),
+        )
+        for one in peaks
     ]
     powers = tuple(known_to(one.exponent, one.exponent_error) if one else None for one in flanks)
     return Contact(
