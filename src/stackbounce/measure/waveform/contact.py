@@ -119,7 +119,7 @@ def _contact(
     tops: list[tuple[UFloat, UFloat]] = [
         (
             known_to(one.time, one.time_error),
-            known_to(one.force, math.hypot(one.force_error, offset)),
+            known_to(one.force, hypot(one.force_error, offset)),
         )
         for one in peaks
     ]
