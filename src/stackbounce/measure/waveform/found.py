@@ -1,9 +1,9 @@
 """What was found in a force record."""
 
-import math
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from stackbounce.measure.stiffness import dynamic_stiffness
 from stackbounce.measure.table import Row
 from stackbounce.measure.waveform.flanks import Flank
 from stackbounce.measure.waveform.record import Array
@@ -117,7 +117,7 @@ class Waveform:
         section III.
         """
         time = self._first_time
-        return None if self.mass is None or time is None else self.mass * (math.pi / time) ** 2
+        return None if self.mass is None or time is None else dynamic_stiffness(self.mass, time)
 
     @property
     def _first_time(self) -> "UFloat | None":

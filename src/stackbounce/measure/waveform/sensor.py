@@ -3,7 +3,7 @@
 import math
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.errors import InvalidValue, positive
+from stackbounce.measure.uncertain import measured
 from stackbounce.measure.waveform.found import Contact
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -15,8 +15,8 @@ __all__ = ["known", "sensitivity_of"]
 _APART = 3.0  # contact times between two contacts of one ball that flies in between
 
 
-def known(name: str, value: Any, of: str = "") -> "UFloat | float | None":
-    """Return a positive number, with its error if it has one; None stays None.
+def known(name: str, value: Any, of: str = "") -> "UFloat | None":
+    """Return a positive number with its error, which may be 0; None stays None.
 
     Raises
     ------
@@ -27,19 +27,10 @@ def known(name: str, value: Any, of: str = "") -> "UFloat | float | None":
 
     Examples
     --------
-    >>> print(known("mass", 0.057))
-    0.057
+    >>> known("mass", 0.057)
+    0.057+/-0
     """
-    from uncertainties import UFloat
-
-    if value is None:
-        return None
-    if isinstance(value, UFloat):
-        positive(name, value.nominal_value, of)
-        if not math.isfinite(value.std_dev):
-            raise InvalidValue(f"{name} must have a finite error, got {value.std_dev}")
-        return value
-    return positive(name, value, of)
+    return None if value is None else measured(name, value, of)
 
 
 def sensitivity_of(
