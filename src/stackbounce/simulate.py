@@ -200,10 +200,10 @@ def _for_numba(stack: Any, samples: Samples, rows: int) -> tuple[Any, Samples, A
     """Return stack, samples and a log as arrays, and what compiled kernels take for the stack."""
     import numpy as np
 
-    from stackbounce.engine.structure import structure
+    from stackbounce.engine.structure import Structure
 
     arrays = as_arrays(stack)
-    return arrays, as_arrays(samples), np.zeros(rows * codes.LOG_COLUMNS), structure(arrays)
+    return arrays, as_arrays(samples), np.zeros(rows * codes.LOG_COLUMNS), Structure(arrays)
 
 
 def _samples(
@@ -254,5 +254,6 @@ def _prepared(drop: Drop, rtol: float) -> tuple[Any, float]:
         prepare.prepare_rigid(rigid, mass, kind, extra, gap, velocity, drop.gravity)
         return rigid, 1.0
     stack = new_stack(size)
+    stack.setting[2] = 1
     numbers = (mass, kind, stiffness, exponent, extra, gap, velocity, drop.gravity, rtol)
     return stack, prepare.prepare(stack, *numbers)

@@ -17,7 +17,7 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
-from stackbounce.engine.structure import structure
+from stackbounce.engine.structure import Structure
 
 _LOG_ROWS = 256
 
@@ -35,7 +35,7 @@ class Batch(NamedTuple):
 def _arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
     """Return a stack, the arrays that its own lie in, and no samples."""
     stack, room = in_one_room((new_rigid_stack if rigid else new_stack)(balls))
-    return structure(stack), room, as_arrays(new_samples([], balls))
+    return Structure(stack), room, as_arrays(new_samples([], balls))
 
 
 def run_batch(seed: int, index: int, count: int = BATCH) -> Batch:

@@ -138,7 +138,7 @@ def _take_chord(stack: Stack, i: int) -> None:
     """Let contact i follow the chord of its curve up to where this is faint."""
     ratio = stack.faint_below[i] / stack.curve_unit[i]
     stack.faint[i] = 1
-    stack.faint_since[i] = stack.impulse[i]
+    stack.faint_impulse[i] = 0.0
     steepness: float = ratio ** (stack.curve_exponent[i] - 1.0)
     stack.rate[i] = stack.curve_force[i] * max(steepness, _SOFTEST) / stack.curve_unit[i]
 
@@ -168,6 +168,9 @@ def _fade(stack: Stack, i: int) -> None:
     budget = chord_budget(stack, i)
     if work <= rate * budget or work <= _NO_WORK / stack.number[2] * budget * stack.number[1]:
         _take_chord(stack, i)
+        if stack.law[i] == POWER:  # its peak has been, see `record_crests`
+            stack.phase[i] = RELEASING
+            stack.top[i] = math.inf
     else:
         shorter: float = _SHORTER ** (1.0 / (stack.curve_exponent[i] + 1.0))
         stack.faint_below[i] = shorter * compression
@@ -251,7 +254,7 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
     elif kind == FAINT:
         _fade(stack, i)
     elif compression <= _AT_ITS_END * stack.faint_below[i]:
-        stack.faint_since[i] = stack.impulse[i]
+        stack.faint_impulse[i] = 0.0
     else:
         stack.faint[i] = 0
         stack.faint_below[i] = min(stack.faint_below[i], compression)

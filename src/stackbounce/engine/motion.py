@@ -196,10 +196,10 @@ def compression_series(
     Returns the order, the order of the rest and its bound, and the round-off of the compression and
     of its rate.
     """
-    for k in range(TERMS):
-        out[k] = 0.0
     first = stack.first[i]
     if stack.phase[i] < COMPRESSING:
+        for k in range(TERMS):
+            out[k] = 0.0
         noise = 8.0 * EPSILON * abs(stack.compression[i])
         if fly_alike(stack, i):
             out[0] = compression_at(stack, i, time)
@@ -258,7 +258,10 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
     for b in range(first, last + 1):
         stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)
     for i in range(low, high):
-        stack.impulse[i] += contact_impulse(stack, i, s)
+        if stack.setting[2] == 1 or stack.faint[i] == 1:
+            impulse = contact_impulse(stack, i, s)
+            stack.impulse[i] += impulse
+            stack.faint_impulse[i] += impulse
         stack.compression[i] = pressed(stack, i, s)
     stack.anchor[first] = time
 
@@ -279,8 +282,10 @@ def _enter(stack: Stack, low: int, high: int) -> int:
     Returns in which root of time the motion has a power series.
     """
     for i in range(low, high):
-        twice = 2.0 * stack.curve_exponent[i]
-        if stack.faint[i] == 0 or stack.compression[i] != 0.0 or twice != math.floor(twice):
+        exponent = stack.curve_exponent[i]
+        twice = 2.0 * exponent
+        smooth = exponent == 0.0 or exponent == 1.0
+        if smooth or stack.compression[i] != 0.0 or twice != math.floor(twice):
             continue
         rate = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
         if twice < ENTERED and rate > _ENTERS * stack.number[1]:

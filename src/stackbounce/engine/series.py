@@ -42,28 +42,40 @@ def fall(
 ) -> tuple[float, bool]:
     """Find when ``sign (a - level) + band`` of a polynomial falls into [0, band/2], up to a limit.
 
-    From bounds on the curvature up to the limit follow parabolas that stay below; their roots
-    approach that time from the safe side, as Newton's. Returns the limit, and False, if it comes
-    later; an earlier time, and False, before which it has not come if that takes too long.
+    That it comes later is mostly plain from the bound of `safe_step`. If not, a bound on the
+    curvature within reach gives a parabola that stays below; such parabolas' roots approach that
+    time from the safe side, as Newton's. Returns the limit, and False, if it comes later; an
+    earlier time, and False, before which it has not come if that takes too long.
     """
-    rest, bend = 0.0, 0.0
-    for k in range(n, 1, -1):
-        rest = abs(a[k]) + limit * rest
-        bend = k * (k - 1) * abs(a[k]) + limit * bend
-    s, f, slope, half = 0.0, sign * (a[0] - level) + band, sign * a[1], rest
+    slope = 0.0
+    for k in range(n, 0, -1):
+        slope = sign * a[k] + min(0.0, slope * limit)
+    s, f, reach = 0.0, sign * (a[0] - level) + band, limit
+    if f + min(0.0, slope * limit) > 0.5 * band:
+        return limit, False
+    slope = sign * a[1]
     for _ in range(_PARABOLAS):
         if f <= 0.5 * band:
             return s, True
-        root = math.sqrt(slope * slope + 4.0 * half * f)
+        end = min(s + reach, limit)
+        bend = 0.0
+        for k in range(n, 1, -1):
+            bend = k * (k - 1) * abs(a[k]) + end * bend
+        root = math.sqrt(slope * slope + 2.0 * bend * f)
+        step = limit
         if slope < 0.0:
-            s += 2.0 * f / (root - slope)
-        elif half > 0.0:
-            s += (root + slope) / (2.0 * half)
+            step = 2.0 * f / (root - slope)
+        elif bend > 0.0:
+            step = (root + slope) / bend
+        if s + step >= end:
+            if end == limit:
+                return limit, False
+            s, reach = end, 2.0 * reach
         else:
-            s = limit
-        if not s < limit:
-            return limit, False
-        f, slope, half = 0.0, 0.0, 0.5 * bend
+            s += step
+            if 4.0 * step < reach:
+                reach *= 0.25
+        f, slope = 0.0, 0.0
         for k in range(n, -1, -1):
             slope = f + s * slope
             f = a[k] + s * f

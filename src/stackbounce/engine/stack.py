@@ -33,7 +33,8 @@ class Stack(NamedTuple):
     gain_rate: Floats  # ... and d
     scale: Floats  # a typical compression of the contact
     number: Floats  # [gravity, reference speed, tolerance of a velocity per step, faint work]
-    # [order of the power series by which nonlinear clusters move, 1 where there can be any]
+    # [order of the power series by which nonlinear clusters move, 1 where there can be any,
+    # 1 where the peaks and the impulses of forces are asked for]
     setting: Integers
     # the state
     velocity: Floats
@@ -49,7 +50,7 @@ class Stack(NamedTuple):
     top: Floats  # where an unloading curve joins the loading curve; infinite on the latter
     faint_below: Floats
     faint: Integers  # 1 where the force follows the chord of its curve below faint_below
-    faint_since: Floats  # impulse of the interval when the contact took that chord
+    faint_impulse: Floats  # what the contact has exerted since it took that chord
     touching: Floats  # since when a contact has been touching without a force; nan if it is not
     released: Floats  # when a contact last came open
     pushed: Integers  # 1 where a ball at an open contact has been pressed since the last event
@@ -146,7 +147,7 @@ class Samples(NamedTuple):
     stored: Floats
 
 
-_PER_STACK = {"number": 4, "setting": 2, "counter": 6, "clock": 2}
+_PER_STACK = {"number": 4, "setting": 3, "counter": 6, "clock": 2}
 _PER_SERIES = {"scratch": TERMS, "watched": TERMS, "margin": TERMS, "changed": TERMS}
 _PER_SLOT = ("due", "event", "heap", "place")  # two slots for each ball
 _PER_MODE = ("shape", "rows")

@@ -13,18 +13,18 @@ exponential, whatever its eigenvalues; the tolerance is then round-off and no ch
 
 import math
 
-from stackbounce.engine.codes import DAMPED
-from stackbounce.engine.contacts import stored_energy
+from stackbounce.engine.codes import DAMPED, POWER
+from stackbounce.engine.contacts import force, stored_energy
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.series import ORDER, ROOT_ORDER, value
 from stackbounce.engine.stack import Stack
 
-_TINY = 1e-300  # keeps a standstill from dividing by zero
 _EXACT = 1e-16  # of its own speed: what a linear cluster's series leaves out per step
 _ROUGH = 1e-3  # of its own speed: what any other, however slow, leaves out at most ...
 _SLOW = 1e-13  # ... though not less than this part of the reference speed
 ENTERED = 8.0  # twice the exponent: from there on a series in the root of time gains nothing
 _BEYOND = 1.25  # times a compression: by how much it may change in a step, and open at its end
+_CLEAR = 50.0  # times the tolerance of a step: how small a power's last term has to be for more
 _HALVINGS = 26  # of such a part: a crest is flat
 _PARTS = 4  # of a step, in each of which a force has no more than one crest
 
@@ -51,8 +51,7 @@ def expand(stack: Stack, low: int, high: int) -> float:
     order = ORDER if exact else stack.setting[0]
     if root == 2:
         order = min(2 * order, ROOT_ORDER)
-    own_speed = _own_speed(stack, low, high)
-    speed = own_speed if exact else stack.number[1]
+    speed = _own_speed(stack, low, high) if exact else stack.number[1]
     for b in range(bottom, high):
         stack.velocity_series[b][0] = stack.velocity[b]
         stack.velocity_series[b][1] = 0.0
@@ -64,18 +63,21 @@ def expand(stack: Stack, low: int, high: int) -> float:
         step = max(step, 100.0 * stack.scale[i] / stack.number[1])
     for i in range(low, high):
         if stack.compression[i] > 0.0 and stack.faint[i] == 0 and stack.curve_exponent[i] > 0.0:
-            step = min(step, _steep_step(stack, i, order // root))
+            step = min(step, _steep_step(stack, i, order, root))
     allowed = speed * (_EXACT if exact else stack.number[2])
-    if not exact:
+    if not exact and allowed > _ROUGH * _fastest(stack, low, high):
+        own_speed = _own_speed(stack, low, high)
         allowed = min(allowed, max(_ROUGH * own_speed, _SLOW * speed))
     # in the root of time all but every fifth term may be 0
+    before, x = 0.0, step if root == 1 else math.sqrt(step)
     for k in range(order - 1 if root == 1 else order - 4, order + 1):
         size = 0.0
         for b in range(bottom, high):
             size = max(size, abs(stack.velocity_series[b][k]))
-        if size > 0.0:
-            step = min(step, (allowed / size) ** (root / k))
-    return step
+        if size * x > before:  # else this term is as small as the last one
+            x = min(x, (allowed / size) ** (1.0 / k))
+        before = size
+    return min(step, x**root)
 
 
 @kernel
@@ -93,10 +95,11 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
     gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
     gain_rate, mass = stack.gain_rate, stack.mass
     for k in range(order + 1):
+        share = root / (k + root)
         for i in range(low, high):
             c, f = c_all[i], f_all[i]
             rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
-            c[k + root] = root * rate / (k + root)
+            c[k + root] = share * rate
             damped, exponent = law[i] == DAMPED, exponents[i]
             elastic = 0.0
             if faint[i] == 1 or exponent == 1.0:
@@ -109,11 +112,11 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
                 elif k == 0:
                     elastic = u[0] = (c[0] / curve_unit[i]) ** exponent
                 else:
-                    total, weight = 0.0, exponent * k
+                    part, total, weight = 1.0 / (k * c[0]), 0.0, exponent * k
                     for j in range(k):
                         total += weight * (c[k - j] * u[j])
                         weight -= exponent + 1.0
-                    elastic = u[k] = total / (k * c[0])
+                    elastic = u[k] = part * total
                 elastic *= curve_force[i]
             if damped:
                 gain = gains[i]
@@ -137,10 +140,11 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
                 net += f_all[b][k]
             if b + 1 < high:
                 net -= f_all[b + 1][k]
-            acceleration = net / mass[b]
+            mobility = share / mass[b]
+            change = mobility * net
             if k == 0:
-                acceleration -= stack.number[0]
-            v_all[b][k + root] = root * acceleration / (k + root)
+                change -= share * stack.number[0]
+            v_all[b][k + root] = change
 
 
 @kernel
@@ -163,18 +167,37 @@ def _entering_term(c: Floats, unit: float, exponent: float, k: int, u: Floats) -
 
 
 @kernel
-def _steep_step(stack: Stack, i: int, order: int) -> float:
+def _steep_step(stack: Stack, i: int, order: int, root: int) -> float:
     """Return the time in which a power of contact i's compression may change by e^(order/2).
 
     A steeper force grows from nothing to everything past the terms that a series ends with. Nor
-    may the compression change by much more than itself, beyond which the power has no series.
+    may the compression change by much more than itself: where it is 0 the power has no series. One
+    that rises may go further, as far as the last term of its power is small.
     """
-    if stack.curve_exponent[i] == 1.0:
+    exponent = stack.curve_exponent[i]
+    if exponent == 1.0:
         return math.inf
-    reach = min(0.5 * order / stack.curve_exponent[i], _BEYOND) * stack.compression[i]
-    first = abs(stack.compression_series[i][1])
-    second = abs(stack.compression_series[i][2])
-    return 2.0 * reach / (first + math.sqrt(first * first + 4.0 * second * reach) + _TINY)
+    compression, c = stack.compression[i], stack.compression_series[i]
+    furthest = 0.5 * order / root / exponent * compression
+    reach = min(furthest, _BEYOND * compression)
+    near = _time_to_rise(abs(c[1]), abs(c[2]), reach)
+    if c[1] <= 0.0 or root == 2:
+        return near
+    far = min(_time_to_rise(c[1], c[2], furthest), _time_to_rise(-c[1], -c[2], reach))
+    first, last = stack.power_series[i][0], abs(stack.power_series[i][order])
+    if far > near and last > 0.0:
+        far = min(far, (_CLEAR * stack.number[2] * first / last) ** (1.0 / order))
+    return max(near, far)
+
+
+@kernel
+def _time_to_rise(first: float, second: float, reach: float) -> float:
+    """Return when first t + second t^2 comes to a level above 0, if ever."""
+    discriminant = first * first + 4.0 * second * reach
+    if discriminant < 0.0 or (first <= 0.0 and second <= 0.0):
+        return math.inf
+    root = math.sqrt(discriminant)
+    return 2.0 * reach / (first + root) if first >= 0.0 else (root - first) / (2.0 * second)
 
 
 @kernel
@@ -183,25 +206,36 @@ def _own_speed(stack: Stack, low: int, high: int) -> float:
 
     An overdamped contact ends at a far smaller speed than it began: it counts, not the first one.
     """
-    fastest, mass, stored = 0.0, 0.0, 0.0
+    mass, stored = 0.0, 0.0
     for b in range(max(low - 1, 0), high):
-        fastest = max(fastest, abs(stack.velocity[b]))
         mass += stack.mass[b]
     for i in range(low, high):
         stored += stored_energy(stack, i, stack.compression[i])
-    return max(fastest, math.sqrt(2.0 * stored / mass))
+    return max(_fastest(stack, low, high), math.sqrt(2.0 * stored / mass))
+
+
+@kernel
+def _fastest(stack: Stack, low: int, high: int) -> float:
+    fastest = 0.0
+    for b in range(max(low - 1, 0), high):
+        fastest = max(fastest, abs(stack.velocity[b]))
+    return fastest
 
 
 @kernel
 def record_crests(stack: Stack, low: int, high: int, s: float) -> None:
-    """Keep the largest force and compression of damped contacts up to s in their series."""
+    """Keep the largest force and compression of contacts without a history up to s."""
     for i in range(low, high):
+        if stack.setting[2] == 0 or stack.law[i] not in (POWER, DAMPED):
+            continue
+        order = stack.order[i]
+        crest = _crest(stack.compression_series[i], order + stack.root[stack.first[i]], s)
+        stack.peak_compression[i] = max(stack.peak_compression[i], crest)
         if stack.law[i] == DAMPED:
-            order = stack.order[i]
             crest = _crest(stack.force_series[i], order, s)
-            stack.peak_force[i] = max(stack.peak_force[i], crest)
-            crest = _crest(stack.compression_series[i], order + stack.root[stack.first[i]], s)
-            stack.peak_compression[i] = max(stack.peak_compression[i], crest)
+        else:
+            crest = force(stack, i, crest, 0.0)
+        stack.peak_force[i] = max(stack.peak_force[i], crest)
 
 
 @kernel

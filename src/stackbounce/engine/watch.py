@@ -34,6 +34,7 @@ from stackbounce.engine.codes import (
     LOSSY,
     OPEN,
     PEAK,
+    POWER,
     PRESSED,
     RELEASE,
     RELEASING,
@@ -94,7 +95,10 @@ def look(stack: Stack, i: int, time: float) -> None:
             stack.touching[i] = math.nan
         if not _never_meets(stack, i, a, order):
             kind = TOUCH
-            wait, reached = _wait(stack, a, order, power, tail, 0.0, -1.0, 0.0, band, horizon)
+            if root == 2 and _is_pushed(stack, i, a, order):
+                wait, reached = 0.0, True
+            else:
+                wait, reached = _wait(stack, a, order, power, tail, 0.0, -1.0, 0.0, band, horizon)
         _note(stack, i, time, wait, reached, kind, horizon)
         return
     still = rate_noise < _NOTHING * stack.number[1] and noise < _NOTHING * stack.scale[i]
@@ -102,30 +106,34 @@ def look(stack: Stack, i: int, time: float) -> None:
         _note(stack, i, time, 0.0, True, RELEASE, horizon)
         return
     damped = stack.law[i] == DAMPED
-    if damped or phase == RELEASING:
+    # the peaks of a force that knows no history are read off its series, see `record_crests`
+    plain = stack.law[i] == POWER and stack.modal[stack.first[i]] == 0
+    if damped or plain or phase == RELEASING:
         level, kind = _lower_level(stack, i)
         wait, reached = _wait(stack, a, order, power, tail, 0.0, 1.0, level, band, horizon)
-    level, upper_kind = _upper_level(stack, i)
+    level, upper_kind = _upper_level(stack, i, plain)
     if level < math.inf:
-        other, there = _wait(stack, a, order, power, tail, 0.0, -1.0, level, band, horizon)
+        left = min(wait, horizon)
+        other, there = _wait(stack, a, order, power, tail, 0.0, -1.0, level, band, left)
         if other < wait:
             wait, reached, kind = other, there, upper_kind
     if stack.faint[i] == 1 and phase >= COMPRESSING:
-        other, there = _chord_wait(stack, i, time, order, power, tail, horizon)
+        other, there = _chord_wait(stack, i, time, order, power, tail, min(wait, horizon))
         if other < wait:
             wait, reached, kind = other, there, PRESSED
     if damped:
         noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
         speed = stack.speed[i] + rate
         rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * second
-        other, there = _gain_wait(stack, i, order, power, tail, noise, rate_noise, root, horizon)
+        left = min(wait, horizon)
+        other, there = _gain_wait(stack, i, order, power, tail, noise, rate_noise, root, left)
         turn_kind = RESUMED if phase == SLACK else CLIPPED
-    elif phase == COMPRESSING or stack.law[i] == LOSSY:
+    elif not plain and (phase == COMPRESSING or stack.law[i] == LOSSY):
         for k in range(order - root + 1):
             a[k] = (k + root) * a[k + root] / root
-        sign = 1.0 if phase == COMPRESSING else -1.0
+        sign, left = 1.0 if phase == COMPRESSING else -1.0, min(wait, horizon)
         other, there = _wait(
-            stack, a, order - root, power - 1, power * tail, 0.0, sign, 0.0, rate_band, horizon
+            stack, a, order - root, power - 1, power * tail, 0.0, sign, 0.0, rate_band, left
         )
         turn_kind = PEAK if phase == COMPRESSING else DIP
     else:
@@ -147,13 +155,13 @@ def _lower_level(stack: Stack, i: int) -> tuple[float, int]:
 
 
 @kernel
-def _upper_level(stack: Stack, i: int) -> tuple[float, int]:
+def _upper_level(stack: Stack, i: int, plain: bool) -> tuple[float, int]:
     """Return the compression above which contact i changes, and how it does."""
     level, kind = math.inf, LOOK
     phase = stack.phase[i]
     if phase == SLACK:
         return level, kind
-    if phase == (COMPRESSING if stack.law[i] == LOSSY else RELEASING):
+    if not plain and phase == (COMPRESSING if stack.law[i] == LOSSY else RELEASING):
         level, kind = stack.top[i], RELOADED
     if stack.faint[i] == 1 and stack.faint_below[i] < level:
         level, kind = stack.faint_below[i], PRESSED
@@ -168,7 +176,7 @@ def _chord_wait(
     spent = stack.changed
     first = stack.first[i]
     s = time - stack.anchor[first]
-    spent[0] = stack.impulse[i] + contact_impulse(stack, i, s) - stack.faint_since[i]
+    spent[0] = stack.faint_impulse[i] + contact_impulse(stack, i, s)
     if stack.modal[first] == 1:
         order += 1
         power += 1
@@ -176,10 +184,12 @@ def _chord_wait(
         for k in range(order, 0, -1):
             spent[k] = stack.rate[i] * stack.watched[k - 1] / k
     else:
-        order = stack.order[first] + 1
-        shift(stack.force_series[i], order - 1, s, stack.scratch)
-        for k in range(1, order + 1):
-            spent[k] = stack.scratch[k - 1] / k
+        root = stack.root[first]
+        order = stack.order[first] + root
+        shift(stack.force_series[i], order - root, s, stack.scratch)
+        spent[1] = 0.0  # stays so in a series in the root of time
+        for k in range(root, order + 1):
+            spent[k] = root * stack.scratch[k - root] / k
     budget = chord_budget(stack, i)
     band = 0.1 * budget
     return _wait(stack, spent, order, power, tail, 0.0, -1.0, budget, band, horizon)
@@ -244,6 +254,17 @@ def _note(
     stack.event[i] = kind if reached else LOOK
     due = time + wait if wait < horizon else math.inf
     schedule(stack.due, stack.heap, stack.place, i, due)
+
+
+@kernel
+def _is_pushed(stack: Stack, i: int, a: Floats, order: int) -> bool:
+    """Tell whether two balls that touch, at equal speeds, are being pushed together."""
+    if math.isnan(stack.touching[i]):
+        return False
+    for k in range(order + 1):
+        if a[k] != 0.0:
+            return a[k] > 0.0
+    return False
 
 
 @kernel

@@ -140,8 +140,8 @@ def _arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
 
 
 def _new_arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
-    from stackbounce.engine.structure import structure
+    from stackbounce.engine.structure import Structure
 
     stack, room = in_one_room(new_rigid_stack(balls) if rigid else new_stack(balls))
     log = np.zeros(max(_LOG_ROWS, balls) * LOG_COLUMNS)
-    return structure(stack), room, as_arrays(new_samples([], balls)), log
+    return Structure(stack), room, as_arrays(new_samples([], balls)), log
