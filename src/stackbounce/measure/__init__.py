@@ -10,13 +10,13 @@ heights     bounce heights -> restitutions
 press/      press curve -> stiffness, exponent, loss
 stiffness   contact time -> stiffness, or the constants of any law
 analysis    which of these a file needs
-assembly    what was found -> a ball to drop
+assembly    what was found -> a law, a ball to drop
 synthetic/  from the simulator to noisy records
 =========== ========================================================================
 """
 
 from stackbounce.measure.analysis import analyse
-from stackbounce.measure.assembly import one_ball
+from stackbounce.measure.assembly import one_ball, one_law
 from stackbounce.measure.bounces import bounces
 from stackbounce.measure.heights import heights
 from stackbounce.measure.press import press, series_stiffness, split_series
@@ -35,6 +35,7 @@ __all__ = [
     "knocks",
     "law_constants",
     "one_ball",
+    "one_law",
     "press",
     "read",
     "series_stiffness",

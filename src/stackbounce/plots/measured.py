@@ -13,6 +13,7 @@ __all__ = ["measured"]
 _PICTURES = {
     "Knocks": "measured_sound",
     "Bounces": "measured_bounces",
+    "Heights": "measured_heights",
     "Tracks": "measured_track",
     "Waveform": "measured_waveform",
     "Press": "measured_press",
@@ -26,7 +27,7 @@ def measured(data: Any, found: Any) -> "Figure":
     ----------
     data : xarray.Dataset
         What was measured, as `read` gives it.
-    found : Knocks, Bounces, Tracks, Waveform or Press
+    found : Knocks, Bounces, Heights, Tracks, Waveform or Press
         What was found.
 
     Returns
