@@ -120,12 +120,17 @@ def law(text: str) -> "tuple[type[ContactLaw], dict[str, float]]":
 
 
 def run(
-    paths: Sequence[Path], reading: Mapping[str, Any], known: Mapping[str, Any]
+    paths: Sequence[Path],
+    alone: Path | None,
+    reading: Mapping[str, Any],
+    known: Mapping[str, Any],
 ) -> list[Measured]:
-    """Read each file, and find in it what its kind holds."""
+    """Read each file, and find in it what its kind holds, with the record of one ball alone."""
     from stackbounce.measure import analyse, read
 
     done = []
+    if alone is not None:
+        known = {**known, "alone": read(alone, **reading)}
     for path in paths:
         data = read(path, **reading)
         try:

@@ -23,8 +23,8 @@ Files = Annotated[
     typer.Argument(
         metavar="FILE...",
         readable=False,
-        help="Sound, force waveform, video track, times or heights of bounces, or press curve, as "
-        "Tracker, phyphox, Vernier, PASCO, oscilloscopes and spreadsheets write them.",
+        help="Sound, force waveform, video track, acceleration, times or heights of bounces, or "
+        "press curve, as Tracker, phyphox, Vernier, PASCO, oscilloscopes or spreadsheets write it.",
         show_default=False,
     ),
 ]
@@ -108,6 +108,16 @@ Floor = Annotated[
         rich_help_panel=_DROP,
     ),
 ]
+Alone = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        readable=False,
+        help="The floor's force under the lower ball alone, from the same height: tells the gap of "
+        "the stack that FILE is of.",
+        rich_help_panel=_DROP,
+    ),
+]
 TimeConstant = Annotated[
     str | None,
     typer.Option(
@@ -128,8 +138,8 @@ Holds = Annotated[
     str | None,
     typer.Option(
         metavar="KIND",
-        help="What it holds, where it is unsure: sound, knocks, bounces, track, waveform, 'press "
-        "curve' or table.",
+        help="What it holds, where it is unsure: sound, knocks, bounces, track, waveform, "
+        "acceleration, 'press curve' or table.",
         rich_help_panel=_FILE,
     ),
 ]
@@ -182,6 +192,7 @@ def measure(
     height: Height = None,
     speed: Speed = None,
     floor: Floor = None,
+    alone: Alone = None,
     time_constant: TimeConstant = None,
     gravity: Gravity = None,
     holds: Holds = None,
@@ -222,11 +233,12 @@ def measure(
         "table": table,
         "run": run,
     }
-    done = measured.run(files or [], reading, ball | drop | points)
-    done += measured.typed(heights, contact, ball | drop | points)
+    known = ball | contact | drop | points
+    done = measured.run(files or [], alone, reading, known)
+    done += measured.typed(heights, contact, known)
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
-    found = None if chosen is None else measured.constants(chosen, done, ball | contact | drop)
+    found = None if chosen is None else measured.constants(chosen, done, known)
     saved = {} if save is None else measured.save(done, found, save, ball | {"name": name})
     if plot is not None:
         draw(lambda: measured.picture(done), plot)

@@ -3,9 +3,12 @@
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.measure.accelerometer import accelerometer
 from stackbounce.measure.bounces import bounces
+from stackbounce.measure.floor_gap import floor_gap
 from stackbounce.measure.heights import Place, above_bottom, heights, lowest_point, places
 from stackbounce.measure.press import press
+from stackbounce.measure.sensor_gap import SensorGap, sensor_gap
 from stackbounce.measure.sound import knocks
 from stackbounce.measure.track import Tracks, track
 from stackbounce.measure.waveform import waveform
@@ -29,6 +32,9 @@ def analyse(
     height_error: float | None = None,
     repeated: bool = False,
     floor: float | None = None,
+    alone: "xr.Dataset | None" = None,
+    contact_time: "float | UFloat | None" = None,
+    restitution: "float | UFloat | None" = None,
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> tuple[Any, ...]:
@@ -55,6 +61,10 @@ def analyse(
         Whether a table's heights after the first are one bounce's, from drop after drop.
     floor : float, optional
         Of a track of one ball: how high the floor is, in m as tracked.
+    alone : xarray.Dataset, optional
+        The floor's force under the lower ball alone, for that under a stack: tells the gap.
+    contact_time, restitution : float or ufloat, optional
+        Of the lower ball alone, in s and as a number, for the gap of a stack.
     time_constant : float, optional
         Of a piezo sensor's droop, in s, which is then undone.
     gravity : float, optional
@@ -64,8 +74,10 @@ def analyse(
     -------
     tuple
         Of a sound `Bounces` and `Knocks`; of knock times and of phyphox's bounces `Bounces`; of a
-        track `Tracks`; of a force waveform `Waveform`; of a press curve `Press`; of a table with
-        one column of heights, the drop's above the bounces', `Heights`.
+        track `Tracks`; of an acceleration `Accelerometer`; of a force waveform `Waveform`, with a
+        second sensor between two balls `SensorGap` before it, and with `alone` `FloorGap` after it;
+        of a press curve `Press`; of a table with one column of heights, the drop's above the
+        bounces', `Heights`.
 
     Raises
     ------
@@ -97,7 +109,14 @@ def analyse(
     if holds == "track":
         return (_tracked(data, floor, places(measured_to)[1], diameter, gravity),)
     if holds == "waveform":
-        return (waveform(data, mass=mass, impact_speed=speed, time_constant=time_constant),)
+        one = waveform(data, mass=mass, impact_speed=speed, time_constant=time_constant)
+        if speed is None and height is not None:
+            speed = (2.0 * gravity * height) ** 0.5
+        told = {"impact_speed": speed, "restitution": restitution, "time_constant": time_constant}
+        gap = () if alone is None else (floor_gap(one, alone, mass=mass, **told),)
+        return (*_by_two_sensors(data, speed, contact_time), one, *gap)
+    if holds == "acceleration":
+        return (accelerometer(data, gravity=gravity),)
     if holds == "press curve":
         return (press(data),)
     if holds == "table" and "y" in data:
@@ -111,8 +130,16 @@ def analyse(
             repeated=repeated,
         )
         return (found,)
-    kinds = "sound, knocks, bounces, track, waveform, press curve"
+    kinds = "sound, knocks, bounces, track, waveform, acceleration, press curve, table of heights"
     raise InvalidValue(f"there is no analysis of {holds}: tell what it holds, one of {kinds}")
+
+
+def _by_two_sensors(data: "xr.Dataset", speed: Any, contact_time: Any) -> tuple[SensorGap, ...]:
+    """Return the gap of two balls if the record's second channel feels them touch."""
+    try:
+        return (sensor_gap(data, impact_speed=speed, contact_time=contact_time),)
+    except InvalidValue:  # one channel, or one that is of something else
+        return ()
 
 
 def _tracked(

@@ -6,6 +6,7 @@ from typing import Any
 
 from stackbounce.calibrate.inverse import needed_by
 from stackbounce.errors import InvalidValue
+from stackbounce.measure.accelerometer import Accelerometer
 from stackbounce.measure.bounces import Bounces
 from stackbounce.measure.heights import Heights
 from stackbounce.measure.stiffness import LawConstants, law_constants
@@ -80,9 +81,9 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
         The law's class or its name, such as ``"HuntCrossley"``.
     found : sequence
         What the analyses returned. Taken are the contact time of a `Waveform`; the mean restitution
-        of `Bounces` and `Heights`, and that of the first bounce of a `Tracks` of one ball; the
-        impact speed that a `Tracks` has or the one that belongs to a drop height. Where two tell
-        the same, the later one counts.
+        of `Bounces`, `Heights` and an `Accelerometer`, and that of the first bounce of a `Tracks`
+        of one ball; the impact speed that a `Tracks` has or the one that belongs to a drop height.
+        Where two tell the same, the later one counts.
     **given
         What is known otherwise, and counts before what was found: the arguments of
         `law_constants`.
@@ -137,6 +138,10 @@ def _told_by(found: Any) -> dict[str, Any]:
         case Heights():
             told["restitution"] = found.mean
             told["impact_speed"] = (2.0 * STANDARD_GRAVITY * found.drop_height) ** 0.5
+        case Accelerometer():
+            told["restitution"] = found.mean
+            told["impact_speed"] = found.impact_speeds[0] if found.fall is not None else None
+            told["contact_time"] = found.contact_times[0] if found.fall is not None else None
         case Tracks():
             told["impact_speed"] = found.balls[0].impact_speeds[0]
             if len(found.balls) == 1:
