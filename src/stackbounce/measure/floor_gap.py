@@ -168,12 +168,10 @@ class _Fall(NamedTuple):
 
     def of(self, time: float) -> float:
         """Return the force integrated twice, up to a time in s since the touch."""
-        if time <= 0.0:
-            return 0.0
+        if time <= 0.0 or math.isinf(time):
+            return time
         flown = max(time - self.lasting, 0.0)
-        down = (
-            float(np.interp(time - flown, self.times, self.twice)) if math.isfinite(time) else 0.0
-        )
+        down = float(np.interp(time - flown, self.times, self.twice))
         return down + float(self.once[-1]) * flown
 
 
@@ -182,9 +180,11 @@ def _limited(value: Any, limits: tuple[float, float]) -> Any:
     low, high = limits
     if value is not None:
         return value
+    if math.isinf(high):
+        return "unknown"
     if low <= 0.0:
         return f"below {high:.2g}"
-    return f"above {low:.2g}" if math.isinf(high) else f"{low:.2g} to {high:.2g}"
+    return f"{low:.2g} to {high:.2g}"
 
 
 def _ufloat(value: float, error: float) -> Any:
@@ -249,14 +249,21 @@ def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, fl
         return (0.0, high), [f"the forces part early: {why}"]
     if kink.time > 0.0:
         return (low, high), []
-    late, back = _LATE * lasting, _thrown_back(both, lasting)
-    words = (
-        "the force is that of the lower ball alone until that leaves the floor: the second ball "
-    )
+    if kink.pressed:
+        why = "the second ball came before the lower one left the floor, too faintly to tell when"
+        return (0.0, lasting), [why]
+    back = _thrown_back(both, lasting)
     if back is None:
-        return (late, math.inf), [words + "came when little force was left, or later, or never"]
-    words += "came when little force was left, or threw it back afterwards: only limits can be told"
-    return (late, back), [words]
+        why = (
+            "no second ball is seen while the lower one is on the floor: it came too late, or is "
+            "too light for this noise, and the gap cannot be told"
+        )
+        return (0.0, math.inf), [why]
+    why = (
+        "the force is that of the lower ball alone until that leaves the floor, and then it was "
+        "thrown back: the second ball came late, and only limits can be told"
+    )
+    return (_LATE * lasting, back), [why]
 
 
 def _thrown_back(both: Waveform, lasting: float) -> float | None:

@@ -22,6 +22,8 @@ _POWERS, _POWER, _POWER_CHANGE, _POWER_ERROR = np.linspace(2.0, 4.8, 9), 4.4, -2
 _BENDS, _BEND, _BEND_CHANGE, _BEND_ERROR = np.linspace(-0.85, 0.15, 6), -0.78, 0.69, 0.16
 _SAME = 0.02  # relative: how well two drops from one height repeat each other's force
 _ROUNDS = 2
+_TAIL = (0.6, 1.25)  # of the contact time alone: where a second ball shows most
+_MATCHED, _DOUBTLESS = 0.005, 5.0  # how well the gain is known, relative; in errors
 _SEEN = 25.0  # χ² that a departure must explain
 
 
@@ -36,6 +38,8 @@ class Kink(NamedTuple):
         By which the force alone was moved, in s, and multiplied, to be that of the stack.
     until : float
         Up to where it was followed, in s since the touch.
+    pressed : bool
+        Whether the stack pressed harder at all than the lowest ball alone, late in its contact.
     """
 
     time: float
@@ -43,6 +47,7 @@ class Kink(NamedTuple):
     shift: float
     gain: float
     until: float
+    pressed: bool
 
 
 def find_kink(
@@ -79,7 +84,7 @@ def find_kink(
     width = min(2 * max(2, int(0.5 * _EVEN * lasting / step)) + 1, len(alone[1]))
     slope = savgol_filter(alone[1], width, 2, deriv=1, delta=step)
     shift, gain = 0.0, 1.0
-    found = Kink(math.nan, math.nan, shift, gain, lasting)
+    time, error, until = math.nan, math.nan, lasting
     for _ in range(_ROUNDS):
         departure = force - gain * np.interp(times - shift, *alone)
         until = _until(times, departure, lasting)
@@ -88,8 +93,15 @@ def find_kink(
         known = np.stack([np.interp(at, *alone), -np.interp(at, alone[0], slope)], axis=1)
         time, error, gain, moved = _search(times[used], force[used], known, noise, (until, lasting))
         shift += moved / gain
-        found = Kink(time, error, shift, gain, until)
-    return found
+    like = gain * np.interp(times - shift, *alone)
+    return Kink(time, error, shift, gain, until, _pressed(times / lasting, force, like, noise))
+
+
+def _pressed(share: Array, force: Array, like: Array, noise: float) -> bool:
+    """Tell whether a force is larger than another late in the contact, beyond doubt."""
+    late = (share > _TAIL[0]) & (share < _TAIL[1])
+    error = math.hypot(noise / math.sqrt(max(late.sum(), 1)), _MATCHED * float(like[late].mean()))
+    return float((force - like)[late].mean()) > _DOUBTLESS * error
 
 
 def _until(times: Array, departure: Array, lasting: float) -> float:

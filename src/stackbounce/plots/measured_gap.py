@@ -59,7 +59,9 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
                 fontsize=10,
             )
         else:
-            above.set_title(f"gap {found.rows()[0].value} m", loc="left", fontsize=10)
+            above.set_title(
+                f"gap between the balls: {found.rows()[0].value} m", loc="left", fontsize=10
+            )
         name = {"N": "force (N)", "V": "signal (V)"}.get(stack.unit, "signal")
         above.set_ylabel(name)
         below.set_ylabel("difference")
