@@ -130,13 +130,15 @@ def _search(
     bends = _BEND + _BEND_CHANGE * tried / lasting
     table = np.full((len(_POWERS), len(_BENDS), _TIMES), np.inf)
     for i, power in enumerate(_POWERS):
+        rise = since**power / noise
+        plain, bent = (_beside(base, one) for one in (rise, rise * since))
+        along = left @ plain, left @ bent
+        size = np.sum(plain**2, axis=0), np.sum(plain * bent, axis=0), np.sum(bent**2, axis=0)
         for j, bend in enumerate(_BENDS):
             prior = ((power - powers) / _POWER_ERROR) ** 2 + ((bend - bends) / _BEND_ERROR) ** 2
-            columns = _padded(since**power * (1.0 + bend * since) / noise)
-            columns -= base @ (base.T @ columns)
-            along, size = left @ columns, np.sum(columns**2, axis=0)
-            gained = np.where(along > 0.0, along**2 / np.maximum(size, 1e-300), 0.0)
-            table[i, j] = without - gained + prior
+            pressing = np.maximum(along[0] + bend * along[1], 0.0)
+            whole = size[0] + 2.0 * bend * size[1] + bend**2 * size[2]
+            table[i, j] = without - pressing**2 / np.maximum(whole, 1e-300) + prior
     least = float(table.min())
     i, j, k = (int(place) for place in np.unravel_index(int(table.argmin()), table.shape))
     best = _padded(since[:, [k]] ** _POWERS[i] * (1.0 + _BENDS[j] * since[:, [k]]) / noise)
@@ -154,3 +156,10 @@ def _search(
 def _padded(columns: Array) -> Array:
     """Return columns with a row of zeros, in which the gain's prior has its own."""
     return np.concatenate([columns, np.zeros((1, columns.shape[1]))])
+
+
+def _beside(base: Array, columns: Array) -> Array:
+    """Return what of columns no gain and no shift can make."""
+    padded = _padded(columns)
+    beside: Array = padded - base @ (base.T @ padded)
+    return beside
