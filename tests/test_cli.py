@@ -80,22 +80,23 @@ def test_help_does_not_wait_for_heavy_libraries():
 
 
 @pytest.mark.parametrize(
-    ("arguments", "expected"),
+    ("arguments", "expected", "command"),
     [
-        (["simulat"], "No such command 'simulat'"),
-        (["balls", "--jsn"], "No such option"),
-        (["simulate"], "Missing argument"),
-        (["paper"], "Missing option '--out'"),
-        (["simulate", "B1", "--height"], "'--height' requires an argument"),
-        (["balls", "B1"], "unexpected extra argument"),
+        (["simulat"], "No such command 'simulat'", "stackbounce"),
+        (["balls", "--jsn"], "No such option", "stackbounce balls"),
+        (["simulate"], "Missing argument", "stackbounce simulate"),
+        (["paper"], "Missing option '--out'", "stackbounce paper"),
+        (["simulate", "B1", "--height"], "'--height' requires an argument", "stackbounce simulate"),
+        (["balls", "B1"], "unexpected extra argument", "stackbounce balls"),
+        (["measure", "--hight", "1m"], "No such option", "stackbounce measure"),
     ],
 )
-def test_wrong_usage_is_one_line(run, arguments, expected):
+def test_wrong_usage_is_one_line(run, arguments, expected, command):
     code, out, err = run(*arguments)
     assert (code, out) == (2, "")
     assert err.startswith("stackbounce: error: ")
     assert expected in err
-    assert err.endswith(" (see stackbounce --help)\n")
+    assert err.endswith(f" (see {command} --help)\n")
     assert err.count("\n") == 1
 
 

@@ -4,12 +4,13 @@ from shown import show
 
 import stackbounce as sb
 from stackbounce.measure.bounces import bounces
+from stackbounce.measure.heights import heights
 from stackbounce.measure.sound import knocks
 from stackbounce.measure.synthetic.falls import falls
 from stackbounce.measure.synthetic.sound import sound as recorded
 from stackbounce.measure.synthetic.track import track as tracked
 from stackbounce.measure.track import track
-from stackbounce.plots import measured_bounces, measured_sound, measured_track
+from stackbounce.plots import measured_bounces, measured_heights, measured_sound, measured_track
 
 FALL = falls(0.6, lambda speed: 0.86 - 0.025 * speed, bounces=14)
 STACK = sb.Drop(
@@ -34,6 +35,12 @@ def restitution():
     """Restitution of each bounce of that recording against impact speed."""
     found = knocks(_recording())
     show(measured_bounces.draw, found, bounces(found))
+
+
+def ruler():
+    """Heights that were read with a ruler."""
+    found = heights(1.0, [0.62, 0.39, 0.25], height_error=0.005)
+    show(measured_heights.draw, None, found)
 
 
 def one_ball():

@@ -3,8 +3,10 @@
 from shown import show
 
 import stackbounce as sb
+from stackbounce.measure.floor_gap import floor_gap
 from stackbounce.measure.synthetic.waveform import waveform as record_of
 from stackbounce.measure.waveform import waveform
+from stackbounce.plots import measured_gap
 from stackbounce.plots.measured_waveform import draw
 
 FLOOR, BETWEEN = sb.Hysteretic(56e3, restitution=0.78), sb.Spring(16e3)
@@ -28,6 +30,14 @@ def floor():
 def balls():
     """The force between the two."""
     _draw(RECORD[["voltage_2"]])
+
+
+def by_the_floor():
+    """The floor's force under both, and under B1 alone."""
+    alone = sb.Drop(PAIR.balls[:1], [FLOOR], height=0.2)
+    lower = record_of(alone, offset=0.1, seed=2, **SCOPE)
+    found = floor_gap(RECORD, lower, impact_speed=PAIR.reference_speed, restitution=0.78)
+    show(measured_gap.draw, RECORD, found)
 
 
 def collisions():

@@ -20,7 +20,7 @@ from stackbounce.model.laws import (
     Viscoelastic,
 )
 
-__all__ = ["calibrate"]
+__all__ = ["calibrate", "needed_by"]
 
 _Law = TypeVar("_Law", bound=ContactLaw)
 _Given = Mapping[str, float]
@@ -148,14 +148,35 @@ _EXPONENTS: dict[type[ContactLaw], float] = {
 }
 
 
-def _check_missing(law_class: type[ContactLaw], given: _Given) -> None:
+def needed_by(law_class: type[ContactLaw], exponent: float | None = None) -> list[str]:
+    """Return what `calibrate` must be given for a class, by the names of its arguments.
+
+    Parameters
+    ----------
+    law_class : type
+        The law's class.
+    exponent : float, optional
+        Where it is given; else the class's usual one.
+
+    Examples
+    --------
+    >>> needed_by(Hysteretic), needed_by(Hysteretic, 1.5)[-1]
+    (['mass', 'contact_time', 'restitution'], 'impact_speed')
+    """
     needed = ["restitution"] if law_class is Rigid else ["mass", "contact_time"]
     if law_class in (Dashpot, Viscoelastic, HuntCrossley, Hysteretic):
         needed.append("restitution")
     if law_class is PowerLaw:
         needed.append("exponent")
-    if law_class is HuntCrossley or given.get("exponent", 1.0) != 1.0:
+    if exponent is None:
+        exponent = _EXPONENTS.get(law_class, 1.0)
+    if law_class is HuntCrossley or exponent != 1.0:
         needed.append("impact_speed")
+    return needed
+
+
+def _check_missing(law_class: type[ContactLaw], given: _Given) -> None:
+    needed = needed_by(law_class, given.get("exponent"))
     missing = [name for name in needed if name not in given]
     if missing:
         raise InvalidValue(

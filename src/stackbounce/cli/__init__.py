@@ -4,14 +4,14 @@ import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
+from stackbounce.cli.measuring import EPILOG, measure
+from stackbounce.cli.options import AsJson, Height, Plot, Speed
+from stackbounce.cli.output import console
 from stackbounce.errors import InvalidValue, StackbounceError
-
-if TYPE_CHECKING:
-    from rich.console import Console
 
 __all__ = ["app", "main"]
 
@@ -21,8 +21,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
 
 
 @app.callback(invoke_without_command=True)
@@ -47,10 +45,6 @@ What = Annotated[
         show_default=False,
     ),
 ]
-Height = Annotated[
-    str | None, typer.Option(metavar="LENGTH", help="Height fallen from rest, such as 0.63m.")
-]
-Speed = Annotated[str | None, typer.Option(metavar="SPEED", help="Impact speed, such as 3.53m/s.")]
 Gap = Annotated[
     list[str] | None,
     typer.Option(metavar="LENGTH", help="Gap between two balls; once per pair, lowest first."),
@@ -74,9 +68,6 @@ Until = Annotated[
 ]
 Tolerance = Annotated[
     float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")
-]
-Plot = Annotated[
-    Path | None, typer.Option(metavar="FILE", readable=False, help="Draw it: .svg, .png or .pdf.")
 ]
 
 
@@ -113,7 +104,7 @@ def simulate(
     if as_json:
         typer.echo(machine.text(machine.simulation(chosen, result, textbook)))
     else:
-        show.simulation(_console(), chosen, result, textbook)
+        show.simulation(console(), chosen, result, textbook)
         if plot is not None:
             typer.echo(f"Picture: {plot}")
 
@@ -184,110 +175,10 @@ def sweep(
     if as_json:
         typer.echo(machine.text(swept.summary(done, out)))
     else:
-        swept.tell(_console(), done, out, plot)
+        swept.tell(console(), done, out, plot)
 
 
-@app.command(
-    epilog="For example: stackbounce measure bounces.wav --mass 57g --height 1m --save ball.toml, "
-    "then: stackbounce simulate ball.toml"
-)
-def measure(
-    files: Annotated[
-        list[Path],
-        typer.Argument(
-            metavar="FILE...",
-            readable=False,
-            help="Sound, force waveform, video track, times of bounces or press curve, as Tracker, "
-            "phyphox, Vernier, PASCO, oscilloscopes and spreadsheets write them.",
-            show_default=False,
-        ),
-    ],
-    mass: Annotated[
-        str | None, typer.Option(metavar="MASS", help="Of the ball, such as 57g.")
-    ] = None,
-    diameter: Annotated[
-        str | None, typer.Option(metavar="LENGTH", help="Of the ball, such as 66mm.")
-    ] = None,
-    name: Annotated[
-        str | None, typer.Option(metavar="NAME", help="Of the ball, for --save.")
-    ] = None,
-    height: Height = None,
-    speed: Speed = None,
-    time_constant: Annotated[
-        str | None,
-        typer.Option(metavar="TIME", help="Of a piezo sensor's droop, such as 0.1s: undoes it."),
-    ] = None,
-    gravity: Annotated[
-        str | None,
-        typer.Option(metavar="ACCELERATION", help="Where it was measured, such as 9.81m/s^2."),
-    ] = None,
-    holds: Annotated[
-        str | None,
-        typer.Option(
-            metavar="KIND",
-            help="What the file holds, where it is unsure: sound, knocks, bounces, track, "
-            "waveform or 'press curve'.",
-        ),
-    ] = None,
-    column: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="COLUMN=MEANING",
-            help="What a column is, by its name or its number from 1: 2=force; once per column.",
-        ),
-    ] = None,
-    unit: Annotated[
-        list[str] | None,
-        typer.Option(metavar="COLUMN=UNIT", help="Unit of a column: x=cm; once per column."),
-    ] = None,
-    table: Annotated[str | None, typer.Option(metavar="NAME", help="Which table of a zip.")] = None,
-    which_run: Annotated[
-        str | None, typer.Option("--run", metavar="RUN", help="Which of several runs in a file.")
-    ] = None,
-    save: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            readable=False,
-            help="Write the ball as a scenario for simulate: ball.toml.",
-        ),
-    ] = None,
-    plot: Plot = None,
-    as_json: AsJson = False,
-) -> None:
-    """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
-    from stackbounce.cli import machine, measured, output
-
-    if plot is not None:
-        output.check_picture(plot)
-        if len(files) > 1:
-            raise InvalidValue(f"--plot draws one file, got {len(files)}")
-    ball = measured.numbers(mass=mass, diameter=diameter)
-    about = measured.numbers(
-        height=height, speed=speed, time_constant=time_constant, gravity=gravity
-    )
-    if save is not None:
-        measured.check_save(save, ball)
-    reading = {
-        "holds": holds,
-        "names": measured.pairs(column, "--column", "COLUMN=MEANING, such as 2=force"),
-        "units": measured.pairs(unit, "--unit", "COLUMN=UNIT, such as x=cm"),
-        "table": table,
-        "run": which_run,
-    }
-    weight = {key: ball[key] for key in ("mass",) if key in ball}
-    done = measured.run(files, reading, weight | about)
-    saved = {} if save is None else measured.save(done, save, **ball, name=name)
-    if plot is not None:
-        output.draw(lambda: measured.picture(done), plot)
-    if as_json:
-        typer.echo(machine.text(measured.summary(done, saved)))
-        return
-    measured.tell(_console(), done)
-    if save is not None:
-        typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
-    if plot is not None:
-        typer.echo(f"Picture: {plot}")
+app.command(name="measure", epilog=EPILOG)(measure)
 
 
 @app.command()
@@ -298,7 +189,7 @@ def balls(as_json: AsJson = False) -> None:
     if as_json:
         typer.echo(machine.text(machine.catalogue()))
     else:
-        show.catalogue(_console())
+        show.catalogue(console())
 
 
 @app.command()
@@ -319,7 +210,7 @@ def paper(
     if as_json:
         typer.echo(machine.text(audit.as_dict()))
     else:
-        show.audit(_console(), audit, folder / "index.html")
+        show.audit(console(), audit, folder / "index.html")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -358,7 +249,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except OSError as error:
         return _failed(f"{error.filename or 'the disk'}: {error.strerror or error}")
     except typer.TyperException as error:
-        return _failed(f"{error.format_message()} (see stackbounce --help)")
+        return _failed(f"{error.format_message()} (see {_command(arguments)} --help)")
     except KeyboardInterrupt:
         code = 130
     except MemoryError:
@@ -370,14 +261,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return int(code or 0)
 
 
+def _command(arguments: Sequence[str] | None) -> str:
+    """Return the command that was asked for, as it is typed; without its name, the program."""
+    first = [*(sys.argv[1:] if arguments is None else arguments), ""][0]
+    names = [one.name or getattr(one.callback, "__name__", "") for one in app.registered_commands]
+    return f"stackbounce {first}" if first in names else "stackbounce"
+
+
 def _failed(message: str, code: int = 2) -> int:
     line = "".join(c if c.isprintable() else "?" for c in " ".join(message.split()))
     typer.echo(f"stackbounce: error: {line}", err=True)
     return code
-
-
-def _console() -> "Console":
-    from rich.console import Console
-
-    width = Console().width if sys.stdout.isatty() else 100
-    return Console(width=min(width, 100), markup=False, highlight=False, emoji=False)

@@ -1,5 +1,6 @@
 """``stackbounce measure``: files in, what was found in them out, and a ball for ``simulate``."""
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,20 +10,26 @@ from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.units import quantity
 
 if TYPE_CHECKING:
-    import xarray as xr
     from matplotlib.figure import Figure
     from rich.console import Console
+
+    from stackbounce.measure.stiffness import LawConstants
+    from stackbounce.model.laws import ContactLaw
 
 __all__ = [
     "Measured",
     "check_save",
+    "constants",
+    "law",
     "numbers",
     "pairs",
     "picture",
+    "points",
     "run",
     "save",
     "summary",
     "tell",
+    "typed",
 ]
 
 _UNITS = {
@@ -30,18 +37,24 @@ _UNITS = {
     "diameter": "m",
     "height": "m",
     "speed": "m/s",
+    "contact_time": "s",
+    "restitution": "",
+    "height_error": "m",
+    "floor": "m",
     "time_constant": "s",
     "gravity": "m/s**2",
 }
+_PLAIN = ("height_error", "floor", "time_constant", "gravity")  # have no error of their own
 _NOTE = "note"  # a row that is a sentence
 
 
 @dataclass(frozen=True)
 class Measured:
-    """A file, and what was found in it: one analysis after the other."""
+    """A file, or numbers from the command line, and what was found in it."""
 
-    path: Path
-    data: "xr.Dataset"
+    source: str
+    told: Mapping[str, str]
+    data: Any
     found: tuple[Any, ...]
 
     @property
@@ -55,10 +68,14 @@ class Measured:
         return list(dict.fromkeys(note for found in self.found for note in found.notes))
 
 
-def numbers(**texts: str | None) -> dict[str, float]:
-    """Return the options that are quantities and given, in SI units."""
+def numbers(**texts: str | None) -> dict[str, Any]:
+    """Return the options that are quantities and given, in SI units, with errors where told."""
+    from stackbounce.measure.uncertain import quantity_with_error
+
     return {
-        name: quantity(text, _UNITS[name], f"--{name.replace('_', '-')}")
+        name: (quantity if name in _PLAIN else quantity_with_error)(
+            text, _UNITS[name], f"--{name.replace('_', '-')}"
+        )
         for name, text in texts.items()
         if text is not None
     }
@@ -75,70 +92,189 @@ def pairs(texts: Sequence[str] | None, option: str, right: str) -> dict[Any, str
     return found
 
 
+def points(text: str) -> tuple[str, ...]:
+    """Return the points that the drop's height and the bounces' were measured to."""
+    from stackbounce.measure.heights import places
+
+    words = tuple(word.strip() for word in text.split(","))
+    if len(words) > 2:
+        raise InvalidValue(f"--measured-to must be a point or two, got {shown(text)}")
+    return places(words * 2 if len(words) == 1 else words)
+
+
+def law(text: str) -> "tuple[type[ContactLaw], dict[str, float]]":
+    """Return the class that ``--law`` names, and the exponent that it may tell."""
+    from stackbounce.model.laws import law_named
+
+    name, *rest = text.split() or [""]
+    told: dict[str, float] = {}
+    for word in rest:
+        key, _, value = word.partition("=")
+        if key != "exponent" or not value or told:
+            raise InvalidValue(
+                f"--law must be a law, or 'LAW exponent=NUMBER', got {shown(text)}; restitution "
+                "and contact time have options of their own"
+            )
+        told[key] = quantity(value, "", "--law: exponent")
+    return law_named(name), told
+
+
 def run(
-    paths: Sequence[Path], reading: Mapping[str, Any], known: Mapping[str, float]
+    paths: Sequence[Path],
+    alone: Path | None,
+    reading: Mapping[str, Any],
+    known: Mapping[str, Any],
 ) -> list[Measured]:
-    """Read each file, and find in it what its kind holds."""
+    """Read each file, and find in it what its kind holds, with the record of one ball alone."""
     from stackbounce.measure import analyse, read
 
     done = []
+    if alone is not None:
+        known = {**known, "alone": read(alone, **reading)}
     for path in paths:
         data = read(path, **reading)
         try:
-            done.append(Measured(path, data, analyse(data, **known)))
+            found = analyse(data, **known)
         except StackbounceError as error:
             raise type(error)(f"{path}: {error}") from error
+        told = {name: data.attrs[name] for name in ("format", "why", "doubt", "holds")}
+        done.append(Measured(str(path), told, data, found))
     return done
 
 
-def summary(done: Sequence[Measured], ball: Mapping[str, Any]) -> dict[str, Any]:
+def typed(
+    lengths: str | None, contact: Mapping[str, Any], known: Mapping[str, Any]
+) -> list[Measured]:
+    """Return what the numbers on the command line tell: ``--heights``, then what is known of it."""
+    from stackbounce.measure import heights
+    from stackbounce.measure.known import known_contact
+
+    done = []
+    if lengths is not None:
+        dropped, *risen = _lengths(lengths)
+        names = ("diameter", "measured_to", "height_error", "repeated")
+        told = {name: known[name] for name in names if name in known}
+        done.append(_typed("--heights", "heights of bounces", heights(dropped, risen, **told)))
+    if contact:
+        source = " ".join(f"--{name.replace('_', '-')}" for name in contact)
+        known_of_it = known_contact(**contact, mass=known.get("mass"))
+        done.append(_typed(source, "contact with the floor", known_of_it))
+    return done
+
+
+def _typed(source: str, holds: str, found: Any) -> Measured:
+    told = {"format": "numbers of the command line", "why": "", "doubt": "", "holds": holds}
+    return Measured(source, told, None, (found,))
+
+
+def _lengths(text: str) -> list[Any]:
+    """Return lengths between commas or semicolons; a unit at the end is that of all."""
+    from stackbounce.measure.uncertain import quantity_with_error
+
+    words = [word.strip() for word in re.split(r"[,;]", text)]
+    unit = re.sub(r"^[-+.\deE±/ ()]+", "", words[-1])
+    bare = [not re.search(r"[^-+.\deE±/ ()]", word) for word in words]
+    if any(bare) and not (all(bare) or all(bare[:-1])):
+        raise InvalidValue(
+            f"--heights must have a unit each, or one at the end for all, got {shown(text)}"
+        )
+    return [
+        quantity_with_error(word + unit if is_bare else word, "m", f"--heights {k}")
+        for k, (word, is_bare) in enumerate(zip(words, bare, strict=True))
+    ]
+
+
+def constants(
+    chosen: "tuple[type[ContactLaw], dict[str, float]]",
+    done: Sequence[Measured],
+    known: Mapping[str, Any],
+) -> "LawConstants":
+    """Return the law that ``--law`` asks for, of all that was found and is known."""
+    from stackbounce.measure import one_law
+    from stackbounce.model.drop import STANDARD_GRAVITY
+
+    kind, exponent = chosen
+    given = {key: known[key] for key in ("mass", "contact_time", "restitution") if key in known}
+    speed = known.get("speed")
+    if speed is None and "height" in known:
+        speed = (2.0 * known.get("gravity", STANDARD_GRAVITY) * known["height"]) ** 0.5
+    found = [one for each in done for one in each.found]
+    return one_law(kind, found, **given, **exponent, impact_speed=speed)
+
+
+def summary(
+    done: Sequence[Measured], law: "LawConstants | None", ball: Mapping[str, Any]
+) -> dict[str, Any]:
     """Return what was found, for machines."""
     from stackbounce.version import __version__
 
     files = [
         {
-            "file": str(one.path),
-            **{name: one.data.attrs[name] for name in ("format", "why", "doubt", "holds")},
+            "file": one.source,
+            **one.told,
             "found": [_row(row) for row in one.rows],
             "notes": one.notes,
         }
         for one in done
     ]
-    return {"stackbounce": __version__, "files": files, "ball": dict(ball) or None}
+    return {
+        "stackbounce": __version__,
+        "files": files,
+        "law": None if law is None else [_row(row) for row in _law_rows(law)],
+        "ball": dict(ball) or None,
+    }
 
 
-def tell(console: "Console", done: Sequence[Measured]) -> None:
+def tell(console: "Console", done: Sequence[Measured], law: "LawConstants | None") -> None:
     """Print what was found, for people."""
+    for one in done:
+        console.print(f"{one.source}: {one.told['format']}", style="bold")
+        if one.told["why"]:
+            console.print(f"  {one.told['why']}")
+        if one.told["doubt"]:
+            console.print(f"  Unsure: {one.told['doubt']}")
+        _table(console, one.rows)
+        for note in one.notes:
+            console.print(f"  {note}")
+    if law is not None:
+        console.print(f"The contact as {type(law.law).__name__}", style="bold")
+        _table(console, _law_rows(law))
+
+
+def _law_rows(law: "LawConstants") -> list[Any]:
+    """Return the law's constants, and what they were made of."""
+    from stackbounce.measure.table import Row
+
+    units = {"mass": "kg", "contact_time": "s", "impact_speed": "m/s"}
+    made_of = law.given.items()
+    return [
+        *law.rows(),
+        *(Row(f"from {name.replace('_', ' ')}", one, units.get(name, "")) for name, one in made_of),
+    ]
+
+
+def _table(console: "Console", rows: Sequence[Any]) -> None:
     from rich import box
     from rich.table import Table
 
-    for one in done:
-        attrs = one.data.attrs
-        console.print(f"{one.path}: {attrs['format']}", style="bold")
-        console.print(f"  {attrs['why']}")
-        if attrs["doubt"]:
-            console.print(f"  Unsure: {attrs['doubt']}")
-        table = Table(box=box.SIMPLE_HEAD)
-        table.add_column("")
-        table.add_column("value", justify="right")
-        table.add_column("error", justify="right")
-        table.add_column("unit")
-        for row in one.rows:
-            table.add_row(row.name, *_written(row.value), row.unit)
-        console.print(table)
-        for note in one.notes:
-            console.print(f"  {note}")
+    table = Table(box=box.SIMPLE_HEAD)
+    table.add_column("")
+    table.add_column("value", justify="right")
+    table.add_column("error", justify="right")
+    table.add_column("unit")
+    for row in rows:
+        table.add_row(row.name, *_written(row.value), row.unit)
+    console.print(table)
 
 
 def picture(done: Sequence[Measured]) -> "Figure":
-    """Return what was found in the one file, drawn on what was measured."""
+    """Return what was found first in the file, or in the heights, drawn on what was measured."""
     from stackbounce import plots
 
-    (one,) = done
-    return plots.measured(one.data, one.found[-1])  # what was found first
+    return plots.measured(done[0].data, done[0].found[-1])
 
 
-def check_save(path: Path, known: Mapping[str, float]) -> None:
+def check_save(path: Path, known: Mapping[str, Any]) -> None:
     """Refuse to save a ball that could not be written, before anything is computed."""
     if path.suffix.lower() != ".toml":
         raise InvalidValue(f"--save must end in .toml, got {path}")
@@ -150,11 +286,20 @@ def check_save(path: Path, known: Mapping[str, float]) -> None:
         raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
 
 
-def save(done: Sequence[Measured], path: Path, **known: Any) -> dict[str, Any]:
+def save(
+    done: Sequence[Measured],
+    law: "LawConstants | None",
+    path: Path,
+    ball: Mapping[str, Any],
+) -> dict[str, Any]:
     """Write the ball that was measured as a scenario file, and return what is in it."""
     from stackbounce.measure import one_ball
 
-    drop = one_ball([found.parts() for one in done for found in one.found], **known)
+    parts = [found.parts() for one in done for found in one.found]
+    if law is not None:
+        parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
+        parts.append(law.parts())
+    drop = one_ball(parts, **{key: getattr(one, "nominal_value", one) for key, one in ball.items()})
     try:
         path.write_text(drop.to_toml(), encoding="utf-8")
     except OSError as error:

@@ -1,5 +1,6 @@
-"""Pictures, to files that are checked before anything is computed."""
+"""The terminal, and pictures, whose files are checked before anything is computed."""
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -8,8 +9,9 @@ from stackbounce.errors import FileError, InvalidValue
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from rich.console import Console
 
-__all__ = ["SUFFIXES", "check_picture", "draw"]
+__all__ = ["SUFFIXES", "check_picture", "console", "draw"]
 
 SUFFIXES = (".svg", ".png", ".pdf")
 """The kinds of picture."""
@@ -55,3 +57,11 @@ def draw(make: Callable[[], "Figure"], path: Path) -> None:
             figure.savefig(path, dpi=150, metadata=_UNDATED.get(path.suffix.lower()))
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
+
+
+def console() -> "Console":
+    """Return what prints for people: as wide as the terminal is, 100 columns at most."""
+    from rich.console import Console
+
+    width = Console().width if sys.stdout.isatty() else 100
+    return Console(width=min(width, 100), markup=False, highlight=False, emoji=False)

@@ -9,34 +9,43 @@ track       positions -> flights, speeds, heights
 heights     bounce heights -> restitutions
 press/      press curve -> stiffness, exponent, loss
 stiffness   contact time -> stiffness, or the constants of any law
+fallen      acceleration of what falls -> flights, restitutions
+floor_gap   force on the floor with and without the upper ball -> gap
 analysis    which of these a file needs
-assembly    what was found -> a ball to drop
+assembly    what was found -> a law, a ball to drop
 synthetic/  from the simulator to noisy records
 =========== ========================================================================
 """
 
+from stackbounce.measure.accelerometer import accelerometer
 from stackbounce.measure.analysis import analyse
-from stackbounce.measure.assembly import one_ball
+from stackbounce.measure.assembly import one_ball, one_law
 from stackbounce.measure.bounces import bounces
+from stackbounce.measure.floor_gap import floor_gap
 from stackbounce.measure.heights import heights
 from stackbounce.measure.press import press, series_stiffness, split_series
 from stackbounce.measure.reading import read
+from stackbounce.measure.sensor_gap import sensor_gap
 from stackbounce.measure.sound import knocks
 from stackbounce.measure.stiffness import dynamic_stiffness, law_constants
 from stackbounce.measure.track import track
 from stackbounce.measure.waveform import gap_from_delay, waveform
 
 __all__ = [
+    "accelerometer",
     "analyse",
     "bounces",
     "dynamic_stiffness",
+    "floor_gap",
     "gap_from_delay",
     "heights",
     "knocks",
     "law_constants",
     "one_ball",
+    "one_law",
     "press",
     "read",
+    "sensor_gap",
     "series_stiffness",
     "split_series",
     "track",

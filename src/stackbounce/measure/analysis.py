@@ -3,15 +3,20 @@
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.measure.accelerometer import accelerometer
 from stackbounce.measure.bounces import bounces
+from stackbounce.measure.floor_gap import floor_gap
+from stackbounce.measure.heights import Place, above_bottom, heights, lowest_point, places
 from stackbounce.measure.press import press
+from stackbounce.measure.sensor_gap import SensorGap, sensor_gap
 from stackbounce.measure.sound import knocks
-from stackbounce.measure.track import track
+from stackbounce.measure.track import Tracks, track
 from stackbounce.measure.waveform import waveform
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import xarray as xr
+    from uncertainties import UFloat
 
 __all__ = ["analyse"]
 
@@ -19,9 +24,17 @@ __all__ = ["analyse"]
 def analyse(
     data: "xr.Dataset",
     *,
-    mass: float | None = None,
-    height: float | None = None,
-    speed: float | None = None,
+    mass: "float | UFloat | None" = None,
+    diameter: "float | UFloat | None" = None,
+    height: "float | UFloat | None" = None,
+    speed: "float | UFloat | None" = None,
+    measured_to: Place | tuple[Place, Place] = "bottom",
+    height_error: float | None = None,
+    repeated: bool = False,
+    floor: float | None = None,
+    alone: "xr.Dataset | None" = None,
+    contact_time: "float | UFloat | None" = None,
+    restitution: "float | UFloat | None" = None,
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> tuple[Any, ...]:
@@ -31,12 +44,27 @@ def analyse(
     ----------
     data : xarray.Dataset
         As `read` gives it.
-    mass : float, optional
+    mass : float or ufloat, optional
         The ball's, in kg: makes a stiffness of a contact time.
-    height : float, optional
+    diameter : float or ufloat, optional
+        The ball's, in m; needed where `measured_to` is not its bottom.
+    height : float or ufloat, optional
         From where the ball fell, in m: gives the restitution of the first bounce.
-    speed : float, optional
+    speed : float or ufloat, optional
         Impact speed in m/s: calibrates the impulse of a force waveform.
+    measured_to : {"bottom", "centre", "top"} or a pair of them, optional
+        The point of the ball that `height` and a table's heights are those of, and that a track
+        follows; a pair has the drop height's first and then the bounces'.
+    height_error : float, optional
+        Of each height in a table, in m.
+    repeated : bool, optional
+        Whether a table's heights after the first are one bounce's, from drop after drop.
+    floor : float, optional
+        Of a track of one ball: how high the floor is, in m as tracked.
+    alone : xarray.Dataset, optional
+        The floor's force under the lower ball alone, for that under a stack: tells the gap.
+    contact_time, restitution : float or ufloat, optional
+        Of the lower ball alone, in s and as a number, for the gap of a stack.
     time_constant : float, optional
         Of a piezo sensor's droop, in s, which is then undone.
     gravity : float, optional
@@ -46,7 +74,10 @@ def analyse(
     -------
     tuple
         Of a sound `Bounces` and `Knocks`; of knock times and of phyphox's bounces `Bounces`; of a
-        track `Tracks`; of a force waveform `Waveform`; of a press curve `Press`.
+        track `Tracks`; of an acceleration `Accelerometer`; of a force waveform `Waveform`, with a
+        second sensor between two balls `SensorGap` before it, and with `alone` `FloorGap` after it;
+        of a press curve `Press`; of a table with one column of heights, the drop's above the
+        bounces', `Heights`.
 
     Raises
     ------
@@ -68,16 +99,60 @@ def analyse(
     holds = getattr(data, "attrs", {}).get("holds")
     if holds is None:
         raise InvalidType(f"data must be a Dataset from read, got {shown(data)}")
+    if height is not None:
+        height = lowest_point("height", height, places(measured_to)[0], diameter)
     if holds == "sound":
         heard = knocks(data)
         return bounces(heard, drop_height=height, gravity=gravity), heard
     if holds in ("knocks", "bounces"):
         return (bounces(data, drop_height=height, gravity=gravity),)
     if holds == "track":
-        return (track(data, gravity=gravity),)
+        return (_tracked(data, floor, places(measured_to)[1], diameter, gravity),)
     if holds == "waveform":
-        return (waveform(data, mass=mass, impact_speed=speed, time_constant=time_constant),)
+        one = waveform(data, mass=mass, impact_speed=speed, time_constant=time_constant)
+        if speed is None and height is not None:
+            speed = (2.0 * gravity * height) ** 0.5
+        told = {"impact_speed": speed, "restitution": restitution, "time_constant": time_constant}
+        gap = () if alone is None else (floor_gap(one, alone, mass=mass, **told),)
+        return (*_by_two_sensors(data, speed, contact_time), one, *gap)
+    if holds == "acceleration":
+        return (accelerometer(data, gravity=gravity),)
     if holds == "press curve":
         return (press(data),)
-    kinds = "sound, knocks, bounces, track, waveform, press curve"
+    if holds == "table" and "y" in data:
+        dropped, *risen = data["y"].values.tolist()
+        found = heights(
+            dropped,
+            risen,
+            diameter=diameter,
+            measured_to=measured_to,
+            height_error=height_error,
+            repeated=repeated,
+        )
+        return (found,)
+    kinds = "sound, knocks, bounces, track, waveform, acceleration, press curve, table of heights"
     raise InvalidValue(f"there is no analysis of {holds}: tell what it holds, one of {kinds}")
+
+
+def _by_two_sensors(data: "xr.Dataset", speed: Any, contact_time: Any) -> tuple[SensorGap, ...]:
+    """Return the gap of two balls if the record's second channel feels them touch."""
+    try:
+        return (sensor_gap(data, impact_speed=speed, contact_time=contact_time),)
+    except InvalidValue:  # one channel, or one that is of something else
+        return ()
+
+
+def _tracked(
+    data: "xr.Dataset", floor: float | None, point: str, diameter: Any, gravity: float
+) -> Tracks:
+    """Return what a track tells; the floor's level becomes that of the point that was followed."""
+    if floor is None:
+        return track(data, gravity=gravity)
+    up = above_bottom(point, diameter)
+    found = track(data, gravity=gravity, floor=floor + getattr(up, "nominal_value", up))
+    if len(found.balls) > 1:
+        raise InvalidValue(
+            f"floor is for the track of one ball, as the others bounce on balls, got "
+            f"{len(found.balls)}"
+        )
+    return found

@@ -1,15 +1,30 @@
-"""From what was found in one or more files to the ball that `simulate` drops."""
+"""From what was found in one or more files to a contact law, and the ball that `simulate` drops."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
+from stackbounce.calibrate.inverse import needed_by
 from stackbounce.errors import InvalidValue
+from stackbounce.measure.accelerometer import Accelerometer
+from stackbounce.measure.bounces import Bounces
+from stackbounce.measure.heights import Heights
+from stackbounce.measure.stiffness import LawConstants, law_constants
+from stackbounce.measure.track import Tracks
+from stackbounce.measure.waveform.found import Waveform
 from stackbounce.model import Drop
+from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.model.laws import ContactLaw, law_named
 
-__all__ = ["one_ball"]
+__all__ = ["one_ball", "one_law"]
 
 _EXPONENTS = {"Spring": 1.0, "Hertz": 1.5, "PowerLaw": 1.0, "Hysteretic": 1.0}  # where not told
 _HEIGHT = 1.0  # m: from where a ball falls whose drop height is not known
+_SOURCES = {
+    "contact_time": "a force waveform",
+    "restitution": "a sound, a track of one ball, or heights of bounces",
+    "impact_speed": "a track, or the drop height",
+}
 
 
 def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
@@ -55,6 +70,88 @@ def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
         raise InvalidValue("the ball's mass is not known: give it")
     mapping = {"balls": [known], "contacts": [_together(contacts)], "gaps": []}
     return Drop.from_mapping(mapping | start)
+
+
+def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> LawConstants:
+    """Return the law of a class that the ball's contact has, by all that was found of it.
+
+    Parameters
+    ----------
+    law : type or str
+        The law's class or its name, such as ``"HuntCrossley"``.
+    found : sequence
+        What the analyses returned. Taken are the contact time of a `Waveform`; the mean restitution
+        of `Bounces`, `Heights` and an `Accelerometer`, and that of the first bounce of a `Tracks`
+        of one ball; the impact speed that a `Tracks` has or the one that belongs to a drop height.
+        Where two tell the same, the later one counts.
+    **given
+        What is known otherwise, and counts before what was found: the arguments of
+        `law_constants`.
+
+    Returns
+    -------
+    LawConstants
+        Only what the class needs is used, and stands in its ``given``.
+
+    Raises
+    ------
+    InvalidValue
+        If something that the class needs was not found, or `law_constants` refuses it.
+
+    Examples
+    --------
+    >>> from stackbounce.measure import heights
+    >>> dropped = heights(1.0, [0.64, 0.41], height_error=0.005)
+    >>> found = one_law("hunt-crossley", [dropped], mass=0.057, contact_time=5e-3)
+    >>> print(f"{found.constants['dissipation']:.1uS} s/m at {found.given['impact_speed']:.1uS}")
+    0.084(1) s/m at 4.43(1)
+    """
+    kind = law_named(law) if isinstance(law, str) else law
+    known: dict[str, Any] = {}
+    for one in found:
+        known |= _told_by(one)
+    known |= {name: value for name, value in given.items() if value is not None}
+    needed = needed_by(kind, getattr(known.get("exponent"), "nominal_value", known.get("exponent")))
+    missing = [name for name in needed if name not in known]
+    if missing:
+        words = [
+            name.replace("_", " ") + (f" ({_SOURCES[name]})" if name in _SOURCES else "")
+            for name in missing
+        ]
+        raise InvalidValue(f"{kind.__name__} needs what was not found: {', '.join(words)}")
+    used = {name: known[name] for name in (*needed, "exponent") if name in known}
+    return law_constants(kind, **used)
+
+
+def _told_by(found: Any) -> dict[str, Any]:
+    """Return what an analysis tells of a contact, by the arguments of `law_constants`."""
+    told: dict[str, Any] = {}
+    match found:
+        case Waveform():
+            times = (one.time for one in found.contacts)
+            told["contact_time"] = next((time for time in times if time is not None), None)
+            told["impact_speed"] = found.impact_speed
+        case Bounces():
+            told["restitution"] = found.mean
+            if found.drop_height is not None and not found.inferred:
+                told["impact_speed"] = (2.0 * found.gravity * found.drop_height) ** 0.5
+        case Heights():
+            told["restitution"] = found.mean
+            told["impact_speed"] = (2.0 * STANDARD_GRAVITY * found.drop_height) ** 0.5
+        case Accelerometer():
+            told["restitution"] = found.mean
+            told["impact_speed"] = found.impact_speeds[0] if found.fall is not None else None
+            told["contact_time"] = found.contact_times[0] if found.fall is not None else None
+        case Tracks():
+            told["impact_speed"] = found.balls[0].impact_speeds[0]
+            if len(found.balls) == 1:
+                told["restitution"] = found.balls[0].restitutions[0]
+    return {name: _usable(value) for name, value in told.items() if value is not None}
+
+
+def _usable(value: Any) -> Any:
+    """Return a number without its error where that is unknown (NaN)."""
+    return value.nominal_value if math.isnan(getattr(value, "std_dev", 0.0)) else value
 
 
 def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from stackbounce.measure.table import Row
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Heights", "Place", "heights"]
+__all__ = ["Heights", "Place", "above_bottom", "heights", "lowest_point", "places"]
 
 Place: TypeAlias = Literal["bottom", "centre", "top"]
 """The point of the ball that a height was read at."""
@@ -127,15 +127,15 @@ def heights(
     >>> print(f"{found.mean:.1uS}")
     0.758(4)
     """
-    places = _places(measured_to)
+    points = places(measured_to)
     error = math.nan
     if height_error is not None:
         error = positive("height_error", height_error, "metres")
-    size = _size(diameter, places)
+    size = _size(diameter, points)
     listed = _listed(bounce_heights)
-    start = _counted("drop_height", _number("drop_height", drop_height, error), places[0], size)
+    start = _counted("drop_height", _number("drop_height", drop_height, error), points[0], size)
     counted = [
-        _counted(name, _number(name, one, error), places[1], size)
+        _counted(name, _number(name, one, error), points[1], size)
         for name, one in ((f"bounce_heights.{k}", one) for k, one in enumerate(listed))
     ]
     notes = _notes(start, counted, repeated)
@@ -145,7 +145,80 @@ def heights(
     return Heights(start, tuple(counted), tuple(kept), mean, bool(repeated), tuple(notes))
 
 
-def _places(measured_to: object) -> tuple[str, str]:
+def above_bottom(measured_to: str, diameter: "float | UFloat | None" = None) -> Any:
+    """Return how far the bottom, centre or top of a ball lies above its lowest point.
+
+    Parameters
+    ----------
+    measured_to : {"bottom", "centre", "top"}
+        Which point of the ball.
+    diameter : float or ufloat, optional
+        In m; needed but for the bottom.
+
+    Returns
+    -------
+    float or ufloat
+        In m.
+
+    Raises
+    ------
+    InvalidValue
+        If the diameter is missing or not above 0.
+
+    Examples
+    --------
+    >>> above_bottom("centre", 0.066)
+    0.033
+    """
+    return _UP[measured_to] * _size(diameter, (measured_to, measured_to))
+
+
+def lowest_point(
+    name: str, height: Any, measured_to: str, diameter: "float | UFloat | None" = None
+) -> Any:
+    """Return the height of a ball's lowest point from that of its bottom, centre or top.
+
+    Parameters
+    ----------
+    name : str
+        What the height is called; messages begin with it.
+    height : float or ufloat
+        Above the floor, in m.
+    measured_to, diameter : optional
+        As in `above_bottom`.
+
+    Returns
+    -------
+    float or ufloat
+        In m, above 0.
+
+    Raises
+    ------
+    InvalidValue
+        If that is not above 0, or the diameter is missing.
+
+    Examples
+    --------
+    >>> lowest_point("height", 1.0, "top", 0.065)
+    0.935
+    """
+    size = _size(diameter, (measured_to, measured_to))
+    return _counted(name, _number(name, height, 0.0), measured_to, size)
+
+
+def places(measured_to: object) -> tuple[str, str]:
+    """Return the points that the drop's height and the bounces' were measured to.
+
+    Raises
+    ------
+    InvalidType, InvalidValue
+        If it is neither one of the three nor a pair of them.
+
+    Examples
+    --------
+    >>> places("centre"), places(("bottom", "top"))
+    (('centre', 'centre'), ('bottom', 'top'))
+    """
     pair = (measured_to, measured_to) if isinstance(measured_to, str) else measured_to
     if not (isinstance(pair, tuple | list) and len(pair) == 2):
         raise InvalidType(
@@ -193,11 +266,11 @@ def _size(diameter: Any, places: tuple[str, str]) -> Any:
 def _counted(name: str, height: Any, place: str, size: Any) -> Any:
     """Return a height of the ball's lowest point."""
     counted = height - _UP[place] * size
-    if counted.nominal_value <= 0.0:
+    least, got = (getattr(one, "nominal_value", one) for one in (_UP[place] * size, height))
+    if got <= least:
         raise InvalidValue(
             f"{name} must be more than the height of the ball's {place} on the floor "
-            f"({_UP[place] * getattr(size, 'nominal_value', size):g} m), "
-            f"got {height.nominal_value:g} m"
+            f"({least:g} m), got {got:g} m"
         )
     return counted
 

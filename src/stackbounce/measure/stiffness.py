@@ -70,10 +70,13 @@ class LawConstants:
     constants : mapping of str to UFloat
         Its constants by their names, in SI units; correlated with each other and with what was
         measured.
+    given : mapping of str to UFloat
+        What it was made of, by the names of the arguments of `law_constants`.
     """
 
     law: ContactLaw
     constants: "Mapping[str, UFloat]"
+    given: "Mapping[str, UFloat]"
 
     def rows(self) -> list[Row]:
         """Return the constants as rows of a table."""
@@ -168,7 +171,7 @@ def law_constants(
             for constant, slope in zip(names, slopes, strict=True):
                 constants[constant] = constants[constant] + slope * (source - source.nominal_value)
     kept = {name: measured(name, value, "", _any) for name, value in constants.items()}
-    return LawConstants(found, kept)
+    return LawConstants(found, kept, sources)
 
 
 def _moving(mass: Any) -> "UFloat":

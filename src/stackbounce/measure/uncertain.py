@@ -1,14 +1,16 @@
 """Numbers with or without an error, as they come in."""
 
+import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidValue, non_negative, positive, shown
+from stackbounce.units import quantity
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["known_to", "measured"]
+__all__ = ["known_to", "measured", "quantity_with_error"]
 
 
 def known_to(value: float, error: float) -> "UFloat":
@@ -73,3 +75,45 @@ def measured(
     except InvalidValue:
         raise InvalidValue(f"{name} must have a finite error, got {shown(value)}") from None
     return known
+
+
+def quantity_with_error(text: str, unit: str, name: str) -> "float | UFloat":
+    """Return a number with a unit and, where it is told, an error: ``"57.0 ± 0.5 g"``.
+
+    Parameters
+    ----------
+    text : str
+        A number, with ``±`` or ``+/-`` and its error after it or not, and a unit or none, which is
+        that of both.
+    unit : str
+        The SI unit that is wanted.
+    name : str
+        What it is called; messages begin with it.
+
+    Returns
+    -------
+    float or UFloat
+        In `unit`; a float where no error is told.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is not finite, or the error not above 0.
+    UnitError
+        If it cannot be read, or the unit is unknown or does not fit.
+
+    Examples
+    --------
+    >>> quantity_with_error("57 g", "kg", "mass"), quantity_with_error("(57.0 ± 0.5) g", "kg", "m")
+    (0.057, 0.057+/-0.0005)
+    """
+    from uncertainties import ufloat
+
+    value, sign, error = text.replace("+/-", "±").partition("±")
+    if not sign:
+        return quantity(text, unit, name)
+    value, error = value.strip(" ("), error.replace(")", " ").strip()
+    if not re.search(r"[^-+.\deE]", value):
+        value += re.sub(r"^[-+.\deE]+", "", error)
+    wide = positive(f"{name}'s error", quantity(error, unit, name))
+    return ufloat(quantity(value, unit, name), wide)

@@ -11,8 +11,11 @@ if TYPE_CHECKING:
 __all__ = ["measured"]
 
 _PICTURES = {
+    "Accelerometer": "measured_acceleration",
     "Knocks": "measured_sound",
     "Bounces": "measured_bounces",
+    "FloorGap": "measured_gap",
+    "Heights": "measured_heights",
     "Tracks": "measured_track",
     "Waveform": "measured_waveform",
     "Press": "measured_press",
@@ -26,8 +29,8 @@ def measured(data: Any, found: Any) -> "Figure":
     ----------
     data : xarray.Dataset
         What was measured, as `read` gives it.
-    found : Knocks, Bounces, Tracks, Waveform or Press
-        What was found.
+    found : object
+        What `stackbounce.measure.analyse`, or one of the analyses, found.
 
     Returns
     -------

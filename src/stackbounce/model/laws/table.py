@@ -31,14 +31,16 @@ FORMULAS: dict[type[ContactLaw], str] = {
 }
 """The force of each law at a compression c with the rate c', as plain text."""
 
+_JOINED = str.maketrans("", "", "-_")
+
 
 def law_named(name: object) -> type[ContactLaw]:
-    """Return the law of a name, such as ``"Spring"``; case does not matter.
+    """Return the law of a name, such as ``"Spring"`` or ``"hunt-crossley"``.
 
     Parameters
     ----------
     name : str
-        A key of `LAWS`.
+        A key of `LAWS`; case, hyphens and underscores do not matter.
 
     Returns
     -------
@@ -52,10 +54,11 @@ def law_named(name: object) -> type[ContactLaw]:
 
     Examples
     --------
-    >>> law_named("spring").__name__
-    'Spring'
+    >>> law_named("spring").__name__, law_named("hunt-crossley").__name__
+    ('Spring', 'HuntCrossley')
     """
+    word = name.casefold().translate(_JOINED) if isinstance(name, str) else ""
     for known, law in LAWS.items():
-        if isinstance(name, str) and name.casefold() == known.casefold():
+        if word == known.casefold():
             return law
     raise InvalidValue(f"law must be a contact law, got {shown(name)}; {nearest(name, LAWS)}")

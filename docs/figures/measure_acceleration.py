@@ -1,0 +1,16 @@
+"""The picture of `measure-acceleration.md`, of a record made by the simulator, and analysed."""
+
+from shown import show
+
+import stackbounce as sb
+from stackbounce.measure.accelerometer import accelerometer
+from stackbounce.measure.synthetic.accelerometer import accelerometer as record_of
+from stackbounce.measure.synthetic.falls import falls
+from stackbounce.plots import measured_acceleration
+
+
+def fall():
+    """A phone that falls and bounces, at 200 samples per second."""
+    law = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.012, restitution=0.6)
+    record = record_of(falls(0.8, law, mass=0.2, bounces=4), rate=200.0, seed=3)
+    show(measured_acceleration.draw, record, accelerometer(record))

@@ -1,0 +1,165 @@
+"""Where the floor's force under a stack departs from that under its lowest ball alone."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["Kink", "find_kink"]
+
+Array = NDArray[np.float64]
+
+_EVEN = 0.06  # of the contact time, over which noise is averaged for a slope or a largest value
+_PART = 0.6  # of the largest departure: up to where it is followed
+_LATEST = 0.9  # of the contact time alone, after which forces are too small to tell
+_TIMES = 110  # of a departure that are tried
+# A departure's power of the time since then, and its bend until the end of what is followed, with
+# their errors and their change over the contact time alone: over floors that are springs, Hertz's,
+# hysteretic or viscous, restitutions from 0.7, second balls of 0.08 to 0.6 times the mass, and
+# stiffnesses of theirs that make contacts 0.6 to 1.1 times as long as the floor's.
+_POWERS, _POWER, _POWER_CHANGE, _POWER_ERROR = np.linspace(2.0, 4.8, 9), 4.4, -2.15, 0.4
+_BENDS, _BEND, _BEND_CHANGE, _BEND_ERROR = np.linspace(-0.85, 0.15, 6), -0.78, 0.69, 0.16
+_SAME = 0.02  # relative: how well two drops from one height repeat each other's force
+_ROUNDS = 2
+_TAIL = (0.6, 1.25)  # of the contact time alone: where a second ball shows most
+_MATCHED, _DOUBTLESS = 0.005, 5.0  # how well the gain is known, relative; in errors
+_SEEN = 25.0  # χ² that a departure must explain
+
+
+class Kink(NamedTuple):
+    """When the forces part, in s since the stack's first touch, and what it follows from.
+
+    Parameters
+    ----------
+    time, error : float
+        NaN where they do not part.
+    shift, gain : float
+        By which the force alone was moved, in s, and multiplied, to be that of the stack.
+    until : float
+        Up to where it was followed, in s since the touch.
+    pressed : bool
+        Whether the stack pressed harder at all than the lowest ball alone, late in its contact.
+    """
+
+    time: float
+    error: float
+    shift: float
+    gain: float
+    until: float
+    pressed: bool
+
+
+def find_kink(
+    times: Array, force: Array, alone: tuple[Array, Array], noise: float, lasting: float
+) -> Kink:
+    """Return when a second ball begins to act on the force under the first one.
+
+    Parameters
+    ----------
+    times, force : ndarray
+        (n,) of the stack's record, in s since its first touch.
+    alone : (ndarray, ndarray)
+        The same of the record of the lowest ball alone.
+    noise : float
+        Of the difference of the two, for one sample of the stack's.
+    lasting : float
+        The contact time alone, in s.
+
+    Returns
+    -------
+    Kink
+
+    Notes
+    -----
+    While the second ball is not there both forces are the same, but for the moment of the touch
+    and the height of the fall. When it comes, its force grows like ``u**p`` with the time u since
+    then; twice integrated, the displacement of the lower ball and thereby the floor's force depart
+    like ``u**(p + 2)`` at first, less steeply later. Each time, power and bend that may be is
+    tried; gain, shift and size are linear. The time is the mean over all, weighted by likelihood.
+    """
+    from scipy.signal import savgol_filter
+
+    step = float(np.median(np.diff(alone[0])))
+    width = min(2 * max(2, int(0.5 * _EVEN * lasting / step)) + 1, len(alone[1]))
+    slope = savgol_filter(alone[1], width, 2, deriv=1, delta=step)
+    shift, gain = 0.0, 1.0
+    time, error, until = math.nan, math.nan, lasting
+    for _ in range(_ROUNDS):
+        departure = force - gain * np.interp(times - shift, *alone)
+        until = _until(times, departure, lasting)
+        used = (times > -0.1 * lasting) & (times < until)
+        at = times[used] - shift
+        known = np.stack([np.interp(at, *alone), -np.interp(at, alone[0], slope)], axis=1)
+        time, error, gain, moved = _search(times[used], force[used], known, noise, (until, lasting))
+        shift += moved / gain
+    like = gain * np.interp(times - shift, *alone)
+    return Kink(time, error, shift, gain, until, _pressed(times / lasting, force, like, noise))
+
+
+def _pressed(share: Array, force: Array, like: Array, noise: float) -> bool:
+    """Tell whether a force is larger than another late in the contact, beyond doubt."""
+    late = (share > _TAIL[0]) & (share < _TAIL[1])
+    error = math.hypot(noise / math.sqrt(max(late.sum(), 1)), _MATCHED * float(like[late].mean()))
+    return float((force - like)[late].mean()) > _DOUBTLESS * error
+
+
+def _until(times: Array, departure: Array, lasting: float) -> float:
+    """Return when the departure has grown to a part of its largest value."""
+    width = max(1, int(_EVEN * lasting / (times[1] - times[0])))
+    even = np.convolve(departure, np.ones(width) / width, mode="same")
+    inside = (times > 0.0) & (times < 1.2 * lasting)
+    top = float(even[inside].max())
+    large = np.flatnonzero(inside & (even >= _PART * top))
+    return float(np.clip(times[large[0]], 0.3 * lasting, _LATEST * lasting))
+
+
+def _search(
+    times: Array, force: Array, known: Array, noise: float, ends: tuple[float, float]
+) -> tuple[float, float, float, float]:
+    """Try all departures; return the time and its error, gain, and shift times gain."""
+    rows = np.concatenate([known / noise, [[1.0 / _SAME, 0.0]]])
+    base, _ = np.linalg.qr(rows)
+    right = np.append(force / noise, 1.0 / _SAME)
+    left = right - base @ (base.T @ right)
+    without = float(left @ left)
+    until, lasting = ends
+    tried = np.linspace(0.0, 0.95 * until, _TIMES)
+    since = np.maximum(times[:, None] - tried, 0.0) / (until - tried)
+    powers = _POWER + _POWER_CHANGE * tried / lasting
+    bends = _BEND + _BEND_CHANGE * tried / lasting
+    table = np.full((len(_POWERS), len(_BENDS), _TIMES), np.inf)
+    for i, power in enumerate(_POWERS):
+        rise = since**power / noise
+        plain, bent = (_beside(base, one) for one in (rise, rise * since))
+        along = left @ plain, left @ bent
+        size = np.sum(plain**2, axis=0), np.sum(plain * bent, axis=0), np.sum(bent**2, axis=0)
+        for j, bend in enumerate(_BENDS):
+            prior = ((power - powers) / _POWER_ERROR) ** 2 + ((bend - bends) / _BEND_ERROR) ** 2
+            pressing = np.maximum(along[0] + bend * along[1], 0.0)
+            whole = size[0] + 2.0 * bend * size[1] + bend**2 * size[2]
+            table[i, j] = without - pressing**2 / np.maximum(whole, 1e-300) + prior
+    least = float(table.min())
+    i, j, k = (int(place) for place in np.unravel_index(int(table.argmin()), table.shape))
+    best = _padded(since[:, [k]] ** _POWERS[i] * (1.0 + _BENDS[j] * since[:, [k]]) / noise)
+    seen = without - least > _SEEN
+    gain, moved, *_ = np.linalg.lstsq(np.hstack([rows, best][: 1 + seen]), right, rcond=None)[0]
+    if not seen:
+        return math.nan, math.nan, float(gain), float(moved)
+    weights = np.exp(-0.5 * (table - least) / max(1.0, least / max(len(times) - 6, 1)))
+    each = weights.sum((0, 1)) / weights.sum()
+    mean = float(each @ tried)
+    error = math.hypot(math.sqrt(each @ (tried - mean) ** 2), (tried[1] - tried[0]) / math.sqrt(12))
+    return mean, error, float(gain), float(moved)
+
+
+def _padded(columns: Array) -> Array:
+    """Return columns with a row of zeros, in which the gain's prior has its own."""
+    return np.concatenate([columns, np.zeros((1, columns.shape[1]))])
+
+
+def _beside(base: Array, columns: Array) -> Array:
+    """Return what of columns no gain and no shift can make."""
+    padded = _padded(columns)
+    beside: Array = padded - base @ (base.T @ padded)
+    return beside

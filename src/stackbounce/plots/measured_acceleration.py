@@ -1,0 +1,83 @@
+"""Picture of an accelerometer's record: flights, and what each bounce keeps."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.plots.style import COLORS, STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+_BESIDE = 0.15  # of the series' duration, shown on each side
+
+
+def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+    """Draw the size of the acceleration, its flights shaded, with their restitutions.
+
+    Parameters
+    ----------
+    data : object
+        What was measured; the record that was used is in what was found.
+    found : Accelerometer
+        What was found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved. Below 20 m/s² the scale is linear, above logarithmic.
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context():
+        mpl.rcParams.update(STYLE)
+        figure = Figure(figsize=(7.2, 4.4))
+        axes = figure.subplots()
+        start, end = found.spans[0][0], found.spans[-1][1]
+        beside = _BESIDE * (end - start)
+        seen = (found.times > start - beside) & (found.times < end + beside)
+        times, values = found.times[seen], found.values[seen]
+        axes.plot(times, values, color="#4d4d4d", linewidth=0.9, marker=".", markersize=2.5)
+        for k, (first, last) in enumerate(found.spans):
+            falls = k == 0 and found.fall is not None
+            color = COLORS[1] if falls else COLORS[0]
+            axes.axvspan(first, last, color=color, alpha=0.13, linewidth=0)
+            height = (
+                found.drop_height if falls else found.apex_heights[k - (found.fall is not None)]
+            )
+            axes.annotate(
+                f"{100.0 * height:.1uS} cm",
+                (0.5 * (first + last), 0.96),
+                xycoords=axes.get_xaxis_transform(),
+                ha="center",
+                va="top",
+                fontsize=9,
+                color=color,
+            )
+        skipped = len(found.spans) - 1 - len(found.restitutions)
+        for k, kept in enumerate(found.restitutions):
+            place = 0.5 * (found.spans[k + skipped][1] + found.spans[k + skipped + 1][0])
+            axes.annotate(
+                f"e = {kept:.1uS}",
+                (place, 0.86),
+                xycoords=axes.get_xaxis_transform(),
+                ha="center",
+                va="top",
+                fontsize=9,
+                bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.5},
+            )
+        axes.set_yscale("symlog", linthresh=20.0, linscale=1.2)
+        ticks = [0, 9.8, 20, 50, 100, 200, 500, 1000]
+        top = float(values.max())
+        axes.set_yticks(
+            [one for one in ticks if one < 3.0 * top],
+            [f"{one:g}" for one in ticks if one < 3.0 * top],
+        )
+        axes.minorticks_off()
+        axes.set_ylim(-1.0, 8.0 * np.maximum(top, 20.0))
+        axes.set_xlabel("time (s)")
+        axes.set_ylabel("size of the acceleration (m/s²)")
+    return figure

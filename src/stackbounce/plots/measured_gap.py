@@ -1,0 +1,71 @@
+"""Picture of the floor's force under two balls beside that under the lower one alone."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.plots.style import COLORS, STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+
+def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+    """Draw both forces, below them their difference, and when the second ball came.
+
+    Parameters
+    ----------
+    data : object
+        The stack's record; the picture needs only what was found.
+    found : FloorGap
+        What was found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved.
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    kink, stack, alone = found.kink, found.stack, found.alone
+    touch, lasting = (stack.contacts[0].start, alone.contacts[0].time)
+    since = stack.times - touch.nominal_value
+    own = alone.times - alone.contacts[0].start.nominal_value + kink.shift
+    last = stack.contacts[0].end
+    end = max(1.3 * lasting.nominal_value, 0.0 if last is None else (last - touch).nominal_value)
+    seen = (since > -0.2 * lasting.nominal_value) & (since < 1.15 * end)
+    ms, force = 1e3 * since[seen], stack.force[seen]
+    like = kink.gain * np.interp(since[seen], own, alone.force, left=np.nan, right=np.nan)
+    with mpl.rc_context():
+        mpl.rcParams.update(STYLE)
+        figure = Figure(figsize=(7.2, 5.8))
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+        above.plot(ms, force, color=COLORS[0], linewidth=1.3, label="both balls")
+        above.plot(ms, like, color=COLORS[1], linewidth=1.3, label="lower ball alone, as high")
+        below.plot(ms, force - like, color=COLORS[2], linewidth=1.1)
+        below.axhspan(-stack.noise, stack.noise, color="#bdbdbd", alpha=0.45, linewidth=0)
+        if found.delay is not None:
+            middle, wide = 1e3 * found.delay.nominal_value, 1e3 * found.delay.std_dev
+            for axes in (above, below):
+                axes.axvspan(middle - wide, middle + wide, color=COLORS[3], alpha=0.25, linewidth=0)
+                axes.axvline(middle, color=COLORS[3], linewidth=1.2)
+            above.set_title(
+                f"the balls touch {1e3 * found.delay:.1uS} ms after the floor: "
+                f"a gap of {1e3 * found.gap:.1uS} mm",
+                loc="left",
+                fontsize=10,
+            )
+        else:
+            above.set_title(
+                f"gap between the balls: {found.rows()[0].value} m", loc="left", fontsize=10
+            )
+        name = {"N": "force (N)", "V": "signal (V)"}.get(stack.unit, "signal")
+        above.set_ylabel(name)
+        below.set_ylabel("difference")
+        below.set_xlabel("time since the touch (ms)")
+        above.legend(frameon=False, loc="upper right")
+        figure.align_ylabels()
+    return figure

@@ -1,0 +1,76 @@
+"""Picture of bounce heights, and of the restitution that joins them."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.plots.style import COLORS, STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+
+def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
+    """Draw each height of the ball's lowest point, and those that the mean restitution gives.
+
+    Parameters
+    ----------
+    data : object
+        What was measured; the picture needs only what was found.
+    found : Heights
+        What was found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved.
+
+    Examples
+    --------
+    >>> from stackbounce.measure import heights
+    >>> draw(None, heights(1.0, [0.64, 0.41], height_error=0.005)).axes[0].get_ylabel()
+    'height of the lowest point (m)'
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context():
+        mpl.rcParams.update(STYLE)
+        figure = Figure(figsize=(7.2, 4.2))
+        axes = figure.subplots()
+        rows = [found.drop_height, *found.bounce_heights]
+        at = np.arange(len(rows))
+        values = np.array([one.nominal_value for one in rows])
+        kept, start = found.mean.nominal_value, rows[0].nominal_value
+        wide = np.linspace(at[0], at[-1], 160)
+        if found.repeated:
+            expected = np.full(len(wide), start * kept**2)
+            label = f"mean restitution {_written(found.mean)}"
+        else:
+            expected = start * kept ** (2.0 * wide)
+            label = f"restitution {_written(found.mean)} at each bounce"
+        axes.plot(wide, expected, color=COLORS[1], label=label)
+        errors = np.nan_to_num([one.std_dev for one in rows])
+        axes.errorbar(at, values, yerr=errors, fmt="o", color=COLORS[0], capsize=3, label="read")
+        for k, one in enumerate(found.restitutions):
+            axes.annotate(
+                f"e = {_written(one)}",
+                (at[k + 1], values[k + 1]),
+                xytext=(7, 7),
+                textcoords="offset points",
+                fontsize=9,
+                color=COLORS[0],
+            )
+        after = "bounce" if found.repeated else "after bounce"
+        axes.set_xticks(at, ["drop", *(f"{after} {k}" for k in at[:-1])])
+        axes.set_ylim(0.0, 1.12 * float(values.max()))
+        axes.set_xlim(-0.3, at[-1] + 0.6)
+        axes.set_ylabel("height of the lowest point (m)")
+        axes.legend(frameon=False, loc="upper right")
+    return figure
+
+
+def _written(number: Any) -> str:
+    return f"{number:.1uS}" if number.std_dev > 0.0 else f"{number.nominal_value:.3f}"

@@ -1,0 +1,169 @@
+"""Accelerations of what falls and bounces: flights, heights, restitutions, and the untold."""
+
+import json
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import accelerometer, analyse
+from stackbounce.measure.synthetic.accelerometer import accelerometer as record_of
+from stackbounce.measure.synthetic.falls import falls
+from stackbounce.plots import measured
+
+G = 9.80665
+
+
+def fall(contact_time=0.012, height=0.8, bounces=4):
+    law = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=contact_time, restitution=0.6)
+    return falls(height, law, mass=0.2, bounces=bounces)
+
+
+def near(found, true, errors=3.5):
+    return abs(found.nominal_value - true) < errors * found.std_dev
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"rate": 100.0},
+        {"rate": 1000.0},
+        {"missing": 0.1},
+        {"spin": 2.0},
+        {"noise": 0.5},
+        {"full_range": 40.0},
+        {"before": 0.15},
+    ],
+    ids=str,
+)
+def test_what_went_in_comes_out(options):
+    found = accelerometer(record_of(fall(), seed=4, **options))
+    assert near(found.drop_height, 0.8)
+    assert near(found.mean, 0.6)
+    assert len(found.restitutions) == 3
+    assert all(near(kept, 0.6) for kept in found.restitutions)
+    assert near(found.impact_speeds[0], (2.0 * G * 0.8) ** 0.5)
+    assert near(found.apex_heights[0], 0.8 * 0.36)
+
+
+def test_contact_times_only_where_the_sampling_allows():
+    coarse, fine = (accelerometer(record_of(fall(), rate=rate)) for rate in (200.0, 1000.0))
+    assert set(coarse.contact_times) == {None}
+    assert any("it was sampled every 5 ms: contact times and peaks" in one for one in coarse.notes)
+    assert all(near(time, 0.012) for time in fine.contact_times)
+    assert not any("sampled" in note for note in fine.notes)
+
+
+def test_a_range_that_ends_is_told():
+    cut, whole = (
+        accelerometer(record_of(fall(), rate=1000.0, full_range=limit)) for limit in (80.0, 4e3)
+    )
+    words = "the sensor's range ended in a pulse: peaks are higher than they look"
+    assert words in cut.notes
+    assert words not in whole.notes
+    assert cut.peaks[0] < whole.peaks[0] == pytest.approx(np.pi / 2 * 1.6 * 3.96 / 0.012, rel=0.03)
+
+
+def test_a_record_that_begins_in_flight_has_no_drop_height():
+    record = record_of(fall(), seed=1)
+    late = record.isel(time=record.time.values > 0.7)
+    found = accelerometer(late)
+    assert (found.fall, found.drop_height) == (None, None)
+    assert len(found.restitutions) == 2
+    assert near(found.mean, 0.6)
+    assert any("no drop height" in note for note in found.notes)
+
+
+def test_gravity_taken_off_by_the_phone():
+    record = record_of(fall(), seed=1)
+    size = record.acceleration_absolute.values
+    flat = np.abs(size - G)
+    record = record.drop_vars(["acceleration_x", "acceleration_y", "acceleration_z"])
+    record["acceleration_absolute"] = ("time", flat)
+    record.attrs["format"] = "phyphox: acceleration without g"
+    found = accelerometer(record)
+    assert near(found.mean, 0.6)
+    assert any("record the acceleration with g" in note for note in found.notes)
+
+
+def test_of_several_drops_the_longest_series_counts():
+    one, other = record_of(fall(bounces=2), seed=1), record_of(fall(bounces=5), seed=2)
+    size = np.concatenate([one.acceleration_absolute, np.full(200, G), other.acceleration_absolute])
+    found = accelerometer((np.arange(len(size)) / 200.0, size))
+    assert len(found.restitutions) == 4
+    assert near(found.drop_height, 0.8)
+
+
+def test_a_bounce_between_two_samples_is_told():
+    record = record_of(fall(), seed=1)
+    size = record.acceleration_absolute.values.copy()
+    low = size < 1.0
+    first = int(np.flatnonzero(low)[0])
+    touch = first + int(np.flatnonzero(~low[first:])[0])
+    second = touch + int(np.flatnonzero(low[touch:])[0])
+    gone = second + int(np.flatnonzero(~low[second:])[0])
+    size[gone : gone + 4] = 0.0  # the second bounce
+    found = accelerometer((record.time.values, size))
+    assert found.restitutions[0].nominal_value > 0.9
+    assert any("above 1" in note for note in found.notes) == (
+        found.restitutions[0].nominal_value > 1.0
+    )
+
+
+@pytest.mark.parametrize(
+    ("data", "error", "words"),
+    [
+        ((np.arange(50.0), np.full(50, G)), InvalidValue, "the least acceleration is 9.81 m/s"),
+        ((np.arange(50.0), np.zeros(50)), InvalidValue, "must hold a free fall and a bounce"),
+        ((np.zeros(50), np.zeros(50)), InvalidValue, "8 samples or more at ascending times"),
+        (([1.0], [2.0]), InvalidValue, "8 samples or more at ascending times, got 1"),
+        ("fall", InvalidType, "data must be a Dataset from read, or times and values, got 'fall'"),
+        ((np.arange(3.0), None), InvalidType, "data must be a Dataset from read, or times"),
+    ],
+)
+def test_bad_input(data, error, words):
+    with pytest.raises(error, match=words):
+        accelerometer(data)
+
+
+def test_no_acceleration_in_it():
+    with pytest.raises(InvalidType, match="must hold an acceleration over time, got acc"):
+        accelerometer(record_of(fall())[["acceleration_x"]].rename(acceleration_x="acc"))
+
+
+def test_the_synthetic_record_needs_a_contact_time():
+    with pytest.raises(InvalidValue, match="a law with a contact time, and a mass, got none"):
+        record_of(falls(1.0, 0.8))
+
+
+def test_the_command(tmp_path, monkeypatch, capfd):
+    """A file as phyphox writes it: table, picture, a ball to drop, and with a law."""
+    monkeypatch.chdir(tmp_path)
+    record = record_of(fall(), rate=1000.0, seed=1)
+    names = [f"acceleration_{part}" for part in ("x", "y", "z", "absolute")]
+    heads = [f'"{name.capitalize().replace("_", " ")} (m/s^2)"' for name in names[:3]]
+    lines = [",".join(['"Time (s)"', *heads, '"Absolute acceleration (m/s^2)"'])]
+    columns = [record.time.values, *(record[name].values for name in names)]
+    lines += [",".join(f"{value:.9E}" for value in row) for row in zip(*columns, strict=True)]
+    (tmp_path / "fall.csv").write_text("\n".join(lines), encoding="utf-8")
+    options = ["--mass", "200g", "--law", "dashpot", "--save", "ball.toml", "--plot", "fall.svg"]
+    assert main(["measure", "fall.csv", *options, "--json"]) == 0
+    told = json.loads(capfd.readouterr().out)
+    assert told["files"][0]["format"] == "phyphox: acceleration with g"
+    dropped = sb.Drop.from_toml("ball.toml")
+    true = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.012, restitution=0.6)
+    assert dropped.contacts[0].stiffness == pytest.approx(true.stiffness, rel=0.15)
+    assert dropped.height == pytest.approx(0.8, rel=0.02)
+    assert (tmp_path / "fall.svg").read_bytes().startswith(b"<?xml")
+
+
+def test_the_picture_tells_heights_and_restitutions():
+    record = record_of(fall(), seed=1)
+    (found,) = analyse(record)
+    words = [text.get_text() for text in measured(record, found).axes[0].texts]
+    assert len(words) == 4 + 3
+    assert words[0] == f"{100.0 * found.drop_height:.1uS} cm"
+    assert words[4] == f"e = {found.restitutions[0]:.1uS}"

@@ -1,0 +1,20 @@
+"""Error bars hold the truth as often as they claim: an accelerometer that bounced."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from benchmarks.coverage.accelerometer import CASES
+from benchmarks.coverage.shares import shares
+
+SEEDS = range(300)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_truth_lies_within_one_sigma_in_two_of_three(case):
+    for quantity, share in shares(CASES[case], SEEDS).items():
+        assert 0.60 <= share.within_one <= 0.76, quantity
+        assert share.within_two >= 0.90, quantity

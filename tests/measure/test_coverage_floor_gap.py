@@ -1,0 +1,22 @@
+"""Error bars hold the truth as often as they claim: gaps by the force on the floor."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[2]))
+
+from benchmarks.coverage.floor_gap import CASES
+from benchmarks.coverage.shares import shares
+
+SEEDS = range(210)
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_the_truth_lies_within_one_sigma_in_two_of_three(case):
+    told = [CASES[case](seed) for seed in SEEDS]
+    assert sum(map(bool, told)) > 0.7 * len(told)  # a gap near 0.8 mm may look like none
+    for quantity, share in shares(told.__getitem__, SEEDS).items():
+        assert 0.60 <= share.within_one <= 0.76, quantity
+        assert share.within_two >= 0.90, quantity

@@ -1,0 +1,169 @@
+"""Gaps by one sensor on the floor, with and without the upper ball, and by two sensors."""
+
+import json
+import math
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.errors import InvalidValue
+from stackbounce.measure import analyse, floor_gap, sensor_gap
+from stackbounce.measure.synthetic.waveform import waveform as record_of
+from stackbounce.plots import measured
+
+SPEED = 1.98
+BALLS = (sb.Ball(0.101), sb.Ball(0.0248))  # the paper's B1 and B2
+LAWS = (sb.Hysteretic(5.6e4, restitution=0.78), sb.Spring(1.6e4))
+VOLTS = {"sensitivity": 0.01, "bits": 12, "full_scale": 2.0, "noise": 0.004}
+
+
+def drop(gap, balls=BALLS, laws=LAWS, speed=SPEED):
+    return sb.Drop(balls, laws, gaps=[gap], impact_speed=speed)
+
+
+def records(gap, balls=BALLS, laws=LAWS, noise=0.4, **how):
+    """Return the records under both balls, and under the lower one alone."""
+    alone = sb.Drop(balls[:1], laws[:1], impact_speed=SPEED)
+    options = {"rate": 1e5, "noise": noise} | how
+    both = record_of(drop(gap, balls, laws), seed=1, **options)
+    return both, record_of(alone, seed=2, **options)
+
+
+def near(found, true, errors=3.0):
+    return abs(found.nominal_value - true) < errors * found.std_dev
+
+
+@pytest.mark.parametrize("gap", [1e-3, 1.5e-3, 2e-3])
+def test_the_gap_that_went_in_comes_out(gap):
+    found = floor_gap(*records(gap), mass=0.101)
+    assert near(found.delay, float(sb.simulate(drop(gap)).first_touch[1]))
+    assert near(found.gap, gap)
+    assert found.gap.std_dev < 0.4 * gap
+    assert found.gap_limits[0] < gap < found.gap_limits[1]
+    assert found.gain == pytest.approx(1.0, abs=0.01)
+    assert found.notes == ()
+    assert found.parts() == {}
+
+
+def test_volts_need_the_speed():
+    both, alone = records(1e-3, **VOLTS)
+    for known in ({}, {"restitution": 0.78}):
+        found = floor_gap(both, alone, impact_speed=SPEED, **known)
+        assert near(found.gap, 1e-3)
+    with pytest.raises(InvalidValue, match="impact_speed must be given for a record in V, got"):
+        floor_gap(both, alone, mass=0.101)
+
+
+def test_the_lower_balls_second_bounce_tells_its_restitution():
+    both, _ = records(1e-3, **VOLTS)
+    law = LAWS[0]
+    alone = sb.Drop(BALLS[:1], [law], impact_speed=SPEED, gravity=9.80665)
+    twice = record_of(sb.simulate(alone, until=0.4), rate=1e5, before=0.01, seed=2, **VOLTS)
+    known = floor_gap(both, twice, impact_speed=SPEED)
+    once = floor_gap(both, records(1e-3, **VOLTS)[1], impact_speed=SPEED)
+    assert near(known.gap, 1e-3)
+    assert known.gap.std_dev < once.gap.std_dev
+
+
+def test_balls_that_touch_from_the_start_are_told():
+    found = floor_gap(*records(0.0), mass=0.101)
+    assert (found.gap, found.delay) == (None, None)
+    assert found.gap_limits[0] == 0.0 < found.gap_limits[1] < 1e-3
+    assert found.notes[-1].endswith("the gap may be 0")
+    assert str(found.rows()[0].value).startswith("below 0.000")
+
+
+@pytest.mark.parametrize("gap", [8e-3, 12e-3])
+def test_a_ball_that_comes_too_late_is_told(gap):
+    found = floor_gap(*records(gap, noise=2.0), mass=0.101)
+    assert (found.gap, found.gap_limits) == (None, (0.0, math.inf))
+    assert "no second ball is seen while the lower one is on the floor" in found.notes[-1]
+    assert found.rows()[0].value == "unknown"
+
+
+@pytest.mark.parametrize(("gap", "options"), [(1.5e-3, {"rate": 5e3}), (3e-3, {"noise": 1.5})])
+def test_a_ball_that_is_seen_too_faintly_is_told(gap, options):
+    found = floor_gap(*records(gap, **{"noise": 1.0} | options), mass=0.101)
+    touch = float(sb.simulate(drop(gap)).first_touch[1])
+    assert found.gap is None
+    assert found.gap_limits[0] == 0.0 < gap < found.gap_limits[1] < 0.02
+    assert touch < found.delay_limits[1]
+    assert found.notes[-1].endswith("too faintly to tell when")
+
+
+@pytest.mark.parametrize("gap", [3e-3, 12e-3])
+def test_a_light_ball_that_is_thrown_back_has_limits(gap):
+    balls, laws = [sb.Ball(0.0085), sb.Ball(0.101)], [sb.Spring(2.3e4), sb.Spring(1.4e4)]
+    found = floor_gap(*records(gap, balls, laws), mass=0.0085)
+    touch = float(sb.simulate(drop(gap, balls, laws)).first_touch[1])
+    assert found.gap is None
+    assert found.gap_limits[0] < gap < found.gap_limits[1] < 0.1
+    assert found.delay_limits[0] < touch < found.delay_limits[1]
+    assert "only limits can be told" in found.notes[-1]
+    assert " to " in str(found.rows()[0].value)
+
+
+def test_drops_from_different_heights_are_told():
+    both, _ = records(1e-3)
+    lower = record_of(sb.Drop(BALLS[:1], LAWS[:1], impact_speed=0.9 * SPEED), rate=1e5, seed=2)
+    found = floor_gap(both, lower, mass=0.101)
+    assert any("were both drops from the same height?" in note for note in found.notes)
+
+
+def test_a_record_without_a_bounce_is_refused():
+    both, alone = records(1e-3)
+    with pytest.raises(InvalidValue, match="alone must be the record of a bounce that it holds"):
+        floor_gap(both, alone.isel(time=slice(0, 200)), mass=0.101)
+
+
+def test_two_sensors():
+    record = record_of(drop(1e-3), rate=1e5, noise=0.5, contacts=[0, 1], seed=1)
+    touch = float(sb.simulate(drop(1e-3)).first_touch[1])
+    found, whole = analyse(record)
+    assert near(found.delay, touch)
+    assert found.gap is None
+    assert found.notes[-1] == "the gap needs the impact speed too"
+    assert len(whole.contacts) == 1
+    spring = (sb.Spring(5.6e4), LAWS[1])
+    of_spring = record_of(drop(1e-3, laws=spring), rate=1e5, noise=0.5, contacts=[0, 1], seed=1)
+    alone = sb.contact_time(spring[0], 0.101)
+    assert near(sensor_gap(of_spring, impact_speed=SPEED, contact_time=alone).gap, 1e-3)
+    with pytest.raises(InvalidValue, match="must have the floor's channel first, got force_2 "):
+        sensor_gap(
+            record.rename(force="force_3")[["force_2", "force_3"]].rename(
+                force_2="force", force_3="force_2"
+            )
+        )
+    with pytest.raises(InvalidValue, match="data must have two channels, got force"):
+        sensor_gap(record[["force"]])
+
+
+def test_a_second_channel_of_something_else_is_left_alone():
+    record = record_of(drop(1e-3), rate=1e5, noise=0.5, contacts=[0, 1], seed=1)
+    record["force_2"] = 0.0 * record.force_2
+    (whole,) = analyse(record)
+    assert len(whole.contacts) == 1
+
+
+def test_the_command(tmp_path, monkeypatch, capfd):
+    monkeypatch.chdir(tmp_path)
+    for name, record in zip(("stack.csv", "ball.csv"), records(1.5e-3), strict=True):
+        frame = record.force.to_dataframe().reset_index()
+        rows = [f"{t:.7f},{f:.4f}" for t, f in zip(frame.time, frame.force, strict=True)]
+        (tmp_path / name).write_text("\n".join(["time (s),force (N)", *rows]), encoding="utf-8")
+    options = ["--alone", "ball.csv", "--mass", "101g", "--height", "20cm", "--plot", "gap.svg"]
+    assert main(["measure", "stack.csv", *options, "--json"]) == 0
+    (told,) = json.loads(capfd.readouterr().out)["files"]
+    found = {row["name"]: row for row in told["found"]}
+    gap = found["gap between the balls"]
+    assert abs(gap["value"] - 1.5e-3) < 3.0 * gap["error"]
+    assert "contact time" in found
+    assert (tmp_path / "gap.svg").read_bytes().startswith(b"<?xml")
+
+
+def test_the_picture_where_nothing_can_be_told():
+    both, alone = records(0.0)
+    figure = measured(both, floor_gap(both, alone, mass=0.101))
+    assert [axes.get_ylabel() for axes in figure.axes] == ["force (N)", "difference"]
+    assert figure.axes[0].get_title(loc="left") == "gap between the balls: below 0.00036 m"
