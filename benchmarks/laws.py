@@ -26,7 +26,8 @@ LAWS: dict[str, dict[str, Any]] = {
 OURS = tuple(float(f"1e-{n}") for n in range(4, 14))
 THEIRS = (1e-6, 1e-9, 1e-12)
 TRUTH = 1e-14
-DROPS = 2000  # of ours; every hundredth is one of solve_ivp's
+DROPS = 2000  # of ours ...
+THEIR_DROPS = 20  # ... the first of which are solve_ivp's, too
 SPEED = 3.0  # m/s
 DIVISIONS = 10**7
 RIGID = 10**5
@@ -64,13 +65,13 @@ def nonlinear(progress: Callable[[str], None], drops: int = DROPS) -> list[Entry
         progress(f"{law}: a sweep")
         truth = _swept(base, values, TRUTH)[0]
         ours = [(rtol, *_swept(base, values, rtol)) for rtol in OURS]
-        few = cases[:: max(1, drops // 20)]
+        few = cases[:THEIR_DROPS]
         for rtol in THEIRS:
             progress(f"{law}: solve_ivp at {rtol:g}")
             begin = process_time()
             theirs = np.array([rebound(case, rtol) for case in few]) / SPEED
             seconds = (process_time() - begin) / len(few)
-            error = _error(theirs, truth[:: max(1, drops // 20)])
+            error = _error(theirs, truth[: len(few)])
             level, speeds, spent = next(
                 (one for one in ours if _error(one[1], truth) <= error), ours[-1]
             )
