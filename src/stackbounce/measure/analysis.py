@@ -1,11 +1,13 @@
 """The right analysis for what a file holds."""
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.bounces import bounces
+from stackbounce.measure.few import few_bounces
 from stackbounce.measure.press import press
-from stackbounce.measure.sound import knocks
+from stackbounce.measure.sound import Knocks, knocks
 from stackbounce.measure.track import track
 from stackbounce.measure.waveform import waveform
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -45,8 +47,9 @@ def analyse(
     Returns
     -------
     tuple
-        Of a sound `Bounces` and `Knocks`; of knock times and of phyphox's bounces `Bounces`; of a
-        track `Tracks`; of a force waveform `Waveform`; of a press curve `Press`.
+        Of a sound `Bounces` (`FewBounces` where they are too few for a restitution) and `Knocks`;
+        of knock times and of phyphox's bounces `Bounces`; of a track `Tracks`; of a force waveform
+        `Waveform`; of a press curve `Press`.
 
     Raises
     ------
@@ -70,7 +73,9 @@ def analyse(
         raise InvalidType(f"data must be a Dataset from read, got {shown(data)}")
     if holds == "sound":
         heard = knocks(data)
-        return bounces(heard, drop_height=height, gravity=gravity), heard
+        if _enough(heard, height):
+            return bounces(heard, drop_height=height, gravity=gravity), heard
+        return few_bounces(heard, gravity=gravity), heard
     if holds in ("knocks", "bounces"):
         return (bounces(data, drop_height=height, gravity=gravity),)
     if holds == "track":
@@ -81,3 +86,9 @@ def analyse(
         return (press(data),)
     kinds = "sound, knocks, bounces, track, waveform, press curve"
     raise InvalidValue(f"there is no analysis of {holds}: tell what it holds, one of {kinds}")
+
+
+def _enough(heard: Knocks, height: float | None) -> bool:
+    """Tell whether there are two flights in a row, of which the first may be the drop."""
+    whole = [height is not None, *(not lost for lost in heard.missed)]
+    return any(one and other for one, other in pairwise(whole))
