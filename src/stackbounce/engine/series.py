@@ -113,7 +113,7 @@ def integral(a: Floats, n: int, s: float, root: int) -> float:
     total = a[n] / (n + root)
     for k in range(n - 1, -1, -1):
         total = a[k] / (k + root) + s * total
-    return root * s**root * total
+    return total * s if root == 1 else 2.0 * total * (s * s)
 
 
 @kernel

@@ -77,7 +77,7 @@ def expand(stack: Stack, low: int, high: int) -> float:
         if size * x > before:  # else this term is as small as the last one
             x = min(x, (allowed / size) ** (1.0 / k))
         before = size
-    return min(step, x**root)
+    return min(step, x if root == 1 else x * x)
 
 
 @kernel

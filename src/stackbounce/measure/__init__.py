@@ -5,6 +5,7 @@ reading/    files -> Dataset
 waveform/   force waveform -> contacts, stiffness, gap
 sound       recording -> knocks
 bounces     times of knocks -> restitutions
+few         one knock or two -> what they tell all the same
 track       positions -> flights, speeds, heights
 heights     bounce heights -> restitutions
 press/      press curve -> stiffness, exponent, loss

@@ -1,15 +1,17 @@
 """The right analysis for what a file holds."""
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.accelerometer import accelerometer
 from stackbounce.measure.bounces import bounces
+from stackbounce.measure.few import few_bounces
 from stackbounce.measure.floor_gap import floor_gap
 from stackbounce.measure.heights import Place, above_bottom, heights, lowest_point, places
 from stackbounce.measure.press import press
 from stackbounce.measure.sensor_gap import SensorGap, sensor_gap
-from stackbounce.measure.sound import knocks
+from stackbounce.measure.sound import Knocks, knocks
 from stackbounce.measure.track import Tracks, track
 from stackbounce.measure.waveform import waveform
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -73,11 +75,11 @@ def analyse(
     Returns
     -------
     tuple
-        Of a sound `Bounces` and `Knocks`; of knock times and of phyphox's bounces `Bounces`; of a
-        track `Tracks`; of an acceleration `Accelerometer`; of a force waveform `Waveform`, with a
-        second sensor between two balls `SensorGap` before it, and with `alone` `FloorGap` after it;
-        of a press curve `Press`; of a table with one column of heights, the drop's above the
-        bounces', `Heights`.
+        Of a sound `Bounces` (`FewBounces` where they are too few for a restitution) and `Knocks`;
+        of knock times and of phyphox's bounces `Bounces`; of a track `Tracks`; of an acceleration
+        `Accelerometer`; of a force waveform `Waveform`, with a second sensor between two balls
+        `SensorGap` before it, and with `alone` `FloorGap` after it; of a press curve `Press`; of a
+        table with one column of heights, the drop's above the bounces', `Heights`.
 
     Raises
     ------
@@ -103,7 +105,9 @@ def analyse(
         height = lowest_point("height", height, places(measured_to)[0], diameter)
     if holds == "sound":
         heard = knocks(data)
-        return bounces(heard, drop_height=height, gravity=gravity), heard
+        if _enough(heard, height):
+            return bounces(heard, drop_height=height, gravity=gravity), heard
+        return few_bounces(heard, gravity=gravity), heard
     if holds in ("knocks", "bounces"):
         return (bounces(data, drop_height=height, gravity=gravity),)
     if holds == "track":
@@ -132,6 +136,12 @@ def analyse(
         return (found,)
     kinds = "sound, knocks, bounces, track, waveform, acceleration, press curve, table of heights"
     raise InvalidValue(f"there is no analysis of {holds}: tell what it holds, one of {kinds}")
+
+
+def _enough(heard: Knocks, height: float | None) -> bool:
+    """Tell whether there are two flights in a row, of which the first may be the drop."""
+    whole = [height is not None, *(not lost for lost in heard.missed)]
+    return any(one and other for one, other in pairwise(whole))
 
 
 def _by_two_sensors(data: "xr.Dataset", speed: Any, contact_time: Any) -> tuple[SensorGap, ...]:

@@ -158,8 +158,8 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """Return the one contact that measured contacts make."""
     if not contacts:
         raise InvalidValue(
-            "no contact was found, which needs a sound, a track, a force waveform with the ball's "
-            "mass, or a press curve"
+            "no contact was found, which needs a sound of three bounces, a track, a force waveform "
+            "with the ball's mass, or a press curve"
         )
     if len(contacts) == 1:
         return dict(contacts[0])

@@ -112,7 +112,7 @@ def bounces(
     ----------
     times : Knocks or Dataset or sequence
         What `knocks` found, a Dataset with `knock_time` (phyphox), or at least three times in s,
-        ascending; with errors where they are `ufloat`.
+        ascending; with errors where they are `ufloat`. Two are enough with a drop height.
     drop_height : float or ufloat, optional
         In m, of the ball's lowest point, above 0; with it the first bounce has a restitution too.
     gravity : float, optional
@@ -131,7 +131,7 @@ def bounces(
     Raises
     ------
     InvalidValue
-        If there are fewer than three times, they do not ascend, or a number is out of its range.
+        If there are too few times, they do not ascend, or a number is out of its range.
     InvalidType
         If `times` holds no numbers.
 
@@ -153,15 +153,16 @@ def bounces(
     gravity = positive("gravity", gravity, "m/s^2")
     contact_time = non_negative("contact_time", contact_time, "seconds")
     notes: list[str] = []
-    moments, missed = _moments(times, time_error, notes)
-    flights = _flights(moments, missed, contact_time)
     height = _height(drop_height)
+    moments, missed = _moments(times, time_error, 3 if height is None else 2, notes)
+    flights = _flights(moments, missed, contact_time)
     numbers, speeds, kept = _restitutions(flights, missed, height, gravity)
     if not kept:
         raise InvalidValue(
             "times must hold two neighbouring flights, got none without a missing bounce between"
         )
-    if not isinstance(moments[0], UFloat):
+    known = isinstance(moments[0], UFloat)
+    if not known:
         moments, flights, numbers, speeds, kept = _with_errors_from_scatter(
             moments, missed, contact_time, height, gravity, notes
         )
@@ -169,7 +170,8 @@ def bounces(
         notes.append(
             "A restitution above 1: a bounce was missed before it, or it was not left to itself."
         )
-    mean, laws, scatter = laws_of(speeds, kept)
+    # Errors that follow from the scatter hold it already.
+    mean, laws, scatter = laws_of(speeds, kept) if known else laws_of(speeds, kept, most=0.0)
     if scatter:
         notes.append(
             f"Restitution differs by {scatter:.2g} from bounce to bounce, more than the errors of "
@@ -198,7 +200,9 @@ def bounces(
     )
 
 
-def _moments(times: Any, error: float | None, notes: list[str]) -> tuple[list[Any], list[int]]:
+def _moments(
+    times: Any, error: float | None, least: int, notes: list[str]
+) -> tuple[list[Any], list[int]]:
     """Return times, as ufloats if their errors are known, and the bounces missing after each."""
     from uncertainties import UFloat, ufloat
 
@@ -211,8 +215,9 @@ def _moments(times: Any, error: float | None, notes: list[str]) -> tuple[list[An
     if error is not None:
         error = positive("time_error", error, "seconds")
     plain = np.array([_nominal(one) for one in values])
-    if len(plain) < 3:
-        raise InvalidValue(f"times must hold at least three bounces, got {len(plain)}")
+    if len(plain) < least:
+        many = "three bounces" if least == 3 else "two bounces where the drop height is known"
+        raise InvalidValue(f"times must hold at least {many}, got {len(plain)}")
     if not np.isfinite(plain).all():
         raise InvalidValue("times must be finite numbers of seconds, got one that is not")
     moments: list[Any] = [float(one) for one in plain]

@@ -7,12 +7,14 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.chance import Fit, extra_scatter, least_squares, widening
+from stackbounce.measure.chance import Fit, scattered
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
 __all__ = ["RestitutionLaw", "laws_of", "straight"]
+
+_MOST = 0.3  # by which restitutions may scatter from bounce to bounce
 
 
 @dataclass(frozen=True)
@@ -55,12 +57,12 @@ class RestitutionLaw:
 
 
 def straight(
-    speeds: Sequence[Any], kept: Sequence[Any], degree: int, scatter: float, power: bool = False
+    speeds: Sequence[Any], kept: Sequence[Any], degree: int, most: float, power: bool = False
 ) -> tuple[Fit, float]:
-    """Return the fit of a polynomial in the speed, or of logarithms, and its extra scatter.
+    """Return the fit of a polynomial in the speed, or of logarithms, and the scatter about it.
 
     The speeds have errors too, which go together with the restitutions': the covariance is that of
-    the residuals.
+    the residuals. `most` is the largest scatter that single bounces may have, 0 for none.
     """
     from uncertainties import covariance_matrix, umath
 
@@ -70,19 +72,16 @@ def straight(
         [float(getattr(one, "nominal_value", one)) for one in x], degree + 1, increasing=True
     )
     values = np.array([one.nominal_value for one in y])
-    slope, more, fit = 0.0, 0.0, None
-    for _ in range(2):
-        residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
-        covariance = np.array(covariance_matrix(residuals))
-        more = extra_scatter(design, values, covariance) if scatter < 0.0 else scatter
-        fit = least_squares(design, values, covariance + more**2 * np.eye(len(values)))
-        slope = float(fit.values[1]) if degree else 0.0
-    assert fit is not None
-    return fit, more
+    slope = 0.0
+    if degree:
+        rough = np.array(covariance_matrix(y))
+        slope = float(scattered(design, values, rough, most)[0].values[1])
+    residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
+    return scattered(design, values, np.array(covariance_matrix(residuals)), most)
 
 
 def laws_of(
-    speeds: Sequence[Any], kept: Sequence[Any]
+    speeds: Sequence[Any], kept: Sequence[Any], most: float = _MOST
 ) -> "tuple[UFloat, tuple[RestitutionLaw, ...], float]":
     """Return the mean restitution, its two laws, and the scatter about the linear one."""
     from uncertainties import correlated_values, umath
@@ -93,16 +92,14 @@ def laws_of(
     scatter = 0.0
     if len(kept) > 2:
         for form, power in (("linear", False), ("power law", True)):
-            fit, more = straight(speeds, kept, 1, -1.0, power)
-            wider = widening(fit.freedom) ** 2 if more else 1.0
-            first, second = correlated_values(fit.values, wider * fit.covariance)
+            fit, more = straight(speeds, kept, 1, most, power)
+            first, second = correlated_values(fit.values, fit.covariance)
             if not power:
                 scatter = more
             coefficient = umath.exp(first) if power else first
             laws.append(
                 RestitutionLaw(form, coefficient, -second, fit.chi_squared, fit.freedom)  # type: ignore[arg-type]
             )
-    fit, more = straight(speeds, kept, 0, -1.0)
-    wider = widening(fit.freedom) ** 2 if more else 1.0
-    (mean,) = correlated_values(fit.values, wider * fit.covariance)
+    fit, _ = straight(speeds, kept, 0, most)
+    (mean,) = correlated_values(fit.values, fit.covariance)
     return mean, tuple(laws), scatter

@@ -7,9 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.chance import least_squares
-
-__all__ = ["Chain", "find_chain", "missed_between", "roughness"]
+__all__ = ["Chain", "find_chain", "missed_between"]
 
 _LONGEST = 3.0  # s in the air: a bounce of 11 m
 _SHRINKS = (0.15, 1.03)  # ratio of neighbouring flights
@@ -186,45 +184,3 @@ def missed_between(steps: Sequence[float] | NDArray[Any]) -> list[int]:
         else:
             flight = lengths[k]
     return missed
-
-
-def roughness(
-    times: NDArray[np.float64], errors: NDArray[np.float64], missed: Sequence[int]
-) -> float:
-    """Return by which factor times scatter more than their errors about a steady fall.
-
-    Parameters
-    ----------
-    times, errors : ndarray
-        (N,) in s.
-    missed : sequence of int
-        How many bounces are missing after each but the last.
-
-    Returns
-    -------
-    float
-        The root of χ² over its degrees of freedom, of a restitution that falls linearly with
-        speed; 1 where it is less, and where fewer than four restitutions are known.
-
-    Examples
-    --------
-    >>> times = np.cumsum(0.8 ** np.arange(8))
-    >>> roughness(times, np.full(8, 1e-4), [0] * 7)
-    1.0
-    """
-    flights = np.diff(times)
-    whole = np.array(missed) == 0
-    known = np.flatnonzero(whole[:-1] & whole[1:])
-    if len(known) < 4:
-        return 1.0
-    ratio = flights[known + 1] / flights[known]
-    design = np.stack([np.ones(len(known)), flights[known]], axis=1)
-    slope = np.polyfit(flights[known], ratio, 1)[0]
-    jacobian = np.zeros((len(known), len(times)))
-    rows = np.arange(len(known))
-    by_before = -ratio / flights[known] - slope
-    jacobian[rows, known + 2] = 1.0 / flights[known]
-    jacobian[rows, known + 1] = -1.0 / flights[known] + by_before
-    jacobian[rows, known] = -by_before
-    fit = least_squares(design, ratio, (jacobian * errors**2) @ jacobian.T)
-    return math.sqrt(max(1.0, fit.chi_squared / fit.freedom))

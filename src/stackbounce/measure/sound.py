@@ -7,8 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
-from stackbounce.measure.loudness import Rises, find_rises, whitened
-from stackbounce.measure.sequence import Chain, find_chain, roughness
+from stackbounce.measure.loudness import Rises, find_rises, rounding, whitened
+from stackbounce.measure.onset import onsets
+from stackbounce.measure.sequence import Chain, find_chain
 from stackbounce.measure.table import Row
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ __all__ = ["Dropped", "Knocks", "knocks"]
 _DEAD = 8e-3  # s: two knocks closer than that are one impact
 _AS_LATE = 1.5e-3  # s by which the delay of an echo may differ
 _SECOND_SERIES = 4
-_ROUGH = 2.0
+_LASTS = 10e-3  # s of a knock that tell how loud it is
 _CLIPPED = 4  # samples in a row at the largest value
 
 
@@ -40,7 +41,7 @@ class Knocks:
     times : tuple of ufloat
         When each begins, in s.
     loudness : ndarray
-        (N,) relative to the loudest.
+        (N,) amplitude over 10 ms without hum, relative to the loudest.
     missed : tuple of int
         How many bounces are missing after each but the last.
     dropped : tuple of Dropped
@@ -61,7 +62,9 @@ class Knocks:
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
         rows = [Row("knocks", len(self.times)), Row("sounds left out", len(self.dropped))]
-        rows.extend(Row(f"time of knock {k}", time, "s") for k, time in enumerate(self.times))
+        for k, (time, loudness) in enumerate(zip(self.times, self.loudness, strict=True)):
+            rows.append(Row(f"time of knock {k}", time, "s"))
+            rows.append(Row(f"loudness of knock {k}", float(loudness)))
         rows.extend(Row("note", note) for note in self.notes)
         return rows
 
@@ -113,9 +116,9 @@ def knocks(
 
     Notes
     -----
-    The time of a knock is where the variance of the sound changes, with the error of that (its
-    posterior, for several times of rise). Where the knocks scatter more than that about a
-    restitution that falls steadily with speed, their errors are widened by as much.
+    The time of a knock is where its wave rises out of the noise, with the error of that: see
+    `stackbounce.measure.onset.onsets`. Of several channels that one is taken in which the knocks
+    are clearest.
 
     Examples
     --------
@@ -126,13 +129,17 @@ def knocks(
     >>> len(found.times), len(found.dropped)
     (8, 0)
     """
+    from uncertainties import ufloat
+
     if threshold is not None and positive("threshold", threshold) <= 1.0:
         raise InvalidValue(f"threshold must be a factor above 1, got {shown(threshold)}")
     dead = _DEAD if dead_time is None else positive("dead_time", dead_time, "seconds")
     samples, rate, origin = _samples(data, rate)
     samples, origin = _part(samples, rate, origin, start, stop)
     notes = _notes_on(samples)
-    rises = find_rises(whitened(samples), rate, threshold)
+    rounded = rounding(samples)
+    white = whitened(samples, rounded)
+    rises = find_rises(white, rate, threshold, float(rounded.mean()))
     if not len(rises.times):
         raise InvalidValue(
             "sound must hold a knock that rises above what precedes it, got none: "
@@ -143,7 +150,18 @@ def knocks(
     chain = find_chain(rises.times, worth, rises.amplitudes, rises.errors, dead)
     chain, dropped = _without_echoes(chain, rises, notes)
     _note_series(chain, rises, worth, dead, origin, notes)
-    return _result(chain, rises, [*doubles, *dropped], rate, origin, notes)
+    at = list(chain.indices)
+    times, errors = onsets(white, rate, rises.times[at], rounded)
+    loudness = _loudness(white, rate, times)
+    left_out = sorted([*doubles, *dropped], key=lambda one: one.time)
+    return Knocks(
+        tuple(map(ufloat, origin + times, errors)),
+        loudness / loudness.max(),
+        chain.missed,
+        tuple(Dropped(origin + one.time, one.why) for one in left_out),
+        rate,
+        tuple(notes),
+    )
 
 
 def _samples(data: Any, rate: float | None) -> tuple[NDArray[np.float32], float, float]:
@@ -307,29 +325,11 @@ def _note_series(
             )
 
 
-def _result(
-    chain: Chain,
-    rises: Rises,
-    dropped: list[Dropped],
-    rate: float,
-    origin: float,
-    notes: list[str],
-) -> Knocks:
-    from uncertainties import ufloat
-
-    at = list(chain.indices)
-    wider = roughness(rises.times[at], rises.errors[at], chain.missed)
-    if wider > _ROUGH:
-        notes.append(
-            f"The knocks scatter {wider:.1f} times more than their onsets are unsure, about a "
-            "restitution that falls steadily: their errors are as wide as that."
-        )
-    loudness = rises.amplitudes[at]
-    return Knocks(
-        tuple(ufloat(origin + rises.times[k], wider * rises.errors[k]) for k in at),
-        loudness / loudness.max(),
-        chain.missed,
-        tuple(Dropped(origin + one.time, one.why) for one in sorted(dropped, key=lambda d: d.time)),
-        rate,
-        tuple(notes),
-    )
+def _loudness(
+    white: NDArray[np.float32], rate: float, times: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the root mean square of each knock, of all channels together."""
+    count = max(1, round(_LASTS * rate))
+    first = np.round(times * rate).astype(np.int64)
+    parts = [white[:, at : at + count].astype(np.float64) for at in np.maximum(first, 0)]
+    return np.array([np.sqrt((part**2).mean()) for part in parts])

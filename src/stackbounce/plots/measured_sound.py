@@ -70,7 +70,7 @@ def _draw_sound(axes: "Axes", data: Any, found: Any, times: NDArray[np.float64])
         "v",
         color=_BLUE,
         markersize=6,
-        label=f"{len(times)} knocks",
+        label=f"{len(times)} knock{'s' * (len(times) != 1)}",
         clip_on=False,
     )
     axes.vlines(times, -top, top, color=_BLUE, linewidth=0.7, alpha=0.55)

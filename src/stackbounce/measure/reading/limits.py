@@ -42,7 +42,7 @@ _OTHERS = (
 )
 
 
-def content_of(path: object) -> tuple[str, bytes]:
+def content_of(path: object) -> tuple[str, bytearray]:
     """Return the name of a file and its bytes.
 
     Raises
@@ -62,7 +62,8 @@ def content_of(path: object) -> tuple[str, bytes]:
         if not stat.S_ISREG(mode):  # a pipe or a device may never end
             raise FileError(f"{name} is no ordinary file: copy what it gives into one")
         with Path(name).open("rb") as file:  # which has room made for all that is asked for
-            content = file.read(min(os.fstat(file.fileno()).st_size, BYTES) + 1)
+            content = bytearray(min(os.fstat(file.fileno()).st_size, BYTES) + 1)
+            del content[file.readinto(content) :]
     except OSError as error:
         if isinstance(error, FileError):
             raise
@@ -76,7 +77,7 @@ def content_of(path: object) -> tuple[str, bytes]:
     return name, content
 
 
-def refuse_others(content: bytes) -> None:
+def refuse_others(content: bytearray) -> None:
     """Refuse the kinds of files that are often at hand instead of a table or a sound."""
     begin = content[:64].removeprefix(b"\xef\xbb\xbf").lstrip()
     for where, what, kind, remedy in _OTHERS:

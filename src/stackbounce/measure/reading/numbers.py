@@ -2,13 +2,15 @@
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.engine.kernel import compiled
 from stackbounce.errors import FileError
+from stackbounce.measure.reading.grid import POWERS, grid
 from stackbounce.measure.reading.limits import CELLS, LINE
 from stackbounce.measure.reading.text import Text, number, split
 
@@ -68,34 +70,64 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
         If a line is endless, or there are more than `limits.CELLS` numbers.
     """
     table = Table(np.empty((0, len(used))), np.zeros(len(used), dtype=np.int64))
-    blocks, count, odd = [], 0, 0
-    for chunk in _chunks(text.content, text.starts[first]):
+    start = text.starts[first]
+    most = min(text.content.count("\n", start) + 1, CELLS // len(used) + 1)
+    values = np.empty((len(used), most)).T  # a column is one piece; what stays empty costs nothing
+    plain = compiled(grid) if len(text.content) - start > _CHUNK else None  # worth a second
+    count, odd = 0, 0
+    for chunk in _chunks(text.content, start):
         if not chunk or chunk.isspace():
             continue
-        lines = chunk.split("\n")
-        if len(max(lines, key=len)) > LINE:
-            raise FileError(f"it has a line of more than {LINE} characters")
-        block = _plain(lines, text, used)
-        if block is None:  # perhaps for blank cells only
-            block = _plain(_filled(chunk, text.delimiter), text, used)
-        if block is None:
-            odd += len(chunk)
+        rows = _gridded(plain, chunk, text, used, values[count:]) if plain else -1
+        if rows < 0:
+            block, strange = _lines(chunk, text, used, table)
+            odd += strange
             if odd > _ODD:
                 raise FileError("too many of its lines are not just numbers")
-            block = _any(lines, text, used, table)
-        count += block.size
-        if count > CELLS:
-            raise FileError(f"it has more than {CELLS} numbers: cut out what is of interest")
-        blocks.append(block)
-    if blocks:
-        values = np.concatenate(blocks)
-        blank = np.isnan(values).all(axis=1)
-        table.values = values[~blank] if blank.any() else values
+            rows = len(block)
+            if (count + rows) * len(used) > CELLS:
+                raise FileError(f"it has more than {CELLS} numbers: cut out what is of interest")
+            values[count : count + rows] = block
+        count += rows
+    values = values[:count]
+    blank = np.isnan(values).all(axis=1)
+    table.values = values[~blank] if blank.any() else values
     infinite = np.isinf(table.values)
     table.infinite = int(infinite.sum())
     if table.infinite:
         table.values[infinite] = np.nan
     return table
+
+
+def _gridded(
+    plain: Callable[..., int],
+    chunk: str,
+    text: Text,
+    used: Sequence[int],
+    values: NDArray[np.float64],
+) -> int:
+    """Write the numbers of a chunk that has nothing else; return how many rows, or -1."""
+    chunk = chunk.strip("\n")
+    places = np.full(len(split(chunk.partition("\n")[0], text.delimiter)), -1)
+    if max(used) >= len(places) or len(set(used)) < len(used) or not chunk.isascii():
+        return -1
+    places[list(used)] = np.arange(len(used))
+    decimal = ord(text.decimal) if text.decimal != text.delimiter else -1
+    raw = np.frombuffer(chunk.encode(), dtype=np.uint8)
+    return plain(raw, ord(text.delimiter), decimal, LINE, places, POWERS, values)
+
+
+def _lines(
+    chunk: str, text: Text, used: Sequence[int], table: Table
+) -> tuple[NDArray[np.float64], int]:
+    """Return the rows of a chunk, and how many of its characters had to be looked at one by one."""
+    lines = chunk.split("\n")
+    if len(max(lines, key=len)) > LINE:
+        raise FileError(f"it has a line of more than {LINE} characters")
+    block = _plain(lines, text, used)
+    if block is None:  # perhaps for blank cells only
+        block = _plain(_filled(chunk, text.delimiter), text, used)
+    return (_any(lines, text, used, table), len(chunk)) if block is None else (block, 0)
 
 
 def _chunks(content: str, start: int) -> Iterator[str]:

@@ -119,7 +119,7 @@ def read(
     return data
 
 
-def _read(content: bytes, told: Told) -> "xr.Dataset":
+def _read(content: bytearray, told: Told) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if told.holds not in (None, "sound"):
@@ -132,7 +132,7 @@ def _read(content: bytes, told: Told) -> "xr.Dataset":
     return _from_text(content, told)
 
 
-def _from_zip(content: bytes, told: Told) -> "xr.Dataset":
+def _from_zip(content: bytearray, told: Told) -> "xr.Dataset":
     members, by_phyphox = zipped.members(content)
     names = sorted(members, key=lambda one: (one.count("/"), one))
     if told.table is not None:
@@ -140,7 +140,7 @@ def _from_zip(content: bytes, told: Told) -> "xr.Dataset":
     read: list[tuple[str, xr.Dataset]] = []
     for name in names:
         try:
-            read.append((name, _from_text(members.pop(name), told)))
+            read.append((name, _from_text(bytearray(members.pop(name)), told)))
         except StackbounceError as error:
             if name == names[-1] and not read:
                 raise type(error)(f"{name}: {error}") from error
@@ -158,15 +158,8 @@ def _from_zip(content: bytes, told: Told) -> "xr.Dataset":
     return data
 
 
-def _from_text(content: bytes, told: Told) -> "xr.Dataset":
-    refuse_others(content)
-    text = tabulate(decode(content), told.decimal)
-    asked = (*layouts.tables, *scopes)
-    layout = next((found for one in asked if (found := one(text))), None) or layouts.generic(text)
-    columns = as_told(layout.columns, told)
-    doubts = [*text.doubts, *(() if told.names else layout.doubts)]
-    columns, runs = of_run(columns, told.run, doubts)
-    table = rows_of(text, layout.first, [one.index for one in columns])
+def _from_text(content: bytearray, told: Told) -> "xr.Dataset":
+    layout, columns, table, doubts, runs = _table(content, told)
     if layout.clock:
         table.values[:, 0] = layout.clock[0] + layout.clock[1] * table.values[:, 0]
     doubts += _flaws(table)
@@ -179,6 +172,29 @@ def _from_text(content: bytes, told: Told) -> "xr.Dataset":
         raise InvalidValue("holds: only phyphox's (in)elastic collision holds bounces")
     data, more = assemble(holds, columns, values, None if runs else told.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
+
+
+def _table(
+    content: bytearray, told: Told
+) -> tuple[layouts.Layout, list[Column], Table, list[str], bool]:
+    """Return the layout of a text, its columns, numbers and doubts, and whether it has runs.
+
+    The text itself, which may be larger than all of that, is gone then.
+    """
+    refuse_others(content)
+    text = tabulate(decode(content), told.decimal)
+    asked = (*layouts.tables, *scopes)
+    layout = next((found for one in asked if (found := one(text))), None) or layouts.generic(text)
+    columns = as_told(layout.columns, told)
+    doubts = [*text.doubts, *(() if told.names else layout.doubts)]
+    columns, runs = of_run(columns, told.run, doubts)
+    return (
+        layout,
+        columns,
+        rows_of(text, layout.first, [one.index for one in columns]),
+        doubts,
+        runs,
+    )
 
 
 def _signed(

@@ -13,7 +13,7 @@ _RUNS = 50
 
 def in_time(
     time: NDArray[np.float64], run: object, *, gaps: bool
-) -> tuple[NDArray[np.intp], list[str]]:
+) -> tuple[NDArray[np.intp] | slice, list[str]]:
     """Return the rows of one run, whose times never run backwards, and what is unsure.
 
     Parameters
@@ -30,21 +30,24 @@ def in_time(
     InvalidValue
         If times run backwards too often, or there is no such run.
     """
-    rows = np.flatnonzero(np.isfinite(time))
-    if not rows.size:
+    known = np.isfinite(time)
+    rows = slice(None) if known.all() else np.flatnonzero(known)  # a slice copies nothing
+    own = time[rows]
+    if not own.size:
         raise InvalidValue("time: there is none in any row")
-    steps = np.diff(time[rows])
+    steps = np.diff(own)
     again = np.flatnonzero(steps < 0.0) + 1
     doubts = []
     if again.size >= _RUNS:
         raise InvalidValue(
-            f"time runs backwards in {again.size} of {rows.size} rows: "
+            f"time runs backwards in {again.size} of {own.size} rows: "
             "names={…: 'time'} tells another column"
         )
     if again.size:
         at = 1 if run is None else _counted(run, again.size + 1)
-        rows = np.split(rows, again)[at - 1]
-        steps = np.diff(time[rows])
+        first, last = [0, *again, own.size][at - 1 : at + 1]
+        rows = slice(first, last) if isinstance(rows, slice) else rows[first:last]
+        own, steps = own[first:last], steps[first : last - 1]
         doubts.append(f"time starts again {again.size} times; run {at} of {again.size + 1} is read")
     elif run is not None:
         _counted(run, 1)
@@ -52,10 +55,12 @@ def in_time(
     if repeated:
         doubts.append(f"{repeated} times are repeated: written with too few digits, perhaps")
     usual = float(np.median(steps)) if steps.size else 0.0
-    if gaps and usual > 0.0 and np.mean(np.abs(steps - usual) < 0.01 * usual) > 0.5:
+    if gaps and usual > 0.0:
+        off = steps - usual
+        regular = np.mean(np.abs(off, out=off) < 0.01 * usual) > 0.5
         wide = np.flatnonzero(steps > 1.5 * usual)
-        if wide.size:
-            where = time[rows[wide[0]]]
+        if regular and wide.size:
+            where = own[wide[0]]
             doubts.append(f"{wide.size} gaps in time, the first after {where:.6g} s")
     return rows, doubts
 

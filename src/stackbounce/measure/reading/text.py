@@ -57,8 +57,10 @@ class Text:
         return self.content[start : end if end >= 0 else None]
 
 
-def decode(content: bytes) -> str:
+def decode(content: bytearray) -> str:
     """Return bytes as text with plain line ends; the encoding is told by a mark or tried.
+
+    The bytes are given up (emptied), so that a large file is not held twice.
 
     Raises
     ------
@@ -77,6 +79,7 @@ def decode(content: bytes) -> str:
         if "16" in encoding:
             raise FileError("it is no text: it looks like UTF-16 but is not") from error
         text = content.decode("latin-1")
+    content.clear()
     strange = len(_CONTROL.findall(text[:100_000]))
     if strange > len(text[:100_000]) / 1000:
         raise FileError("it is no text, nor any kind of file that is known here")

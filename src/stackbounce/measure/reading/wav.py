@@ -32,12 +32,15 @@ class _Form:
     size: int  # bytes of a number
 
 
-def is_wav(content: bytes) -> bool:
+def is_wav(content: bytearray) -> bool:
     """Tell whether bytes are a RIFF file of the kind WAVE."""
-    return content[:4] in (b"RIFF", b"RF64", b"RIFX") and content[8:12] in (b"WAVE", b"")
+    return content.startswith((b"RIFF", b"RF64", b"RIFX")) and bytes(content[8:12]) in (
+        b"WAVE",
+        b"",
+    )
 
 
-def read_wav(content: bytes) -> tuple["xr.Dataset", str, list[str]]:
+def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     """Return the sound over time, why it is one, and what is unsure.
 
     Channels are averaged, and full scale is 1. Of a file that is cut off, what is there is read,
@@ -85,7 +88,7 @@ def read_wav(content: bytes) -> tuple["xr.Dataset", str, list[str]]:
     return data, why, doubts
 
 
-def _chunks(content: bytes) -> Iterator[tuple[bytes, int, int]]:
+def _chunks(content: bytearray) -> Iterator[tuple[bytes, int, int]]:
     """Yield name, start and size of each chunk, a limited number of them."""
     start = 12
     for _ in range(10_000):
@@ -96,7 +99,7 @@ def _chunks(content: bytes) -> Iterator[tuple[bytes, int, int]]:
         start += 8 + size + size % 2
 
 
-def _found(content: bytes) -> tuple[_Form, int, int]:
+def _found(content: bytearray) -> tuple[_Form, int, int]:
     form = None
     for name, start, size in _chunks(content):
         if name == b"fmt ":
@@ -109,7 +112,7 @@ def _found(content: bytes) -> tuple[_Form, int, int]:
     raise FileError(f"it is a WAV sound, but broken: {missing} is missing")
 
 
-def _form(chunk: bytes) -> _Form:
+def _form(chunk: bytearray) -> _Form:
     if len(chunk) < 16:
         raise FileError("it is a WAV sound, but broken: its format is cut off")
     code, channels, rate, _, frame, bits = struct.unpack_from("<HHIIHH", chunk)
@@ -129,7 +132,7 @@ def _form(chunk: bytes) -> _Form:
     return _Form(code, channels, rate, size)
 
 
-def _folded(samples: bytes, form: _Form) -> NDArray[np.float64]:
+def _folded(samples: bytearray, form: _Form) -> NDArray[np.float64]:
     """Return the mean of the channels, of full scale 1."""
     raw = np.frombuffer(samples, dtype=_KINDS[form.code, form.size])
     full = 1.0

@@ -15,7 +15,7 @@ _BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, Runtim
 _ENDINGS = (".csv", ".tsv", ".txt", ".dat")
 
 
-def members(content: bytes) -> tuple[dict[str, bytes], bool]:
+def members(content: bytearray) -> tuple[dict[str, bytes], bool]:
     """Return the tables of an archive by their names, and whether phyphox wrote it.
 
     Names are names only: nothing is written anywhere. Archives inside are left alone.

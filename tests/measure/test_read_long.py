@@ -1,0 +1,96 @@
+"""Long files: the same numbers as of short ones, in less time and memory."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import stackbounce as sb
+from stackbounce.engine.kernel import compiled
+from stackbounce.measure.reading import numbers
+from stackbounce.measure.reading.grid import POWERS, grid
+
+CELLS = st.one_of(
+    st.from_regex(r"[+-]?[0-9]{0,17}(\.[0-9]{0,17})?([eE][+-]?[0-9]{0,4})?", fullmatch=True),
+    st.floats(allow_nan=False, allow_infinity=False, width=16).map(str),
+    st.sampled_from(["", "-", "--", "1e400", "-0", "1e-22", "9007199254740993", "1.2.3", " 1"]),
+)
+
+
+def parsed(cells, width):
+    """Return what the kernel makes of cells, row by row, or None where it gives up."""
+    rows = [",".join(cells[k : k + width]) for k in range(0, len(cells), width)]
+    raw = np.frombuffer("\n".join(rows).encode(), dtype=np.uint8)
+    values = np.empty((len(rows), width))
+    places = np.arange(width)
+    found = grid(raw, ord(","), ord("."), 1000, places, POWERS, values)
+    return values if found == len(rows) else None
+
+
+@given(st.lists(CELLS, min_size=1, max_size=6))
+def test_a_number_is_what_python_makes_of_it_or_none(cells):
+    found = parsed(cells, len(cells))
+    if found is not None:
+        wanted = np.array([float(cell) for cell in cells])  # which refuses what is no number
+        assert found[0].tobytes() == wanted.tobytes()
+
+
+@given(st.lists(st.decimals(-1000, 1000, places=6), min_size=2, max_size=40))
+def test_numbers_of_instruments_are_all_read(values):
+    found = parsed([str(one) for one in values], 1)
+    assert found is not None
+    assert found[:, 0].tolist() == [float(one) for one in values]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["1,2\n3", "1,2\n3,4,5", "1,2\n\n3,4", "1,,2", "1,2\n3,x", "1,2,", "1;2", "1, 2", "1.2.3"],
+)
+def test_what_is_no_grid_is_left_to_others(text):
+    raw = np.frombuffer(text.encode(), dtype=np.uint8)
+    arguments = (ord(","), ord("."), 100, np.arange(2), POWERS, np.empty((9, 2)))
+    assert grid(raw, *arguments) == -1
+    assert compiled(grid)(raw, *arguments) == -1
+
+
+def test_no_row_is_written_beyond_the_last_one():
+    raw = np.frombuffer(b"1\n2\n3", dtype=np.uint8)
+    arguments = (ord(","), ord("."), 100, np.arange(1), POWERS, np.empty((2, 1)))
+    assert compiled(grid)(raw, *arguments) == -1
+    assert grid(raw, *arguments) == -1
+
+
+LINES = {
+    "plain": ("t (s),F (N)", [f"{k / 1000},{math.sin(k):.6f}" for k in range(400)]),
+    "comma": (
+        "t (s);F (N)",
+        [f"{k / 1000};{math.sin(k):.6f}".replace(".", ",") for k in range(400)],
+    ),
+    "tab": ("t (s)\tF (N)", [f"{k}e-3\t{math.sin(k):.3e}" for k in range(400)]),
+    "seventeen digits": ("t (s),F (N)", [f"{k / 1000!r},{math.sin(k)!r}" for k in range(400)]),
+    "blanks": ("t (s) F (N)", [f"  {k / 1000:9.4f}  {math.sin(k):9.4f}" for k in range(400)]),
+    "trailing delimiter": ("t (s),F (N),", [f"{k / 1000},{math.sin(k):.4f}," for k in range(400)]),
+    "missing": ("t (s),F (N)", [f"{k / 1000},{'' if k % 7 == 3 else k}" for k in range(400)]),
+    "words": ("t (s),F (N)", [f"{k / 1000},{'oops' if k == 333 else k}" for k in range(400)]),
+    "quoted": ("t (s),F (N)", [f'"{k / 1000}","{k}"' for k in range(400)]),
+    "thousands": ("t (s);F (N)", [f"{k};{k + 1000:,}.5" for k in range(400)]),
+    "ragged": ("t (s),F (N)", [f"{k},{k}" + ",9" * (k == 350) for k in range(400)]),
+    "no columns between": ("t (s),remark,F (N)", [f"{k},,{k / 8}" for k in range(400)]),
+}
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+@pytest.mark.parametrize("name", LINES)
+def test_long_files_are_read_as_short_ones_are(tmp_path, monkeypatch, name, end):
+    head, lines = LINES[name]
+    path = tmp_path / "file.csv"
+    path.write_bytes(end.join([head, *lines, ""]).encode())
+    whole = sb.read(path)
+    monkeypatch.setattr(numbers, "_CHUNK", 1000)  # so that it is long, and a chunk a few lines
+    parts = sb.read(path)
+    assert parts.attrs == whole.attrs
+    assert list(parts.variables) == list(whole.variables)
+    for variable in whole.variables:
+        assert parts[variable].values.tobytes() == whole[variable].values.tobytes()

@@ -1,0 +1,109 @@
+"""Recordings of few bits, few samples, too loud or too quiet: the knocks are those that were."""
+
+import numpy as np
+import pytest
+
+from stackbounce.measure.bounces import bounces
+from stackbounce.measure.loudness import rounding
+from stackbounce.measure.sound import knocks
+from stackbounce.measure.synthetic.falls import falls
+from stackbounce.measure.synthetic.sound import sound
+
+FALL = falls(0.5, 0.8, bounces=9)
+BEFORE = 0.5
+
+
+def compared(data, rate):
+    """Return errors of the times in s (found less true, and as claimed), and what bounces tells."""
+    found = knocks(data)
+    assert len(found.times) == len(FALL.touches), [one.why for one in found.dropped]
+    assert not any(found.missed)
+    true = FALL.touches - FALL.touches[0] + BEFORE
+    off = np.array([one.nominal_value for one in found.times]) - true
+    claimed = np.array([one.std_dev for one in found.times])
+    assert np.abs(off).max() < 0.6e-3 + 1.0 / rate
+    return off, claimed, bounces(found)
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"rate": 8000.0, "bits": 8},
+        {"rate": 8000.0, "bits": 8, "noise": 0.0},
+        {"rate": 8000.0, "bits": 8, "noise": 0.004},
+        {"rate": 8000.0, "bits": 8, "noise": 0.01, "hum": 0.05},
+        {"rate": 11025.0, "bits": 8, "echo": (0.05, 0.3)},
+        {"rate": 44100.0, "bits": 8},
+        {"rate": 44100.0, "bits": 8, "noise": 0.0},
+        {"rate": 44100.0, "bits": 8, "noise": 0.0, "level": 0.1},
+        {"rate": 44100.0, "bits": 8, "level": 8.0},
+        {"rate": 48000.0, "level": 20.0},
+        {"rate": 48000.0, "level": 0.005, "noise": 5e-5},
+        {"rate": 48000.0, "level": 0.01, "noise": 0.0},
+        {"rate": 192000.0, "bits": 24},
+    ],
+    ids=str,
+)
+def test_knocks_are_the_bounces_and_errors_are_sensible(options, seed):
+    rate = options["rate"]
+    off, claimed, told = compared(sound(FALL, seed=seed, before=BEFORE, **options), rate)
+    assert (claimed < 0.15e-3 + 1.0 / rate).all()
+    assert (claimed > 0.1 * min(1.0 / rate, 1.0 / 48e3)).all()
+    assert np.median(np.abs(off - np.median(off)) / claimed) < 1.5
+    assert abs(told.mean.nominal_value - 0.8) < 4.0 * told.mean.std_dev
+    assert told.mean.std_dev < 5e-4
+    assert (
+        np.mean([abs(one.nominal_value - 0.8) < 2.0 * one.std_dev for one in told.restitutions])
+        > 0.5
+    )
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_silence_that_is_no_zero_is_one_all_the_same(seed):
+    data = sound(FALL, seed=seed, before=BEFORE, rate=8000.0, bits=8, noise=0.0)
+    compared(data - 1.0 / 128.0, 8000.0)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_noise_gate_that_opens_with_the_knock_makes_no_others(seed):
+    data = sound(FALL, seed=seed, before=BEFORE, noise=0.003)
+    loud = np.abs(data.sound) > 0.012
+    compared(data.where(loud.rolling(time=960, min_periods=1).max() > 0, 0.0), 48e3)
+
+
+def test_two_alike_channels_say_no_more_than_one():
+    one = sound(FALL, seed=1, noise=0.01).sound.values
+    single, both = (knocks(data, rate=48000.0) for data in (one, np.stack([one, one])))
+    assert [str(time) for time in both.times] == [str(time) for time in single.times]
+
+
+def test_the_channel_that_hears_best_tells_the_times():
+    clear, faint = (sound(FALL, seed=1, noise=noise).sound.values for noise in (0.001, 0.05))
+    wanted = knocks(clear, rate=48000.0)
+    for pair in ([clear, faint], [faint, clear]):
+        found = knocks(np.stack(pair), rate=48000.0)
+        errors = [time.std_dev for time in found.times]
+        assert np.median(errors) == pytest.approx(
+            np.median([time.std_dev for time in wanted.times]), rel=0.2
+        )
+
+
+@pytest.mark.parametrize("bits", [8, 12, 16])
+def test_the_step_of_rounding_is_seen(bits):
+    samples = sound(FALL, bits=bits, noise=0.0).sound.values[None]
+    assert (12.0 * rounding(samples)) ** 0.5 == pytest.approx(2.0 ** (1 - bits))
+    assert rounding(np.zeros((1, 9), dtype=np.float32)) == 0.0
+
+
+def test_uneven_bounces_leave_the_times_as_sure_as_they_are():
+    random = np.random.default_rng(4)
+    fall = falls(0.4, lambda _: 0.8 + 0.02 * float(random.standard_normal()), bounces=9)
+    found = knocks(sound(fall, seed=4))
+    assert max(time.std_dev for time in found.times) < 1e-4
+    told = bounces(found)
+    assert 0.008 < told.scatter < 0.05
+    assert 0.003 < told.mean.std_dev < 0.03
+    true = fall.restitutions[1 : 1 + len(told.restitutions)]
+    off = [abs(one.nominal_value - kept) for one, kept in zip(told.restitutions, true, strict=True)]
+    assert max(off) < 0.005
