@@ -123,6 +123,14 @@ def test_the_floor_may_be_given():
         track(tracked(FALL, seed=1), floor=5.0)
 
 
+def test_frames_may_come_at_uneven_times():
+    random = np.random.default_rng(1)
+    times = np.sort(random.uniform(0.0, 0.95, 90))
+    fall = falls(0.5, 0.8)
+    ball = track((times, fall.position(times) + random.normal(0.0, 1e-3, 90))).balls[0]
+    assert near(ball.impact_speeds[0], fall.speeds[0])
+
+
 @pytest.mark.parametrize("seed", [10, 11, 17, 48])
 def test_a_ball_that_is_held_does_not_bounce_in_the_air(seed):
     # three or four points in the hand may lie on a parabola by chance

@@ -213,7 +213,8 @@ def fit_flights(
     design[np.arange(len(rows)), 1 + 2 * owner] = 1.0
     design[np.arange(len(rows)), 2 + 2 * owner] = since
     frames = np.round(times / max(float(np.median(np.diff(times))), 1e-300))[rows]
-    apart = np.where(np.diff(owner, prepend=-1) > 0, np.inf, np.diff(frames, prepend=-np.inf))
+    steps = np.maximum(np.diff(frames, prepend=-np.inf), 1.0)  # uneven frames may round to one
+    apart = np.where(np.diff(owner, prepend=-1) > 0, np.inf, steps)
     freedom = len(rows) - design.shape[1]
     tried = _CORRELATIONS if freedom > _TELLING else np.zeros(1)
     fits = _Fits(design, heights[rows], apart, tried)
