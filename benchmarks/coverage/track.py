@@ -60,6 +60,6 @@ CASES: dict[str, Trial] = {
     "track, one point in five missing": one_ball(missing=0.2),
     "track, axes tilted by 4 degrees": one_ball(tilt=0.07, drift=0.1),
     "track, 240 frames per second read as 60": one_ball(frame_rate=240.0, read_as=60.0, until=0.7),
-    "track, a soft ball and its floor": one_ball(SOFT, floor=0.0, frame_rate=240.0),
+    "track, a soft ball and its floor": one_ball(SOFT, floor=0.0, frame_rate=120.0),
     "track, two balls": two_balls,
 }

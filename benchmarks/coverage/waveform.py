@@ -99,7 +99,7 @@ SCOPE: dict[str, Any] = {
 }
 PIEZO: dict[str, Any] = {"rate": 5e4, "noise": 1.0, "time_constant": 0.02, "offset": 3.0}
 
-FINE: dict[str, Any] = {"rate": 5e5, "noise": 0.3}
+FINE: dict[str, Any] = {"rate": 2e5, "noise": 0.2}
 CONVERTED: dict[str, Any] = {"rate": 4e4, "noise": 0.3, "bits": 10, "full_scale": 200.0}
 SQUARE: dict[str, Any] = {"law": sb.PowerLaw, "exponent": 2.0, **CONVERTED}
 SLOW: dict[str, Any] = {
@@ -119,7 +119,7 @@ CASES: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
     "any law, hum": partial(_bounce, exponent=None, rate=2e4, noise=2.0, hum=4.0, before=0.05),
     "gap of 1 mm": partial(_gap, gap=1e-3, rate=5e4, noise=1.0),
     "gap of 12 mm": partial(_gap, gap=12e-3, rate=5e4, noise=1.0),
-    "exponent 1.25, 0.2 % noise": partial(_bounce, exponent=1.25, **FINE),
+    "exponent 1.25, 0.1 % noise": partial(_bounce, exponent=1.25, **FINE),
     "exponent 2, 10 bits": partial(_ends, **SQUARE, only="touch"),
     "exponent 1.75, 43 samples": partial(_ends, **SLOW, only="touch"),
     "Hunt-Crossley of restitution 0.9": partial(
