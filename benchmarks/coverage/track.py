@@ -3,10 +3,11 @@
 from collections.abc import Callable
 from typing import Any
 
-from stackbounce.measure.synthetic.falls import falls
+from stackbounce.calibrate import calibrate
+from stackbounce.measure.synthetic.falls import Falls, falls
 from stackbounce.measure.synthetic.track import track as tracked
 from stackbounce.measure.track import track
-from stackbounce.model import Ball, Drop, Rigid
+from stackbounce.model import Ball, Drop, HuntCrossley, Rigid
 from stackbounce.simulate import simulate
 
 __all__ = ["CASES"]
@@ -14,12 +15,14 @@ __all__ = ["CASES"]
 Trial = Callable[[int], list[tuple[str, Any, float]]]
 
 ONE = falls(0.5, 0.8)
+LAW = calibrate(HuntCrossley, mass=0.06, restitution=0.8, contact_time=0.015, impact_speed=3.13)
+SOFT = falls(0.5, LAW, mass=0.06)
 BALLS = ([Ball(0.6, diameter=0.2), Ball(0.1, diameter=0.1)], [Rigid(0.8)] * 2)
 STACK = simulate(Drop(*BALLS, height=0.5, gravity=ONE.gravity), until=0.2)
 RATIOS = simulate(Drop(*BALLS, height=0.5)).rebound_ratios  # right after the impact
 
 
-def one_ball(**options: Any) -> Trial:
+def one_ball(fall: Falls = ONE, floor: float | None = None, **options: Any) -> Trial:
     """Return a trial: a track of one ball that bounces twice."""
     factor = options.get("read_as", options.get("frame_rate", 60.0)) / options.get(
         "frame_rate", 60.0
@@ -27,14 +30,15 @@ def one_ball(**options: Any) -> Trial:
 
     def trial(seed: int) -> list[tuple[str, Any, float]]:
         options_here = {"frame_rate": 60.0, "until": 0.95, "noise": 1.5e-3} | options
-        ball = track(tracked(ONE, seed=seed, **options_here)).balls[0]
+        ball = track(tracked(fall, seed=seed, **options_here), floor=floor).balls[0]
+        kept = float(fall.restitutions[0])
         return [
-            ("drop height", ball.drop_height, ONE.height),
-            ("impact speed", ball.impact_speeds[0], float(ONE.speeds[0]) * factor),
-            ("rebound speed", ball.rebound_speeds[0], float(ONE.rebounds[0]) * factor),
-            ("apex height", ball.apex_heights[0], ONE.height * 0.8**2),
-            ("restitution", ball.restitutions[0], 0.8),
-            ("gravity of the flights", ball.gravity, ONE.gravity * factor**2),
+            ("drop height", ball.drop_height, fall.height),
+            ("impact speed", ball.impact_speeds[0], float(fall.speeds[0]) * factor),
+            ("rebound speed", ball.rebound_speeds[0], float(fall.rebounds[0]) * factor),
+            ("apex height", ball.apex_heights[0], fall.height * kept**2),
+            ("restitution", ball.restitutions[0], kept),
+            ("gravity of the flights", ball.gravity, fall.gravity * factor**2),
         ]
 
     return trial
@@ -56,5 +60,6 @@ CASES: dict[str, Trial] = {
     "track, one point in five missing": one_ball(missing=0.2),
     "track, axes tilted by 4 degrees": one_ball(tilt=0.07, drift=0.1),
     "track, 240 frames per second read as 60": one_ball(frame_rate=240.0, read_as=60.0, until=0.7),
+    "track, a soft ball and its floor": one_ball(SOFT, floor=0.0, frame_rate=120.0),
     "track, two balls": two_balls,
 }

@@ -123,6 +123,34 @@ def test_the_floor_may_be_given():
         track(tracked(FALL, seed=1), floor=5.0)
 
 
+def test_frames_may_come_at_uneven_times():
+    random = np.random.default_rng(1)
+    times = np.sort(random.uniform(0.0, 0.95, 90))
+    fall = falls(0.5, 0.8)
+    ball = track((times, fall.position(times) + random.normal(0.0, 1e-3, 90))).balls[0]
+    assert near(ball.impact_speeds[0], fall.speeds[0])
+
+
+@pytest.mark.parametrize("seed", [10, 11, 17, 48])
+def test_a_ball_that_is_held_does_not_bounce_in_the_air(seed):
+    # three or four points in the hand may lie on a parabola by chance
+    fall = falls(0.5, 0.8)
+    ball = track(tracked(fall, frame_rate=60.0, until=0.95, noise=1.5e-3, seed=seed)).balls[0]
+    assert len(ball.impact_times) == 2
+    assert near(ball.impact_speeds[0], fall.speeds[0])
+
+
+def test_a_soft_ball_comes_out_too_fast_unless_the_floor_is_given():
+    law = sb.calibrate(
+        sb.HuntCrossley, mass=0.06, restitution=0.8, contact_time=0.015, impact_speed=3.13
+    )
+    fall = falls(0.5, law, mass=0.06)
+    data = tracked(fall, frame_rate=240.0, until=0.95, seed=1)
+    alone, told = (track(data, floor=floor).balls[0].impact_speeds[0] for floor in (None, 0.0))
+    assert alone.nominal_value == pytest.approx(1.02 * fall.speeds[0], rel=0.005)
+    assert near(told, fall.speeds[0])
+
+
 def test_parts_make_a_drop():
     parts = track(tracked(FALL, seed=1)).parts()
     drop = sb.Drop.from_mapping(

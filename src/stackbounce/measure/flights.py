@@ -9,9 +9,12 @@ from numpy.typing import NDArray
 __all__ = ["Flight", "Flights", "find_flights", "fit_flights", "unexplained"]
 
 _PRICE = 14.0  # of a further piece, in variances
+_SPEED = 9.0  # of a flight's speed, which a rest does not have
 _STRAY = 9.0  # of a point that belongs to no piece
 _LEAST = 3  # points of a flight
 _LONGEST = 3000  # points of a piece
+_TELLING = 8  # points more than parameters, from which residuals tell a correlation
+_CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # below 0: interlaced frames
 
 
 class Flight(NamedTuple):
@@ -96,7 +99,7 @@ def find_flights(
         if end >= _LEAST:
             first = max(0, end - _LONGEST)
             stretch = slice(first, end - _LEAST + 1)
-            pieces = sums.misfits(stretch, end) + costs[stretch]
+            pieces = sums.misfits(stretch, end) + costs[stretch] + np.array([[_SPEED], [0.0]])
             number, i = divmod(int(np.argmin(pieces)), pieces.shape[1])
             cost = float(pieces[number, i]) + _PRICE
             if cost < best[end]:
@@ -150,7 +153,7 @@ def unexplained(
         f, xf, ff = many[:, :, end, None] - many[:, :, part]
         mean = sx / n
         misfit = ff - f * f / n - (xf - mean * f) ** 2 / np.maximum(sxx - mean * sx, 1e-300)
-        misfit = np.minimum(np.maximum(misfit, 0.0), np.maximum(syy - sy * sy / n, 0.0))
+        misfit = np.minimum(np.maximum(misfit, 0.0) + _SPEED, np.maximum(syy - sy * sy / n, 0.0))
         cheapest = (best[:, part] + misfit).min(axis=1) + _PRICE
         best[:, end] = np.minimum(best[:, end], cheapest)
     return best[:, -1]
@@ -196,9 +199,10 @@ def fit_flights(
 ) -> Flights:
     """Return the parabolas of flights with one common acceleration, and errors from residuals.
 
-    The errors of neighbouring points may go together (a mark that drifts on the ball): their
-    correlation is estimated from the residuals, allowing for what the fit takes out of them, and
-    the covariance is that of least squares under it.
+    The errors of neighbouring points may go together (a mark that drifts on the ball): by a factor
+    that falls as a power of the frames between them. Least squares are done under each such
+    correlation and averaged, weighted by its likelihood given the residuals (D. Harville, J. Am.
+    Stat. Assoc. 72, 320, 1977), so that the covariance holds what is not known of it.
     """
     rows = np.concatenate([np.arange(*flight) for flight in flights])
     owner = np.repeat(np.arange(len(flights)), [last - first for first, last in flights])
@@ -208,85 +212,63 @@ def fit_flights(
     design[:, 0] = -0.5 * since**2
     design[np.arange(len(rows)), 1 + 2 * owner] = 1.0
     design[np.arange(len(rows)), 2 + 2 * owner] = since
-    values, *_ = np.linalg.lstsq(design, heights[rows], rcond=None)
-    left = heights[rows] - design @ values
-    residuals = np.full(len(times), np.nan)
-    residuals[rows] = left
+    frames = np.round(times / max(float(np.median(np.diff(times))), 1e-300))[rows]
+    steps = np.maximum(np.diff(frames, prepend=-np.inf), 1.0)  # uneven frames may round to one
+    apart = np.where(np.diff(owner, prepend=-1) > 0, np.inf, steps)
     freedom = len(rows) - design.shape[1]
-    spread = np.asarray(np.linalg.pinv(design.T @ design, hermitian=True), dtype=np.float64)
-    blocks = [np.flatnonzero(owner == j) for j in range(len(flights))]
-    steps = np.round(times / max(float(np.median(np.diff(times))), 1e-300)).astype(np.int64)
-    apart = [np.abs(np.subtract.outer(steps[rows[b]], steps[rows[b]])) for b in blocks]
-    correlation = _correlation(design, left, spread, blocks, apart) if freedom > 8 else 0.0
-    variance, covariance = _under(correlation, design, left, spread, blocks, apart)
+    tried = _CORRELATIONS if freedom > _TELLING else np.zeros(1)
+    fits = _Fits(design, heights[rows], apart, tried)
+    residuals = np.full(len(times), np.nan)
+    residuals[rows] = heights[rows] - design @ fits.values
     return Flights(
         flights,
-        values,
-        covariance,
+        fits.values,
+        fits.covariance,
         origins,
-        math.sqrt(variance),
-        correlation,
+        fits.sigma,
+        fits.correlation,
         residuals,
         freedom,
     )
 
 
-_Blocks = list[NDArray[np.int64]]
+class _Fits:
+    """Least squares under each of some correlations, averaged by their likelihoods.
 
+    `apart` is how many frames lie between a point and the one before it, infinite at the first
+    point of each flight.
+    """
 
-def _under(
-    correlation: float,
-    design: NDArray[np.float64],
-    left: NDArray[np.float64],
-    spread: NDArray[np.float64],
-    blocks: _Blocks,
-    apart: _Blocks,
-) -> tuple[float, NDArray[np.float64]]:
-    """Return variance of a point and covariance of the parameters under a correlation."""
-    middle = np.zeros_like(spread)
-    for block, steps in zip(blocks, apart, strict=True):
-        part = design[block]
-        middle += part.T @ (correlation**steps) @ part
-    freedom = len(left) - float(np.trace(spread @ middle))
-    variance = float(left @ left) / max(freedom, 1e-9)
-    return variance, variance * spread @ middle @ spread
-
-
-def _correlation(
-    design: NDArray[np.float64],
-    left: NDArray[np.float64],
-    spread: NDArray[np.float64],
-    blocks: _Blocks,
-    apart: _Blocks,
-) -> float:
-    """Return the correlation of neighbours for which residuals would go together as they do."""
-    from scipy.optimize import brentq
-
-    near = [(steps == 1).astype(np.float64) for steps in apart]
-    pairs = sum(float(one.sum()) for one in near)
-    if pairs < 1.0:
-        return 0.0
-    seen = sum(left[b] @ one @ left[b] for b, one in zip(blocks, near, strict=True))
-    seen /= float(left @ left) + 1e-300
-
-    def excess(correlation: float) -> float:
-        # Of residuals M e, M = 1 - X S X': the traces of M N M Σ and of M Σ.
-        beside, total = 0.0, 0.0
-        middle = np.zeros_like(spread)
-        sides = np.zeros_like(spread)
-        cross = np.zeros_like(spread)
-        for block, steps, one in zip(blocks, apart, near, strict=True):
-            part, errors = design[block], correlation**steps
-            total += len(block)
-            beside += float((one * errors).sum())
-            middle += part.T @ errors @ part
-            sides += part.T @ one @ part
-            cross += part.T @ one @ errors @ part
-        total -= float(np.trace(spread @ middle))
-        beside -= 2.0 * float(np.trace(spread @ cross))
-        beside += float(np.trace(spread @ sides @ spread @ middle))
-        return float(beside / max(total, 1e-9) - seen)
-
-    if excess(0.0) >= 0.0:
-        return 0.0
-    return float(brentq(excess, 0.0, 0.98)) if excess(0.98) > 0.0 else 0.98
+    def __init__(
+        self,
+        design: NDArray[np.float64],
+        heights: NDArray[np.float64],
+        apart: NDArray[np.float64],
+        tried: NDArray[np.float64],
+    ) -> None:
+        both = np.column_stack([design, heights])
+        freedom = max(len(heights) - design.shape[1], 1e-9)
+        shares = tried[:, None] ** apart  # of a point's error that it has from the one before
+        fresh = np.sqrt(1.0 - shares**2)
+        before = np.roll(both, 1, axis=0)
+        own = [
+            (both - share[:, None] * before) / new[:, None]
+            for share, new in zip(shares, fresh, strict=True)
+        ]
+        products = np.stack([one.T @ one for one in own])
+        normal, right = products[:, :-1, :-1], products[:, :-1, -1]
+        spreads = np.linalg.pinv(normal, hermitian=True)
+        values = (spreads @ right[:, :, None])[:, :, 0]
+        left = [one[:, -1] - one[:, :-1] @ row for one, row in zip(own, values, strict=True)]
+        variances = np.array([max(float(one @ one), 1e-300) for one in left]) / freedom
+        score = -np.log(fresh).sum(axis=1) - 0.5 * np.linalg.slogdet(normal)[1]
+        score -= 0.5 * freedom * np.log(variances)
+        score += np.log(1.0 - tried**2)  # before the data are seen, strong ones are rare
+        weights = np.exp(score - score.max())
+        weights /= weights.sum()
+        self.values = weights @ values
+        off = values - self.values
+        self.covariance = np.einsum("k,kij->ij", weights * variances, spreads)
+        self.covariance += (weights * off.T) @ off
+        self.sigma = math.exp(0.5 * float(weights @ np.log(variances)))
+        self.correlation = float(weights @ tried)

@@ -83,9 +83,11 @@ def waveform(
     Touch and release are not where the force passes a threshold, which is late, but where its
     flanks begin: they are fitted as powers of the time since the touch, of unknown exponent, with
     corrections (`stackbounce.measure.waveform.flanks`). Before the data are seen, the exponent of a
-    touch is 1.22 within a factor of 1.28 (a linear spring has 1, Hertz's law 1.5), and that of a
-    release 1.5 within a factor of 1.57, as lossy contacts end softly. Where samples are many and
-    noise is low this does not matter; else the error bars hold it.
+    touch is from 1 (a linear spring) to 1.5 (Hertz's law) or, less probably, up to 2.5, and that of
+    a release from 1 to 2.5 or more, as lossy contacts end softly. Where samples are many and noise
+    is low this does not matter; else the error bars hold it. They do not hold touches that begin
+    with a jump (`Dashpot`) or as the root of the time (`Viscoelastic`), which are found too early,
+    nor releases of very lossy contacts (a restitution below 0.8 or so).
 
     The impulse is ``m v0 (1 + e)``. With `mass` and `impact_speed`, and e from the time to the next
     contact, if one follows, it gives the volts per newton; without a next contact e may be
@@ -99,7 +101,7 @@ def waveform(
     >>> force += np.random.default_rng(1).normal(0.0, 1.0, len(times))
     >>> found = waveform((times, force), mass=0.1)
     >>> print(f"{found.contacts[0].time * 1e3:.1uS} ms, {found.stiffness / 1e3:.1uS} kN/m")
-    3.998(8) ms, 61.8(2) kN/m
+    3.999(7) ms, 61.7(2) kN/m
     """
     if sign not in (None, 1, -1):
         raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")

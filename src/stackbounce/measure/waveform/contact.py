@@ -167,7 +167,9 @@ def _part(local: Local, before: Stretch | None, one: Stretch, after: Stretch | N
     return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
 
 
-def _flank(part: _Part, peak: Peak, prior: tuple[float, float], *, forward: bool) -> Flank | None:
+def _flank(
+    part: _Part, peak: Peak, exponents: tuple[float, float], *, forward: bool
+) -> Flank | None:
     """Return the flank before the first peak, or with time reversed the one after the last."""
     top = int(np.searchsorted(part.times, peak.time))
     if forward:
@@ -175,8 +177,8 @@ def _flank(part: _Part, peak: Peak, prior: tuple[float, float], *, forward: bool
     else:
         times, values = -part.times[top - 1 :][::-1], part.values[top - 1 :][::-1]
     width = 2 * ((part.last - part.first) // _AVERAGES // 2) + 1
-    how: Any = {"peak": peak.force, "offset": part.offset, "width": width, "prior": prior}
-    found = fit_flank(times, values, part.density, **how)
+    how: Any = {"peak": peak.force, "offset": part.offset, "width": width}
+    found = fit_flank(times, values, part.density, exponents=exponents, **how)
     if found is None or forward:
         return found
     return Flank(
