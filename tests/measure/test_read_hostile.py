@@ -124,7 +124,9 @@ def archive(files, method=zipfile.ZIP_DEFLATED):
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", method) as out:
         for name, data in files.items():
-            out.writestr(name, data)
+            entry = zipfile.ZipInfo(name)  # without the time of day: tests are named by it
+            entry.compress_type = method
+            out.writestr(entry, data)
     return content.getvalue()
 
 
