@@ -24,7 +24,7 @@ def found(seeds: int, only: str) -> Iterator[tuple[str, str, str, Share]]:
         for name, trial in cases:
             if only in name:
                 for quantity, share in shares(trial, range(seeds)).items():
-                    yield kind, name, quantity, share
+                    yield kind.replace("_", " "), name, quantity, share
 
 
 def main() -> None:

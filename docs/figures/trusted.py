@@ -1,14 +1,14 @@
 """The picture of `coverage.md`: how often each error bar holds the truth, from the table there."""
 
 import csv
-from pathlib import Path
 
 import matplotlib.pyplot as plt
 from shared import WIDE
+from shown import DOCS
 
 from stackbounce.cross2007.style import BLACK, FLOOR, GREY
 
-TABLE = Path("..") / "coverage.csv"  # figures are drawn in their own folder
+TABLE = DOCS / "coverage.csv"
 BAND = (60.0, 76.0)  # %
 ROW = 0.5  # inches
 
