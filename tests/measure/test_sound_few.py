@@ -11,7 +11,7 @@ from stackbounce.cli import app
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse
 from stackbounce.measure.bounces import Bounces, bounces
-from stackbounce.measure.few import FewBounces
+from stackbounce.measure.few_bounces import FewBounces
 from stackbounce.measure.synthetic.falls import falls
 from stackbounce.measure.synthetic.sound import sound
 

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from stackbounce.cli.measuring import EPILOG, measure
+from stackbounce.cli.measure_command import EPILOG, measure
 from stackbounce.cli.options import AsJson, Height, Plot, Speed
 from stackbounce.cli.output import console
 from stackbounce.errors import InvalidValue, StackbounceError

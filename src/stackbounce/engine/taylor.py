@@ -6,9 +6,10 @@ accelerations from forces, velocities and compressions from accelerations. Where
 at a speed and its exponent is a multiple of 1/2, c^p has a series in the root of time instead, and
 so has all the motion up to the next step. The step is the time for which the last two terms of
 every velocity (five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14,
-99, 2005), in which no power grows beyond what these terms could tell, and no compression changes by
-much more than itself. Where all contacts are springs and dashpots the series is that of the matrix
-exponential, whatever its eigenvalues; the tolerance is then round-off and no choice of the user.
+99, 2005), in which no power grows beyond what these terms could tell, and no compression falls by
+much more than itself, or rises by more than the last term of its power allows. Where all contacts
+are springs and dashpots the series is that of the matrix exponential, whatever its eigenvalues; the
+tolerance is then round-off and no choice of the user.
 """
 
 import math
@@ -216,6 +217,7 @@ def _own_speed(stack: Stack, low: int, high: int) -> float:
 
 @kernel
 def _fastest(stack: Stack, low: int, high: int) -> float:
+    """Return the largest speed of a cluster's balls."""
     fastest = 0.0
     for b in range(max(low - 1, 0), high):
         fastest = max(fastest, abs(stack.velocity[b]))

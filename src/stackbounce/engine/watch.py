@@ -16,6 +16,9 @@ slack       the gain rises through 0     RESUMED: compressing
 ..          c falls through 0            RELEASE: open since the force was clipped
 =========== ============================ =====================================================
 
+A force that follows one power law both ways has no event at its peak where its cluster moves by a
+power series: `record_crests` reads the peak off the series.
+
 A sign counts once it stands clear of round-off: an open contact that only grazes within its own
 round-off has not touched, and balls that part with equal speeds within theirs do not approach.
 """
@@ -106,7 +109,6 @@ def look(stack: Stack, i: int, time: float) -> None:
         _note(stack, i, time, 0.0, True, RELEASE, horizon)
         return
     damped = stack.law[i] == DAMPED
-    # the peaks of a force that knows no history are read off its series, see `record_crests`
     plain = stack.law[i] == POWER and stack.modal[stack.first[i]] == 0
     if damped or plain or phase == RELEASING:
         level, kind = _lower_level(stack, i)

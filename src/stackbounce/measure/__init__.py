@@ -1,21 +1,22 @@
 """From the files that people have to parameters with uncertainties.
 
-=========== ========================================================================
-reading/    files -> Dataset
-waveform/   force waveform -> contacts, stiffness, gap
-sound       recording -> knocks
-bounces     times of knocks -> restitutions
-few         one knock or two -> what they tell all the same
-track       positions -> flights, speeds, heights
-heights     bounce heights -> restitutions
-press/      press curve -> stiffness, exponent, loss
-stiffness   contact time -> stiffness, or the constants of any law
-fallen      acceleration of what falls -> flights, restitutions
-floor_gap   force on the floor with and without the upper ball -> gap
-analysis    which of these a file needs
-assembly    what was found -> a law, a ball to drop
-synthetic/  from the simulator to noisy records
-=========== ========================================================================
+============= ========================================================================
+reading/      files -> Dataset
+waveform/     force waveform -> contacts, stiffness, gap
+sound         recording -> knocks
+bounces       times of knocks -> restitutions
+few_bounces   one knock or two -> what they tell all the same
+track         positions -> flights, speeds, heights
+heights       bounce heights -> restitutions
+press/        press curve -> stiffness, exponent, loss
+stiffness     contact time -> stiffness, or the constants of any law
+accelerometer acceleration of what falls -> flights, restitutions
+floor_gap     force on the floor with and without the upper ball -> gap
+sensor_gap    forces on the floor and between the balls -> gap
+analysis      which of these a file needs
+assembly      what was found -> a law, a ball to drop
+synthetic/    from the simulator to noisy records
+============= ========================================================================
 """
 
 from stackbounce.measure.accelerometer import accelerometer

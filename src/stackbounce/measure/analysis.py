@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.accelerometer import accelerometer
 from stackbounce.measure.bounces import bounces
-from stackbounce.measure.few import few_bounces
+from stackbounce.measure.few_bounces import few_bounces
 from stackbounce.measure.floor_gap import floor_gap
 from stackbounce.measure.heights import Place, above_bottom, heights, lowest_point, places
 from stackbounce.measure.press import press

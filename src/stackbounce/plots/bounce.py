@@ -57,8 +57,7 @@ def bounce(result: Result) -> "Figure":
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 5.6))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = _times(result)

@@ -32,8 +32,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 4.4))
         axes = figure.subplots()
         start, end = found.spans[0][0], found.spans[-1][1]

@@ -33,8 +33,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 4.4))
         axes = figure.subplots()
         speeds = np.array([getattr(one, "nominal_value", one) for one in found.impact_speeds])

@@ -39,8 +39,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     seen = (since > -0.2 * lasting.nominal_value) & (since < 1.15 * end)
     ms, force = 1e3 * since[seen], stack.force[seen]
     like = kink.gain * np.interp(since[seen], own, alone.force, left=np.nan, right=np.nan)
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 5.8))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         above.plot(ms, force, color=COLORS[0], linewidth=1.3, label="both balls")

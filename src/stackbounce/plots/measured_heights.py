@@ -36,8 +36,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 4.2))
         axes = figure.subplots()
         rows = [found.drop_height, *found.bounce_heights]

@@ -43,8 +43,7 @@ def draw(data: Any, found: Any) -> "Figure":
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 6.0))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3.4, 1])
         _draw_record(above, found)

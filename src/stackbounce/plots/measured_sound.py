@@ -37,8 +37,7 @@ def draw(data: Any, found: Any) -> "Figure":
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 5.2))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = np.array([one.nominal_value for one in found.times])

@@ -33,8 +33,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 5.8))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
         for k, ball in enumerate(found.balls):

@@ -49,8 +49,7 @@ def draw(data: Any, found: Any) -> "Figure":
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         low, high = _extent(found, found.contacts)
         first = next((one for one in found.contacts if one.time is not None), None)
         tiny = first is not None and first.time.nominal_value < _TINY * (high - low)

@@ -74,8 +74,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
     import matplotlib as mpl
     from matplotlib.figure import Figure
 
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE)
+    with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 4.0))
         axes = figure.subplots()
         scale = scale_of(data, dim)
