@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from stackbounce.calibrate import calibrate, contact_time, restitution, separate
     from stackbounce.errors import StackbounceError
+    from stackbounce.fit import Fit, Range, fit
     from stackbounce.measure import read
     from stackbounce.model import (
         Ball,
@@ -31,10 +32,12 @@ __all__ = [
     "Ball",
     "Dashpot",
     "Drop",
+    "Fit",
     "Hertz",
     "HuntCrossley",
     "Hysteretic",
     "PowerLaw",
+    "Range",
     "Result",
     "Rigid",
     "Spring",
@@ -44,6 +47,7 @@ __all__ = [
     "__version__",
     "calibrate",
     "contact_time",
+    "fit",
     "read",
     "restitution",
     "separate",
@@ -56,6 +60,7 @@ __all__ = [
 _ROOMS = {
     "calibrate": ("calibrate", "contact_time", "restitution", "separate"),
     "errors": ("StackbounceError",),
+    "fit": ("Fit", "Range", "fit"),
     "measure": ("read",),
     "result": ("Result", "Status"),
     "simulate": ("simulate",),
@@ -68,7 +73,7 @@ _HOMES = dict.fromkeys(__all__, "model") | {
 
 
 class _Front(ModuleType):
-    """The package, of which `calibrate`, `simulate` and `sweep` are functions.
+    """The package, of which `calibrate`, `fit`, `simulate` and `sweep` are functions.
 
     Python sets each submodule as an attribute of its package once it is imported: those of the
     same names would hide them.

@@ -4,7 +4,7 @@ import functools
 import itertools
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from stackbounce.engine import codes, prepare
 from stackbounce.engine.kernel import compiled as compile_kernel
@@ -32,6 +32,10 @@ from stackbounce.model import (
     Viscoelastic,
 )
 from stackbounce.result import Result, Status
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 __all__ = ["simulate"]
 
@@ -211,6 +215,15 @@ def _samples(
 ) -> Samples:
     """Run an engine once more and return its samples at times in ascending order."""
     return _run(drop, options, compiled, times)[-1]
+
+
+def forces_at(drop: Drop, times: "NDArray[np.float64]", rtol: float) -> "NDArray[np.float64]":
+    """Return the forces (contacts, times) in N at ascending times in s, and nothing else."""
+    import numpy as np
+
+    options = run_options(drop, None, rtol, 1_000_000)
+    samples = _samples(drop, options, True, times.tolist())
+    return np.reshape(np.asarray(samples.force, dtype=float), (-1, len(drop.balls))).T
 
 
 def _as_it_is(kernel: _Kernel) -> _Kernel:

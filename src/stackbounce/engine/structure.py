@@ -5,6 +5,7 @@ out of it is an array that nobody owns: numba's own structures count a reference
 asked for an array, which took longer than the arithmetic did.
 """
 
+import functools
 from typing import Any
 
 import numba.extending
@@ -30,6 +31,13 @@ class Structure:
         self.table = np.array(rows, dtype=np.int64)
         self.address = self.table.ctypes.data
 
+    @functools.cached_property
+    def kind(self) -> "StructureType":
+        """Its numba type, for which numba asks at each call of a kernel."""
+        named = zip(self.stack._fields, self.stack, strict=True)
+        kinds = tuple((field, array.dtype.name, array.ndim) for field, array in named)
+        return StructureType(type(self.stack).__name__, kinds)
+
 
 class StructureType(types.Type):
     """The numba type of a Structure, by the names of its arrays and how many axes each has."""
@@ -48,11 +56,7 @@ class StructureType(types.Type):
 
 @typeof_impl.register(Structure)
 def _typeof(value: Structure, _: Any) -> StructureType:
-    kinds = tuple(
-        (field, array.dtype.name, array.ndim)
-        for field, array in zip(value.stack._fields, value.stack, strict=True)
-    )
-    return StructureType(type(value.stack).__name__, kinds)
+    return value.kind
 
 
 def _unbox(_: StructureType, value: Any, c: Any) -> Any:

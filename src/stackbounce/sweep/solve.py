@@ -22,7 +22,14 @@ _EACH = 8  # blocks for each thread where there are so many, so that all end at 
 _FEW = 24  # drops that are run as plain Python
 
 
-def solve(drop: Drop, rows: Rows, shape: Sequence[int], options: Options) -> Outcomes:
+def solve(
+    drop: Drop,
+    rows: Rows,
+    shape: Sequence[int],
+    options: Options,
+    *,
+    compiled: bool | None = None,
+) -> Outcomes:
     """Return what comes of a drop with other numbers.
 
     Parameters
@@ -35,6 +42,8 @@ def solve(drop: Drop, rows: Rows, shape: Sequence[int], options: Options) -> Out
         How many drops, by dimension.
     options : Options
         How to run them.
+    compiled : bool, optional
+        Whether to run compiled code; by default where the drops are many. The bits are the same.
 
     Returns
     -------
@@ -52,7 +61,8 @@ def solve(drop: Drop, rows: Rows, shape: Sequence[int], options: Options) -> Out
     )
     threads = os.cpu_count() or 1
     most = min(max(count // (_EACH * threads), _BLOCKS.start), _BLOCKS.stop)
-    few, engine = count <= _FEW, engine_for(drop, rows, options)
+    few = count <= _FEW if compiled is None else not compiled
+    engine = engine_for(drop, rows, options)
     relate = compare if few else ready(compare)
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
 

@@ -1,0 +1,26 @@
+"""Measured drops -> parameters with uncertainties, and which model is right.
+
+========== ============================================================================
+quantities what can be measured of a drop, and what the engine says of it
+measured   what was measured, with errors
+waveforms  force records as data
+parameters what is varied, between which bounds
+ties       what follows from what is varied
+problem    all of it together: residuals of many trials at once
+question   what a user asks for -> the problem
+search     many trials screened, the best followed down
+run        ``fit``
+found      what a fit found
+notes      what should be known about it
+profile    confidence intervals
+posterior  draws from what is known after the data
+========== ============================================================================
+"""
+
+from stackbounce.fit.found import Fit, Residual
+from stackbounce.fit.parameters import Range
+from stackbounce.fit.posterior import Posterior
+from stackbounce.fit.profile import Interval
+from stackbounce.fit.run import fit
+
+__all__ = ["Fit", "Interval", "Posterior", "Range", "Residual", "fit"]

@@ -1,0 +1,67 @@
+"""What a user asks for -> the problem, checked."""
+
+from collections.abc import Mapping
+
+from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.fit.measured import Measured, read_measured
+from stackbounce.fit.parameters import Parameter, read_parameters
+from stackbounce.fit.problem import Problem, clock
+from stackbounce.fit.ties import read_ties
+from stackbounce.model import Drop
+
+__all__ = ["read_problem"]
+
+
+def read_problem(
+    drop: Drop | Mapping[str, Drop],
+    data: object,
+    vary: object,
+    tie: object,
+    rtol: float,
+) -> Problem:
+    """Return a fit to be made, checked; see `fit`."""
+    if isinstance(drop, Drop):
+        drops, given = {"": drop}, {"": data}
+    elif isinstance(drop, Mapping) and drop:
+        drops = dict(drop)
+        if not isinstance(data, Mapping):
+            raise InvalidType(f"data must map each drop's name to its data, got {shown(data)}")
+        given = dict(data)
+        for key in given:
+            if key not in drops:
+                raise InvalidValue(f"data of {shown(key)}: no drop; {nearest(key, drops)}")
+    else:
+        raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(drop)}")
+    for key, one in drops.items():
+        if not isinstance(one, Drop):
+            raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(one)}")
+        if key and not (isinstance(key, str) and key.isidentifier()):
+            raise InvalidValue(
+                f"a drop's name must be letters, digits and _, such as B2_on_B1, got {shown(key)}"
+            )
+    measured = {
+        key: read_measured(drops[key], one, f"{key}." if key else "") for key, one in given.items()
+    }
+    parameters = read_parameters(drops, vary)
+    clocks = tuple(_clock(key, one) for key, one in measured.items() if one.waveforms)
+    ties = read_ties(drops, parameters, tie)
+    problem = Problem(drops, measured, parameters + clocks, ties, rtol)
+    free = len(problem.parameters) + problem.linear
+    if problem.size < free:
+        raise InvalidValue(
+            f"vary has {_many(free, 'number')} but only {problem.size} were measured: fix some, or "
+            "say what is known of them (a Range with a prior)"
+        )
+    return problem
+
+
+def _clock(key: str, measured: Measured) -> Parameter:
+    """Return the time of the first touch in a record, a parameter of its own."""
+    lows, highs = zip(*(wave.begins for wave in measured.waveforms), strict=True)
+    floor = [k for k, wave in enumerate(measured.waveforms) if wave.index == 0]
+    low, high = (lows[floor[0]], highs[floor[0]]) if floor else (min(lows), max(highs))
+    return Parameter(clock(key), low, high, None, "s")
+
+
+def _many(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"

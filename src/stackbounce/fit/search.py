@@ -1,0 +1,180 @@
+"""The best trial: many screened at once, the best of them followed down by lmfit."""
+
+import math
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.fit.problem import Problem
+
+__all__ = ["Minimum", "descend", "search"]
+
+Array: TypeAlias = NDArray[np.float64]
+
+_SCREENED, _MOST_SCREENED = 128, 1024  # trials for each parameter, and for all
+_SLOW = 48  # trials in all where each has a record to be computed
+_FOLLOWED, _SLOWLY = 8, 3  # of them, besides the drop as it is; with records
+_APART = 0.05  # of the bounds' distance: nearer ones are one start
+_SAME = 1e-3  # of the bounds' distance, and of chi squared: one minimum
+_STEPS = 60  # of one descent
+_FLAT = 1e-3  # how much of chi squared a gradient step may promise at an end that is no kink
+_SHORT = 60  # evaluations for each parameter where a kink is in the way
+
+
+class Minimum(NamedTuple):
+    """The end of a descent: coordinates (parameters,), chi squared, and whether it converged."""
+
+    x: Array
+    chi_squared: float
+    converged: bool
+
+
+def search(
+    problem: Problem, count: int | None, seed: int, first: Array | None = None
+) -> list[Minimum]:
+    """Return the minima that were found, the best first, each once.
+
+    Parameters
+    ----------
+    problem : Problem
+        What to fit.
+    count : int or None
+        How many trials to screen.
+    seed : int
+        Of their places.
+    first : ndarray, optional
+        (n, parameters) trials to follow whatever comes of the screening.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.fit.question import read_problem
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> vary = {"contacts.0.stiffness": (0.1, 10.0)}
+    >>> problem = read_problem(drop, {"durations.0": "1.0 ± 0.1 s"}, vary, None, 1e-9)
+    >>> best = search(problem, None, 0)[0]
+    >>> float(problem.values(best.x[None])["contacts.0.stiffness"][0].round(4))  # pi squared
+    9.8696
+    """
+    size = len(problem.parameters)
+    usual = _SLOW if problem.records else min(_SCREENED * size, _MOST_SCREENED)
+    trials = starts(problem, count or usual, seed)
+    if first is not None:
+        trials = np.concatenate([first, trials])
+    chosen = _apart(
+        problem, trials, problem.chi_squared(trials), 0 if first is None else len(first)
+    )
+    ends = sorted((descend(problem, x) for x in chosen), key=lambda one: one.chi_squared)
+    return _distinct(problem, ends)
+
+
+def descend(problem: Problem, x: Array, fixed: int | None = None) -> Minimum:
+    """Return the end of the descent from a trial, with one parameter kept if so told."""
+    end = _by_slopes(problem, x, fixed)
+    if _smooth(problem, end.x, fixed):
+        return end
+    other = _by_slopes(problem, _without_slopes(problem, end.x, fixed), fixed)
+    return min(other, end, key=lambda one: one.chi_squared)
+
+
+def starts(problem: Problem, count: int, seed: int) -> Array:
+    """Return (count, parameters) trials spread evenly between the bounds."""
+    from scipy.stats import qmc
+
+    spans = problem.spans
+    drawn = qmc.Sobol(len(spans), rng=seed).random_base2(math.ceil(math.log2(count)))
+    return np.asarray(spans[:, 0] + drawn[:count] * (spans[:, 1] - spans[:, 0]))
+
+
+def _apart(problem: Problem, trials: Array, chi: Array, always: int) -> list[Array]:
+    """Return the best trials that are not near each other."""
+    wide = problem.spans[:, 1] - problem.spans[:, 0]
+    chosen = [trials[k] for k in range(always)]
+    for k in np.argsort(chi, kind="stable"):
+        if len(chosen) >= always + (_SLOWLY if problem.records else _FOLLOWED):
+            break
+        if all(np.max(np.abs(trials[k] - one) / wide) > _APART for one in chosen):
+            chosen.append(trials[k])
+    return chosen
+
+
+def _distinct(problem: Problem, ends: list[Minimum]) -> list[Minimum]:
+    wide = problem.spans[:, 1] - problem.spans[:, 0]
+    found: list[Minimum] = []
+    for end in ends:
+        same = (
+            np.max(np.abs(end.x - one.x) / wide) < _SAME
+            or abs(end.chi_squared - one.chi_squared) < _SAME * (1.0 + one.chi_squared)
+            for one in found
+        )
+        if not any(same):
+            found.append(end)
+    return found
+
+
+def _parameters(problem: Problem, x: Array, fixed: int | None) -> Any:
+    """Return lmfit's parameters for a trial; its own names, x0, x1 and so on, stay in here."""
+    import lmfit
+
+    parameters = lmfit.Parameters()
+    for k, (low, high) in enumerate(problem.spans):
+        start = float(np.clip(x[k], low, high))
+        parameters.add(f"x{k}", value=start, min=low, max=high, vary=k != fixed)
+    return parameters
+
+
+def _trial(parameters: Any) -> Array:
+    return np.array([one.value for one in parameters.values()])
+
+
+def _by_slopes(problem: Problem, x: Array, fixed: int | None) -> Minimum:
+    """Return the end of lmfit's trust region; residuals and slopes of a trial come together."""
+    import lmfit
+
+    if len(x) == 1 and fixed == 0:
+        return Minimum(x, float(problem.chi_squared(x[None])[0]), True)
+    free = [k for k in range(len(x)) if k != fixed]
+    kept: dict[bytes, tuple[Array, Array]] = {}
+
+    def expanded(parameters: Any) -> tuple[Array, Array]:
+        trial = _trial(parameters)
+        if trial.tobytes() not in kept:
+            kept[trial.tobytes()] = problem.expanded(trial)
+        return kept[trial.tobytes()]
+
+    minimizer = lmfit.Minimizer(
+        lambda now: expanded(now)[0], _parameters(problem, x, fixed), calc_covar=False
+    )
+    options = {"max_nfev": _STEPS, "xtol": 1e-9, "ftol": 1e-10}
+    with np.errstate(invalid="ignore"):  # lmfit's own errors where data determine nothing
+        found = minimizer.least_squares(Dfun=lambda now: expanded(now)[1][:, free], **options)
+    end = _trial(found.params)
+    return Minimum(end, float(np.sum(expanded(found.params)[0] ** 2)), bool(found.success))
+
+
+def _without_slopes(problem: Problem, x: Array, fixed: int | None) -> Array:
+    """Return a trial nearer to a minimum that lies on a kink, where slopes lead nowhere."""
+    import lmfit
+
+    minimizer = lmfit.Minimizer(
+        lambda now: problem.residuals(_trial(now)[None])[0],
+        _parameters(problem, x, fixed),
+        calc_covar=False,
+    )
+    return _trial(minimizer.minimize(method="nelder", max_nfev=_SHORT * len(x)).params)
+
+
+def _smooth(problem: Problem, x: Array, fixed: int | None) -> bool:
+    """Tell whether a step along the slopes would gain nothing at the end of a descent."""
+    free = [k for k in range(len(x)) if k != fixed]
+    if not free:
+        return True
+    spans, (residuals, slopes) = problem.spans[free], problem.expanded(x)
+    slopes = slopes[:, free]
+    step = -np.linalg.lstsq(slopes, residuals, rcond=1e-6)[0]
+    wide = spans[:, 1] - spans[:, 0]
+    inside = np.clip(x[free] + step, spans[:, 0], spans[:, 1]) - x[free]
+    step = np.clip(inside, -0.1 * wide, 0.1 * wide)
+    promised = np.sum(residuals**2) - np.sum((residuals + slopes @ step) ** 2)
+    return bool(promised < _FLAT)
