@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from stackbounce.calibrate import calibrate, contact_time, restitution, separate
     from stackbounce.errors import StackbounceError
-    from stackbounce.fit import Fit, Range, fit
+    from stackbounce.fit import Fit, Model, Range, compare, fit, standard_models
     from stackbounce.measure import read
     from stackbounce.model import (
         Ball,
@@ -36,6 +36,7 @@ __all__ = [
     "Hertz",
     "HuntCrossley",
     "Hysteretic",
+    "Model",
     "PowerLaw",
     "Range",
     "Result",
@@ -46,6 +47,7 @@ __all__ = [
     "Viscoelastic",
     "__version__",
     "calibrate",
+    "compare",
     "contact_time",
     "fit",
     "read",
@@ -53,6 +55,7 @@ __all__ = [
     "separate",
     "series",
     "simulate",
+    "standard_models",
     "sweep",
 ]
 
@@ -60,7 +63,7 @@ __all__ = [
 _ROOMS = {
     "calibrate": ("calibrate", "contact_time", "restitution", "separate"),
     "errors": ("StackbounceError",),
-    "fit": ("Fit", "Range", "fit"),
+    "fit": ("Fit", "Model", "Range", "compare", "fit", "standard_models"),
     "measure": ("read",),
     "result": ("Result", "Status"),
     "simulate": ("simulate",),

@@ -14,13 +14,30 @@ found      what a fit found
 notes      what should be known about it
 profile    confidence intervals
 posterior  draws from what is known after the data
+model      what ``compare`` fits
+standard   the usual models of a stack
+comparison ``compare``
 ========== ============================================================================
 """
 
+from stackbounce.fit.comparison import Comparison, compare
 from stackbounce.fit.found import Fit, Residual
+from stackbounce.fit.model import Model
 from stackbounce.fit.parameters import Range
 from stackbounce.fit.posterior import Posterior
 from stackbounce.fit.profile import Interval
 from stackbounce.fit.run import fit
+from stackbounce.fit.standard import standard_models
 
-__all__ = ["Fit", "Interval", "Posterior", "Range", "Residual", "fit"]
+__all__ = [
+    "Comparison",
+    "Fit",
+    "Interval",
+    "Model",
+    "Posterior",
+    "Range",
+    "Residual",
+    "compare",
+    "fit",
+    "standard_models",
+]

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
@@ -156,12 +156,21 @@ class Problem:
         forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
         return [forces[wave.index, np.isin(times + start, wave.times)] for wave in waves]
 
+    def without(self, key: str, name: str | None) -> "Problem":
+        """Return the problem without what was measured of a drop, or without one number of it."""
+        measured = dict(self.measured)
+        own = measured.pop(key)
+        if name is not None:
+            left = tuple(datum for datum in own.data if datum.name != name)
+            measured[key] = replace(own, data=left)
+        return replace(self, measured=measured)
+
     def residuals(self, x: Array) -> Array:
         """Return residuals (n, size), in errors, of trials (n, parameters).
 
         They are those of each drop's numbers, of priors, then of records.
         """
-        parts = []
+        parts = [np.empty((len(x), 0))]
         for key, measured in self.measured.items():
             if measured.data:
                 value = np.array([datum.value for datum in measured.data])

@@ -9,7 +9,11 @@ from stackbounce.fit.problem import Problem, clock
 from stackbounce.fit.ties import read_ties
 from stackbounce.model import Drop
 
-__all__ = ["read_problem"]
+__all__ = ["TooFewData", "read_problem"]
+
+
+class TooFewData(InvalidValue):
+    """There is more to vary than was measured."""
 
 
 def read_problem(
@@ -48,7 +52,7 @@ def read_problem(
     problem = Problem(drops, measured, parameters + clocks, ties, rtol)
     free = len(problem.parameters) + problem.linear
     if problem.size < free:
-        raise InvalidValue(
+        raise TooFewData(
             f"vary has {_many(free, 'number')} but only {problem.size} were measured: fix some, or "
             "say what is known of them (a Range with a prior)"
         )

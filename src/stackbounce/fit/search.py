@@ -31,7 +31,11 @@ class Minimum(NamedTuple):
 
 
 def search(
-    problem: Problem, count: int | None, seed: int, first: Array | None = None
+    problem: Problem,
+    first: Array,
+    count: int | None = None,
+    seed: int = 0,
+    follow: int | None = None,
 ) -> list[Minimum]:
     """Return the minima that were found, the best first, each once.
 
@@ -39,12 +43,14 @@ def search(
     ----------
     problem : Problem
         What to fit.
-    count : int or None
-        How many trials to screen.
-    seed : int
-        Of their places.
-    first : ndarray, optional
+    first : ndarray
         (n, parameters) trials to follow whatever comes of the screening.
+    count : int, optional
+        How many trials to screen.
+    seed : int, optional
+        Of their places.
+    follow : int, optional
+        How many of them to follow.
 
     Examples
     --------
@@ -53,18 +59,16 @@ def search(
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
     >>> vary = {"contacts.0.stiffness": (0.1, 10.0)}
     >>> problem = read_problem(drop, {"durations.0": "1.0 ± 0.1 s"}, vary, None, 1e-9)
-    >>> best = search(problem, None, 0)[0]
+    >>> best = search(problem, np.zeros((1, 1)))[0]
     >>> float(problem.values(best.x[None])["contacts.0.stiffness"][0].round(4))  # pi squared
     9.8696
     """
     size = len(problem.parameters)
     usual = _SLOW if problem.records else min(_SCREENED * size, _MOST_SCREENED)
     trials = starts(problem, count or usual, seed)
-    if first is not None:
-        trials = np.concatenate([first, trials])
-    chosen = _apart(
-        problem, trials, problem.chi_squared(trials), 0 if first is None else len(first)
-    )
+    if follow is None:
+        follow = _SLOWLY if problem.records else _FOLLOWED
+    chosen = _apart(problem, first, trials, follow)
     ends = sorted((descend(problem, x) for x in chosen), key=lambda one: one.chi_squared)
     return _distinct(problem, ends)
 
@@ -87,12 +91,12 @@ def starts(problem: Problem, count: int, seed: int) -> Array:
     return np.asarray(spans[:, 0] + drawn[:count] * (spans[:, 1] - spans[:, 0]))
 
 
-def _apart(problem: Problem, trials: Array, chi: Array, always: int) -> list[Array]:
-    """Return the best trials that are not near each other."""
+def _apart(problem: Problem, first: Array, trials: Array, count: int) -> list[Array]:
+    """Return some trials, and the best of others that are not near them or each other."""
     wide = problem.spans[:, 1] - problem.spans[:, 0]
-    chosen = [trials[k] for k in range(always)]
-    for k in np.argsort(chi, kind="stable"):
-        if len(chosen) >= always + (_SLOWLY if problem.records else _FOLLOWED):
+    chosen = list(first)
+    for k in np.argsort(problem.chi_squared(trials), kind="stable"):
+        if len(chosen) >= len(first) + count:
             break
         if all(np.max(np.abs(trials[k] - one) / wide) > _APART for one in chosen):
             chosen.append(trials[k])
