@@ -63,7 +63,10 @@ def _at_bounds(fit: "Fit") -> list[str]:
 
 
 def _unlikely(fit: "Fit") -> list[str]:
-    if not fit.probability < _UNLIKELY:
+    from scipy.stats import chi2
+
+    free = max(1, fit.degrees_of_freedom)  # without any, a model that can follow has no misfit
+    if chi2.sf(fit.chi_squared, free) >= _UNLIKELY:
         return []
     bad = f"chi squared is {fit.chi_squared:.4g} for {fit.degrees_of_freedom} degrees of freedom"
     return [f"the model does not describe the data: {bad}; its parameters' errors mean little"]

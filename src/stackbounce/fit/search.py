@@ -151,7 +151,7 @@ def _by_slopes(problem: Problem, x: Array, fixed: int | None) -> Minimum:
         lambda now: expanded(now)[0], _parameters(problem, x, fixed), calc_covar=False
     )
     options = {"max_nfev": _STEPS, "xtol": 1e-9, "ftol": 1e-10}
-    with np.errstate(invalid="ignore"):  # lmfit's own errors where data determine nothing
+    with np.errstate(all="ignore"):  # lmfit's own errors where data determine nothing
         found = minimizer.least_squares(Dfun=lambda now: expanded(now)[1][:, free], **options)
     end = _trial(found.params)
     return Minimum(end, float(np.sum(expanded(found.params)[0] ** 2)), bool(found.success))

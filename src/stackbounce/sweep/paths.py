@@ -68,7 +68,7 @@ def numbers_of(drop: Drop) -> dict[str, Number]:
                 "contacts",
                 i,
                 name,
-                unit.replace("exponent", f"{exponent:g}"),
+                unit.replace("**exponent", "" if exponent == 1.0 else f"**{exponent:g}"),
             )
             for name, unit in _fields_of(law).items()
         ]

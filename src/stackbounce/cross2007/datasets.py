@@ -1,0 +1,188 @@
+"""The paper's measurements, ready to be fitted: ``stackbounce fit cross2007/B1-B2``.
+
+A pair is named as in Table II, the bottom ball first. Where the paper states no error for what it
+read off a force record, half a unit in the last digit is taken, and a tenth of a millisecond at
+least, the error that it states for impact durations. Force records and films were not of the same
+drops: times go with the ratios only as far as one drop is like another.
+"""
+
+from collections.abc import Callable
+from functools import partial
+from typing import Any, NamedTuple
+
+from stackbounce.calibrate import calibrate
+from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.drops import fallen_speed
+from stackbounce.errors import InvalidValue, nearest
+from stackbounce.fit import Model
+from stackbounce.model import Ball, Drop, Hysteretic, Spring
+
+__all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "pair"]
+
+PREFIX = "cross2007/"
+"""What a data set's name begins with on the command line."""
+
+_HEAVIER = 1.040  # Table II's mass ratio of the two balls B1, the heavier one below
+_SMALLER = (0.90, 0.02)  # Table I's restitution of B2 and of B3, which no row of the audit needs
+_LEAST = 1e-4  # s: the error of an impact duration
+_STIFF = (1e3, 1e6)  # N/m
+_WIDEST = 0.03  # m
+
+
+class DataSet(NamedTuple):
+    """A measurement of the paper with the model that is fitted to it unless another is told."""
+
+    model: Model
+    data: dict[str, Any]
+    what: str
+
+
+def dataset(name: str) -> DataSet:
+    """Return a measurement of the paper.
+
+    Parameters
+    ----------
+    name : str
+        One of `NAMES`, with or without ``cross2007/``.
+
+    Returns
+    -------
+    DataSet
+        The model is section V's: the floor's contact is linear and loses energy as the lower ball
+        alone does, the one between the balls is a spring.
+
+    Raises
+    ------
+    InvalidValue
+        If there is none of that name.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> model, data, what = dataset("B1-B2")
+    >>> data["rebound_ratios"]
+    [(0.28, 0.02), (1.91, 0.02)]
+    >>> sb.fit(model.drop, data, model.vary).names
+    ['contacts.0.stiffness', 'contacts.1.stiffness', 'gaps.0']
+    """
+    short = name.removeprefix(PREFIX)
+    if short not in _MADE:
+        raise InvalidValue(f"{name[:60]} is no data set; {nearest(PREFIX + short, NAMES)}")
+    return _MADE[short]()
+
+
+def pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
+    """Return two of the superballs with section V's contacts, and what Table II has of them.
+
+    Parameters
+    ----------
+    lower, upper : str
+        ``"B1"``, ``"B2"`` or ``"B3"``.
+
+    Examples
+    --------
+    >>> drop, data = pair("B1", "B1")
+    >>> [round(ball.mass, 5) for ball in drop.balls]
+    [0.10504, 0.101]
+    """
+    key = f"{upper}_on_{lower}"
+    balls = [_ball(lower, heavier=lower == upper), _ball(upper)]
+    floor, top = (_value(f"{ball}.dynamic_stiffness") for ball in (lower, upper))
+    kept, _ = _restitution(lower)
+    contacts = [Hysteretic(floor, restitution=kept), Spring(floor * top / (floor + top))]
+    drop = Drop(balls, contacts, height=_value("superballs.drop_height"))
+    data: dict[str, Any] = {
+        "rebound_ratios": [_known(f"{key}.lower"), _known(f"{key}.upper")],
+    }
+    return drop, data | _times(key)
+
+
+def _times(key: str) -> dict[str, Any]:
+    """Return the delay, the duration and the counts that the text has of a pair of superballs."""
+    delay, late = _known("superballs.delay"), _known("superballs.late_delay")
+    short, long = _known("B2_on_B1.duration"), _known("B1_on_B2.duration")
+    found: dict[str, dict[str, Any]] = {
+        "B2_on_B1": {"first_touch.1": delay, "durations.0": short},
+        "B1_on_B2": {"first_touch.1": delay, "durations.0": long, "collisions.1": 3},
+        "B3_on_B1": {"first_touch.1": delay},
+        "B1_on_B3": {"first_touch.1": late},
+        "B1_on_B1": {"durations.0": _known("superballs.twin_duration")},
+    }
+    return found[key]
+
+
+def _pair(lower: str, upper: str) -> DataSet:
+    drop, data = pair(lower, upper)
+    vary = {
+        "contacts.0.stiffness": _STIFF,
+        "contacts.1.stiffness": _STIFF,
+        "gaps.0": (0.0, _WIDEST),
+    }
+    return DataSet(Model(drop, vary), data, f"Table II and Sec. IV: {upper} on {lower}")
+
+
+def _basketball() -> DataSet:
+    balls = [Ball(_value(f"{name}.mass"), _value(f"{name}.diameter")) for name in _STACK]
+    stiffnesses = _value("fig9.floor_stiffness"), _value("fig9.ball_stiffness")
+    drop = Drop(balls, [Spring(one) for one in stiffnesses], height=_value("stack.drop_height"))
+    data = {
+        "rebound_heights": [_known("stack.lower_height"), _known("stack.upper_height")],
+        "durations.0": _known("stack.duration"),
+        "first_touch.1": _known("stack.delay"),
+    }
+    vary = {
+        "contacts.0.stiffness": (3e2, 3e4),
+        "contacts.1.stiffness": (1e2, 1e4),
+        "gaps.0": (0.0, _WIDEST),
+    }
+    what = "Sec. III: tennis ball on basketball, no loss in the contacts"
+    return DataSet(Model(drop, vary), data, what)
+
+
+def _alone(name: str) -> DataSet:
+    mass, height = _value(f"{name}.mass"), _value("superballs.drop_height")
+    time, kept = _value(f"{name}.contact_time"), _restitution(name)
+    law = calibrate(
+        Hysteretic,
+        mass=mass,
+        contact_time=time,
+        restitution=kept[0],
+        impact_speed=fallen_speed(height),
+    )
+    drop = Drop([_ball(name)], [law], height=height)
+    data = {
+        "durations.0": _known(f"{name}.contact_time"),
+        "rebound_ratios": [kept],
+    }
+    vary = {"contacts.0.stiffness": _STIFF, "contacts.0.restitution": (0.3, 1.0)}
+    return DataSet(Model(drop, vary), data, f"Table I: {name} alone")
+
+
+def _ball(name: str, *, heavier: bool = False) -> Ball:
+    mass = _value(f"{name}.mass") * (_HEAVIER if heavier else 1.0)
+    return Ball(mass, _value(f"{name}.diameter"), name=name)
+
+
+def _restitution(name: str) -> tuple[float, float]:
+    return _known("B1.restitution") if name == "B1" else _SMALLER
+
+
+def _value(key: str) -> float:
+    return PAPER[key].value
+
+
+def _known(key: str) -> tuple[float, float]:
+    """Return a number of the paper with its error."""
+    one = PAPER[key]
+    return one.value, max(one.spread, _LEAST) if one.unit == "s" else one.spread
+
+
+_STACK = ("basketball", "tennis")
+_PAIRS = (("B1", "B2"), ("B2", "B1"), ("B1", "B3"), ("B3", "B1"), ("B1", "B1"))
+_MADE: dict[str, Callable[[], DataSet]] = {
+    **{f"{lower}-{upper}": partial(_pair, lower, upper) for lower, upper in _PAIRS},
+    "basketball-tennis": _basketball,
+    **{name: partial(_alone, name) for name in ("B1", "B2", "B3")},
+}
+NAMES = tuple(PREFIX + name for name in _MADE)
+"""All data sets: pairs with the bottom ball first, and balls alone."""
