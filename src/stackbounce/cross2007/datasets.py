@@ -15,7 +15,7 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.errors import InvalidValue, nearest
 from stackbounce.fit import Model
-from stackbounce.model import Ball, Drop, Hysteretic, Spring
+from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring
 
 __all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "pair"]
 
@@ -89,7 +89,10 @@ def pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
     balls = [_ball(lower, heavier=lower == upper), _ball(upper)]
     floor, top = (_value(f"{ball}.dynamic_stiffness") for ball in (lower, upper))
     kept, _ = _restitution(lower)
-    contacts = [Hysteretic(floor, restitution=kept), Spring(floor * top / (floor + top))]
+    contacts: list[ContactLaw] = [
+        Hysteretic(floor, restitution=kept),
+        Spring(floor * top / (floor + top)),
+    ]
     drop = Drop(balls, contacts, height=_value("superballs.drop_height"))
     data: dict[str, Any] = {
         "rebound_ratios": [_known(f"{key}.lower"), _known(f"{key}.upper")],
