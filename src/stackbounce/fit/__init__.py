@@ -6,6 +6,7 @@ measured   what was measured, with errors
 waveforms  force records as data
 parameters what is varied, between which bounds
 ties       what follows from what is varied
+formula    how that is written
 problem    all of it together: residuals of many trials at once
 question   what a user asks for -> the problem
 search     many trials screened, the best followed down

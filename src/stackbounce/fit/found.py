@@ -2,6 +2,7 @@
 
 import functools
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.fit.problem import Problem
-from stackbounce.fit.search import Minimum
+from stackbounce.fit.search import Minimum, directions
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 
@@ -51,6 +52,8 @@ class Fit:
         What was fitted to what.
     minima : list of Minimum
         All minima found, the best first.
+    unsolved : mapping of str to int
+        How many runs of the search came to no end, by the name of their `Status`.
 
     Examples
     --------
@@ -63,6 +66,7 @@ class Fit:
 
     problem: Problem = field(repr=False)
     minima: list[Minimum] = field(repr=False)
+    unsolved: Mapping[str, int] = field(repr=False, default_factory=dict)
 
     def __getitem__(self, name: str) -> "UFloat":
         """The best value of what was varied, with its error, in SI units."""
@@ -97,17 +101,18 @@ class Fit:
     def covariance(self) -> "xr.DataArray":
         """(parameter, other) covariances at the best values, in the products of their units.
 
-        What the data do not determine lies anywhere between its bounds.
+        What the data hardly determine lies anywhere between its bounds: in no direction is a
+        standard deviation larger than that of a number of which these are all that is known.
         """
         import xarray as xr
 
         slope = np.array(
             [one.slope(x) for one, x in zip(self.problem.parameters, self.x, strict=True)]
         )
-        sizes, directions = self.directions
+        sizes, along = self.directions
         wide = self.problem.spans[:, 1] - self.problem.spans[:, 0]
-        spread = np.where(sizes > 1.0, 1.0 / np.maximum(sizes, 1.0), _ANYWHERE)
-        inner = (directions.T * spread**2) @ directions
+        spread = 1.0 / np.maximum(sizes, 1.0 / _ANYWHERE)
+        inner = (along.T * spread**2) @ along
         matrix = inner * np.outer(wide * slope, wide * slope)
         where = {"parameter": self.names, "other": self.names}
         return xr.DataArray(matrix, where, ("parameter", "other"), attrs=self._provenance)
@@ -118,9 +123,7 @@ class Fit:
 
         The directions are orthogonal in coordinates that run from 0 to 1 between the bounds.
         """
-        spans = self.problem.spans
-        _, sizes, directions = np.linalg.svd(self.slopes * (spans[:, 1] - spans[:, 0]))
-        return np.pad(sizes, (0, len(directions) - len(sizes))), directions
+        return directions(self.problem, self.slopes)
 
     @property
     def correlations(self) -> "xr.DataArray":
@@ -235,7 +238,7 @@ class Fit:
 
         return intervals(self, sigma)
 
-    def sample(self, draws: int = 10_000, **options: Any) -> "Posterior":
+    def sample(self, draws: int = 16_000, **options: Any) -> "Posterior":
         """Return draws from what is known of the parameters after the data; see `Posterior`."""
         from stackbounce.fit.posterior import sample
 

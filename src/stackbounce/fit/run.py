@@ -93,7 +93,8 @@ def fit(
     limit = between("rtol", rtol, 1e-14, 1e-3)
     problem = read_problem(drop, data, vary, tie, limit)
     count = None if starts is None else whole("starts", starts, 1, _MOST_STARTS)
-    return Fit(problem, search(problem, _own(problem), count, whole("seed", seed, 0)))
+    minima = search(problem, _own(problem), count, whole("seed", seed, 0))
+    return Fit(problem, minima, dict(problem.unsolved))
 
 
 def _own(problem: Problem) -> NDArray[np.float64]:
