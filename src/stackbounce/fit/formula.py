@@ -17,7 +17,9 @@ Values: TypeAlias = Mapping[str, NDArray[np.float64]]
 Formula: TypeAlias = Callable[[Values], Any]
 
 _LONGEST = 500  # characters
-_TOKEN = re.compile(r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?P<word>[A-Za-z_]\w*(?:\.\w+)*)", re.A)
+_TOKEN = re.compile(
+    r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?P<word>[A-Za-z_]\w*(?:\.\w+)*)", re.ASCII
+)
 _CONSTANTS = {"pi": math.pi}
 _FUNCTIONS: dict[str, tuple[Any, int]] = {
     "sqrt": (np.sqrt, 1),
@@ -96,13 +98,13 @@ def _function(node: ast.AST, names: Mapping[str, str]) -> Formula:
     match node:
         case ast.Constant(int() | float() as value):
             number = float(value)
-            return lambda values: number
+            return lambda _: number
         case ast.Name(name) if name in names:
             word = names[name]
             return lambda values: values[word]
         case ast.Name(name) if name in _CONSTANTS:
             constant = _CONSTANTS[name]
-            return lambda values: constant
+            return lambda _: constant
         case ast.UnaryOp(sign, part) if type(sign) in _SIGNS:
             return _applied(_SIGNS[type(sign)], [part], names)
         case ast.BinOp(left, operation, right) if type(operation) in _OPERATIONS:

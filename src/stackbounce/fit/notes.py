@@ -75,7 +75,9 @@ def _at_bounds(fit: "Fit") -> list[str]:
 def _unlikely(fit: "Fit") -> list[str]:
     if not fit.probability < _UNLIKELY:
         return []
-    bad = f"chi squared is {fit.chi_squared:.4g} for {fit.degrees_of_freedom} degrees of freedom"
+    count = fit.degrees_of_freedom
+    freedom = f"{count} degree{'' if count == 1 else 's'} of freedom"
+    bad = f"chi squared is {fit.chi_squared:.4g} for {freedom}"
     return [f"the model does not describe the data: {bad}; its parameters' errors mean little"]
 
 
