@@ -78,7 +78,9 @@ def _unlikely(fit: "Fit") -> list[str]:
     free = max(1, fit.degrees_of_freedom)  # without any, a model that can follow has no misfit
     if chi2.sf(fit.chi_squared, free) >= _UNLIKELY:
         return []
-    bad = f"chi squared is {fit.chi_squared:.4g} for {fit.degrees_of_freedom} degrees of freedom"
+    count = fit.degrees_of_freedom
+    freedom = f"{count} degree{'' if count == 1 else 's'} of freedom"
+    bad = f"chi squared is {fit.chi_squared:.4g} for {freedom}"
     return [f"the model does not describe the data: {bad}; its parameters' errors mean little"]
 
 

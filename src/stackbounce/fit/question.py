@@ -24,9 +24,16 @@ def read_problem(
     rtol: float,
 ) -> Problem:
     """Return a fit to be made, checked; see `fit`."""
+    drops: dict[str, Drop]
     if isinstance(drop, Drop):
         drops, given = {"": drop}, {"": data}
     elif isinstance(drop, Mapping) and drop:
+        for key in drop:
+            if not (isinstance(key, str) and key.isidentifier() and key.isascii()):
+                raise InvalidValue(
+                    "a drop's name must be letters, digits and _, such as B2_on_B1, "
+                    f"got {shown(key)}"
+                )
         drops = dict(drop)
         if not isinstance(data, Mapping):
             raise InvalidType(f"data must map each drop's name to its data, got {shown(data)}")
@@ -36,25 +43,24 @@ def read_problem(
                 raise InvalidValue(f"data of {shown(key)}: no drop; {nearest(key, drops)}")
     else:
         raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(drop)}")
-    for key, one in drops.items():
+    for one in drops.values():
         if not isinstance(one, Drop):
             raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(one)}")
-        if key and not (isinstance(key, str) and key.isidentifier()):
-            raise InvalidValue(
-                f"a drop's name must be letters, digits and _, such as B2_on_B1, got {shown(key)}"
-            )
     measured = {
         key: read_measured(drops[key], one, f"{key}." if key else "") for key, one in given.items()
     }
     parameters = read_parameters(drops, vary)
     clocks = tuple(_clock(key, one) for key, one in measured.items() if one.waveforms)
+    for one in clocks:
+        if one.name in {own.name for own in parameters}:
+            raise InvalidValue(f"{one.name} is the clock of a record: take another name")
     ties = read_ties(drops, parameters, tie)
     problem = Problem(drops, measured, parameters + clocks, ties, rtol)
     free = len(problem.parameters) + problem.linear
     if problem.size < free:
         raise TooFewData(
-            f"vary has {_many(free, 'number')} but only {problem.size} were measured: fix some, or "
-            "say what is known of them (a Range with a prior)"
+            f"vary has {_many(free, 'number')} for {_many(problem.size, 'measured number')}: fix some, "
+            "or say what is known of them (a Range with a prior)"
         )
     return problem
 

@@ -78,11 +78,10 @@ def search(
         follow = _SLOWLY if problem.records else _FOLLOWED
     chosen = _apart(problem, first, trials, follow)
     ends = sorted((descend(problem, x) for x in chosen), key=lambda one: one.chi_squared)
-    found = _distinct(problem, ends)
     wide = problem.spans[:, 1] - problem.spans[:, 0]
-    good = [one for one in found if one.chi_squared < found[0].chi_squared + EQUAL]
-    best = min(good, key=lambda one: np.sum(((one.x - chosen[0]) / wide) ** 2))
-    return [best, *(one for one in found if one is not best)]
+    good = [one for one in ends if one.chi_squared < ends[0].chi_squared + EQUAL]
+    nearest = sorted(good, key=lambda one: np.sum(((one.x - chosen[0]) / wide) ** 2))
+    return _distinct(problem, nearest + ends[len(good) :])
 
 
 def descend(problem: Problem, x: Array, fixed: int | None = None) -> Minimum:
@@ -154,9 +153,9 @@ def _together(problem: Problem, end: Minimum, better: Minimum) -> bool:
     if np.max(np.abs(end.x - better.x) / wide) < _SAME:
         return True
     way = np.linspace(better.x, end.x, _LOOKS + 2)[1:-1]
-    if np.max(problem.chi_squared(way)) < end.chi_squared + _BARRIER:
+    if np.max(problem.chi_squared(way)) < max(end.chi_squared, better.chi_squared) + _BARRIER:
         return True
-    equal = end.chi_squared - better.chi_squared < EQUAL
+    equal = abs(end.chi_squared - better.chi_squared) < EQUAL
     return bool(equal and all(_open(problem, one.x) for one in (end, better)))
 
 
