@@ -151,10 +151,11 @@ class Problem:
         """Return the force (n,) in N at the times of each record of a drop, in one trial."""
         drop, start = self.drop(key, x), float(self.values(x[None])[clock(key)][0])
         waves = self.measured[key].waveforms
-        times = np.unique(np.concatenate([wave.times for wave in waves])) - start
+        stamps = np.unique(np.concatenate([wave.times for wave in waves]))
+        times = stamps - start
         forces = np.zeros((len(drop.balls), len(times)))
         forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
-        return [forces[wave.index, np.isin(times + start, wave.times)] for wave in waves]
+        return [forces[wave.index, np.searchsorted(stamps, wave.times)] for wave in waves]
 
     def residuals(self, x: Array) -> Array:
         """Return residuals (n, size), in errors, of trials (n, parameters).
