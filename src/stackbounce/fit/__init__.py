@@ -8,6 +8,8 @@ parameters what is varied, between which bounds
 ties       what follows from what is varied
 problem    all of it together: residuals of many trials at once
 question   what a user asks for -> the problem
+files      a question from a TOML file
+tables     drops, and what was measured of each, from a CSV file
 search     many trials screened, the best followed down
 run        ``fit``
 found      what a fit found
@@ -17,10 +19,23 @@ posterior  draws from what is known after the data
 ========== ============================================================================
 """
 
+from stackbounce.fit.files import read_question
 from stackbounce.fit.found import Fit, Residual
 from stackbounce.fit.parameters import Range
 from stackbounce.fit.posterior import Posterior
 from stackbounce.fit.profile import Interval
+from stackbounce.fit.question import Question
 from stackbounce.fit.run import fit
+from stackbounce.fit.tables import read_drops
 
-__all__ = ["Fit", "Interval", "Posterior", "Range", "Residual", "fit"]
+__all__ = [
+    "Fit",
+    "Interval",
+    "Posterior",
+    "Question",
+    "Range",
+    "Residual",
+    "fit",
+    "read_drops",
+    "read_question",
+]

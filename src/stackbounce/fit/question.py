@@ -1,6 +1,8 @@
 """What a user asks for -> the problem, checked."""
 
 from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fit.measured import Measured, read_measured
@@ -9,7 +11,47 @@ from stackbounce.fit.problem import Problem, clock
 from stackbounce.fit.ties import read_ties
 from stackbounce.model import Drop
 
-__all__ = ["read_problem"]
+if TYPE_CHECKING:
+    from stackbounce.fit.found import Fit
+
+__all__ = ["Question", "read_problem"]
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """What is asked of a fit, as files have it: all that `stackbounce.fit` takes.
+
+    Parameters
+    ----------
+    drops : mapping of str to Drop
+        By their names; one alone may have an empty one.
+    data : mapping of str to mapping
+        What was measured of each drop, by its name.
+    vary : mapping or sequence of str
+        What may change.
+    tie : mapping, optional
+        What follows from it.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
+    >>> data = {"durations.0": "5.0 ± 0.1 ms"}
+    >>> question = Question({"": drop}, {"": data}, ["contacts.0.stiffness"])
+    >>> print(f"{question.fit()['contacts.0.stiffness']:.2u} N/m")
+    (2.238+/-0.090)e+04 N/m
+    """
+
+    drops: Mapping[str, Drop]
+    data: Mapping[str, Mapping[str, Any]]
+    vary: Any
+    tie: Any = None
+
+    def fit(self, **options: Any) -> "Fit":
+        """Return the fit; the options are those of `stackbounce.fit`."""
+        from stackbounce.fit.run import fit
+
+        return fit(self.drops, self.data, self.vary, tie=self.tie, **options)
 
 
 def read_problem(

@@ -1,7 +1,9 @@
-"""Pictures: the bounce of one drop, lines and maps of a sweep, what was found in a measurement."""
+"""Pictures: one drop's bounce, lines and maps of a sweep, what a measurement or a fit found."""
 
 from stackbounce.plots.bounce import bounce
+from stackbounce.plots.fitted import fitted
 from stackbounce.plots.measured import measured
+from stackbounce.plots.posterior import corner
 from stackbounce.plots.swept import heatmap, lines
 
-__all__ = ["bounce", "heatmap", "lines", "measured"]
+__all__ = ["bounce", "corner", "fitted", "heatmap", "lines", "measured"]
