@@ -121,5 +121,5 @@ def test_a_valley_is_one_minimum():
         1e-9,
     )
     for seed in range(3):
-        best, *others = search(problem, None, seed)
+        best, *others = search(problem, np.empty((0, len(problem.parameters))), seed=seed)
         assert all(one.chi_squared > best.chi_squared + 1.0 for one in others)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.fit.problem import Problem
+from stackbounce.fit.problem import Problem, clock
 from stackbounce.fit.search import Minimum, directions
 from stackbounce.model import Drop
 from stackbounce.version import __version__
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from stackbounce.fit.posterior import Posterior
     from stackbounce.fit.profile import Interval
 
-__all__ = ["Fit", "Residual"]
+__all__ = ["Fit", "Record", "Residual"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -40,6 +40,27 @@ class Residual(NamedTuple):
     fitted: float
     pull: float
     unit: str
+
+
+class Record(NamedTuple):
+    """A force record beside the fitted one, both (n,) over times in s since the first touch.
+
+    In N, or in the record's own unit where its scale was fitted too (`unit` is then empty); `error`
+    is that of a sample.
+    """
+
+    drop: str
+    name: str
+    times: Array
+    measured: Array
+    fitted: Array
+    error: float
+    unit: str
+
+    @property
+    def scatter(self) -> float:
+        """Root mean square of the differences, in errors: about 1 where the model is right."""
+        return float(np.sqrt(np.mean(((self.fitted - self.measured) / self.error) ** 2)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,7 +204,7 @@ class Fit:
 
     @functools.cached_property
     def residuals(self) -> list[Residual]:
-        """Each number that was measured beside the fitted one; waveforms are in `waveforms`."""
+        """Each number that was measured beside the fitted one; force records are in `records`."""
         found = []
         for key, measured in self.problem.measured.items():
             fitted = self.problem.predicted(key, self.x[None])[0] if measured.data else []
@@ -196,6 +217,18 @@ class Fit:
             value = self.best[one.name]
             row = (mean, error, value, (value - mean) / error, one.unit)
             found.append(Residual("", f"{one.name} (known)", *row))
+        return found
+
+    @functools.cached_property
+    def records(self) -> list[Record]:
+        """Each force record beside the fitted one."""
+        found = []
+        for key in self.problem.records:
+            touch, forces = self.best[clock(key)], self.problem.forces(key, self.x)
+            for wave, force in zip(self.problem.measured[key].waveforms, forces, strict=True):
+                curves = (wave.times - touch, wave.force, wave.curve(force))
+                unit = "" if wave.scaled else "N"
+                found.append(Record(key, wave.name, *curves, wave.error, unit))
         return found
 
     @functools.cached_property
@@ -237,6 +270,32 @@ class Fit:
         from stackbounce.fit.profile import intervals
 
         return intervals(self, sigma)
+
+    def profile(self, name: str, values: Any) -> Array:
+        """Return chi squared where one parameter has other values and all others are fitted anew.
+
+        Parameters
+        ----------
+        name : str
+            What was varied.
+        values : array_like
+            (n,) in SI units, between its bounds.
+
+        Returns
+        -------
+        ndarray
+            (n,)
+
+        Raises
+        ------
+        InvalidValue
+            If it was not varied, or a value lies outside the bounds.
+        """
+        from stackbounce.fit.profile import along
+
+        if name not in self.names:
+            raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
+        return along(self, self.names.index(name), np.asarray(values, dtype=float))
 
     def sample(self, draws: int = 16_000, **options: Any) -> "Posterior":
         """Return draws from what is known of the parameters after the data; see `Posterior`."""

@@ -124,11 +124,17 @@ class Problem:
 
     @cached_property
     def _owner(self) -> dict[str, str | None]:
-        """The only drop that each parameter concerns; None where it is shared."""
+        """The only drop that each parameter concerns; None where it is shared.
+
+        A function of Python is not asked which it uses: it is given those of its own drop, and
+        those that are shared.
+        """
         found: dict[str, str | None] = {clock(key): key for key in self.drops}
         for one in self.parameters:
             at = {key for key, _ in places(self.drops, one.name)}
-            found.setdefault(one.name, at.pop() if len(at) == 1 else None)
+            at |= {tie.drop for tie in self.ties if tie.uses and one.name in tie.uses}
+            numbers = bool(places(self.drops, one.name))
+            found.setdefault(one.name, at.pop() if numbers and len(at) == 1 else None)
         return found
 
     def own(self, key: str) -> list[int]:

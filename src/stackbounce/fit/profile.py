@@ -1,4 +1,4 @@
-"""Confidence intervals: how far a parameter may lie while all others follow."""
+"""Profiles of chi squared, and confidence intervals: one parameter moves, all others follow."""
 
 import math
 from collections.abc import Callable
@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import positive
-from stackbounce.fit.search import descend
+from stackbounce.errors import between, positive
+from stackbounce.fit.search import descend, starts
 
 if TYPE_CHECKING:
     from stackbounce.fit.found import Fit
 
-__all__ = ["Interval", "intervals"]
+__all__ = ["Interval", "along", "intervals"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -22,6 +22,7 @@ _GROWTH = 1.6
 _MOST = 60  # steps outwards, and inwards
 _EXACT = 1e-3  # of chi squared's rise
 _NOTHING = 1e-12  # of a coordinate: chi squared jumps there
+_SCREENED = 64  # trials at each value of a profile, where they are solved together
 
 
 class Interval(NamedTuple):
@@ -56,6 +57,27 @@ def profile(fit: "Fit", k: int) -> Callable[[float, Array], tuple[float, Array]]
         return end.chi_squared, end.x
 
     return at
+
+
+def along(fit: "Fit", k: int, values: Array) -> Array:
+    """Return chi squared (n,) at values of one parameter; see `Fit.profile`.
+
+    Each descent begins at the end of the one before, or at the best of some trials spread over the
+    bounds of the others: a profile may pass from one valley into another.
+    """
+    one, at, found = fit.problem.parameters[k], profile(fit, k), np.empty(len(values))
+    spread = starts(fit.problem, _SCREENED, 0)[: 0 if fit.problem.records else _SCREENED]
+    for side in (-1.0, 1.0):
+        start = fit.x
+        for j in np.argsort(side * values, kind="stable"):
+            x = one.coordinate(between(one.name, values[j], one.low, one.high))
+            if (x - fit.x[k]) * side < 0.0:
+                continue
+            trials = np.concatenate([start[None], spread])
+            trials[:, k] = x
+            best = trials[np.argmin(fit.problem.chi_squared(trials))]
+            found[j], start = at(x, best)
+    return found
 
 
 def _interval(fit: "Fit", k: int, rise: float) -> Interval:

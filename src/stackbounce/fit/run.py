@@ -48,7 +48,8 @@ def fit(
         name that is no path can be varied if a tie uses it.
     tie : mapping, optional
         Numbers that follow from others: ``{"contacts.1.stiffness": "0.5 * contacts.0.stiffness"}``,
-        a formula of what is varied and of numbers of the same drop, or a function of Python.
+        a formula of what is varied and of numbers of the same drop, or a function of Python, which
+        takes a mapping of them to arrays.
     starts : int, optional
         How many trials to look at before the best of them are followed; default 128 for each
         parameter, 1024 at most.
