@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from stackbounce.calibrate import calibrate, contact_time, restitution, separate
+    from stackbounce.design import best_masses, highest, transition
     from stackbounce.errors import StackbounceError
     from stackbounce.measure import read
     from stackbounce.model import (
@@ -42,19 +43,23 @@ __all__ = [
     "Status",
     "Viscoelastic",
     "__version__",
+    "best_masses",
     "calibrate",
     "contact_time",
+    "highest",
     "read",
     "restitution",
     "separate",
     "series",
     "simulate",
     "sweep",
+    "transition",
 ]
 
 # Each name is imported when it is first used, so that nothing waits for what it does not need.
 _ROOMS = {
     "calibrate": ("calibrate", "contact_time", "restitution", "separate"),
+    "design": ("best_masses", "highest", "transition"),
     "errors": ("StackbounceError",),
     "measure": ("read",),
     "result": ("Result", "Status"),

@@ -8,8 +8,19 @@ from typing import Annotated
 
 import typer
 
+from stackbounce.cli import design_commands
 from stackbounce.cli.measure_command import EPILOG, measure
-from stackbounce.cli.options import AsJson, Height, Plot, Speed
+from stackbounce.cli.options import (
+    AsJson,
+    Contact,
+    Gap,
+    Gravity,
+    Height,
+    Plot,
+    Speed,
+    Tolerance,
+    What,
+)
 from stackbounce.cli.output import console
 from stackbounce.errors import InvalidValue, StackbounceError
 
@@ -37,37 +48,9 @@ def stackbounce(
         typer.echo(context.get_help())
 
 
-What = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="SCENARIO|BALLS",
-        help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
-        show_default=False,
-    ),
-]
-Gap = Annotated[
-    list[str] | None,
-    typer.Option(metavar="LENGTH", help="Gap between two balls; once per pair, lowest first."),
-]
-Contact = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="LAW",
-        help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
-        "lowest first. Laws: Rigid, Spring, Hertz, PowerLaw, Dashpot, Viscoelastic, "
-        "HuntCrossley, Hysteretic; none for no floor.",
-    ),
-]
-Gravity = Annotated[
-    str | None,
-    typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
-]
 Until = Annotated[
     str | None,
     typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
-]
-Tolerance = Annotated[
-    float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")
 ]
 
 
@@ -179,6 +162,8 @@ def sweep(
 
 
 app.command(name="measure", epilog=EPILOG)(measure)
+for _command_of in design_commands.COMMANDS:
+    app.command(epilog=design_commands.COMMANDS[_command_of])(_command_of)
 
 
 @app.command()
