@@ -36,6 +36,7 @@ _SHARES = (0.02, 0.05, 0.1, 0.2, 0.5)  # of the whole range, at which the table 
 _CHANGES = 12  # that have rows
 _WIDE = 5  # balls that have a column each
 _AT_THE_END = 1e-3  # relative
+_REST = 1e-6  # a smaller rebound ratio is shown as none
 _OUTPUTS = ("rebound_ratio", "collisions", "first_touch", "last_release", "energy_retained")
 
 
@@ -246,7 +247,8 @@ def _changes(data: "xr.Dataset") -> list[tuple[float, Any, Any]]:
 
 
 def _numbers(gap: float, ratios: Any, energy: Any) -> list[str]:
-    return [number(gap), *(number(float(one)) for one in ratios), f"{100.0 * float(energy):.1f} %"]
+    cells = [number(float(one) if abs(one) > _REST else 0.0) for one in ratios]
+    return [number(gap), *cells, f"{100.0 * float(energy):.1f} %"]
 
 
 def _counts(counts: Any) -> str:

@@ -14,7 +14,7 @@ from stackbounce.simulate import simulate
 
 __all__ = ["distance", "separate_from", "with_gap"]
 
-_TRIES, _WIDER = 13, 4.0  # up to 16 million times the distance fallen during the touching impact
+_TRIES, _WIDER = 10, 4.0  # up to 250 000 times the distance fallen during the touching impact
 _STEADY = 1e-6  # relative; durations that do not depend on the gap differ by less
 _SAME_PACE = 1e-9  # over 1/v0; collisions that keep their distance in time have the same pace
 _NEGLIGIBLE = 1e-9  # of the largest impulse: touches of balls that are at rest but for round-off
@@ -67,7 +67,7 @@ def separate_from(drop: Drop, only: int | None, length: float, rtol: float) -> f
     Returns
     -------
     float
-        inf if there is none, or none below some 10 million times that length.
+        inf if there is none, or none below 250 000 times that length.
 
     Notes
     -----

@@ -19,7 +19,11 @@ if TYPE_CHECKING:
 
 __all__ = ["transition"]
 
-_EVEN, _LOG, _LOWEST = 513, 97, 1e-4  # gaps to begin with: in even steps, in even ratios from there
+_EVEN, _LOG, _LOWEST = (
+    1025,
+    97,
+    1e-4,
+)  # gaps to begin with: in even steps, in even ratios from there
 _BEYOND = 1.1  # of the gap from which on nothing changes
 _NEVER = 20.0  # of the distance fallen during the touching impact, where it always changes
 _STRAIGHT = 2e-3  # a curve may leave the line between the neighbours by so much
@@ -75,7 +79,7 @@ def transition(
     on the speed, and all gaps vary.
 
     Counts that change there and back between two neighbouring gaps, of which there are at least
-    513, are not seen. Where balls part at one speed, or come to rest, but for round-off, so are
+    1025, are not seen. Where balls part at one speed, or come to rest, but for round-off, so are
     the counts.
 
     Examples

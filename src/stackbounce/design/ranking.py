@@ -79,7 +79,7 @@ def highest(
         as `Drop.from_toml` reads and `stackbounce measure --save` writes, of which ball and contact
         count. By default the whole catalogue. A ball given twice can be used twice.
     count : int, optional
-        How many balls a stack has.
+        How many balls a stack has, 2 or more.
     gaps : sequence of float, optional
         In m, 0 or above: each stack is dropped with each of them between all neighbours. The order
         is that at the first one.
@@ -225,7 +225,7 @@ def _stacks(
     balls: Sequence[Candidate], count: object, repeat: bool, gaps: int
 ) -> list[tuple[Candidate, ...]]:
     """Return all stacks of so many balls, equal ones once."""
-    high = whole("count", count, 1, math.inf if repeat else len(balls))
+    high = whole("count", count, 2, math.inf if repeat else len(balls))
     many = len(balls) ** high if repeat else math.perm(len(balls), high)
     if many * gaps > _MOST:
         raise InvalidValue(
