@@ -8,8 +8,18 @@ from typing import Annotated
 
 import typer
 
-from stackbounce.cli import fit_command, measure_command
-from stackbounce.cli.options import AsJson, Contact, Gap, Gravity, Height, Plot, Speed, What
+from stackbounce.cli import design_commands, fit_command, measure_command
+from stackbounce.cli.options import (
+    AsJson,
+    Contact,
+    Gap,
+    Gravity,
+    Height,
+    Plot,
+    Speed,
+    Tolerance,
+    What,
+)
 from stackbounce.cli.output import console
 from stackbounce.errors import InvalidValue, StackbounceError
 
@@ -40,9 +50,6 @@ def stackbounce(
 Until = Annotated[
     str | None,
     typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
-]
-Tolerance = Annotated[
-    float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")
 ]
 
 
@@ -155,6 +162,8 @@ def sweep(
 
 app.command(name="measure", epilog=measure_command.EPILOG)(measure_command.measure)
 app.command(name="fit", epilog=fit_command.EPILOG)(fit_command.fit)
+for _command_of in design_commands.COMMANDS:
+    app.command(epilog=design_commands.COMMANDS[_command_of])(_command_of)
 
 
 @app.command()

@@ -5,7 +5,18 @@ from typing import Annotated
 
 import typer
 
-__all__ = ["AsJson", "Contact", "Gap", "Gravity", "Height", "Plot", "Speed", "What"]
+__all__ = [
+    "AsJson",
+    "Contact",
+    "Gap",
+    "Gravity",
+    "Height",
+    "Plot",
+    "Save",
+    "Speed",
+    "Tolerance",
+    "What",
+]
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
 Height = Annotated[
@@ -39,4 +50,13 @@ Contact = Annotated[
 Gravity = Annotated[
     str | None,
     typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
+]
+Tolerance = Annotated[
+    float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")
+]
+Save = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", readable=False, help="Write the best stack as a scenario: best.toml."
+    ),
 ]

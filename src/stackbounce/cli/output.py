@@ -12,7 +12,15 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
 
-__all__ = ["SUFFIXES", "check_picture", "console", "draw", "progress_bar"]
+__all__ = [
+    "SUFFIXES",
+    "check_picture",
+    "check_scenario",
+    "console",
+    "draw",
+    "progress_bar",
+    "write_scenario",
+]
 
 SUFFIXES = (".svg", ".png", ".pdf")
 """The kinds of picture."""
@@ -32,6 +40,25 @@ def check_picture(path: Path, option: str = "--plot") -> None:
     """
     if path.suffix.lower() not in SUFFIXES:
         raise InvalidValue(f"{option} must end in {', '.join(SUFFIXES)}, got {path}")
+    _check_place(path)
+
+
+def check_scenario(path: Path) -> None:
+    """Refuse a scenario of another name, or in a folder that is not there.
+
+    Raises
+    ------
+    InvalidValue
+        If the suffix is not that of TOML.
+    FileError
+        If the folder does not exist, or `path` is one.
+    """
+    if path.suffix.lower() != ".toml":
+        raise InvalidValue(f"--save must end in .toml, got {path}")
+    _check_place(path)
+
+
+def _check_place(path: Path) -> None:
     if path.is_dir():
         raise FileError(f"{path} cannot be written: it is a folder")
     if not path.parent.is_dir():
@@ -56,6 +83,20 @@ def draw(make: Callable[[], "Figure"], path: Path) -> None:
     try:
         with mpl.rc_context(STYLE):
             figure.savefig(path, dpi=150, metadata=_UNDATED.get(path.suffix.lower()))
+    except OSError as error:
+        raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
+
+
+def write_scenario(text: str, path: Path) -> None:
+    """Write a scenario file.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
+    try:
+        path.write_text(text, encoding="utf-8")
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
 

@@ -116,7 +116,13 @@ def read_contact(text: str, path: str) -> ContactLaw | None:
 
 
 def is_file(name: str) -> bool:
-    """Tell whether an argument names a file rather than a ball of the catalogue."""
+    """Tell whether an argument is the name of a file, and not of a ball of the catalogue.
+
+    Examples
+    --------
+    >>> is_file("tennis.toml"), is_file("tennis")
+    (True, False)
+    """
     return name.endswith(".toml") or Path(name).name != name
 
 
