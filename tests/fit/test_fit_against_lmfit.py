@@ -72,7 +72,7 @@ def test_intervals_are_those_of_lmfit():
         parameters.add(f"k{k}", value=value, min=value / 4, max=value * 4)
     minimizer = lmfit.Minimizer(residuals, parameters, scale_covar=False)
     plain = minimizer.minimize()
-    # lmfit's default compares by an F test, which has no known errors: ours is a rise of chi squared
+    # lmfit's own way is an F test, for errors that are not known
     limits = lmfit.conf_interval(
         minimizer,
         plain,

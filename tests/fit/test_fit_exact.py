@@ -124,9 +124,10 @@ def test_a_wrong_model_is_told():
     data = {"durations.0": "10 ± 0.1 ms", "rebound_ratios.0": "0.8 ± 0.01"}
     found = sb.fit(drop, data, ["contacts.0.stiffness"])
     assert found.chi_squared == pytest.approx(400.0, rel=1e-6)
-    assert found.notes == (
+    (note,) = found.notes
+    assert note == (
         "the model does not describe the data: chi squared is 400 for 1 degree of freedom; "
-        "its parameters' errors mean little",
+        "its parameters' errors mean little"
     )
 
 

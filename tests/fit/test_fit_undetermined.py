@@ -16,9 +16,10 @@ ANYWHERE = 12.0**-0.5
 
 def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone():
     found = sb.fit(STACK, RATIOS, BOTH)
-    assert found.undetermined == (
+    (open_,) = found.undetermined
+    assert open_ == (
         "the data do not determine contacts.0.stiffness and contacts.1.stiffness one by one: "
-        "they can change together unseen",
+        "they can change together unseen"
     )
     ratio = found[BOTH[0]] / found[BOTH[1]]
     alone = sb.fit(STACK, RATIOS, [BOTH[1]])[BOTH[1]]

@@ -55,8 +55,8 @@ def read_problem(
     free = len(problem.parameters) + problem.linear
     if problem.size < free:
         raise InvalidValue(
-            f"vary has {_many(free, 'number')} for {_many(problem.size, 'measured number')}: fix some, "
-            "or say what is known of them (a Range with a prior)"
+            f"vary has {_many(free, 'number')} for {_many(problem.size, 'measured number')}: fix "
+            "some, or say what is known of them (a Range with a prior)"
         )
     return problem
 
