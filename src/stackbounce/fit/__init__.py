@@ -13,14 +13,16 @@ tables     drops, and what was measured of each, from a CSV file
 search     many trials screened, the best followed down
 run        ``fit``
 found      what a fit found
+compared   what was measured beside what was fitted
 notes      what should be known about it
 profile    confidence intervals
 posterior  draws from what is known after the data
 ========== ============================================================================
 """
 
+from stackbounce.fit.compared import Record, Residual
 from stackbounce.fit.files import read_question
-from stackbounce.fit.found import Fit, Residual
+from stackbounce.fit.found import Fit
 from stackbounce.fit.parameters import Range
 from stackbounce.fit.posterior import Posterior
 from stackbounce.fit.profile import Interval
@@ -34,6 +36,7 @@ __all__ = [
     "Posterior",
     "Question",
     "Range",
+    "Record",
     "Residual",
     "fit",
     "read_drops",

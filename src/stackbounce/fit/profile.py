@@ -20,11 +20,19 @@ _FIRST = 0.2  # of the expected distance: the first step
 _GROWTH = 1.6
 _MOST = 40  # steps outwards, and halvings
 _EXACT = 1e-3  # of chi squared's rise
-_SCREENED = 64  # trials at each value of a profile, where they are solved together
+_SCREENED = 16  # trials at each value of a profile, where they are solved together
 
 
 class Interval(NamedTuple):
-    """Where a parameter may lie, in SI units; at a bound of the search the data set no limit."""
+    """Where a parameter may lie.
+
+    Parameters
+    ----------
+    low, high : float
+        The limits in SI units.
+    low_is_bound, high_is_bound : bool
+        Whether one is a bound of the search, and the data set no limit.
+    """
 
     low: float
     high: float
