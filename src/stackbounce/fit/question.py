@@ -52,7 +52,17 @@ class Question:
     tie: Any = None
 
     def fit(self, **options: Any) -> "Fit":
-        """Return the fit; the options are those of `stackbounce.fit`."""
+        """Return the fit.
+
+        Parameters
+        ----------
+        **options
+            Those of `stackbounce.fit`: ``starts``, ``seed`` and ``rtol``.
+
+        Returns
+        -------
+        Fit
+        """
         from stackbounce.fit.run import fit
 
         return fit(self.drops, self.data, self.vary, tie=self.tie, **options)
