@@ -21,7 +21,7 @@ _WORTH = 9.0  # of chi squared above the least: other minima below are shown
 _FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of a map's side, of a profile
 _TOP = 10.0  # of a profile
 _BANDS = (0.0, 1.0, 4.0, 9.0, 16.0, 25.0, 100.0)
-_CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#808080"
+_CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
 
 
 def draw_profile(axes: "Axes", fit: Any) -> None:
