@@ -4,6 +4,7 @@ from shown import DOCS, show
 
 import stackbounce as sb
 from stackbounce import plots
+from stackbounce.cross2007.datasets import dataset
 from stackbounce.fit import read_drops
 from stackbounce.fit.files import force_record
 
@@ -28,6 +29,12 @@ def force():
 def valley():
     """Stiffness and gap of two balls."""
     show(plots.fitted, _two())
+
+
+def models():
+    """The usual models of the paper's B2 on B1."""
+    drop, data, _, _ = dataset("B1-B2")
+    show(plots.compared, sb.compare(sb.standard_models(drop, times=True), data))
 
 
 def draws():

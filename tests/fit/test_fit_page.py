@@ -37,13 +37,13 @@ def steps():
 def test_the_commands_in_turn_print_what_is_shown(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
     asked = steps()
-    assert [command[0] for command, _ in asked].count("fit") == 5
+    assert [command[0] for command, _ in asked].count("fit") == 6
     for command, shown in asked:
         assert main(command) == 0, command
         printed = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
         for line in shown:
             assert any(one.startswith(line) for one in printed), (command, line, printed)
-    for name in ("force", "valley", "draws"):
+    for name in ("force", "valley", "draws", "models"):
         assert (folder / f"{name}.png").stat().st_size > 10_000
     drop = sb.Drop.from_toml(folder / "fitted" / "highest.toml")
     assert drop.contacts[1].stiffness == pytest.approx(1000.0, abs=3 * 21.0)  # what went in
@@ -53,7 +53,7 @@ def test_the_commands_in_turn_print_what_is_shown(folder, monkeypatch, capsys):
 def test_every_picture_has_its_command():
     pictures = re.findall(r"^\.\. plot:: figures/fit.py (\w+)$", TEXT, re.MULTILINE)
     written = re.findall(r"^Picture: (\w+)\.png$", TEXT, re.MULTILINE)
-    assert sorted(pictures) == sorted(written) == ["draws", "force", "valley"]
+    assert sorted(pictures) == sorted(written) == ["draws", "force", "models", "valley"]
 
 
 def test_every_quantity_is_in_the_table():

@@ -65,8 +65,10 @@ def tell(console: "Console", done: Comparison) -> None:
     for score in done.scores:
         above = getattr(score, done.criterion) - best
         predicted = done.predictive(score.model)
-        numbers = (score.chi_squared, score.degrees_of_freedom, above, predicted)
-        table.add_row(score.model, str(score.parameters), *map(number, numbers))
+        degrees, chi = str(score.degrees_of_freedom), number(score.chi_squared)
+        table.add_row(
+            score.model, str(score.parameters), chi, degrees, number(above), number(predicted)
+        )
     console.print(table)
     console.print(
         f"\n{name} counts chi squared and the numbers that were fitted: 10 more than the best is "

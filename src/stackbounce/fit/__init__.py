@@ -14,7 +14,7 @@ tables     drops, and what was measured of each, from a CSV file
 search     many trials screened, the best followed down
 run        ``fit``
 found      what a fit found
-compared   what was measured beside what was fitted
+residuals  what was measured beside what was fitted
 notes      what should be known about it
 profile    confidence intervals
 posterior  draws from what is known after the data
