@@ -26,6 +26,8 @@ OPEN = 1.0
 """Root of chi squared's change from bound to bound below which a direction is left open."""
 
 _STEPS = 60  # of one descent
+_EXACT, _ROUGH = 1e-10, 1e-4  # of chi squared: the last step's gain, and that of a first descent
+_NEAR, _HOPE = 0.01, 20.0  # of the bounds' distance, and of chi squared: rough ends worth following
 _FLAT = 1e-3  # how much of chi squared a gradient step may promise at an end that is no kink
 _SHORT = 60  # evaluations for each parameter where a kink is in the way
 
@@ -77,19 +79,36 @@ def search(
     if follow is None:
         follow = _SLOWLY if problem.records else _FOLLOWED
     chosen = _apart(problem, first, trials, follow)
-    ends = sorted((descend(problem, x) for x in chosen), key=lambda one: one.chi_squared)
+    near = sorted((_by_slopes(problem, x, None, _ROUGH) for x in chosen), key=_chi_squared)
+    ends = sorted((descend(problem, one.x) for one in _worth(problem, near)), key=_chi_squared)
     wide = problem.spans[:, 1] - problem.spans[:, 0]
     good = [one for one in ends if one.chi_squared < ends[0].chi_squared + EQUAL]
     nearest = sorted(good, key=lambda one: np.sum(((one.x - chosen[0]) / wide) ** 2))
     return _distinct(problem, nearest + ends[len(good) :])
 
 
+def _chi_squared(one: Minimum) -> float:
+    return one.chi_squared
+
+
+def _worth(problem: Problem, near: list[Minimum]) -> list[Minimum]:
+    """Return those of some rough ends, the best first, that may lead to minima of their own."""
+    wide = problem.spans[:, 1] - problem.spans[:, 0]
+    limit = near[0].chi_squared + max(_HOPE, near[0].chi_squared)
+    found: list[Minimum] = []
+    for one in near:
+        apart = all(np.max(np.abs(one.x - other.x) / wide) > _NEAR for other in found)
+        if apart and one.chi_squared <= limit:
+            found.append(one)
+    return found
+
+
 def descend(problem: Problem, x: Array, fixed: int | None = None) -> Minimum:
     """Return the end of the descent from a trial, with one parameter kept if so told."""
-    end = _by_slopes(problem, x, fixed)
+    end = _by_slopes(problem, x, fixed, _EXACT)
     if _smooth(problem, end.x, fixed):
         return end
-    other = _by_slopes(problem, _without_slopes(problem, end.x, fixed), fixed)
+    other = _by_slopes(problem, _without_slopes(problem, end.x, fixed), fixed, _EXACT)
     return min(other, end, key=lambda one: one.chi_squared)
 
 
@@ -186,7 +205,7 @@ def _trial(parameters: Any) -> Array:
     return np.array([one.value for one in parameters.values()])
 
 
-def _by_slopes(problem: Problem, x: Array, fixed: int | None) -> Minimum:
+def _by_slopes(problem: Problem, x: Array, fixed: int | None, gain: float) -> Minimum:
     """Return the end of lmfit's trust region; residuals and slopes of a trial come together."""
     import lmfit
 
@@ -204,7 +223,7 @@ def _by_slopes(problem: Problem, x: Array, fixed: int | None) -> Minimum:
     minimizer = lmfit.Minimizer(
         lambda now: expanded(now)[0], _parameters(problem, x, fixed), calc_covar=False
     )
-    options = {"max_nfev": _STEPS, "xtol": 1e-9, "ftol": 1e-10}
+    options = {"max_nfev": _STEPS, "xtol": 10.0 * gain, "ftol": gain}
     with np.errstate(all="ignore"):  # lmfit's own errors where data determine nothing
         found = minimizer.least_squares(Dfun=lambda now: expanded(now)[1][:, free], **options)
     end = _trial(found.params)
