@@ -77,7 +77,8 @@ def pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
     Parameters
     ----------
     lower, upper : str
-        ``"B1"``, ``"B2"`` or ``"B3"``.
+        ``"B1"``, ``"B2"`` or ``"B3"``. B1 has 105 g, as Table II's mass ratios of 4.23 and 12.3
+        ask for; on another B1 the upper one has Table I's 101 g.
 
     Examples
     --------
@@ -86,7 +87,8 @@ def pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
     [0.10504, 0.101]
     """
     key = f"{upper}_on_{lower}"
-    balls = [_ball(lower, heavier=lower == upper), _ball(upper)]
+    twins = lower == upper
+    balls = [_ball(lower, heavier=lower == "B1"), _ball(upper, heavier=upper == "B1" and not twins)]
     floor, top = (_value(f"{ball}.dynamic_stiffness") for ball in (lower, upper))
     kept, _ = _restitution(lower)
     contacts: list[ContactLaw] = [
