@@ -100,7 +100,8 @@ class Problem:
 
     def rows(self, key: str, x: Array) -> Rows:
         """Return the numbers of one drop in trials (n, parameters), checked to make drops."""
-        layout, named = self._layouts[key], self.values(x)
+        layout, values = self._layouts[key], self.values(x)
+        named = {name: array for name, array in values.items() if self._owner[name] in (None, key)}
         found: dict[Number, Array] = {}
         for name, number in layout.varied:
             found[number] = named[number.path] = named[name]
@@ -110,6 +111,23 @@ class Problem:
         if not layout.sound:
             check(self.drops[key], found, lambda index: f"(trial {index[0]})")
         return found
+
+    @cached_property
+    def _owner(self) -> dict[str, str | None]:
+        """The only drop that each parameter concerns; None where it is shared."""
+        found: dict[str, str | None] = {clock(key): key for key in self.drops}
+        for one in self.parameters:
+            at = {key for key, _ in places(self.drops, one.name)}
+            found.setdefault(one.name, at.pop() if len(at) == 1 else None)
+        return found
+
+    def own(self, key: str) -> list[int]:
+        """Return which parameters concern one drop alone."""
+        return [k for k, one in enumerate(self.parameters) if self._owner[one.name] == key]
+
+    def alone(self, key: str) -> "Problem":
+        """Return the problem of one drop's data, with all parameters."""
+        return replace(self, measured={key: self.measured[key]})
 
     @cached_property
     def _layouts(self) -> dict[str, "_Layout"]:

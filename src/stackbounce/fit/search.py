@@ -14,6 +14,7 @@ Array: TypeAlias = NDArray[np.float64]
 
 _SCREENED, _MOST_SCREENED = 128, 1024  # trials for each parameter, and for all
 _SLOW = 48  # trials in all where each has a record to be computed
+_SHARED, _OWN = 32, 64  # the same where drops have parameters of their own; and trials of these
 _FOLLOWED, _SLOWLY = 8, 3  # of them, besides the drop as it is; with records
 _APART = 0.05  # of the bounds' distance: nearer ones are one start
 _SAME = 1e-3  # of the bounds' distance, and of chi squared: one minimum
@@ -63,9 +64,7 @@ def search(
     >>> float(problem.values(best.x[None])["contacts.0.stiffness"][0].round(4))  # pi squared
     9.8696
     """
-    size = len(problem.parameters)
-    usual = _SLOW if problem.records else min(_SCREENED * size, _MOST_SCREENED)
-    trials = starts(problem, count or usual, seed)
+    trials = starts(problem, count, seed)
     if follow is None:
         follow = _SLOWLY if problem.records else _FOLLOWED
     chosen = _apart(problem, first, trials, follow)
@@ -82,11 +81,32 @@ def descend(problem: Problem, x: Array, fixed: int | None = None) -> Minimum:
     return min(other, end, key=lambda one: one.chi_squared)
 
 
-def starts(problem: Problem, count: int, seed: int) -> Array:
-    """Return (count, parameters) trials spread evenly between the bounds."""
+def starts(problem: Problem, count: int | None, seed: int) -> Array:
+    """Return (n, parameters) trials spread evenly between the bounds.
+
+    What concerns one of several drops alone, such as its gap, is looked at for that drop alone: of
+    many values the best for each trial of what is shared.
+    """
+    spans = problem.spans
+    own = {key: problem.own(key) for key in problem.measured if problem.own(key)}
+    shared = [k for k in range(len(spans)) if not any(k in some for some in own.values())]
+    if len(problem.measured) == 1 or not own or problem.records:
+        usual = _SLOW if problem.records else min(_SCREENED * len(spans), _MOST_SCREENED)
+        return _spread(spans, count or usual, seed)
+    size = count or (_SHARED * len(shared) if shared else 1)
+    trials = _spread(spans, size, seed)
+    for key, some in own.items():
+        each = _spread(spans[some], _OWN * len(some), seed)
+        wide = np.repeat(trials, len(each), axis=0)
+        wide[:, some] = np.tile(each, (size, 1))
+        chi = problem.alone(key).chi_squared(wide).reshape(size, len(each))
+        trials[:, some] = each[np.argmin(chi, axis=1)]
+    return trials
+
+
+def _spread(spans: Array, count: int, seed: int) -> Array:
     from scipy.stats import qmc
 
-    spans = problem.spans
     drawn = qmc.Sobol(len(spans), rng=seed).random_base2(math.ceil(math.log2(count)))
     return np.asarray(spans[:, 0] + drawn[:count] * (spans[:, 1] - spans[:, 0]))
 

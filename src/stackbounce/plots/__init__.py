@@ -1,7 +1,8 @@
-"""Pictures: the bounce of one drop, lines and maps of a sweep, what was found in a measurement."""
+"""Pictures: the bounce of one drop, lines and maps of a sweep, measurements, models."""
 
 from stackbounce.plots.bounce import bounce
+from stackbounce.plots.compared import compared
 from stackbounce.plots.measured import measured
 from stackbounce.plots.swept import heatmap, lines
 
-__all__ = ["bounce", "heatmap", "lines", "measured"]
+__all__ = ["bounce", "compared", "heatmap", "lines", "measured"]

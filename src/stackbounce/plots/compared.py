@@ -1,0 +1,108 @@
+"""Picture of several models of the same data: how good each is, and what each gets wrong."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.plots.style import COLORS, STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["compared"]
+
+_MOST = 4.0  # errors: the strongest colour of a pull
+_WIDEST = 40  # data, of which each pull is written in its field
+
+
+def compared(comparison: Any) -> "Figure":
+    """Draw each model's criterion beside its pulls, the best model on top.
+
+    Parameters
+    ----------
+    comparison : Comparison
+        What `stackbounce.compare` returned.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        On the left how much worse each model is than the best, by AICc or BIC; on the right fitted
+        less measured value of each datum, in errors. Not shown and not saved.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> springs = [sb.Spring(2500.0), sb.Spring(1000.0)]
+    >>> drop = sb.Drop([sb.Ball(0.150), sb.Ball(0.057)], springs, impact_speed=3.53)
+    >>> data = {"rebound_ratios": ["0.18 ± 0.02", "1.64 ± 0.02"]}
+    >>> len(compared(sb.compare(sb.standard_models(drop), data)).axes)
+    3
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    names = [score.model for score in comparison.scores]
+    pulls = comparison.pulls.sel(model=names)
+    with mpl.rc_context(STYLE):
+        wide = 5.0 + 0.55 * min(pulls.sizes["datum"], _WIDEST)
+        figure = Figure(figsize=(max(8.0, wide), 1.9 + 0.42 * len(names)))
+        left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
+        _draw_scores(left, comparison)
+        _draw_pulls(figure, right, pulls)
+        left.set_yticks(np.arange(len(names)), names)
+    return figure
+
+
+def _draw_scores(axes: "Axes", comparison: Any) -> None:
+    """Draw how much worse each model is than the best."""
+    values = np.array([getattr(score, comparison.criterion) for score in comparison.scores])
+    more = values - values[0]
+    axes.barh(np.arange(len(more)), more, color=COLORS[0], height=0.6)
+    largest = max(float(more.max()), 1.0)
+    logarithmic = largest > 100.0
+    for k, (one, score) in enumerate(zip(more, comparison.scores, strict=True)):
+        words = f"{one:.3g}" if k else f"best: χ² = {score.chi_squared:.1f}"
+        axes.annotate(
+            words, (one, k), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8
+        )
+    if logarithmic:
+        axes.set_xscale("symlog", linthresh=10.0)
+        axes.set_xticks([0.0, *(10.0**k for k in range(1, 1 + int(np.log10(largest))))])
+    axes.set_xlim(0.0, largest ** (1.35 if logarithmic else 1.0) * 1.35)
+    axes.set_xlabel(f"{_NAMES[comparison.criterion]} above the best")
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0)
+
+
+def _draw_pulls(figure: "Figure", axes: "Axes", pulls: Any) -> None:
+    """Draw the pulls of all models as a field of colours with numbers in it."""
+    table = pulls.values
+    shown = axes.imshow(table, cmap="RdBu_r", vmin=-_MOST, vmax=_MOST, aspect="auto")
+    if table.shape[1] <= _WIDEST:
+        for (row, column), pull in np.ndenumerate(table):
+            dark = abs(pull) > 0.6 * _MOST
+            axes.annotate(
+                _written(float(pull)),
+                (column, row),
+                ha="center",
+                va="center",
+                fontsize=7.5,
+                color="white" if dark else "black",
+            )
+    axes.set_xticks(np.arange(table.shape[1]), pulls.datum.values, rotation=40, ha="right")
+    axes.tick_params(axis="x", labelsize=8)
+    axes.grid(visible=False)
+    bar = figure.colorbar(shown, ax=axes, extend="both", pad=0.015, fraction=0.05)
+    bar.set_label("fitted − measured, in errors")
+
+
+def _written(pull: float) -> str:
+    """Return a pull as short as a field is wide."""
+    if not np.isfinite(pull):
+        return "–"
+    written = f"{pull:+.1f}" if abs(pull) < 99.5 else f"{pull:+.0f}"
+    return "0.0" if written in ("+0.0", "-0.0") else written
+
+
+_NAMES = {"aicc": "AICc", "bic": "BIC"}
