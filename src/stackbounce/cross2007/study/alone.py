@@ -18,7 +18,7 @@ from stackbounce.calibrate import calibrate
 from stackbounce.cross2007.study.given import Solo
 from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
 
-__all__ = ["LOWEST", "LOSS", "Numbers", "numbers"]
+__all__ = ["LOSS", "LOWEST", "Numbers", "numbers"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -88,7 +88,8 @@ def _at(law: Any, restitution: Array, exponent: Array) -> tuple[Array, Array]:
     else:
         y = 2.0 * (exponent - 1.0) / (_STEEPEST - 1.0) - 1.0
         found = [chebyshev.chebval2d(x, y, one) for one in _of_both(law)]
-    return np.exp(found[0]), np.asarray(found[1])
+    top = 1.0 if law is Hysteretic else np.inf  # without loss, rounding must not bring a gain
+    return np.exp(found[0]), np.clip(found[1], 0.0, top)
 
 
 def _law(law: Any, restitution: float, exponent: float) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from stackbounce.cross2007.datasets import pair
 from stackbounce.model import Ball
 
 __all__ = [
-    "DELAY_NAME",
+    "DELAY",
     "HEAVY",
     "HEIGHT",
     "LATE",
@@ -44,7 +44,7 @@ HEIGHT = PAPER["superballs.drop_height"].value
 PRINTED = {"B1": PAPER["B1.restitution"].value, "B2": 0.90, "B3": 0.90}
 """Table I's column COR, taken as the coefficient of restitution."""
 
-DELAY_NAME = "first_touch.1"
+DELAY = "first_touch.1"
 RATIOS = ("rebound_ratios.0", "rebound_ratios.1")
 
 _TWINS = (3e-3, 2e-3)  # s: from the shortest delay, 1 ms, to just after the lower ball has left
@@ -79,7 +79,7 @@ def _measured(key: str) -> dict[str, Any]:
     _, data = pair(*PAIRS[key])
     usual = PAPER["superballs.delay"]
     delay = _TWINS if key == "B1_on_B1" else (usual.value, usual.spread)
-    return {"rebound_ratios": data["rebound_ratios"], DELAY_NAME: delay}
+    return {"rebound_ratios": data["rebound_ratios"], DELAY: delay}
 
 
 MEASURED: dict[str, dict[str, Any]] = {key: _measured(key) for key in PAIRS}
@@ -89,7 +89,7 @@ them. Of the two delays that were recorded for B1 on B3 it is the shorter one.""
 
 def late() -> dict[str, dict[str, Any]]:
     """Return the same with the longer delay of B1 on B3, 7 ms."""
-    return {**MEASURED, "B1_on_B3": {**MEASURED["B1_on_B3"], DELAY_NAME: LATE}}
+    return {**MEASURED, "B1_on_B3": {**MEASURED["B1_on_B3"], DELAY: LATE}}
 
 
 def printed(key: str) -> tuple[float, float]:

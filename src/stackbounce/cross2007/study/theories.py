@@ -1,5 +1,6 @@
 """From a few numbers of the balls to the contacts of every pair: what makes a model of Table II."""
 
+import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -8,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.cross2007.drops import fallen_speed
-from stackbounce.cross2007.study import alone, given
-from stackbounce.cross2007.study.alone import LOSS, Numbers
+from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study.alone import LOSS, Numbers, numbers
 from stackbounce.fit import Model
 from stackbounce.model import Drop, HuntCrossley, Hysteretic, Rigid, Viscoelastic
 
@@ -93,48 +94,66 @@ class Theory:
     def drop(self, key: str, gap: float = 0.0, varied: Mapping[str, float] | None = None) -> Drop:
         """Return one pair with a gap in m and values for what is varied."""
         values = self._values(varied or {})
-        p = float(values["exponent"])
-        contacts = [
-            self._law(p, float(one.stiffness), float(one.loss)) for one in self.contacts(key, values)
-        ]
+        contacts = [self._law(values, one) for one in self.contacts(values)[key]]
         return Drop(given.balls(key, self.heavy), contacts, gaps=[gap], height=self.height)
 
-    def contacts(self, key: str, values: Mapping[str, Any]) -> tuple[Numbers, Numbers]:
-        """Return the numbers of a pair's contacts, the floor's and the one between the balls."""
-        lower, upper = (self._alone(ball, values) for ball in given.PAIRS[key])
-        p, law = values["exponent"], self.law
-        soft = lower.stiffness ** (-1.0 / p), upper.stiffness ** (-1.0 / p)
-        stiffness = values["stiffer"] * (soft[0] + soft[1]) ** -p
-        f = soft[0] / (soft[0] + soft[1])  # the lower ball's share of the compression
-        if self.where == ELASTIC:
-            loss = np.ones_like(f) if law is Hysteretic else np.zeros_like(f)
-        elif self.where == OWN:
-            loss = np.asarray(values["e_between"])
-        elif law is HuntCrossley:
-            # F c' = F (f c' ...): each ball has f c' or (1 - f) c' for its own speed and its share
-            # of the work, so that its dissipation counts with the square of its share
-            loss = f**2 * lower.loss + (1.0 - f) ** 2 * upper.loss
-        elif law is Viscoelastic:
-            loss = f * lower.loss + (1.0 - f) * upper.loss
-        else:  # shares of the energy, as `stackbounce.calibrate.between` has them
-            loss = np.sqrt(f * lower.loss**2 + (1.0 - f) * upper.loss**2)
-        if law is not Hysteretic:
-            loss = loss * values["between"]
-        return lower, Numbers(stiffness, loss)
+    def contacts(self, values: Mapping[str, Any]) -> dict[str, tuple[Numbers, Numbers]]:
+        """Return the numbers of each pair's contacts: the floor's, and that of the balls."""
+        alone = {ball: self.alone(ball, values) for ball in given.PRINTED}
+        return {
+            key: (alone[lower], self.between(alone[lower], alone[upper], values))
+            for key, (lower, upper) in given.PAIRS.items()
+        }
 
-    def _alone(self, ball: str, values: Mapping[str, Any]) -> Numbers:
+    def alone(self, ball: str, values: Mapping[str, Any]) -> Numbers:
+        """Return the numbers of a ball's contact with the floor."""
         mass, time = given.solo(ball, self.heavy)
         own = given.Solo(mass, time + self.longer.get(ball, 0.0))
-        speed = fallen_speed(self.height)
-        found = alone.numbers(self.law, own, speed, values[f"e_{ball}"], values["exponent"])
+        p = values["exponent"]
+        found = numbers(self.law, own, self.speed, values[f"e_{ball}"], p)
         if self.law is HuntCrossley:
             found = found._replace(loss=found.loss * values["loss"])
         return found
 
-    def _law(self, exponent: float, stiffness: float, loss: float) -> Any:
-        options: dict[str, Any] = {"stiffness": stiffness, LOSS[self.law]: loss}
+    def between(self, lower: Numbers, upper: Numbers, values: Mapping[str, Any]) -> Numbers:
+        """Return the numbers of the contact of two balls, from those of each with the floor.
+
+        Both in series: at equal force the compressions add, so that ``k**(-1/p)`` adds, and the
+        lower ball has the share f of the compression and of the work.
+        """
+        p = values["exponent"]
+        soft = lower.stiffness ** (-1.0 / p), upper.stiffness ** (-1.0 / p)
+        f = soft[0] / (soft[0] + soft[1])
+        stiffness = values["stiffer"] * (soft[0] + soft[1]) ** -p
+        return Numbers(stiffness, self._lost(f, lower.loss, upper.loss, values))
+
+    def _lost(self, f: Array, lower: Array, upper: Array, values: Mapping[str, Any]) -> Array:
+        """Return the loss between two balls, the lower one of which has the share f."""
+        if self.where == OWN:
+            return np.asarray(values["e_between"])
+        if self.law is Hysteretic:  # shares of the energy, as `stackbounce.calibrate.between`
+            elastic = self.where == ELASTIC
+            return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
+        if self.where == ELASTIC:
+            return np.zeros_like(f)
+        if self.law is Viscoelastic:
+            return np.asarray(values["between"] * (f * lower + (1.0 - f) * upper))
+        # Hunt and Crossley's loss goes with the speed of compression, of which each ball has its
+        # share, and the work has that share once more
+        return np.asarray(values["between"] * (f**2 * lower + (1.0 - f) ** 2 * upper))
+
+    @functools.cached_property
+    def speed(self) -> float:
+        """The impact speed in m/s."""
+        return fallen_speed(self.height)
+
+    def _law(self, values: Mapping[str, Any], own: Numbers) -> Any:
+        options: dict[str, Any] = {
+            "stiffness": float(own.stiffness),
+            LOSS[self.law]: float(own.loss),
+        }
         if self.law is not Viscoelastic:
-            options["exponent"] = exponent
+            options["exponent"] = float(values["exponent"])
         if self.law is Hysteretic:
             options["reloading"] = self.reloading
         return self.law(**options)
@@ -147,21 +166,27 @@ class Theory:
         return {"e_B3": found["e_B2"], **found}
 
     def _ties(self, pairs: tuple[str, ...]) -> dict[str, Any]:
+        """Return the ties of all contacts; trials that come again are not computed again."""
+        kept: dict[bytes, dict[str, tuple[Numbers, Numbers]]] = {}
+
+        def contacts(varied: Mapping[str, Array]) -> dict[str, tuple[Numbers, Numbers]]:
+            own = b"".join(np.ascontiguousarray(varied[name]).tobytes() for name in self.vary)
+            if own not in kept:
+                kept.clear()
+                kept[own] = self.contacts(self._values(varied))
+            return kept[own]
+
+        def tie(key: str, i: int, name: str) -> Any:
+            return lambda varied: getattr(contacts(varied)[key][i], name)
+
         ties: dict[str, Any] = {}
         for key in pairs:
             for i in (0, 1):
+                for name, path in (("stiffness", "stiffness"), ("loss", LOSS[self.law])):
+                    ties[f"{key}.contacts.{i}.{path}"] = tie(key, i, name)
                 if "exponent" in self.vary:
                     ties[f"{key}.contacts.{i}.exponent"] = "exponent"
-                names = {"stiffness": "stiffness", "loss": LOSS[self.law]}
-                for name, path in names.items():
-                    ties[f"{key}.contacts.{i}.{path}"] = self._tie(key, i, name)
         return ties
-
-    def _tie(self, key: str, i: int, name: str) -> Any:
-        def following(varied: Mapping[str, Array]) -> Any:
-            return getattr(self.contacts(key, self._values(varied))[i], name)
-
-        return following
 
 
 def rigid(*names: str) -> Model:
@@ -170,7 +195,7 @@ def rigid(*names: str) -> Model:
         key: Drop(given.balls(key), [Rigid(0.9), Rigid(0.9)], gaps=[_GAP], height=given.HEIGHT)
         for key in given.PAIRS
     }
-    vary: dict[str, Any] = {name: _BOUNDS["e"] for name in names}
+    vary: dict[str, Any] = dict.fromkeys(names, _BOUNDS["e"])
     vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in drops}
     ends = {"contacts.0.restitution": names[0], "contacts.1.restitution": names[-1]}
     return Model(drops, vary, ends)
