@@ -132,13 +132,12 @@ def test_no_hysteretic_floor_keeps_more_than_the_bound():
 
 
 @pytest.mark.parametrize(
-    ("name", "ten", "delays"),
-    [("S", 18.6, 5.3), ("A", 70.5, 5.9), ("X", 420.0, 9.4), ("Hertz", 947.0, 2.5)],
+    ("name", "ten", "whole"),
+    [("S", 18.6, 23.9), ("A", 70.5, 76.4), ("X", 421.4, 429.8), ("Hertz", 947.0, 948.9)],
 )
-def test_models_with_nothing_fitted(compared, name, ten, delays):
-    assert compared.of_ratios(name) == pytest.approx(ten, rel=0.01, abs=0.4)
-    whole = compared[name].chi_squared
-    assert whole - compared.of_ratios(name) == pytest.approx(delays, abs=0.6)
+def test_models_with_nothing_fitted(compared, name, ten, whole):
+    assert compared.of_ratios(name) == pytest.approx(ten, abs=0.5)
+    assert compared[name].chi_squared == pytest.approx(whole, abs=0.2)
 
 
 def test_where_the_loss_is(compared):
@@ -181,8 +180,8 @@ def test_readings_and_laws_hang_together():
         return fitted(replace(LAWS[law], known=known).model(), given.MEASURED).chi_squared
 
     hunt, lossy = "Hunt and Crossley", "hysteresis, lossy reloading"
-    assert chi(lossy, MISPRINT) == pytest.approx(36.2, abs=0.6)
-    assert chi(hunt, MISPRINT) == pytest.approx(91.8, abs=1.0)
+    assert chi(lossy, MISPRINT) == pytest.approx(35.6, abs=0.3)
+    assert chi(hunt, MISPRINT) == pytest.approx(91.8, abs=0.5)
     assert chi(lossy, AS_HEIGHTS) > 60.0
 
 
