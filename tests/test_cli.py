@@ -360,7 +360,7 @@ def test_json_stays_pure_with_a_picture(run):
         (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
         (
             ["a.toml", "B1"],
-            "simulate needs scenario files, or balls of the catalogue, got a.toml",
+            "either scenario files or balls of the catalogue must be given, got a.toml",
         ),
         (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
         (["B1", "--plot", "drop"], "--plot must end in .svg, .png, .pdf, got drop"),

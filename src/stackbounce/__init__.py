@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from stackbounce.calibrate import calibrate, contact_time, restitution, separate
+    from stackbounce.design import best_masses, highest, transition
     from stackbounce.errors import StackbounceError
     from stackbounce.fit import Fit, Model, Range, compare, fit, standard_models
     from stackbounce.measure import read
@@ -46,10 +47,12 @@ __all__ = [
     "Status",
     "Viscoelastic",
     "__version__",
+    "best_masses",
     "calibrate",
     "compare",
     "contact_time",
     "fit",
+    "highest",
     "read",
     "restitution",
     "separate",
@@ -57,11 +60,13 @@ __all__ = [
     "simulate",
     "standard_models",
     "sweep",
+    "transition",
 ]
 
 # Each name is imported when it is first used, so that nothing waits for what it does not need.
 _ROOMS = {
     "calibrate": ("calibrate", "contact_time", "restitution", "separate"),
+    "design": ("best_masses", "highest", "transition"),
     "errors": ("StackbounceError",),
     "fit": ("Fit", "Model", "Range", "compare", "fit", "standard_models"),
     "measure": ("read",),

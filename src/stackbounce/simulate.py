@@ -217,13 +217,16 @@ def _samples(
     return _run(drop, options, compiled, times)[-1]
 
 
-def forces_at(drop: Drop, times: "NDArray[np.float64]", rtol: float) -> "NDArray[np.float64]":
-    """Return the forces (contacts, times) in N at ascending times in s, and nothing else."""
+def forces_at(
+    drop: Drop, times: "NDArray[np.float64]", rtol: float
+) -> tuple[Status, "NDArray[np.float64]"]:
+    """Return how a run ends, and the forces (contacts, times) in N at ascending times in s."""
     import numpy as np
 
     options = run_options(drop, None, rtol, 1_000_000)
-    samples = _samples(drop, options, True, times.tolist())
-    return np.reshape(np.asarray(samples.force, dtype=float), (-1, len(drop.balls))).T
+    status, *_, samples = _run(drop, options, True, times.tolist())
+    forces = np.reshape(np.asarray(samples.force, dtype=float), (-1, len(drop.balls))).T
+    return Status(status), forces
 
 
 def _as_it_is(kernel: _Kernel) -> _Kernel:

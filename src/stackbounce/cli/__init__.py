@@ -8,8 +8,18 @@ from typing import Annotated
 
 import typer
 
-from stackbounce.cli.measure_command import EPILOG, measure
-from stackbounce.cli.options import AsJson, Height, Plot, Speed
+from stackbounce.cli import design_commands, fit_command, measure_command
+from stackbounce.cli.options import (
+    AsJson,
+    Contact,
+    Gap,
+    Gravity,
+    Height,
+    Plot,
+    Speed,
+    Tolerance,
+    What,
+)
 from stackbounce.cli.output import console
 from stackbounce.errors import InvalidValue, StackbounceError
 
@@ -37,37 +47,9 @@ def stackbounce(
         typer.echo(context.get_help())
 
 
-What = Annotated[
-    list[str],
-    typer.Argument(
-        metavar="SCENARIO|BALLS",
-        help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
-        show_default=False,
-    ),
-]
-Gap = Annotated[
-    list[str] | None,
-    typer.Option(metavar="LENGTH", help="Gap between two balls; once per pair, lowest first."),
-]
-Contact = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="LAW",
-        help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
-        "lowest first. Laws: Rigid, Spring, Hertz, PowerLaw, Dashpot, Viscoelastic, "
-        "HuntCrossley, Hysteretic; none for no floor.",
-    ),
-]
-Gravity = Annotated[
-    str | None,
-    typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
-]
 Until = Annotated[
     str | None,
     typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
-]
-Tolerance = Annotated[
-    float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")
 ]
 
 
@@ -178,7 +160,10 @@ def sweep(
         swept.tell(console(), done, out, plot)
 
 
-app.command(name="measure", epilog=EPILOG)(measure)
+app.command(name="measure", epilog=measure_command.EPILOG)(measure_command.measure)
+app.command(name="fit", epilog=fit_command.EPILOG)(fit_command.fit)
+for _command_of in design_commands.COMMANDS:
+    app.command(epilog=design_commands.COMMANDS[_command_of])(_command_of)
 
 
 @app.command()

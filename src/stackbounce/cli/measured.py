@@ -6,7 +6,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
+from stackbounce.cli.output import check_scenario, write_scenario
+from stackbounce.errors import InvalidValue, StackbounceError, shown
 from stackbounce.units import quantity
 
 if TYPE_CHECKING:
@@ -276,12 +277,7 @@ def picture(done: Sequence[Measured]) -> "Figure":
 
 def check_save(path: Path, known: Mapping[str, Any]) -> None:
     """Refuse to save a ball that could not be written, before anything is computed."""
-    if path.suffix.lower() != ".toml":
-        raise InvalidValue(f"--save must end in .toml, got {path}")
-    if path.is_dir():
-        raise FileError(f"{path} cannot be written: it is a folder")
-    if not path.parent.is_dir():
-        raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
+    check_scenario(path)
     if "mass" not in known:
         raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
 
@@ -300,10 +296,7 @@ def save(
         parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
         parts.append(law.parts())
     drop = one_ball(parts, **{key: getattr(one, "nominal_value", one) for key, one in ball.items()})
-    try:
-        path.write_text(drop.to_toml(), encoding="utf-8")
-    except OSError as error:
-        raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
+    write_scenario(drop.to_toml(), path)
     return drop.to_mapping()
 
 

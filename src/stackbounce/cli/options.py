@@ -5,7 +5,18 @@ from typing import Annotated
 
 import typer
 
-__all__ = ["AsJson", "Height", "Plot", "Speed"]
+__all__ = [
+    "AsJson",
+    "Contact",
+    "Gap",
+    "Gravity",
+    "Height",
+    "Plot",
+    "Save",
+    "Speed",
+    "Tolerance",
+    "What",
+]
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
 Height = Annotated[
@@ -14,4 +25,38 @@ Height = Annotated[
 Speed = Annotated[str | None, typer.Option(metavar="SPEED", help="Impact speed, such as 3.53m/s.")]
 Plot = Annotated[
     Path | None, typer.Option(metavar="FILE", readable=False, help="Draw it: .svg, .png or .pdf.")
+]
+What = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="SCENARIO|BALLS",
+        help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
+        show_default=False,
+    ),
+]
+Gap = Annotated[
+    list[str] | None,
+    typer.Option(metavar="LENGTH", help="Gap between two balls; once per pair, lowest first."),
+]
+Contact = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="LAW",
+        help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
+        "lowest first. Laws: Rigid, Spring, Hertz, PowerLaw, Dashpot, Viscoelastic, "
+        "HuntCrossley, Hysteretic; none for no floor.",
+    ),
+]
+Gravity = Annotated[
+    str | None,
+    typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
+]
+Tolerance = Annotated[
+    float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")
+]
+Save = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", readable=False, help="Write the best stack as a scenario: best.toml."
+    ),
 ]

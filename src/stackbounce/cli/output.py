@@ -1,9 +1,10 @@
 """The terminal, and pictures, whose files are checked before anything is computed."""
 
+import contextlib
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import FileError, InvalidValue
 
@@ -11,7 +12,15 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
 
-__all__ = ["SUFFIXES", "check_picture", "console", "draw"]
+__all__ = [
+    "SUFFIXES",
+    "check_picture",
+    "check_scenario",
+    "console",
+    "draw",
+    "progress_bar",
+    "write_scenario",
+]
 
 SUFFIXES = (".svg", ".png", ".pdf")
 """The kinds of picture."""
@@ -19,7 +28,7 @@ SUFFIXES = (".svg", ".png", ".pdf")
 _UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
 
-def check_picture(path: Path) -> None:
+def check_picture(path: Path, option: str = "--plot") -> None:
     """Refuse a picture of another kind, or in a folder that is not there.
 
     Raises
@@ -30,7 +39,26 @@ def check_picture(path: Path) -> None:
         If the folder does not exist, or `path` is one.
     """
     if path.suffix.lower() not in SUFFIXES:
-        raise InvalidValue(f"--plot must end in {', '.join(SUFFIXES)}, got {path}")
+        raise InvalidValue(f"{option} must end in {', '.join(SUFFIXES)}, got {path}")
+    _check_place(path)
+
+
+def check_scenario(path: Path) -> None:
+    """Refuse a scenario of another name, or in a folder that is not there.
+
+    Raises
+    ------
+    InvalidValue
+        If the suffix is not that of TOML.
+    FileError
+        If the folder does not exist, or `path` is one.
+    """
+    if path.suffix.lower() != ".toml":
+        raise InvalidValue(f"--save must end in .toml, got {path}")
+    _check_place(path)
+
+
+def _check_place(path: Path) -> None:
     if path.is_dir():
         raise FileError(f"{path} cannot be written: it is a folder")
     if not path.parent.is_dir():
@@ -59,9 +87,36 @@ def draw(make: Callable[[], "Figure"], path: Path) -> None:
         raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
 
 
+def write_scenario(text: str, path: Path) -> None:
+    """Write a scenario file.
+
+    Raises
+    ------
+    FileError
+        If it cannot be written.
+    """
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
+
+
 def console() -> "Console":
     """Return what prints for people: as wide as the terminal is, 100 columns at most."""
     from rich.console import Console
 
     width = Console().width if sys.stdout.isatty() else 100
     return Console(width=min(width, 100), markup=False, highlight=False, emoji=False)
+
+
+@contextlib.contextmanager
+def progress_bar(what: str) -> Iterator[Any]:
+    """Show how many of something are done on stderr, if that is a terminal."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
+
+    console = Console(stderr=True)
+    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
+        task = bar.add_task(what, total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

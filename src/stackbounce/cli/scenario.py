@@ -14,7 +14,7 @@ from stackbounce.model.laws import ContactLaw
 from stackbounce.model.schema import read_law
 from stackbounce.units import quantity
 
-__all__ = ["DEFAULT_HEIGHT", "Scenario", "read", "read_contact"]
+__all__ = ["DEFAULT_HEIGHT", "Scenario", "change", "is_file", "read", "read_contact"]
 
 DEFAULT_HEIGHT = 1.0
 """The height in m from which balls of the catalogue fall if nothing is said about it."""
@@ -61,14 +61,20 @@ def read(
         If one of them cannot be read.
     """
     changes = _changes(height, speed, gaps, contacts, gravity)
-    if any(_is_file(name) for name in what):
-        if not all(_is_file(name) for name in what):
+    if any(is_file(name) for name in what):
+        if not all(is_file(name) for name in what):
             raise InvalidValue(
-                f"simulate needs scenario files, or balls of the catalogue, got {' '.join(what)}"
+                "either scenario files or balls of the catalogue must be given, "
+                f"got {' '.join(what)}"
             )
         one = _from_file(what[0]) if len(what) == 1 else _from_files(what, changes)
         return _with(one, changes)
     return _with(_from_catalogue(what, changes), changes)
+
+
+def change(drop: Drop, **options: Any) -> Drop:
+    """Return a drop with the options of `read` in place: height, speed, gaps, contacts, gravity."""
+    return _with(Scenario(drop, (), (), ""), _changes(**options)).drop
 
 
 def read_contact(text: str, path: str) -> ContactLaw | None:
@@ -109,7 +115,14 @@ def read_contact(text: str, path: str) -> ContactLaw | None:
     return read_law({"law": law} | {key: value for key, _, value in pairs}, path)
 
 
-def _is_file(name: str) -> bool:
+def is_file(name: str) -> bool:
+    """Tell whether an argument is the name of a file, and not of a ball of the catalogue.
+
+    Examples
+    --------
+    >>> is_file("tennis.toml"), is_file("tennis")
+    (True, False)
+    """
     return name.endswith(".toml") or Path(name).name != name
 
 

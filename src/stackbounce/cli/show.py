@@ -28,7 +28,17 @@ from stackbounce.result import Result, Status
 if TYPE_CHECKING:
     from stackbounce.cross2007 import Audit
 
-__all__ = ["audit", "catalogue", "law_text", "number", "simulation"]
+__all__ = [
+    "add_columns",
+    "audit",
+    "catalogue",
+    "incidence",
+    "label",
+    "law_text",
+    "new_table",
+    "number",
+    "simulation",
+]
 
 _APEXES = 4  # highest points shown for each ball
 
@@ -38,7 +48,7 @@ def simulation(
 ) -> None:
     """Print what happened to a drop, next to its separate collisions."""
     drop = scenario.drop
-    console.print(_incidence(scenario), style="bold")
+    console.print(incidence(scenario), style="bold")
     for i, source in enumerate(scenario.contact_sources):
         console.print(
             f"  contact {i}, {_between(drop, i)}: {law_text(drop.contacts[i])}  [{source}]"
@@ -55,10 +65,10 @@ def simulation(
 
 def catalogue(console: Console) -> None:
     """Print the catalogue: balls, pairs, and where each figure comes from."""
-    table = _table("Balls")
+    table = new_table("Balls")
     table.add_column("\nball")
-    _columns(table, ("mass\ng", "diameter\nmm", "restitution\non floor", "contact time\nms"))
-    _columns(table, ("stiffness\nN/m", "static\nN/m"))
+    add_columns(table, ("mass\ng", "diameter\nmm", "restitution\non floor", "contact time\nms"))
+    add_columns(table, ("stiffness\nN/m", "static\nN/m"))
     for entry in BALLS:
         table.add_row(
             label(entry.ball.name, 0),
@@ -72,10 +82,10 @@ def catalogue(console: Console) -> None:
     console.print(table)
     for entry in BALLS:
         console.print(f"{entry.ball.name}: {_sources(entry.sources)}")
-    table = _table("Pairs: springs fitted to a drop of two balls")
+    table = new_table("Pairs: springs fitted to a drop of two balls")
     table.add_column("\nlower")
     table.add_column("\nupper")
-    _columns(table, ("floor\nN/m", "between\nN/m", "gap\nmm"))
+    add_columns(table, ("floor\nN/m", "between\nN/m", "gap\nmm"))
     table.add_column("\nsource")
     for pair in PAIRS:
         table.add_row(
@@ -91,7 +101,7 @@ def catalogue(console: Console) -> None:
 
 def audit(console: Console, done: "Audit", page: Path) -> None:
     """Print how many rows of the audit have which verdict, and where its page lies."""
-    table = _table("Audit of the paper")
+    table = new_table("Audit of the paper")
     table.add_column("verdict")
     table.add_column("rows", justify="right")
     for verdict, count in (done.counts | {"all": len(done.rows)}).items():
@@ -179,7 +189,8 @@ def _stiffness(
     return f"{type(law).__name__}, stiffness {law.stiffness:.6g} {unit}"
 
 
-def _incidence(scenario: Scenario) -> str:
+def incidence(scenario: Scenario) -> str:
+    """Return what falls, and from where or how fast."""
     drop = scenario.drop
     names = " + ".join(label(ball.name, i) for i, ball in enumerate(drop.balls))
     if drop.velocities is not None:
@@ -199,7 +210,8 @@ def _between(drop: Drop, contact: int) -> str:
     return f"{below} – {upper}"
 
 
-def _table(title: str) -> Table:
+def new_table(title: str) -> Table:
+    """Return a table in the style of all of them, without columns."""
     return Table(
         title=f"\n{title}",
         title_justify="left",
@@ -211,19 +223,20 @@ def _table(title: str) -> Table:
     )
 
 
-def _columns(table: Table, headings: Sequence[str], style: str = "") -> None:
+def add_columns(table: Table, headings: Sequence[str], style: str = "") -> None:
+    """Add columns of numbers."""
     for heading in headings:
         table.add_column(heading, justify="right", style=style, no_wrap=True)
 
 
 def _bounces(result: Result, textbook: Result | None) -> Table:
     drop = result.drop
-    table = _table("Balls, the lowest first; speeds are upward")
+    table = new_table("Balls, the lowest first; speeds are upward")
     table.add_column("\nball")
-    _columns(table, ("mass\ng", "before\nm/s", "after\nm/s", "ratio\nv/v0", "bounce\n/drop"))
-    _columns(table, ("height\nm",))
+    add_columns(table, ("mass\ng", "before\nm/s", "after\nm/s", "ratio\nv/v0", "bounce\n/drop"))
+    add_columns(table, ("height\nm",))
     if textbook is not None:
-        _columns(table, ("separate\nm/s", "separate\n/drop"), "dim")
+        add_columns(table, ("separate\nm/s", "separate\n/drop"), "dim")
     for i, ball in enumerate(drop.balls):
         row = [label(ball.name, i), number(ball.mass * 1e3), number(drop.start_velocities[i])]
         row += [number(result.rebound_speeds[i]), *_ratios(result, i), number(_height(result, i))]
@@ -246,10 +259,10 @@ def _height(result: Result, i: int) -> float:
 
 def _contacts(result: Result) -> Table:
     drop = result.drop
-    table = _table("Contacts, with peak force and peak compression")
+    table = new_table("Contacts, with peak force and peak compression")
     table.add_column("\ncontact")
-    _columns(table, ("times\nclosed", "touch\nms", "release\nms", "longest\nms"))
-    _columns(table, ("peak\nN", "peak\nmm", "impulse\nN s"))
+    add_columns(table, ("times\nclosed", "touch\nms", "release\nms", "longest\nms"))
+    add_columns(table, ("peak\nN", "peak\nmm", "impulse\nN s"))
     for i in range(len(drop.balls)):
         rows = result.intervals[result.intervals["contact"] == i]
         count = int(result.collisions[i])
@@ -272,10 +285,10 @@ def _contacts(result: Result) -> Table:
 
 def _apexes(result: Result) -> Table:
     """Return the first highest points of each ball; the rest is a number."""
-    table = _table(f"Highest points, the first {_APEXES} of each ball")
+    table = new_table(f"Highest points, the first {_APEXES} of each ball")
     table.add_column("\nball")
-    _columns(table, ("how\nmany",))
-    _columns(table, [part for k in range(_APEXES) for part in (f"{k + 1}\ns", "\nm")])
+    add_columns(table, ("how\nmany",))
+    add_columns(table, [part for k in range(_APEXES) for part in (f"{k + 1}\ns", "\nm")])
     for i, ball in enumerate(result.drop.balls):
         rows = result.apexes[result.apexes["ball"] == i]
         first = rows[:_APEXES]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from stackbounce.cli.output import progress_bar
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.result import Status
@@ -31,7 +32,7 @@ def run(
 ) -> "xr.Dataset":
     """Sweep a drop over what ``--over`` names, into a file, showing how far it is; return it."""
     values = grid(drop, over)
-    with _client(cluster) as client, _bar() as progress:
+    with _client(cluster) as client, progress_bar("drops") as progress:
         write(out, drop, values, client=client, progress=progress, **options)
     return opened(out)
 
@@ -145,16 +146,3 @@ def _knock(address: str) -> None:
     host, _, port = address.rpartition("://")[2].rpartition(":")
     with socket.create_connection((host, int(port)), timeout=5.0):
         pass
-
-
-@contextlib.contextmanager
-def _bar() -> Iterator[Any]:
-    """Show how many drops are done on stderr, if that is a terminal."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    console = Console(stderr=True)
-    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
-        task = bar.add_task("drops", total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)

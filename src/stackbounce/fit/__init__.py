@@ -6,8 +6,11 @@ measured   what was measured, with errors
 waveforms  force records as data
 parameters what is varied, between which bounds
 ties       what follows from what is varied
+formula    how that is written
 problem    all of it together: residuals of many trials at once
 question   what a user asks for -> the problem
+files      a question from a TOML file
+tables     drops, and what was measured of each, from a CSV file
 search     many trials screened, the best followed down
 run        ``fit``
 found      what a fit found
@@ -21,13 +24,16 @@ comparison ``compare``
 """
 
 from stackbounce.fit.comparison import Comparison, compare
+from stackbounce.fit.files import read_question
 from stackbounce.fit.found import Fit, Residual
 from stackbounce.fit.model import Model
 from stackbounce.fit.parameters import Range
 from stackbounce.fit.posterior import Posterior
 from stackbounce.fit.profile import Interval
+from stackbounce.fit.question import Question
 from stackbounce.fit.run import fit
 from stackbounce.fit.standard import standard_models
+from stackbounce.fit.tables import read_drops
 
 __all__ = [
     "Comparison",
@@ -35,9 +41,12 @@ __all__ = [
     "Interval",
     "Model",
     "Posterior",
+    "Question",
     "Range",
     "Residual",
     "compare",
     "fit",
+    "read_drops",
+    "read_question",
     "standard_models",
 ]

@@ -191,7 +191,7 @@ def compare(models: Mapping[str, Model], data: Any, **options: Any) -> Compariso
     >>> drop = sb.Drop([sb.Ball(0.150), sb.Ball(0.057)], springs, impact_speed=3.53)
     >>> data = {"rebound_ratios": ["0.18 ± 0.02", "1.64 ± 0.02"]}
     >>> sb.compare(sb.standard_models(drop), data).refused["Viscoelastic"]
-    'vary has 3 numbers but only 2 were measured: fix some, or say what is known of them ...'
+    'vary has 3 numbers for 2 measured numbers: fix some, or say what is known of them ...'
     """
     if not isinstance(models, Mapping) or not models:
         raise InvalidType(f"models must map names to Models, got {shown(models)}")

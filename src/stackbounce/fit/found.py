@@ -2,6 +2,7 @@
 
 import functools
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
@@ -9,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.fit.problem import Problem
-from stackbounce.fit.search import Minimum
+from stackbounce.fit.problem import Problem, clock
+from stackbounce.fit.search import Minimum, directions
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from stackbounce.fit.posterior import Posterior
     from stackbounce.fit.profile import Interval
 
-__all__ = ["Fit", "Residual"]
+__all__ = ["Fit", "Record", "Residual"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -41,6 +42,27 @@ class Residual(NamedTuple):
     unit: str
 
 
+class Record(NamedTuple):
+    """A force record beside the fitted one, both (n,) over times in s since the first touch.
+
+    In N, or in the record's own unit where its scale was fitted too (`unit` is then empty); `error`
+    is that of a sample.
+    """
+
+    drop: str
+    name: str
+    times: Array
+    measured: Array
+    fitted: Array
+    error: float
+    unit: str
+
+    @property
+    def scatter(self) -> float:
+        """Root mean square of the differences, in errors: about 1 where the model is right."""
+        return float(np.sqrt(np.mean(((self.fitted - self.measured) / self.error) ** 2)))
+
+
 @dataclass(frozen=True, eq=False)
 class Fit:
     """What a fit found; made by `stackbounce.fit`.
@@ -51,6 +73,8 @@ class Fit:
         What was fitted to what.
     minima : list of Minimum
         All minima found, the best first.
+    unsolved : mapping of str to int
+        How many runs of the search came to no end, by the name of their `Status`.
 
     Examples
     --------
@@ -63,6 +87,7 @@ class Fit:
 
     problem: Problem = field(repr=False)
     minima: list[Minimum] = field(repr=False)
+    unsolved: Mapping[str, int] = field(repr=False, default_factory=dict)
 
     def __getitem__(self, name: str) -> "UFloat":
         """The best value of what was varied, with its error, in SI units."""
@@ -97,17 +122,18 @@ class Fit:
     def covariance(self) -> "xr.DataArray":
         """(parameter, other) covariances at the best values, in the products of their units.
 
-        What the data do not determine lies anywhere between its bounds.
+        What the data hardly determine lies anywhere between its bounds: in no direction is a
+        standard deviation larger than that of a number of which these are all that is known.
         """
         import xarray as xr
 
         slope = np.array(
             [one.slope(x) for one, x in zip(self.problem.parameters, self.x, strict=True)]
         )
-        sizes, directions = self.directions
+        sizes, along = self.directions
         wide = self.problem.spans[:, 1] - self.problem.spans[:, 0]
-        spread = np.where(sizes > 1.0, 1.0 / np.maximum(sizes, 1.0), _ANYWHERE)
-        inner = (directions.T * spread**2) @ directions
+        spread = 1.0 / np.maximum(sizes, 1.0 / _ANYWHERE)
+        inner = (along.T * spread**2) @ along
         matrix = inner * np.outer(wide * slope, wide * slope)
         where = {"parameter": self.names, "other": self.names}
         return xr.DataArray(matrix, where, ("parameter", "other"), attrs=self._provenance)
@@ -118,9 +144,7 @@ class Fit:
 
         The directions are orthogonal in coordinates that run from 0 to 1 between the bounds.
         """
-        spans = self.problem.spans
-        _, sizes, directions = np.linalg.svd(self.slopes * (spans[:, 1] - spans[:, 0]))
-        return np.pad(sizes, (0, len(directions) - len(sizes))), directions
+        return directions(self.problem, self.slopes)
 
     @property
     def correlations(self) -> "xr.DataArray":
@@ -180,7 +204,7 @@ class Fit:
 
     @functools.cached_property
     def residuals(self) -> list[Residual]:
-        """Each number that was measured beside the fitted one; waveforms are in `waveforms`."""
+        """Each number that was measured beside the fitted one; force records are in `records`."""
         found = []
         for key, measured in self.problem.measured.items():
             fitted = self.problem.predicted(key, self.x[None])[0] if measured.data else []
@@ -193,6 +217,18 @@ class Fit:
             value = self.best[one.name]
             row = (mean, error, value, (value - mean) / error, one.unit)
             found.append(Residual("", f"{one.name} (known)", *row))
+        return found
+
+    @functools.cached_property
+    def records(self) -> list[Record]:
+        """Each force record beside the fitted one."""
+        found = []
+        for key in self.problem.records:
+            touch, forces = self.best[clock(key)], self.problem.forces(key, self.x)
+            for wave, force in zip(self.problem.measured[key].waveforms, forces, strict=True):
+                curves = (wave.times - touch, wave.force, wave.curve(force))
+                unit = "" if wave.scaled else "N"
+                found.append(Record(key, wave.name, *curves, wave.error, unit))
         return found
 
     @functools.cached_property
@@ -235,7 +271,33 @@ class Fit:
 
         return intervals(self, sigma)
 
-    def sample(self, draws: int = 10_000, **options: Any) -> "Posterior":
+    def profile(self, name: str, values: Any) -> Array:
+        """Return chi squared where one parameter has other values and all others are fitted anew.
+
+        Parameters
+        ----------
+        name : str
+            What was varied.
+        values : array_like
+            (n,) in SI units, between its bounds.
+
+        Returns
+        -------
+        ndarray
+            (n,)
+
+        Raises
+        ------
+        InvalidValue
+            If it was not varied, or a value lies outside the bounds.
+        """
+        from stackbounce.fit.profile import along
+
+        if name not in self.names:
+            raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
+        return along(self, self.names.index(name), np.asarray(values, dtype=float))
+
+    def sample(self, draws: int = 16_000, **options: Any) -> "Posterior":
         """Return draws from what is known of the parameters after the data; see `Posterior`."""
         from stackbounce.fit.posterior import sample
 

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from stackbounce.fit.problem import ABSENT
+from stackbounce.fit.search import EQUAL, OPEN
 
 if TYPE_CHECKING:
     from stackbounce.fit.found import Fit
@@ -21,6 +22,7 @@ def notes(fit: "Fit") -> tuple[str, ...]:
     """Return what should be known about a fit, a sentence each."""
     return (
         *_unsettled(fit),
+        *_unsolved(fit),
         *fit.undetermined,
         *_at_bounds(fit),
         *_unlikely(fit),
@@ -38,7 +40,7 @@ def undetermined(fit: "Fit") -> tuple[str, ...]:
     """
     found = []
     for size, direction in zip(*fit.directions, strict=True):
-        if size > 1.0:
+        if size > OPEN:
             continue
         part = np.abs(direction) / np.max(np.abs(direction))
         names = [name for name, one in zip(fit.names, part, strict=True) if one > _SHARE]
@@ -50,6 +52,14 @@ def _unsettled(fit: "Fit") -> list[str]:
     if fit.minima[0].converged:
         return []
     return ["the search ended before it had settled: tell narrower bounds"]
+
+
+def _unsolved(fit: "Fit") -> list[str]:
+    return [
+        f"{count} runs of the search came to no end ({name}) and were taken for far from all data: "
+        "tell narrower bounds"
+        for name, count in fit.unsolved.items()
+    ]
 
 
 def _at_bounds(fit: "Fit") -> list[str]:
@@ -68,7 +78,9 @@ def _unlikely(fit: "Fit") -> list[str]:
     free = max(1, fit.degrees_of_freedom)  # without any, a model that can follow has no misfit
     if chi2.sf(fit.chi_squared, free) >= _UNLIKELY:
         return []
-    bad = f"chi squared is {fit.chi_squared:.4g} for {fit.degrees_of_freedom} degrees of freedom"
+    count = fit.degrees_of_freedom
+    freedom = f"{count} degree{'' if count == 1 else 's'} of freedom"
+    bad = f"chi squared is {fit.chi_squared:.4g} for {freedom}"
     return [f"the model does not describe the data: {bad}; its parameters' errors mean little"]
 
 
@@ -100,7 +112,8 @@ def _other_minima(fit: "Fit") -> list[str]:
         if more < _CLOSE:
             values = fit.problem.values(one.x[None])
             where = ", ".join(f"{name} = {array[0]:.4g}" for name, array in values.items())
-            found.append(f"another minimum has chi squared only {more:.2g} higher: {where}")
+            how = f"has chi squared only {more:.2g} higher" if more > EQUAL else "is as good"
+            found.append(f"another minimum {how}: {where}")
     return found
 
 

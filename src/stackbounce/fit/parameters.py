@@ -1,5 +1,6 @@
 """The numbers that a fit varies: between which bounds, with what known of them beforehand."""
 
+import keyword
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, nearest, positive, shown
+from stackbounce.fit.formula import OWN_WORDS
 from stackbounce.measure.uncertain import quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.sweep.paths import Number, drop_at, numbers_of
@@ -137,7 +139,12 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
             "vary must name what may change, such as {'contacts.0.stiffness': (1e3, 1e6)}, "
             f"got {shown(vary)}"
         )
-    return tuple(_parameter(drops, name, given) for name, given in vary.items())
+    found = tuple(_parameter(drops, name, given) for name, given in vary.items())
+    varied = [(key, at.path) for one in found for key, at in places(drops, one.name)]
+    for one in found:
+        if any(varied.count((key, at.path)) > 1 for key, at in places(drops, one.name)):
+            raise InvalidValue(f"{one.name} is varied twice: only once for each drop")
+    return found
 
 
 def places(drops: Mapping[str, Drop], name: str) -> list[tuple[str, Number]]:
@@ -145,7 +152,7 @@ def places(drops: Mapping[str, Drop], name: str) -> list[tuple[str, Number]]:
     found = []
     for key, drop in drops.items():
         known = numbers_of(drop)
-        path = name.removeprefix(f"{key}.") if key else name
+        path = name.removeprefix(f"{key}.") if key and name not in known else name
         if path in known:
             found.append((key, known[path]))
     return found
@@ -160,8 +167,10 @@ def _parameter(drops: Mapping[str, Drop], name: object, given: object) -> Parame
     if not isinstance(name, str):
         raise InvalidType(f"vary must have names for keys, got {shown(name)}")
     at = places(drops, name)
-    if not at and not name.isidentifier():
+    if not at and not (name.isidentifier() and name.isascii()):
         raise InvalidValue(f"{name[:60]} is no number of the drop; {nearest(name, paths(drops))}")
+    if name in OWN_WORDS or keyword.iskeyword(name):
+        raise InvalidValue(f"{name} means something else in formulas: take another name")
     unit = at[0][1].unit if at else ""
     low, high, prior = _bounds(drops, at, name, given, unit)
     if not low < high:

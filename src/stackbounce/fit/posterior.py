@@ -1,4 +1,4 @@
-"""Draws from what is known of the parameters after the data: emcee, all walkers at once."""
+"""Draws from what is known of the parameters after the data: emcee, many walkers at once."""
 
 import functools
 from dataclasses import dataclass, field
@@ -18,7 +18,8 @@ __all__ = ["Posterior", "sample"]
 
 Array: TypeAlias = NDArray[np.float64]
 
-_WALKERS = 32  # at least, and four for each parameter
+_WALKERS = 32  # at least, four for each parameter, and so many that
+_STEPS = 1000  # of each are enough
 _BURNT = 0.25  # of all draws, thrown away
 _SPREAD = 0.5  # standard deviations of the first places
 _ENOUGH = 50  # autocorrelation times that a chain should have
@@ -42,11 +43,17 @@ class Posterior:
         Which part of the steps was taken; 0.2 to 0.5 is usual.
     seed : int
         Of the random numbers.
+    unsolved : int
+        How many runs came to no end; where they should have been there are no draws.
+    others : int
+        How many other minima the fit knows.
 
     Notes
     -----
     Between the bounds every value is as probable beforehand, or every logarithm where the bounds
-    are above 0 and far apart, times the priors.
+    are above 0 and more than a factor of 5 apart; where a prior is told, that alone. The walkers
+    move by differences of others (differential evolution; ter Braak, Stat. Comput. 16, 239, 2006;
+    emcee). They begin around the best values, and may not find another minimum.
 
     Examples
     --------
@@ -64,6 +71,8 @@ class Posterior:
     log_probability: Array = field(repr=False)
     acceptance: float
     seed: int
+    unsolved: int = 0
+    others: int = 0
 
     def __getitem__(self, name: str) -> "UFloat":
         """Mean and standard deviation of a parameter."""
@@ -108,6 +117,13 @@ class Posterior:
             )
         if not 0.1 < self.acceptance < 0.8:
             found.append(f"{self.acceptance:.0%} of the steps were taken, 20 to 50 % is usual")
+        if self.unsolved:
+            found.append(
+                f"{self.unsolved} runs came to no end, and their places have no draws: tell "
+                "narrower bounds"
+            )
+        if self.others:
+            found.append("the fit has other minima, which the draws may leave out")
         return tuple(found)
 
 
@@ -140,10 +156,14 @@ def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Po
 
     problem, best = fit.problem, fit.x
     size = len(best)
-    walkers = max(_WALKERS, 4 * size)
-    steps = whole("draws", draws, 20 * walkers) // walkers
+    least = max(_WALKERS, 4 * size)
+    walkers = max(least, 2 * (whole("draws", draws, 20 * least) // (2 * _STEPS)))
+    steps = draws // walkers
     random = np.random.RandomState(whole("seed", seed, 0, 2**32 - 1))
-    sampler = emcee.EnsembleSampler(walkers, size, _log_probability(problem), vectorize=True)
+    before = problem.unsolved.total()
+    sampler = emcee.EnsembleSampler(
+        walkers, size, _log_probability(problem), vectorize=True, moves=emcee.moves.DEMove()
+    )
     sampler.random_state = random.get_state()
     first = _first(fit, walkers, random)
     for k, _ in enumerate(sampler.sample(first, iterations=steps)):
@@ -154,18 +174,29 @@ def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Po
     chain = np.stack(
         [one.value(inner[:, :, k]) for k, one in enumerate(problem.parameters)], axis=2
     )
-    kept = float(np.mean(sampler.acceptance_fraction))
-    return Posterior(fit.names, fit.units, chain, sampler.get_log_prob(discard=burnt), kept, seed)
+    return Posterior(
+        fit.names,
+        fit.units,
+        chain,
+        sampler.get_log_prob(discard=burnt),
+        float(np.mean(sampler.acceptance_fraction)),
+        seed,
+        problem.unsolved.total() - before,
+        len(fit.minima) - 1,
+    )
 
 
 def _log_probability(problem: Any) -> Any:
     spans = problem.spans
+    # what is told of a number is told of its value, not of its logarithm
+    known = [one.prior is not None and one.logarithmic for one in problem.parameters]
 
     def at(x: Array) -> Array:
         inside = np.all((x >= spans[:, 0]) & (x <= spans[:, 1]), axis=1)
         found = np.full(len(x), -np.inf)
         if np.any(inside):
-            found[inside] = -0.5 * problem.chi_squared(x[inside])
+            found[inside] = np.sum(x[inside][:, known], axis=1)
+            found[inside] -= 0.5 * problem.chi_squared(x[inside])
         return found
 
     return at

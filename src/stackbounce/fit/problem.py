@@ -1,8 +1,9 @@
 """What is varied and what was measured -> residuals, for many trials at once."""
 
 import math
+from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import NamedTuple, TypeAlias
 
@@ -10,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.engine.many import Outcomes
+from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fit.measured import Measured
 from stackbounce.fit.parameters import Parameter, current, places
 from stackbounce.fit.quantities import QUANTITIES
@@ -48,6 +50,9 @@ class Problem:
         What follows.
     rtol : float
         To which each trial is solved.
+    unsolved : Counter
+        How many runs came to no end so far, by the name of their `Status`: their residuals are
+        those of what a trial does not have.
 
     Examples
     --------
@@ -65,6 +70,7 @@ class Problem:
     parameters: tuple[Parameter, ...]
     ties: tuple[Tie, ...]
     rtol: float
+    unsolved: Counter[str] = field(default_factory=Counter, init=False)
 
     @property
     def spans(self) -> Array:
@@ -108,17 +114,27 @@ class Problem:
         follow = tied(layout.ties, layout.numbers, named)
         for tie in layout.ties:
             found[tie.number] = follow[tie.number.path]
-        if not layout.sound:
-            check(self.drops[key], found, lambda index: f"(trial {index[0]})")
+        if layout.ties:
+            try:
+                check(self.drops[key], found, lambda _: "")
+            except (InvalidValue, InvalidType) as error:
+                formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in layout.ties)
+                raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
         return found
 
     @cached_property
     def _owner(self) -> dict[str, str | None]:
-        """The only drop that each parameter concerns; None where it is shared."""
+        """The only drop that each parameter concerns; None where it is shared.
+
+        A function of Python is not asked which it uses: it is given those of its own drop, and
+        those that are shared.
+        """
         found: dict[str, str | None] = {clock(key): key for key in self.drops}
         for one in self.parameters:
             at = {key for key, _ in places(self.drops, one.name)}
-            found.setdefault(one.name, at.pop() if len(at) == 1 else None)
+            at |= {tie.drop for tie in self.ties if tie.uses and one.name in tie.uses}
+            numbers = bool(places(self.drops, one.name))
+            found.setdefault(one.name, at.pop() if numbers and len(at) == 1 else None)
         return found
 
     def own(self, key: str) -> list[int]:
@@ -138,41 +154,48 @@ class Problem:
         rows = self.rows(key, x[None])
         return drop_at(self.drops[key], {number: float(array[0]) for number, array in rows.items()})
 
-    def outcomes(self, key: str, x: Array) -> tuple[Outcomes, Array]:
-        """Return what comes of one drop in trials (n, parameters), and impact speeds (n,)."""
+    def outcomes(self, key: str, x: Array) -> tuple[Outcomes, Array, Array]:
+        """Return what comes of one drop in trials (n, parameters), impact speeds, gravity (n,)."""
         drop, rows = self.drops[key], self.rows(key, x)
         options = Options(math.inf, self.rtol, _EVENTS)
         out = solve(drop, rows, (len(x),), options, compiled=True)
         bad = ~np.isin(out.status, _DONE)
-        for array in (out.velocity, out.first_touch, out.last_release):
-            array[bad] = np.nan
-        out.energy[bad] = np.nan
+        if np.any(bad):
+            self.unsolved.update(Status(code).name for code in out.status[bad])
+            for array in (out.velocity, out.first_touch, out.last_release, out.energy):
+                array[bad] = np.nan
         drops = base_rows(drop, len(x))
         fill(drops, drop, rows)
-        return out, np.max(np.abs(drops.velocity), axis=1)
+        return out, np.max(np.abs(drops.velocity), axis=1), drops.gravity
 
     def predicted(self, key: str, x: Array) -> Array:
         """Return the numbers (n, data) that trials (n, parameters) of one drop give."""
-        out, speed = self.outcomes(key, x)
-        drop, columns = self.drops[key], []
+        given, columns = self.outcomes(key, x), []
         for datum in self.measured[key].data:
-            table = np.asarray(QUANTITIES[datum.quantity].predict(out, speed, drop.gravity))
+            table = np.asarray(QUANTITIES[datum.quantity].predict(*given))
             columns.append(table if table.ndim == 1 else table[:, datum.index])
         return np.stack(columns, axis=1) if columns else np.empty((len(x), 0))
 
     def counts(self, key: str, x: Array) -> NDArray[np.int64]:
         """Return the contact intervals (contacts,) of one drop in one trial (parameters,)."""
-        out, _ = self.outcomes(key, x[None])
-        return np.asarray(out.collisions[0])
+        return np.asarray(self.outcomes(key, x[None])[0].collisions[0])
 
     def forces(self, key: str, x: Array) -> list[Array]:
         """Return the force (n,) in N at the times of each record of a drop, in one trial."""
         drop, start = self.drop(key, x), float(self.values(x[None])[clock(key)][0])
         waves = self.measured[key].waveforms
-        times = np.unique(np.concatenate([wave.times for wave in waves])) - start
+        stamps, where = np.unique(
+            np.concatenate([wave.times for wave in waves]), return_inverse=True
+        )
+        times = stamps - start
         forces = np.zeros((len(drop.balls), len(times)))
-        forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
-        return [forces[wave.index, np.isin(times + start, wave.times)] for wave in waves]
+        status, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
+        if status not in _DONE:
+            self.unsolved[status.name] += 1
+            forces[:] = np.nan
+        ends = np.cumsum([len(wave.times) for wave in waves])[:-1]
+        places = np.split(where, ends)
+        return [forces[wave.index, at] for wave, at in zip(waves, places, strict=True)]
 
     def without(self, key: str, name: str | None) -> "Problem":
         """Return the problem without what was measured of a drop, or without one number of it."""
@@ -236,7 +259,6 @@ class _Layout(NamedTuple):
     varied: list[tuple[str, Number]]
     ties: list[Tie]
     numbers: dict[str, float]
-    sound: bool  # whether there is a drop for all that lies between the bounds
 
 
 def _layout(problem: Problem, key: str) -> _Layout:
@@ -251,7 +273,7 @@ def _layout(problem: Problem, key: str) -> _Layout:
     ties = [tie for tie in problem.ties if tie.drop == key]
     ends = {one.name: np.array([one.low, one.high]) for one in problem.parameters}
     check(drop, {number: ends[name] for name, number in varied}, lambda _: "(at the bounds)")
-    return _Layout(varied, ties, numbers, not ties)
+    return _Layout(varied, ties, numbers)
 
 
 _STEP = 1e-5  # of the bounds' distance

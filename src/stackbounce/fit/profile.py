@@ -1,25 +1,28 @@
-"""Confidence intervals: how far a parameter may lie while all others follow."""
+"""Profiles of chi squared, and confidence intervals: one parameter moves, all others follow."""
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import positive
-from stackbounce.fit.search import descend
+from stackbounce.errors import between, positive
+from stackbounce.fit.search import descend, starts
 
 if TYPE_CHECKING:
     from stackbounce.fit.found import Fit
 
-__all__ = ["Interval", "intervals"]
+__all__ = ["Interval", "along", "intervals"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 _FIRST = 0.2  # of the expected distance: the first step
 _GROWTH = 1.6
-_MOST = 40  # steps outwards, and halvings
+_MOST = 60  # steps outwards, and inwards
 _EXACT = 1e-3  # of chi squared's rise
+_NOTHING = 1e-12  # of a coordinate: chi squared jumps there
+_SCREENED = 64  # trials at each value of a profile, where they are solved together
 
 
 class Interval(NamedTuple):
@@ -38,15 +41,43 @@ def intervals(fit: "Fit", sigma: float) -> dict[str, Interval]:
 
 
 def profile(fit: "Fit", k: int) -> Callable[[float, Array], tuple[float, Array]]:
-    """Return chi squared as a function of one coordinate, all others fitted from a trial."""
+    """Return chi squared as a function of one coordinate, all others fitted from a trial.
+
+    The others begin where they would go were chi squared a parabola.
+    """
+    spans = fit.problem.spans
+    slope = [one.slope(x) for one, x in zip(fit.problem.parameters, fit.x, strict=True)]
+    along = fit.covariance.values[k] / slope
+    along = along / along[k]
 
     def at(x: float, start: Array) -> tuple[float, Array]:
-        trial = start.copy()
+        trial = np.clip(start + (x - start[k]) * along, spans[:, 0], spans[:, 1])
         trial[k] = x
         end = descend(fit.problem, trial, fixed=k)
         return end.chi_squared, end.x
 
     return at
+
+
+def along(fit: "Fit", k: int, values: Array) -> Array:
+    """Return chi squared (n,) at values of one parameter; see `Fit.profile`.
+
+    Each descent begins at the end of the one before, or at the best of some trials spread over the
+    bounds of the others: a profile may pass from one valley into another.
+    """
+    one, at, found = fit.problem.parameters[k], profile(fit, k), np.empty(len(values))
+    spread = starts(fit.problem, _SCREENED, 0)[: 0 if fit.problem.records else _SCREENED]
+    for side in (-1.0, 1.0):
+        start = fit.x
+        for j in np.argsort(side * values, kind="stable"):
+            x = one.coordinate(between(one.name, values[j], one.low, one.high))
+            if (x - fit.x[k]) * side < 0.0:
+                continue
+            trials = np.concatenate([start[None], spread])
+            trials[:, k] = x
+            best = trials[np.argmin(fit.problem.chi_squared(trials))]
+            found[j], start = at(x, best)
+    return found
 
 
 def _interval(fit: "Fit", k: int, rise: float) -> Interval:
@@ -64,38 +95,43 @@ def _limit(fit: "Fit", k: int, rise: float, expected: float, side: int) -> tuple
     at, best = profile(fit, k), fit.x
     low, high = fit.problem.parameters[k].span
     bound = low if side < 0 else high
-    wanted = fit.chi_squared + rise
     step = min(max(_FIRST * expected, 1e-6 * (high - low)), 0.1 * (high - low))
-    inner, start = float(best[k]), best
+    inner, start = (float(best[k]), 0.0), best
     for _ in range(_MOST):
-        outer = inner + side * step
-        beyond = (outer - bound) * side >= 0.0
-        outer = bound if beyond else outer
-        chi, end = at(outer, start)
-        if chi >= wanted:
-            return _between(at, inner, outer, start, wanted, rise), False
+        x = inner[0] + side * step
+        beyond = (x - bound) * side >= 0.0
+        chi, end = at(bound if beyond else x, start)
+        outer = (bound if beyond else x, chi - fit.chi_squared)
+        if outer[1] >= rise:
+            return _between(at, fit.chi_squared, rise, inner, outer, start), False
         if beyond:
-            return bound, True
+            break
         inner, start, step = outer, end, _GROWTH * step
     return bound, True
 
 
 def _between(
     at: Callable[[float, Array], tuple[float, Array]],
-    inner: float,
-    outer: float,
-    start: Array,
-    wanted: float,
+    least: float,
     rise: float,
+    inner: tuple[float, float],
+    outer: tuple[float, float],
+    start: Array,
 ) -> float:
-    """Return where chi squared crosses a value between two coordinates."""
-    for _ in range(_MOST):
-        middle = 0.5 * (inner + outer)
-        chi, end = at(middle, start)
-        if abs(chi - wanted) < _EXACT * rise:
-            return middle
-        if chi < wanted:
-            inner, start = middle, end
+    """Return where chi squared has risen so far, between two coordinates with their rises.
+
+    The root of the rise is nearly straight; where it is not, steps of a half help.
+    """
+    x = outer[0]
+    for count in range(_MOST):
+        roots = [math.sqrt(max(one[1], 0.0)) for one in (inner, outer)]
+        share = (math.sqrt(rise) - roots[0]) / (roots[1] - roots[0])
+        x = inner[0] + (0.5 if count % 3 == 2 else share) * (outer[0] - inner[0])
+        chi, end = at(x, start)
+        if abs(chi - least - rise) < _EXACT * rise or abs(outer[0] - inner[0]) < _NOTHING * abs(x):
+            break
+        if chi - least < rise:
+            inner, start = (x, chi - least), end
         else:
-            outer = middle
-    return 0.5 * (inner + outer)
+            outer = (x, chi - least)
+    return x

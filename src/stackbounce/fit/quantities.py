@@ -19,21 +19,22 @@ class Quantity(NamedTuple):
     """A quantity: what it belongs to, its SI unit, its meaning, and how it follows.
 
     `part` is ``ball``, ``contact`` or empty for the whole stack; `predict` takes the outcomes of
-    many drops, their impact speeds in m/s, and gravity, and returns (rows, part) numbers.
+    many drops, their impact speeds in m/s and their gravity, and returns (rows, part) numbers.
     """
 
     part: str
     unit: str
     meaning: str
-    predict: Callable[[Outcomes, Array, float], Any]
+    predict: Callable[[Outcomes, Array, Array], Any]
 
 
-def _height(out: Outcomes, speed: Array, gravity: float) -> Any:
+def _height(out: Outcomes, speed: Array, gravity: Array) -> Any:
     velocity = out.velocity * speed[:, None]
-    return velocity * np.abs(velocity) / (2.0 * (gravity or STANDARD_GRAVITY))
+    pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
+    return velocity * np.abs(velocity) / (2.0 * pull[:, None])
 
 
-def _duration(out: Outcomes, speed: Array, gravity: float) -> Any:
+def _duration(out: Outcomes, speed: Array, gravity: Array) -> Any:
     del speed, gravity
     return out.last_release - out.first_touch
 

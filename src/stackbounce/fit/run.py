@@ -48,7 +48,8 @@ def fit(
         name that is no path can be varied if a tie uses it.
     tie : mapping, optional
         Numbers that follow from others: ``{"contacts.1.stiffness": "0.5 * contacts.0.stiffness"}``,
-        a formula of what is varied and of numbers of the same drop, or a function of Python.
+        a formula of what is varied and of numbers of the same drop, or a function of Python, which
+        takes a mapping of them to arrays.
     starts : int, optional
         How many trials to look at before the best of them are followed; default 128 for each
         parameter, 1024 at most.
@@ -93,7 +94,8 @@ def fit(
     limit = between("rtol", rtol, 1e-14, 1e-3)
     problem = read_problem(drop, data, vary, tie, limit)
     count = None if starts is None else whole("starts", starts, 1, _MOST_STARTS)
-    return Fit(problem, search(problem, _own(problem), count, whole("seed", seed, 0)))
+    minima = search(problem, _own(problem), count, whole("seed", seed, 0))
+    return Fit(problem, minima, dict(problem.unsolved))
 
 
 def _own(problem: Problem) -> NDArray[np.float64]:

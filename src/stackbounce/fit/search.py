@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.fit.problem import Problem
 
-__all__ = ["Minimum", "descend", "search"]
+__all__ = ["EQUAL", "OPEN", "Minimum", "descend", "directions", "search"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -17,7 +17,14 @@ _SLOW = 48  # trials in all where each has a record to be computed
 _SHARED, _OWN = 32, 64  # the same where drops have parameters of their own; and trials of these
 _FOLLOWED, _SLOWLY = 8, 3  # of them, besides the drop as it is; with records
 _APART = 0.05  # of the bounds' distance: nearer ones are one start
-_SAME = 1e-3  # of the bounds' distance, and of chi squared: one minimum
+_SAME = 1e-3  # of the bounds' distance: one minimum
+_BARRIER, _LOOKS = 1.0, 9  # of chi squared between two minima, and trials on the way
+EQUAL = 1e-3
+"""Of chi squared: minima that are as good."""
+
+OPEN = 1.0
+"""Root of chi squared's change from bound to bound below which a direction is left open."""
+
 _STEPS = 60  # of one descent
 _FLAT = 1e-3  # how much of chi squared a gradient step may promise at an end that is no kink
 _SHORT = 60  # evaluations for each parameter where a kink is in the way
@@ -39,6 +46,8 @@ def search(
     follow: int | None = None,
 ) -> list[Minimum]:
     """Return the minima that were found, the best first, each once.
+
+    Of minima that are as good the nearest to the first trial comes first.
 
     Parameters
     ----------
@@ -69,7 +78,10 @@ def search(
         follow = _SLOWLY if problem.records else _FOLLOWED
     chosen = _apart(problem, first, trials, follow)
     ends = sorted((descend(problem, x) for x in chosen), key=lambda one: one.chi_squared)
-    return _distinct(problem, ends)
+    wide = problem.spans[:, 1] - problem.spans[:, 0]
+    good = [one for one in ends if one.chi_squared < ends[0].chi_squared + EQUAL]
+    nearest = sorted(good, key=lambda one: np.sum(((one.x - chosen[0]) / wide) ** 2))
+    return _distinct(problem, nearest + ends[len(good) :])
 
 
 def descend(problem: Problem, x: Array, fixed: int | None = None) -> Minimum:
@@ -124,17 +136,39 @@ def _apart(problem: Problem, first: Array, trials: Array, count: int) -> list[Ar
 
 
 def _distinct(problem: Problem, ends: list[Minimum]) -> list[Minimum]:
-    wide = problem.spans[:, 1] - problem.spans[:, 0]
+    """Return the ends of descents without those that lie in the valley of a better one."""
     found: list[Minimum] = []
     for end in ends:
-        same = (
-            np.max(np.abs(end.x - one.x) / wide) < _SAME
-            or abs(end.chi_squared - one.chi_squared) < _SAME * (1.0 + one.chi_squared)
-            for one in found
-        )
-        if not any(same):
+        if not any(_together(problem, end, one) for one in found):
             found.append(end)
     return found
+
+
+def _together(problem: Problem, end: Minimum, better: Minimum) -> bool:
+    """Tell whether two ends of descents are one minimum: near, or with no barrier between them.
+
+    Where data leave a direction open the valley may be bent: all that is as good is one.
+    """
+    wide = problem.spans[:, 1] - problem.spans[:, 0]
+    if np.max(np.abs(end.x - better.x) / wide) < _SAME:
+        return True
+    way = np.linspace(better.x, end.x, _LOOKS + 2)[1:-1]
+    if np.max(problem.chi_squared(way)) < max(end.chi_squared, better.chi_squared) + _BARRIER:
+        return True
+    equal = abs(end.chi_squared - better.chi_squared) < EQUAL
+    return bool(equal and all(_open(problem, one.x) for one in (end, better)))
+
+
+def _open(problem: Problem, x: Array) -> bool:
+    """Tell whether a direction is left open at a trial."""
+    return bool(directions(problem, problem.expanded(x)[1])[0][-1] <= OPEN)
+
+
+def directions(problem: Problem, slopes: Array) -> tuple[Array, Array]:
+    """Return in which directions, and how well, data determine parameters; see `Fit.directions`."""
+    spans = problem.spans
+    _, sizes, found = np.linalg.svd(slopes * (spans[:, 1] - spans[:, 0]))
+    return np.pad(sizes, (0, len(found) - len(sizes))), found
 
 
 def _parameters(problem: Problem, x: Array, fixed: int | None) -> Any:

@@ -1,8 +1,7 @@
 """Numbers of a drop that follow from others: formulas of what is varied."""
 
 import math
-import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -10,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.fit.formula import Formula, read_formula
 from stackbounce.fit.parameters import Parameter, current, paths, places
 from stackbounce.model import Drop
 from stackbounce.sweep.paths import Number, numbers_of
@@ -17,18 +17,6 @@ from stackbounce.sweep.paths import Number, numbers_of
 __all__ = ["Tie", "read_ties", "tied"]
 
 Array: TypeAlias = NDArray[np.float64]
-Formula: TypeAlias = Callable[[Mapping[str, Array]], Any]
-
-_FUNCTIONS: dict[str, Any] = {
-    "sqrt": np.sqrt,
-    "exp": np.exp,
-    "log": np.log,
-    "minimum": np.minimum,
-    "maximum": np.maximum,
-    "pi": math.pi,
-}
-_PLAIN = re.compile(r"[\w\s.+*/(),-]*", re.ASCII)
-_WORD = re.compile(r"[A-Za-z_]\w*(?:\.\w+)*")
 
 
 @dataclass(frozen=True)
@@ -45,12 +33,12 @@ class Tie:
         Takes the values by name, as arrays; returns an array.
     text : str
         How it was written.
-    uses : frozenset of str
-        The names in it; empty for a function of Python, which may use any.
+    uses : frozenset of str, or None
+        The names in it; None for a function of Python, which may use any.
 
     Examples
     --------
-    >>> Tie("", Number("gaps.0", "gaps", 0, "", "m"), lambda v: v["gap"], "gap", frozenset()).text
+    >>> Tie("", Number("gaps.0", "gaps", 0, "", "m"), lambda v: v["gap"], "gap", None).text
     'gap'
     """
 
@@ -58,7 +46,7 @@ class Tie:
     number: Number
     formula: Formula
     text: str
-    uses: frozenset[str]
+    uses: frozenset[str] | None
 
 
 def read_ties(
@@ -74,8 +62,9 @@ def read_ties(
         What is varied.
     given : mapping or None
         By the number that follows: a formula such as ``"4/3 * modulus * sqrt(balls.0.diameter/2)"``
-        of what is varied and of numbers of the same drop, or a function of Python that takes a
-        mapping of names to arrays. A number without a drop's name is that of every drop.
+        of what is varied and of numbers of the same drop, tied ones too, or a function of Python
+        that takes a mapping of names to arrays. A number without a drop's name is that of every
+        drop.
 
     Returns
     -------
@@ -84,7 +73,8 @@ def read_ties(
     Raises
     ------
     InvalidValue
-        If a name is unknown, a formula cannot be read, or a number is both varied and tied.
+        If a name is unknown, a formula cannot be read or needs itself, or a number is tied twice,
+        or both varied and tied.
     InvalidType
         If something has the wrong type.
 
@@ -101,29 +91,38 @@ def read_ties(
     if not isinstance(given, Mapping):
         raise InvalidType(f"tie must map numbers to formulas, got {shown(given)}")
     varied = {(key, number.path) for one in parameters for key, number in places(drops, one.name)}
+    places_of = {name: places(drops, name) for name in given if isinstance(name, str)}
+    follow = [(key, number.path) for at in places_of.values() for key, number in at]
     found: list[Tie] = []
     for name, formula in given.items():
-        at = places(drops, name) if isinstance(name, str) else []
+        at = places_of.get(name, [])
         if not at:
             right = nearest(name, paths(drops))
             raise InvalidValue(f"tie: {shown(name)} is no number of the drop; {right}")
         for key, number in at:
             if (key, number.path) in varied:
                 raise InvalidValue(f"{name} is both varied and tied: only one of the two")
+            if follow.count((key, number.path)) > 1:
+                raise InvalidValue(f"{name} is tied twice: only once for each drop")
             found.append(_tie(drops[key], key, number, parameters, formula))
+    told = varied.union(follow)
+    for tie in found:
+        _check_told(drops[tie.drop], tie, {path for key, path in told if key == tie.drop})
     _check_used(drops, parameters, found)
-    return tuple(found)
+    return tuple(
+        tie for key in drops for tie in _in_order([one for one in found if one.drop == key])
+    )
 
 
 def tied(
     ties: Sequence[Tie], numbers: Mapping[str, float], values: Mapping[str, Array]
 ) -> dict[str, Array]:
-    """Return the numbers of one drop that follow, by path, in the order of the ties.
+    """Return the numbers of one drop that follow, by path.
 
     Parameters
     ----------
     ties : sequence of Tie
-        Those of the drop.
+        Those of the drop, each after those that it needs.
     numbers : mapping of str to float
         All numbers of the drop by path.
     values : mapping of str to ndarray
@@ -141,7 +140,7 @@ def tied(
         try:
             with np.errstate(all="ignore"):
                 array = np.broadcast_to(np.asarray(tie.formula(known), dtype=float), size)
-        except (ArithmeticError, TypeError, ValueError, LookupError) as error:
+        except (ArithmeticError, TypeError, ValueError, LookupError, RecursionError) as error:
             raise InvalidValue(f"tie: {tie.number.path} = {tie.text} fails: {error}") from error
         if not np.all(np.isfinite(array)):
             raise InvalidValue(f"tie: {tie.number.path} = {tie.text} is not always a finite number")
@@ -154,46 +153,32 @@ def _tie(
 ) -> Tie:
     if callable(formula):
         name = getattr(formula, "__name__", "a function")
-        return Tie(key, number, formula, name, frozenset())
-    if not isinstance(formula, str) or not formula.strip() or not _PLAIN.fullmatch(formula):
-        raise InvalidType(
-            f"tie: {number.path} must have a formula such as '2 * modulus', got {shown(formula)}"
-        )
+        return Tie(key, number, formula, name, None)
+    known = {one.name for one in parameters} | set(numbers_of(drop))
+    run, uses = read_formula(formula, known, number.path)
+    return Tie(key, number, run, str(formula), uses)
+
+
+def _check_told(drop: Drop, tie: Tie, told: Collection[str]) -> None:
+    """Refuse a formula of a number that neither the drop nor the fit has."""
     numbers = numbers_of(drop)
-    known = {one.name for one in parameters} | set(numbers)
-    uses = frozenset(_WORD.findall(re.sub(r"\b\d+\.?\d*[eE][+-]?\d+", "0", formula)))
-    for word in sorted(uses - known - set(_FUNCTIONS)):
-        raise InvalidValue(
-            f"tie: {number.path} = {shown(formula)} has {word[:60]}, which is neither varied nor a "
-            f"number of the drop; {nearest(word, [*sorted(known), *_FUNCTIONS])}"
-        )
-    for word in sorted(uses & set(numbers)):
+    for word in sorted((tie.uses or frozenset()) & set(numbers) - set(told)):
         if math.isnan(current(drop, numbers[word])):
-            raise InvalidValue(f"tie: {number.path} needs {word}, which the drop does not tell")
-    return Tie(key, number, _compiled(formula, number.path, known), formula, uses)
+            raise InvalidValue(f"tie: {tie.number.path} needs {word}, which the drop does not tell")
 
 
-def _compiled(formula: str, path: str, known: set[str]) -> Formula:
-    """Return a formula as a function of values by name; asteval alone reads and runs it."""
-    from asteval import Interpreter
-
-    names = {name: f"name_{k}" for k, name in enumerate(sorted(known))}
-    plain = _WORD.sub(lambda found: names.get(found[0], found[0]), formula)
-    reader = Interpreter(symtable=dict(_FUNCTIONS), minimal=True, use_numpy=False)
-    try:
-        tree = reader.parse(plain)
-    except SyntaxError:
-        raise InvalidValue(f"tie: {path} = {shown(formula)} cannot be read") from None
-
-    def run(values: Mapping[str, Array]) -> Any:
-        reader.symtable.update({names[name]: values[name] for name in known if name in values})
-        reader.error = []
-        result = reader.run(tree, with_raise=False)
-        if reader.error:
-            raise ValueError(str(reader.error[0].get_error()[1]).splitlines()[-1])
-        return result
-
-    return run
+def _in_order(ties: Sequence[Tie]) -> list[Tie]:
+    """Return the ties of one drop, each after those that it needs."""
+    left, found = list(ties), []
+    while left:
+        waiting = {tie.number.path for tie in left}
+        ready = next((tie for tie in left if not (tie.uses or set()) & waiting), None)
+        if ready is None:
+            circle = ", ".join(f"{tie.number.path} = {tie.text}" for tie in left)
+            raise InvalidValue(f"tie: none of these can come first, they go round: {circle}")
+        left.remove(ready)
+        found.append(ready)
+    return found
 
 
 def _check_used(
@@ -201,7 +186,7 @@ def _check_used(
 ) -> None:
     """Refuse a varied number of the user's own that nothing follows from."""
     for one in parameters:
-        used = any(one.name in tie.uses or not tie.uses for tie in ties)
+        used = any(tie.uses is None or one.name in tie.uses for tie in ties)
         if not places(drops, one.name) and not used:
             raise InvalidValue(
                 f"{one.name[:60]} is neither a number of the drop nor used by a tie; "

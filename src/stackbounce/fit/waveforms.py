@@ -61,8 +61,10 @@ class Waveform:
     def linear(self, predicted: NDArray[np.float64]) -> NDArray[np.float64]:
         """Return the residuals (n,) in errors after the baseline, and a free scale, are fitted.
 
-        Both are linear, and are found exactly for any prediction.
+        Both are linear, and are found exactly for any prediction; nan where that is not finite.
         """
+        if not np.all(np.isfinite(predicted)):
+            return np.full(len(predicted), np.nan)
         columns = [np.ones_like(predicted)]
         target = self.force
         if self.scaled:

@@ -10,15 +10,33 @@ from typing import Any, TypeVar
 from stackbounce.errors import FileError, InvalidType, ScenarioError, shown
 from stackbounce.model.schema import read_mapping
 
-__all__ = ["read_toml", "write_toml"]
+__all__ = ["load_toml", "read_toml", "write_toml"]
 
 _T = TypeVar("_T")
 
 
 def read_toml(kind: type[_T], path: str | os.PathLike[str]) -> _T:
     """Return the drop, of class `kind`, of a scenario file; see `Drop.from_toml`."""
-    given: object = path
-    name = os.fspath(given) if isinstance(given, str | os.PathLike) else None
+    name, mapping = load_toml(path)
+    try:
+        return read_mapping(kind, mapping)
+    except ScenarioError as error:
+        raise ScenarioError(f"{name}: {error}") from error
+
+
+def load_toml(path: object) -> tuple[str, dict[str, Any]]:
+    """Return the name of a TOML file, and what is in it.
+
+    Raises
+    ------
+    InvalidType
+        If `path` is no path.
+    FileError
+        If the file cannot be opened.
+    ScenarioError
+        If it is not TOML.
+    """
+    name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
     if not isinstance(name, str):
         raise InvalidType(f"path must be a string or a path, got {shown(path)}")
     try:
@@ -28,15 +46,11 @@ def read_toml(kind: type[_T], path: str | os.PathLike[str]) -> _T:
     except ValueError as error:  # a null character in the name
         raise FileError(f"{name!r} cannot be read: {error}") from error
     try:
-        mapping = tomllib.loads(content.decode("utf-8-sig"))
+        return name, tomllib.loads(content.decode("utf-8-sig"))
     except UnicodeDecodeError as error:
         raise ScenarioError(f"{name} is not TOML: it is not text in UTF-8") from error
     except (ValueError, RecursionError) as error:
         raise ScenarioError(f"{name} is not TOML: {' '.join(str(error).split())}") from error
-    try:
-        return read_mapping(kind, mapping)
-    except ScenarioError as error:
-        raise ScenarioError(f"{name}: {error}") from error
 
 
 def write_toml(mapping: Mapping[str, Any]) -> str:

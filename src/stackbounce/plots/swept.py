@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["TITLES", "heatmap", "lines"]
+__all__ = ["TITLES", "heatmap", "legend", "lines", "name_of"]
 
 TITLES = {
     "rebound_ratio": "rebound ratio",
@@ -82,10 +82,10 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
         if show == "collisions":
             rows = _counts_on(axes, np.array(rows))
         for k, row in zip(chosen, rows, strict=True):
-            name = _name(data, part, k) if part else None
+            name = name_of(data, part, k) if part else None
             axes.plot(scale.places, row, label=name, **_look(show, k, chosen, row))
         if part:
-            _legend(axes, len(rows))
+            legend(axes, len(rows))
         label(axes, "x", str(dim), scale)
         if len(scale.places) > 1 and not np.isfinite(rows).any():
             axes.set_xlim(scale.places[0], scale.places[-1])
@@ -132,7 +132,7 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     part, own, unfinished = _finished(data, show)
     title = TITLES[show]
     if part:
-        title += f" of {_name(data, part, _index(own, part, index))}"
+        title += f" of {name_of(data, part, _index(own, part, index))}"
         own = own.isel({part: index})
     import matplotlib as mpl
     from matplotlib.figure import Figure
@@ -168,7 +168,7 @@ def _look(show: str, k: int, chosen: range, row: NDArray[Any]) -> dict[str, Any]
     return look
 
 
-def _legend(axes: "Axes", count: int) -> None:
+def legend(axes: "Axes", count: int) -> None:
     """Put the names where no line goes: above, or many of them to the right."""
     look: Any = {"frameon": False, "handlelength": 1.6, "borderpad": 0.0}
     if count <= _IN_A_ROW:
@@ -246,7 +246,7 @@ def _index(own: "xr.DataArray", part: str, index: int) -> int:
     return index % size
 
 
-def _name(data: "xr.Dataset", part: str, index: int) -> str:
+def name_of(data: "xr.Dataset", part: str, index: int) -> str:
     """Return what a ball or a contact is called, with the ball's name if it has one."""
     balls = tomllib.loads(data.attrs.get("drop", "")).get("balls", [])
     own = balls[index].get("name", "") if part == "ball" and index < len(balls) else ""

@@ -26,7 +26,7 @@ def base_rows(drop: Drop, count: int) -> Drops:
     kind, stiffness, exponent, extra = laws.T
     each = ([ball.mass for ball in drop.balls], kind.astype(np.int64), stiffness, exponent, extra)
     gap, velocity = [0.0, *drop.gaps], drop.start_velocities
-    rows = [np.tile(numbers, (count, 1)) for numbers in (*each, gap, velocity)]
+    rows = [np.full((count, len(laws)), numbers) for numbers in (*each, gap, velocity)]
     return Drops._make([*rows, np.full(count, drop.gravity)])
 
 

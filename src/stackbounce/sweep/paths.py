@@ -62,13 +62,14 @@ def numbers_of(drop: Drop) -> dict[str, Number]:
         ]
     for i, law in enumerate(drop.contacts):
         exponent = getattr(law, "exponent", 1.0)
+        power = "" if exponent == 1.0 else f"**{exponent:g}"
         found += [
             Number(
                 f"contacts.{i}.{name}",
                 "contacts",
                 i,
                 name,
-                unit.replace("**exponent", "" if exponent == 1.0 else f"**{exponent:g}"),
+                unit.replace("**exponent", power),
             )
             for name, unit in _fields_of(law).items()
         ]

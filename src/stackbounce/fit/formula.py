@@ -1,0 +1,121 @@
+"""Formulas as users write them -> functions of arrays; nothing else can be said in them."""
+
+import ast
+import math
+import re
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+
+__all__ = ["OWN_WORDS", "Formula", "read_formula"]
+
+Values: TypeAlias = Mapping[str, NDArray[np.float64]]
+Formula: TypeAlias = Callable[[Values], Any]
+
+_LONGEST = 500  # characters
+_TOKEN = re.compile(
+    r"(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|(?P<word>[A-Za-z_]\w*(?:\.\w+)*)", re.ASCII
+)
+_CONSTANTS = {"pi": math.pi}
+_FUNCTIONS: dict[str, tuple[Any, int]] = {
+    "sqrt": (np.sqrt, 1),
+    "exp": (np.exp, 1),
+    "log": (np.log, 1),
+    "minimum": (np.minimum, 2),
+    "maximum": (np.maximum, 2),
+}
+_SIGNS: dict[type[ast.AST], Any] = {ast.UAdd: np.positive, ast.USub: np.negative}
+_OPERATIONS: dict[type[ast.AST], Any] = {
+    ast.Add: np.add,
+    ast.Sub: np.subtract,
+    ast.Mult: np.multiply,
+    ast.Div: np.divide,
+    ast.Pow: np.power,
+}
+OWN_WORDS = frozenset((*_CONSTANTS, *_FUNCTIONS))
+"""What a formula means by itself, so that nothing else can have these names."""
+
+
+def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formula, frozenset[str]]:
+    """Return a formula as a function of values by name, and the names that it uses.
+
+    Parameters
+    ----------
+    text : str
+        Of numbers, names, ``+ - * / **``, brackets, ``sqrt``, ``exp``, ``log``, ``minimum``,
+        ``maximum`` and ``pi``. A name may have dots: ``balls.0.mass``.
+    known : collection of str
+        The names that it may use.
+    path : str
+        Which number follows from it, for messages.
+
+    Raises
+    ------
+    InvalidValue
+        If it has another name, or cannot be read.
+    InvalidType
+        If it is no text.
+
+    Examples
+    --------
+    >>> run, uses = read_formula("2 * balls.0.mass ** 2", ["balls.0.mass"], "balls.1.mass")
+    >>> run({"balls.0.mass": np.array([1.0, 3.0])}), sorted(uses)
+    (array([ 2., 18.]), ['balls.0.mass'])
+    """
+    if not isinstance(text, str) or not text.strip():
+        raise InvalidType(
+            f"tie: {path} must have a formula such as '2 * modulus', got {shown(text)}"
+        )
+    if len(text) > _LONGEST:
+        raise InvalidValue(
+            f"tie: {path} must have a formula of at most {_LONGEST} characters, got {len(text)}"
+        )
+    words = {one["word"] for one in _TOKEN.finditer(text) if one["word"]}
+    for word in sorted(words - set(known) - OWN_WORDS):
+        raise InvalidValue(
+            f"tie: {path} = {shown(text)} has {word[:60]}, which is neither varied nor a "
+            f"number of the drop; {nearest(word, [*sorted(known), *sorted(OWN_WORDS)])}"
+        )
+    names = {f"name_{k}": word for k, word in enumerate(sorted(words - OWN_WORDS))}
+    inside = {word: name for name, word in names.items()}
+    plain = _TOKEN.sub(lambda one: inside.get(one["word"], one[0]), " ".join(text.split()))
+    try:
+        run = _function(ast.parse(plain, mode="eval").body, names)
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        raise InvalidValue(
+            f"tie: {path} = {shown(text)} cannot be read: it may have numbers, names, + - * / **, "
+            f"brackets, {', '.join(sorted(OWN_WORDS))}"
+        ) from None
+    return run, frozenset(names.values())
+
+
+def _function(node: ast.AST, names: Mapping[str, str]) -> Formula:
+    """Return what a part of a formula computes; floats throughout, so that no integer grows."""
+    match node:
+        case ast.Constant(int() | float() as value):
+            number = float(value)
+            return lambda _: number
+        case ast.Name(name) if name in names:
+            word = names[name]
+            return lambda values: values[word]
+        case ast.Name(name) if name in _CONSTANTS:
+            constant = _CONSTANTS[name]
+            return lambda _: constant
+        case ast.UnaryOp(sign, part) if type(sign) in _SIGNS:
+            return _applied(_SIGNS[type(sign)], [part], names)
+        case ast.BinOp(left, operation, right) if type(operation) in _OPERATIONS:
+            return _applied(_OPERATIONS[type(operation)], [left, right], names)
+        case ast.Call(ast.Name(name), parts, []) if name in _FUNCTIONS:
+            function, count = _FUNCTIONS[name]
+            if len(parts) == count:
+                return _applied(function, parts, names)
+    raise ValueError(f"no part of a formula: {type(node).__name__}")
+
+
+def _applied(function: Any, parts: list[ast.expr], names: Mapping[str, str]) -> Formula:
+    inner = [_function(part, names) for part in parts]
+    return lambda values: function(*[one(values) for one in inner])
