@@ -149,6 +149,29 @@ def test_where_the_loss_is(compared):
     assert compared.shared("S, fitted")["e_B2"] == pytest.approx(AS_HEIGHTS["e_B2"], abs=0.006)
 
 
+@pytest.mark.parametrize(
+    ("name", "whole", "shared"),
+    [
+        ("S, one factor", 20.5, {"loss": 0.510}),
+        ("L", 32.5, {"e_B1": 0.889}),
+        ("B", 25.3, {"e_B1": 0.946, "e_between": 0.827}),
+    ],
+)
+def test_models_with_shared_numbers(name, whole, shared):
+    found = fitted(THEORIES[name].model(), given.MEASURED)
+    assert found.chi_squared == pytest.approx(whole, abs=0.3)
+    for number, value in shared.items():
+        assert found.best[number] == pytest.approx(value, abs=4e-3)
+
+
+def test_a_longer_fall_changes_what_comes(compared):
+    """Table I's numbers hold for 20 cm, so that other falls of the pairs are no mere scale."""
+    higher = replace(THEORIES["S"], height=0.24)
+    assert higher.drop("B2_on_B1").contacts == THEORIES["S"].drop("B2_on_B1").contacts
+    whole = again(higher.model(), given.MEASURED, compared["S"]).chi_squared
+    assert abs(whole - compared["S"].chi_squared) > 1.0
+
+
 def test_order_of_the_models(compared):
     order = [one.model for one in compared.comparison.scores]
     assert order == ["S", "S, fitted", "A, fitted", "A", "rigid, two", "X", "Hertz"]

@@ -12,6 +12,7 @@ import numpy as np
 
 from stackbounce.calibrate import calibrate
 from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.study import given
 from stackbounce.cross2007.study.fitting import fitted
 from stackbounce.cross2007.study.theories import ELASTIC, SHARED
 from stackbounce.fit import Model
@@ -20,7 +21,6 @@ from stackbounce.model import Ball, Drop, HuntCrossley
 __all__ = ["Stack", "stacks"]
 
 _EXPONENTS = (1.0, 1.5)
-_ERROR = 0.02  # that of the other rows
 _SOFT = {1.0: (5e2, 2e4), 1.5: (5e3, 2e5)}  # N/m**exponent, of the basketball on the floor
 _RATIOS = (1.0, 6.0)
 
@@ -59,7 +59,9 @@ def _fitted(exponent: float, where: str) -> Stack:
 
 
 def _data() -> dict[str, Any]:
-    ratios = [(PAPER[f"tennis_on_basketball.{one}"].value, _ERROR) for one in ("lower", "upper")]
+    ratios = [
+        (PAPER[f"tennis_on_basketball.{one}"].value, given.ERROR) for one in ("lower", "upper")
+    ]
     return {
         "rebound_ratios": ratios,
         "durations.0": (PAPER["stack.duration"].value, PAPER["stack.duration"].spread),

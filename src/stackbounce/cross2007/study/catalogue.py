@@ -49,7 +49,7 @@ THEORIES: dict[str, Theory] = {
         reloading="lossy",
     ),
     "L, linear": Theory(
-        "the same from linear springs, two restitutions",
+        "as L, from linear springs, two restitutions",
         Hysteretic,
         SHARED,
         {},

@@ -50,20 +50,19 @@ def comparison(compared: Compared) -> Picture:
     scores = compared.comparison.scores[::-1]
     figure = wide(0.27 * len(scores) + 0.75)
     ax = figure.subplots()
-    figure.subplots_adjust(left=0.5, right=0.97, bottom=0.5 / figure.get_figheight(), top=0.99)
+    figure.subplots_adjust(left=0.57, right=0.97, bottom=0.5 / figure.get_figheight(), top=0.99)
     places = np.arange(len(scores))
     ax.hlines(places, 10.0, [one.aicc for one in scores], color=GREY, lw=0.6)
     ax.plot([one.aicc for one in scores], places, "o", color=BLACK, label="AICc")
     ten = [compared.of_ratios(one.model) for one in scores]
     ax.plot(ten, places, "o", mfc="white", mec=UPPER, label=r"$\chi^2$ of the ten values")
     ax.set(xscale="log", xlim=(1.5, 3000.0), ylim=(-0.6, len(scores) - 0.4))
-    ax.set_xlabel(r"AICc, and $\chi^2$ of the ten values (ten is what errors of 0.02 would give)")
+    ax.set_xlabel(r"AICc, $\chi^2$ (dotted: as many as values)")
     ax.axvline(10.0, color=GREY, lw=0.8, ls=":")
-    ax.set_yticks(
-        places, [f"{compared.titles[one.model]}  ({one.parameters - 5})" for one in scores]
-    )
+    names = [(one.model, compared.titles[one.model], one.parameters - 5) for one in scores]
+    ax.set_yticks(places, [f"{name}: {title} ({count})" for name, title, count in names])
     ax.tick_params(axis="y", which="both", left=False, right=False)
-    ax.legend(loc="lower right", frameon=False)
+    ax.legend(loc="upper right", frameon=False)
     return Picture(
         "study-comparison",
         "Every model's criterion",
@@ -83,12 +82,12 @@ def misfits(compared: Compared) -> Picture:
     figure = wide(0.27 * len(order) + 1.1)
     ax = figure.subplots()
     high = figure.get_figheight()
-    figure.subplots_adjust(left=0.13, right=0.995, bottom=0.05 / high, top=1.0 - 0.95 / high)
+    figure.subplots_adjust(left=0.13, right=0.95, bottom=0.05 / high, top=1.0 - 0.95 / high)
     shown = np.clip(table, -_MOST, _MOST)
     ax.imshow(shown, cmap="RdBu_r", vmin=-_MOST, vmax=_MOST, aspect="auto")
     for (i, j), pull in np.ndenumerate(table):
-        color = "white" if abs(pull) > 0.75 * _MOST else BLACK
-        text = f"{pull:.1f}" if abs(pull) < 10.0 else f"{pull:.0f}"
+        color = "white" if abs(pull) > 0.6 * _MOST else BLACK
+        text = f"{pull:z.1f}" if abs(pull) < 10.0 else f"{pull:.0f}"
         ax.text(j, i, text.replace("-", "−"), ha="center", va="center", fontsize=7.5, color=color)
     labels = [_datum(str(name)) for name in pulls["datum"].values]
     ax.set_xticks(range(len(labels)), labels, rotation=60, ha="left", rotation_mode="anchor")
@@ -150,7 +149,7 @@ def _column(compared: Compared, pair: str, panels: "list[Axes]") -> None:
             ax.plot(1e3 * touch, ratio, style, color=color, label=name)
         ends.append(1e3 * float(touch[-1]))
     for ax, measured in zip(panels, given.printed(pair), strict=True):
-        ax.axhspan(measured - 0.02, measured + 0.02, color=GREY, alpha=0.3, lw=0)
+        ax.axhspan(measured - given.ERROR, measured + given.ERROR, color=GREY, alpha=0.3, lw=0)
         ax.axvspan(delay - spread, delay + spread, color=GREY, alpha=0.15, lw=0)
         ax.set_ylim(measured + _SHOWN[0], measured + _SHOWN[1])
         ax.set_xlim(0.5, math.floor(min(ends) * 2.0) / 2.0)

@@ -24,13 +24,18 @@ def energy(rows: list[Kept]) -> Picture:
     ax = figure.subplots()
     figure.subplots_adjust(left=0.12, right=0.98, bottom=0.13, top=0.97)
     for k, one in enumerate(rows):
-        ax.plot([k - 0.35, k + 0.35], [one.printed] * 2, color=UPPER, label=_first(k, "0.78, 0.90"))
+        ax.plot(
+            [k - 0.35, k + 0.35],
+            [one.printed] * 2,
+            color=UPPER,
+            label=_first(k, "at most: 0.78, 0.90"),
+        )
         ax.plot(
             [k - 0.35, k + 0.35],
             [one.heights] * 2,
             "--",
             color=FLOOR,
-            label=_first(k, "their roots"),
+            label=_first(k, "at most: their roots"),
         )
         ax.errorbar(
             k, one.measured, one.error, fmt="o", color=BLACK, capsize=3, label=_first(k, "measured")

@@ -12,6 +12,7 @@ from stackbounce.model import Ball
 
 __all__ = [
     "DELAY",
+    "ERROR",
     "HEAVY",
     "HEIGHT",
     "LATE",
@@ -47,6 +48,9 @@ PRINTED = {"B1": PAPER["B1.restitution"].value, "B2": 0.90, "B3": 0.90}
 DELAY = "first_touch.1"
 RATIOS = ("rebound_ratios.0", "rebound_ratios.1")
 
+ERROR = PAPER["B2_on_B1.lower"].spread
+"""Of every value of Table II."""
+
 _TWINS = (3e-3, 2e-3)  # s: from the shortest delay, 1 ms, to just after the lower ball has left
 LATE = (PAPER["superballs.late_delay"].value, PAPER["superballs.delay"].spread)
 """The later of the two delays that were recorded for B1 on B3."""
@@ -66,11 +70,11 @@ def solo(ball: str, heavy: float = HEAVY) -> Solo:
 
 
 def balls(key: str, heavy: float = HEAVY) -> list[Ball]:
-    """Return the balls of a pair, the lower one first."""
+    """Return the balls of a pair, the lower one first; two B1 keep their printed ratio."""
     lower, upper = PAIRS[key]
     masses = [solo(lower, heavy).mass, solo(upper, heavy).mass]
     if lower == upper:
-        masses[1] = PAPER["B1.mass"].value
+        masses = [HEAVY, PAPER["B1.mass"].value]
     return [Ball(mass, name=name) for mass, name in zip(masses, (lower, upper), strict=True)]
 
 

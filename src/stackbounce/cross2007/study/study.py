@@ -13,7 +13,15 @@ from stackbounce.cross2007.study.predictions import Prediction, predictions
 from stackbounce.cross2007.study.readings import Reading, readings
 from stackbounce.cross2007.study.records import Fact, facts
 from stackbounce.cross2007.study.section_v import Refit, refits
-from stackbounce.cross2007.study.sensitivity import Held, between, changes, delays, held_out
+from stackbounce.cross2007.study.sensitivity import (
+    Held,
+    between,
+    changes,
+    falling,
+    held_out,
+    late,
+    loose,
+)
 from stackbounce.version import __version__
 
 __all__ = ["Study", "study"]
@@ -37,7 +45,9 @@ class Study:
     readings: list[Reading]
     between: dict[float, float]
     changes: dict[str, dict[str, float]]
-    delays: dict[str, dict[str, float]]
+    loose: Compared
+    late: dict[str, float]
+    falling: float
     held_out: dict[str, list[Held]]
     facts: list[Fact]
     predictions: list[Prediction]
@@ -75,7 +85,11 @@ class Study:
             "readings": [one._asdict() for one in self.readings],
             "loss_between_balls": self.between,
             "changes": self.changes,
-            "delays": self.delays,
+            "delays_within_1_ms": {
+                name: one.chi_squared for name, one in self.loose.comparison.fits.items()
+            },
+            "B1_on_B3_at_7_ms": self.late,
+            "S_with_gravity": self.falling,
             "held_out": {
                 name: [{**one._asdict(), "pulls": one.pulls} for one in rows]
                 for name, rows in self.held_out.items()
@@ -102,7 +116,7 @@ def study(progress: Callable[[str], None] = lambda _: None) -> Study:
     read = readings(progress)
     scan = between(own, progress)
     progress("study: other assumptions")
-    changed, other = changes(), delays(own)
+    changed, free, other = changes(own), loose(own), late(own)
     progress("study: each pair from the other four")
     held = {name: held_out(own, name) for name in _HELD}
     progress("study: force records and measurements that would decide")
@@ -114,7 +128,9 @@ def study(progress: Callable[[str], None] = lambda _: None) -> Study:
         read,
         scan,
         changed,
+        free,
         other,
+        falling(own, "S"),
         held,
         shown,
         said,

@@ -1,6 +1,5 @@
 """From a few numbers of the balls to the contacts of every pair: what makes a model of Table II."""
 
-import functools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
@@ -34,6 +33,7 @@ _BOUNDS = {
 }
 _WIDEST = 0.03  # m: of the gaps that are searched
 _GAP = 4e-3  # m: where a search begins
+_SPEED = fallen_speed(given.HEIGHT)  # m/s: of a ball alone, at which Table I has its numbers
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class Theory:
     reloading : str
         Of a hysteretic contact that is pressed anew before it has opened.
     heavy, height : float
-        B1's mass in kg, and the fall in m.
+        B1's mass in kg, and the pairs' fall in m; balls alone fall from 20 cm.
     longer : mapping of str to float
         By ball: s, what is added to its contact time.
 
@@ -110,7 +110,7 @@ class Theory:
         mass, time = given.solo(ball, self.heavy)
         own = given.Solo(mass, time + self.longer.get(ball, 0.0))
         p = values["exponent"]
-        found = numbers(self.law, own, self.speed, values[f"e_{ball}"], p)
+        found = numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
         if self.law is HuntCrossley:
             found = found._replace(loss=found.loss * values["loss"])
         return found
@@ -141,11 +141,6 @@ class Theory:
         # Hunt and Crossley's loss goes with the speed of compression, of which each ball has its
         # share, and the work has that share once more
         return np.asarray(values["between"] * (f**2 * lower + (1.0 - f) ** 2 * upper))
-
-    @functools.cached_property
-    def speed(self) -> float:
-        """The impact speed in m/s."""
-        return fallen_speed(self.height)
 
     def _law(self, values: Mapping[str, Any], own: Numbers) -> Any:
         options: dict[str, Any] = {
