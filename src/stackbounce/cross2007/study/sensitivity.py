@@ -9,7 +9,7 @@ import numpy as np
 
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.study import given
-from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, CHOSEN, THEORIES
+from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, THEORIES
 from stackbounce.cross2007.study.compared import Compared
 from stackbounce.cross2007.study.fitting import again, fitted
 from stackbounce.cross2007.study.theories import Theory
