@@ -186,7 +186,7 @@ def paper(
         bool,
         typer.Option(
             "--study",
-            help="Also fit all of Table II by one model after the other: study.html, in one to two minutes.",
+            help="Also all of Table II by one model after the other: study.html, a minute or two more.",
         ),
     ] = False,
     as_json: AsJson = False,

@@ -56,13 +56,13 @@ def comparison(compared: Compared) -> Picture:
     ax.plot([one.aicc for one in scores], places, "o", color=BLACK, label="AICc")
     ten = [compared.of_ratios(one.model) for one in scores]
     ax.plot(ten, places, "o", mfc="white", mec=UPPER, label=r"$\chi^2$ of the ten values")
-    ax.set(xscale="log", xlim=(1.5, 3000.0), ylim=(-0.6, len(scores) - 0.4))
+    ax.set(xscale="log", xlim=(1.5, 4000.0), ylim=(-0.6, len(scores) - 0.4))
     ax.set_xlabel(r"AICc, $\chi^2$ (dotted: as many as values)")
     ax.axvline(10.0, color=GREY, lw=0.8, ls=":")
     names = [(one.model, compared.titles[one.model], one.parameters - 5) for one in scores]
     ax.set_yticks(places, [f"{name}: {title} ({count})" for name, title, count in names])
     ax.tick_params(axis="y", which="both", left=False, right=False)
-    ax.legend(loc="upper right", frameon=False)
+    ax.legend(loc="upper right", frameon=False, handlelength=0.8, handletextpad=0.4)
     return Picture(
         "study-comparison",
         "Every model's criterion",

@@ -40,7 +40,7 @@ def energy(rows: list[Kept]) -> Picture:
         ax.errorbar(
             k, one.measured, one.error, fmt="o", color=BLACK, capsize=3, label=_first(k, "measured")
         )
-    ax.set(xlim=(-0.6, len(rows) - 0.4), ylim=(0.4, 1.03), ylabel="energy left")
+    ax.set(xlim=(-0.6, len(rows) - 0.4), ylim=(0.2, 1.03), ylabel="energy left")
     ax.set_xticks(range(len(rows)), [named(one.pair) for one in rows])
     ax.tick_params(axis="x", which="both", bottom=False, top=False)
     ax.legend(loc="lower left", frameon=False, fontsize=9)

@@ -67,6 +67,7 @@ def page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         models={row["name"]: row for row in done.rows},
         pairs={name: own.pairs(name) for name in CHOSEN},
         biggest={name: _biggest(own, name) for name in ("S", "S, six")},
+        firm=_firm(own),
         measured={pair: given.printed(pair) for pair in given.PAIRS},
         balls={"printed": AS_PRINTED, "heights": AS_HEIGHTS},
         said={one.what: one for one in done.predictions},
@@ -74,6 +75,12 @@ def page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         chosen=CHOSEN,
         version=__version__,
     )
+
+
+def _firm(compared: Compared) -> tuple[float, float]:
+    """Return the least and the most restitution of B1 that laws with loss in every contact fit."""
+    found = [compared.shared(name)["e_B1"] for name in ("S, fitted", "V", "H", "L", "L, linear")]
+    return min(found), max(found)
 
 
 def _biggest(compared: Compared, name: str) -> Residual:

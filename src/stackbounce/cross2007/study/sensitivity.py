@@ -102,8 +102,8 @@ _CHANGES: dict[str, Callable[[Theory], Theory]] = {
     "COR of B2 and B3 - 0.02": _other("B2", -1.0),
     "contact time of B1 + 0.1 ms": _times("B1", 1.0),
     "contact time of B1 - 0.1 ms": _times("B1", -1.0),
-    "stiffness between two balls x 0.7": _stiffer(0.7),
-    "stiffness between two balls x 1.5": _stiffer(1.5),
+    "stiffness between two balls × 0.7": _stiffer(0.7),
+    "stiffness between two balls × 1.5": _stiffer(1.5),
     "pairs dropped from 18 cm": lambda theory: replace(theory, height=0.18),
     "pairs dropped from 24 cm": lambda theory: replace(theory, height=0.24),
 }
