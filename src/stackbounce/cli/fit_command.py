@@ -1,13 +1,16 @@
 """The command ``stackbounce fit`` and its options."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stackbounce.cli.options import AsJson, Contact, Gap, Gravity, Height, Plot, Speed
 from stackbounce.cli.output import check_picture, console, draw
 from stackbounce.errors import InvalidValue
+
+if TYPE_CHECKING:
+    from stackbounce.fit import Question
 
 __all__ = ["EPILOG", "fit"]
 
@@ -21,8 +24,9 @@ What = Annotated[
     list[str],
     typer.Argument(
         metavar="SCENARIO|BALLS",
-        help="A scenario file in TOML, which may also tell what was measured, varied and tied, or "
-        "balls of the catalogue, the lowest first.",
+        help="A scenario file in TOML, which may also tell what was measured, varied and tied; or "
+        "balls of the catalogue, the lowest first; or a measurement of the paper, such as "
+        "cross2007/B1-B2.",
         show_default=False,
     ),
 ]
@@ -78,6 +82,16 @@ Sample = Annotated[
         metavar="DRAWS", help="Draw so often from the posterior.", rich_help_panel=_SEARCH
     ),
 ]
+Compare = Annotated[
+    bool,
+    typer.Option(
+        "--compare",
+        help="Fit the usual models (Rigid, Spring, Hertz, Hysteretic, Viscoelastic, HuntCrossley) "
+        "instead and lay them side by side; contacts and gaps of the drop are only where they "
+        "begin.",
+        rich_help_panel=_SEARCH,
+    ),
+]
 Starts = Annotated[
     int | None,
     typer.Option(
@@ -116,6 +130,7 @@ def fit(
     gap: Gap = None,
     contact: Contact = None,
     gravity: Gravity = None,
+    compare: Compare = False,
     interval: Interval = False,
     sample: Sample = None,
     starts: Starts = None,
@@ -133,18 +148,32 @@ def fit(
             check_picture(path, option)
     if corner is not None and sample is None:
         raise InvalidValue("--corner draws what --sample draws: give both")
+    alone = {
+        "--vary": vary,
+        "--tie": tie,
+        "--interval": interval,
+        "--sample": sample,
+        "--save": save,
+    }
+    for option, given in alone.items():
+        if compare and given:
+            raise InvalidValue(f"--compare has models of its own: {option} is for one fit")
     asked = fitted.question(
         what,
         data=data,
         measured=measured or [],
         vary=vary or [],
         tie=tie or [],
+        compared=compare,
         height=height,
         speed=speed,
         gaps=gap,
         contacts=contact,
         gravity=gravity,
     )
+    if compare:
+        _compare(asked, starts, seed, plot, as_json)
+        return
     if save is not None:
         fitted.check_save(save, asked)
     done = fitted.run(asked, starts=starts, seed=seed, interval=interval, sample=sample)
@@ -162,3 +191,19 @@ def fit(
     for picture in (plot, corner):
         if picture is not None:
             typer.echo(f"Picture: {picture}")
+
+
+def _compare(
+    asked: "Question", starts: int | None, seed: int, plot: Path | None, as_json: bool
+) -> None:
+    from stackbounce.cli import compared, machine
+
+    done = compared.run(asked, starts=starts, seed=seed)
+    if plot is not None:
+        draw(lambda: compared.picture(done), plot)
+    if as_json:
+        typer.echo(machine.text(compared.summary(done)))
+        return
+    compared.tell(console(), done)
+    if plot is not None:
+        typer.echo(f"Picture: {plot}")

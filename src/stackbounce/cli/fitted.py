@@ -10,6 +10,7 @@ import numpy as np
 from stackbounce.cli import scenario
 from stackbounce.cli.output import progress_bar
 from stackbounce.cli.show import number
+from stackbounce.cross2007.datasets import PREFIX, dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.fit import Fit, Interval, Posterior, Question, read_drops, read_question
 from stackbounce.fit.files import typed
@@ -53,9 +54,13 @@ def question(
     measured: Sequence[str],
     vary: Sequence[str],
     tie: Sequence[str],
+    compared: bool = False,
     **changes: Any,
 ) -> Question:
-    """Return what the arguments ask: a file's question or a drop, with the options put in."""
+    """Return what the arguments ask: a file's question or a drop, with the options put in.
+
+    What is `compared` needs nothing to vary: each model has numbers of its own.
+    """
     asked = _asked(what, changes)
     if data is not None:
         if set(asked.drops) != {""} or asked.data:
@@ -75,7 +80,7 @@ def question(
             "nothing was measured: give --measured 'rebound_ratios.1=1.64 ± 0.02', --data "
             "drops.csv, or [measured] in the file"
         )
-    if not varied:
+    if not varied and not compared:
         paths = dict.fromkeys(path for drop in asked.drops.values() for path in numbers_of(drop))
         raise InvalidValue(
             "nothing is to vary: give --vary 'contacts.0.stiffness=1kN/m:1MN/m' or [vary] in the "
@@ -184,7 +189,10 @@ def tell(console: "Console", done: Fitted) -> None:
 
 
 def _asked(what: Sequence[str], changes: dict[str, Any]) -> Question:
-    """Return the question of a file, or one drop of which nothing is asked yet."""
+    """Return the question of a data set or file, or one drop of which nothing is asked yet."""
+    if len(what) == 1 and what[0].startswith(PREFIX) and not Path(what[0]).exists():
+        drop, data, vary, _ = dataset(what[0])
+        return Question({"": scenario.change(drop, **changes)}, {"": data}, vary, {})
     if len(what) == 1 and scenario.is_file(what[0]):
         asked = read_question(what[0])
         changed = {key: scenario.change(drop, **changes) for key, drop in asked.drops.items()}

@@ -14,7 +14,6 @@ from stackbounce.calibrate import calibrate
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.errors import InvalidValue, nearest
-from stackbounce.fit import Model
 from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring
 
 __all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "pair"]
@@ -30,10 +29,11 @@ _WIDEST = 0.03  # m
 
 
 class DataSet(NamedTuple):
-    """A measurement of the paper with the model that is fitted to it unless another is told."""
+    """A measurement of the paper, and what is varied in its drop unless something else is told."""
 
-    model: Model
+    drop: Drop
     data: dict[str, Any]
+    vary: dict[str, Any]
     what: str
 
 
@@ -48,7 +48,7 @@ def dataset(name: str) -> DataSet:
     Returns
     -------
     DataSet
-        The model is section V's: the floor's contact is linear and loses energy as the lower ball
+        The contacts are section V's: the floor's is linear and loses energy as the lower ball
         alone does, the one between the balls is a spring.
 
     Raises
@@ -59,10 +59,10 @@ def dataset(name: str) -> DataSet:
     Examples
     --------
     >>> import stackbounce as sb
-    >>> model, data, what = dataset("B1-B2")
+    >>> drop, data, vary, what = dataset("B1-B2")
     >>> data["rebound_ratios"]
     [(0.28, 0.02), (1.91, 0.02)]
-    >>> sb.fit(model.drop, data, model.vary).names
+    >>> sb.fit(drop, data, vary).names
     ['contacts.0.stiffness', 'contacts.1.stiffness', 'gaps.0']
     """
     short = name.removeprefix(PREFIX)
@@ -121,7 +121,7 @@ def _pair(lower: str, upper: str) -> DataSet:
         "contacts.1.stiffness": _STIFF,
         "gaps.0": (0.0, _WIDEST),
     }
-    return DataSet(Model(drop, vary), data, f"Table II and Sec. IV: {upper} on {lower}")
+    return DataSet(drop, data, vary, f"Table II and Sec. IV: {upper} on {lower}")
 
 
 def _basketball() -> DataSet:
@@ -139,7 +139,7 @@ def _basketball() -> DataSet:
         "gaps.0": (0.0, _WIDEST),
     }
     what = "Sec. III: tennis ball on basketball, no loss in the contacts"
-    return DataSet(Model(drop, vary), data, what)
+    return DataSet(drop, data, vary, what)
 
 
 def _alone(name: str) -> DataSet:
@@ -158,7 +158,7 @@ def _alone(name: str) -> DataSet:
         "rebound_ratios": [kept],
     }
     vary = {"contacts.0.stiffness": _STIFF, "contacts.0.restitution": (0.3, 1.0)}
-    return DataSet(Model(drop, vary), data, f"Table I: {name} alone")
+    return DataSet(drop, data, vary, f"Table I: {name} alone")
 
 
 def _ball(name: str, *, heavier: bool = False) -> Ball:

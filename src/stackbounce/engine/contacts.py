@@ -129,7 +129,9 @@ def _follow(stack: Stack, i: int, force_at_unit: float, unit: float, exponent: f
     stack.curve_unit[i] = unit
     stack.curve_exponent[i] = exponent
     stack.faint[i] = 0
-    ratio = stack.number[3] ** (1.0 / (exponent + 1.0))
+    # of a power times a gain that grows from 0, too, the whole force counts
+    steepest = max(exponent, stack.exponent[i])
+    ratio = stack.number[3] ** (1.0 / (steepest + 1.0))
     stack.faint_below[i] = ratio * unit
 
 

@@ -14,6 +14,7 @@ tables     drops, and what was measured of each, from a CSV file
 search     many trials screened, the best followed down
 run        ``fit``
 found      what a fit found
+compared   what was measured beside what was fitted
 notes      what should be known about it
 profile    confidence intervals
 posterior  draws from what is known after the data
@@ -25,12 +26,13 @@ comparison ``compare``
 
 from stackbounce.fit.comparison import Comparison, compare
 from stackbounce.fit.files import read_question
-from stackbounce.fit.found import Fit, Residual
+from stackbounce.fit.found import Fit
 from stackbounce.fit.model import Model
 from stackbounce.fit.parameters import Range
 from stackbounce.fit.posterior import Posterior
 from stackbounce.fit.profile import Interval
 from stackbounce.fit.question import Question
+from stackbounce.fit.residuals import Record, Residual
 from stackbounce.fit.run import fit
 from stackbounce.fit.standard import standard_models
 from stackbounce.fit.tables import read_drops
@@ -43,6 +45,7 @@ __all__ = [
     "Posterior",
     "Question",
     "Range",
+    "Record",
     "Residual",
     "compare",
     "fit",

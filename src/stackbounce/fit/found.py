@@ -4,13 +4,14 @@ import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.fit.problem import Problem, clock
+from stackbounce.fit.residuals import Record, Residual
 from stackbounce.fit.search import Minimum, directions
 from stackbounce.model import Drop
 from stackbounce.version import __version__
@@ -22,45 +23,12 @@ if TYPE_CHECKING:
     from stackbounce.fit.posterior import Posterior
     from stackbounce.fit.profile import Interval
 
-__all__ = ["Fit", "Record", "Residual"]
+__all__ = ["Fit"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 
 _ANYWHERE = 12.0**-0.5  # of the bounds' distance: standard deviation where any value is as good
-
-
-class Residual(NamedTuple):
-    """A number that was measured beside the fitted one; `pull` is their difference in errors."""
-
-    drop: str
-    name: str
-    measured: float
-    error: float
-    fitted: float
-    pull: float
-    unit: str
-
-
-class Record(NamedTuple):
-    """A force record beside the fitted one, both (n,) over times in s since the first touch.
-
-    In N, or in the record's own unit where its scale was fitted too (`unit` is then empty); `error`
-    is that of a sample.
-    """
-
-    drop: str
-    name: str
-    times: Array
-    measured: Array
-    fitted: Array
-    error: float
-    unit: str
-
-    @property
-    def scatter(self) -> float:
-        """Root mean square of the differences, in errors: about 1 where the model is right."""
-        return float(np.sqrt(np.mean(((self.fitted - self.measured) / self.error) ** 2)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -298,7 +266,24 @@ class Fit:
         return along(self, self.names.index(name), np.asarray(values, dtype=float))
 
     def sample(self, draws: int = 16_000, **options: Any) -> "Posterior":
-        """Return draws from what is known of the parameters after the data; see `Posterior`."""
+        """Return draws from what is known of the parameters after the data.
+
+        Parameters
+        ----------
+        draws : int, optional
+            How many, of all walkers together, before the first quarter is thrown away.
+        **options
+            ``seed``, and ``progress``, which is called with how many are done and will be.
+
+        Returns
+        -------
+        Posterior
+
+        Raises
+        ------
+        InvalidValue
+            If the draws are too few.
+        """
         from stackbounce.fit.posterior import sample
 
         return sample(self, draws, **options)

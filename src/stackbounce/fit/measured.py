@@ -5,6 +5,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown, whole
 from stackbounce.fit.quantities import QUANTITIES, place
 from stackbounce.fit.waveforms import Waveform, as_waveform
@@ -115,7 +117,7 @@ def read_measured(drop: Drop, given: object, path: str = "") -> Measured:
     """
     if not isinstance(given, Mapping) or not given:
         raise InvalidType(
-            f"{path or 'data'} must map names to what was measured, such as "
+            f"{path.rstrip('.') or 'data'} must map names to what was measured, such as "
             f"{{'rebound_ratios.1': '1.64 ± 0.02'}}, got {shown(given)}"
         )
     data: list[Datum] = []
@@ -145,6 +147,8 @@ def _one_by_one(drop: Drop, given: Mapping[Any, Any], path: str) -> list[tuple[s
     for name, value in given.items():
         if not isinstance(name, str):
             raise InvalidType(f"{path or 'data '}must have names for keys, got {shown(name)}")
+        if isinstance(value, np.ndarray):
+            value = value.tolist()
         known = QUANTITIES.get(name)
         if known is None or not known.part:
             found.append((name, value))

@@ -133,6 +133,9 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
     [10.0]
     """
     if isinstance(vary, Sequence) and not isinstance(vary, str):
+        for name in vary:
+            if not isinstance(name, str):
+                raise InvalidType(f"vary must list names, got {shown(name)}")
         vary = dict.fromkeys(vary)
     if not isinstance(vary, Mapping) or not vary:
         raise InvalidType(

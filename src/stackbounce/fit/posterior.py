@@ -82,7 +82,17 @@ class Posterior:
         return ufloat(float(np.mean(draws)), float(np.std(draws)))
 
     def draws(self, name: str) -> Array:
-        """Return all draws (n,) of a parameter, in SI units.
+        """Return all draws of a parameter.
+
+        Parameters
+        ----------
+        name : str
+            What was varied.
+
+        Returns
+        -------
+        ndarray
+            (n,) in SI units.
 
         Raises
         ------
@@ -94,7 +104,20 @@ class Posterior:
         return np.asarray(self.chain[:, :, self.names.index(name)].ravel())
 
     def quantiles(self, name: str, at: Any = (0.159, 0.5, 0.841)) -> Array:
-        """Return quantiles of a parameter, by default one standard deviation and the middle."""
+        """Return quantiles of a parameter, by default one standard deviation and the middle.
+
+        Parameters
+        ----------
+        name : str
+            What was varied.
+        at : array_like, optional
+            (n,) from 0 to 1.
+
+        Returns
+        -------
+        ndarray
+            (n,) in SI units.
+        """
         return np.asarray(np.quantile(self.draws(name), at))
 
     @functools.cached_property

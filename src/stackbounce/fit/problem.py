@@ -30,7 +30,7 @@ Array: TypeAlias = NDArray[np.float64]
 ABSENT = 1e4
 """The residual, in errors, of what a trial does not have: a touch that does not come."""
 
-_EVENTS = 100_000
+_EVENTS = 10_000  # of one trial: no measurement has so many
 _DONE = (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
 
 

@@ -22,11 +22,19 @@ _GROWTH = 1.6
 _MOST = 60  # steps outwards, and inwards
 _EXACT = 1e-3  # of chi squared's rise
 _NOTHING = 1e-12  # of a coordinate: chi squared jumps there
-_SCREENED = 64  # trials at each value of a profile, where they are solved together
+_SCREENED = 16  # trials at each value of a profile, where they are solved together
 
 
 class Interval(NamedTuple):
-    """Where a parameter may lie, in SI units; at a bound of the search the data set no limit."""
+    """Where a parameter may lie.
+
+    Parameters
+    ----------
+    low, high : float
+        The limits in SI units.
+    low_is_bound, high_is_bound : bool
+        Whether one is a bound of the search, and the data set no limit.
+    """
 
     low: float
     high: float

@@ -102,12 +102,14 @@ def place(drop: Drop, name: str, path: str) -> tuple[str, int]:
     """
     base, dot, index = name.partition(".")
     if base not in QUANTITIES:
-        raise InvalidValue(f"{path} is nothing that is measured; {nearest(base, QUANTITIES)}")
+        raise InvalidValue(
+            f"{path[:60]} is nothing that is measured; {nearest(base, [*QUANTITIES, 'force.0'])}"
+        )
     part, last = QUANTITIES[base].part, len(drop.balls) - 1
     if not part:
         if dot:
             raise InvalidValue(f"{path}: {base} is of the whole stack and takes no number")
         return base, 0
-    if not (index.isdecimal() and int(index) <= last):
-        raise InvalidValue(f"{path} must end in the number of a {part} from 0 to {last}")
+    if index not in map(str, range(last + 1)):
+        raise InvalidValue(f"{path[:60]} must end in the number of a {part} from 0 to {last}")
     return base, int(index)

@@ -52,7 +52,17 @@ class Question:
     tie: Any = None
 
     def fit(self, **options: Any) -> "Fit":
-        """Return the fit; the options are those of `stackbounce.fit`."""
+        """Return the fit.
+
+        Parameters
+        ----------
+        **options
+            Those of `stackbounce.fit`: ``starts``, ``seed`` and ``rtol``.
+
+        Returns
+        -------
+        Fit
+        """
         from stackbounce.fit.run import fit
 
         return fit(self.drops, self.data, self.vary, tie=self.tie, **options)
@@ -94,9 +104,10 @@ def read_problem(
     }
     parameters = read_parameters(drops, vary)
     clocks = tuple(_clock(key, one) for key, one in measured.items() if one.waveforms)
-    for own in clocks:
-        if own.name in {varied.name for varied in parameters}:
-            raise InvalidValue(f"{own.name} is the clock of a record: take another name")
+    own = {one.name for one in parameters}
+    for name in (one.name for one in clocks):
+        if name in own:
+            raise InvalidValue(f"{name} is the clock of a record: take another name")
     ties = read_ties(drops, parameters, tie)
     problem = Problem(drops, measured, parameters + clocks, ties, rtol)
     free = len(problem.parameters) + problem.linear

@@ -121,8 +121,8 @@ def as_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     """
     index = name.partition(".")[2]
     last = len(drop.balls) - 1
-    if not (index.isdecimal() and int(index) <= last):
-        raise InvalidValue(f"{path} must end in the number of a contact from 0 to {last}")
+    if index not in map(str, range(last + 1)):
+        raise InvalidValue(f"{path[:60]} must end in the number of a contact from 0 to {last}")
     times, force, error, scaled = _arrays(value, path)
     try:
         found = analysed((times, force))
@@ -159,11 +159,11 @@ def _arrays(value: Any, path: str) -> tuple[Any, Any, Any, bool]:
         samples = np.asarray(array.values, dtype=float)
         return stamps, samples, array.attrs.get("error"), array.attrs.get("units", "") != "N"
     try:
-        times, force, *rest = value
+        times, force, error = value if len(value) == 3 else (*value, None)
         stamps, samples = np.asarray(times, dtype=float), np.asarray(force, dtype=float)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError) as problem:
         raise InvalidType(
             f"{path} must be a DataArray over time, or times, forces and their error, "
             f"got {shown(value)}"
-        ) from error
-    return stamps, samples, rest[0] if rest else None, False
+        ) from problem
+    return stamps, samples, error, False

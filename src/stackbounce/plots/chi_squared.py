@@ -16,12 +16,12 @@ __all__ = ["draw_map", "draw_profile"]
 
 Array: TypeAlias = NDArray[np.float64]
 
-_REACH = 5.0  # errors on both sides
+_REACH = 4.0  # errors on both sides
 _WORTH = 9.0  # of chi squared above the least: other minima below are shown
 _FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of a map's side, of a profile
 _TOP = 10.0  # of a profile
 _BANDS = (0.0, 1.0, 4.0, 9.0, 16.0, 25.0, 100.0)
-_CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#808080"
+_CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
 
 
 def draw_profile(axes: "Axes", fit: Any) -> None:
@@ -58,8 +58,11 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
     above = (fit.problem.chi_squared(trials) - fit.chi_squared).reshape(_CELLS, _CELLS)
     x, y = (one.value(own) for one, own in zip(fit.problem.parameters, (across, up), strict=True))
     _draw_bands(axes, x, y, np.maximum(above, 0.0))
-    for kink in _kinks(fit, trials):
-        _draw_kinks(axes, x, y, kink.reshape(_CELLS, _CELLS))
+    near = above < _BANDS[-1]
+    for kink in _kinks(fit, trials[near.ravel()]):
+        counts = np.full(near.shape, np.nan)
+        counts[near] = kink
+        _draw_kinks(axes, x, y, counts)
     _draw_minima(axes, fit)
     for k, (panel, values, turned) in enumerate(((top, x, False), (right, y, True))):
         chosen = values[:: (_CELLS - 1) // (_STEPS - 1)]
@@ -122,23 +125,12 @@ def _draw_bands(axes: "Axes", x: Array, y: Array, above: Array) -> None:
     axes.grid(visible=False)
 
 
-def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: NDArray[np.int64]) -> None:
-    """Draw the edges between regions of other counts."""
-    from matplotlib.collections import LineCollection
-
-    def edges(places: Array) -> Array:
-        middle = 0.5 * (places[1:] + places[:-1])
-        return np.concatenate([places[:1], middle, places[-1:]])
-
-    across, up = edges(x), edges(y)
-    lines = [
-        ((across[j + 1], up[i]), (across[j + 1], up[i + 1]))
-        for i, j in np.argwhere(counts[:, 1:] != counts[:, :-1])
-    ] + [
-        ((across[j], up[i + 1]), (across[j + 1], up[i + 1]))
-        for i, j in np.argwhere(counts[1:] != counts[:-1])
-    ]
-    axes.add_collection(LineCollection(lines, colors=_KINK, linewidths=1.2, linestyles=":"))
+def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
+    """Draw lines between regions of other counts; nan far from the least."""
+    own = np.unique(counts[np.isfinite(counts)])
+    levels = (0.5 * (own[1:] + own[:-1])).tolist()
+    look: Any = {"colors": _KINK, "linewidths": 0.9, "linestyles": ":"}
+    axes.contour(x, y, counts, levels=levels, **look)
 
 
 def _draw_minima(axes: "Axes", fit: Any) -> None:

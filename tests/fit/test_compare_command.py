@@ -1,0 +1,68 @@
+"""``stackbounce fit --compare`` and the paper's data sets on the command line."""
+
+import json
+
+import pytest
+
+from stackbounce.cli import main
+
+
+def run(capsys, *arguments):
+    code = main(["fit", *arguments])
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def test_a_data_set_is_fitted_by_its_name(capsys):
+    code, out, err = run(capsys, "cross2007/B1-B2", "--json")
+    found = json.loads(out)
+    assert (code, err) == (0, "")
+    assert list(found["values"]) == ["contacts.0.stiffness", "contacts.1.stiffness", "gaps.0"]
+    assert [row["measured"] for row in found["residuals"][:2]] == [0.28, 1.91]
+
+
+def test_what_varies_in_a_data_set_can_be_told(capsys):
+    more = ("--vary", "contacts.0.restitution=0.5:1")
+    code, out, _ = run(capsys, "cross2007/B1-B2", "--json", *more)
+    assert code == 0
+    assert json.loads(out)["values"]["contacts.0.restitution"]["value"] > 0.8
+
+
+def test_the_usual_models_side_by_side(capsys, tmp_path):
+    picture = tmp_path / "compared.svg"
+    code, out, err = run(capsys, "cross2007/B1-B3", "--compare", "--plot", str(picture))
+    assert (code, err) == (0, "")
+    lines = [line.split("  ")[0] for line in out.splitlines()]
+    # Springs without loss throw B3 too high
+    assert 0 < lines.index("Rigid, one for each contact") < lines.index("Spring")
+    # three numbers were measured: the lossy ones, which have four, cannot be fitted
+    assert "Not fitted: HuntCrossley: vary has 4 numbers for 3 measured numbers" in out
+    assert picture.read_text(encoding="utf-8").startswith("<?xml")
+
+
+def test_a_comparison_for_machines(capsys):
+    code, out, _ = run(capsys, "cross2007/B1", "--compare", "--json")
+    found = json.loads(out)
+    assert code == 0
+    best = found["scores"][0]
+    assert best["chi_squared"] < 1e-9
+    assert {row["name"] for row in found["left_out"][best["model"]]} == {
+        "durations.0",
+        "rebound_ratios.0",
+    }
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("cross2007/B1-B4",), "cross2007/B1-B4 is no data set; did you mean cross2007/B1-B"),
+        (("cross2007/B1-B2", "--compare", "--interval"), "--interval is for one fit"),
+        (("cross2007/B1-B2", "--compare", "--vary", "gaps.0"), "--vary is for one fit"),
+        (("basketball", "tennis", "--compare"), "nothing was measured"),
+    ],
+)
+def test_bad_input_is_one_line(capsys, arguments, words):
+    code, out, err = run(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert words in err
+    assert err.count("\n") == 1
