@@ -186,7 +186,7 @@ def paper(
         bool,
         typer.Option(
             "--study",
-            help="Also all of Table II by one model after the other: study.html, a minute or two more.",
+            help="All of Table II by one model after the other, too: a minute or two more.",
         ),
     ] = False,
     as_json: AsJson = False,

@@ -7,7 +7,6 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.datasets import dataset
 from stackbounce.cross2007.study import given
 from stackbounce.fit import Interval, fit
-from stackbounce.model import Drop
 
 __all__ = ["Refit", "refits"]
 
@@ -52,15 +51,13 @@ def refits() -> list[Refit]:
 
 
 def _refit(pair: str, name: str, key: str) -> Refit:
-    model, data, _ = dataset(name)
-    assert isinstance(model.drop, Drop)
-    drop = replace(model.drop, balls=given.balls(pair))
-    found = fit(drop, data, model.vary, rtol=_RTOL)
+    own = dataset(name)
+    found = fit(replace(own.drop, balls=given.balls(pair)), own.data, own.vary, rtol=_RTOL)
     intervals = found.intervals()
     numbers = []
     for path, short in _NAMES.items():
-        own = PAPER[f"{key}.{short}"]
-        numbers.append(Number(path, own.printed, own.value, found.best[path], intervals[path]))
+        shown = PAPER[f"{key}.{short}"]
+        numbers.append(Number(path, shown.printed, shown.value, found.best[path], intervals[path]))
     lower, upper = (one.fitted for one in found.residuals[:2])
     return Refit(
         pair,
