@@ -1,28 +1,23 @@
 """What `stackbounce paper` writes: audit and figures as files, and one page with everything."""
 
-import base64
 import csv
 import io
 import itertools
 import json
-import re
 import tempfile
 from collections.abc import Callable, Iterable
 from decimal import Decimal
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Row
 from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.pages import data_uri, environment
 from stackbounce.cross2007.paper import Audit, audit, pictures
 from stackbounce.cross2007.style import Picture, rendered
 from stackbounce.cross2007.tables import Table, table_one, table_two
 from stackbounce.errors import FileError
 from stackbounce.version import __version__
-
-if TYPE_CHECKING:
-    from markupsafe import Markup
 
 __all__ = ["write"]
 
@@ -32,7 +27,9 @@ _COLUMNS = (
 )  # fmt: skip
 
 
-def write(out: Path, progress: Callable[[str], None] = lambda _: None) -> Audit:
+def write(
+    out: Path, progress: Callable[[str], None] = lambda _: None, *, study: bool = False
+) -> Audit:
     """Recompute the paper and write what comes out.
 
     Parameters
@@ -43,6 +40,9 @@ def write(out: Path, progress: Callable[[str], None] = lambda _: None) -> Audit:
         writes the same bytes every time.
     progress : callable, optional
         Is told what is being done, in a line each.
+    study : bool, optional
+        Whether to add ``study.html``, ``study.json`` and the study's figures: all of Table II by
+        one model.
 
     Returns
     -------
@@ -60,13 +60,17 @@ def write(out: Path, progress: Callable[[str], None] = lambda _: None) -> Audit:
     for picture in pictures(PAPER, progress):
         images = rendered(picture.figure)
         files |= {f"figures/figure-{picture.name}.{end}": data for end, data in images.items()}
-        drawn.append((picture, _data_uri(images["svg"])))
+        drawn.append((picture, data_uri(images["svg"])))
     progress("tables I and II")
     tables = [table_one(Bench(PAPER)), table_two(Bench(PAPER))]
+    if study:
+        from stackbounce.cross2007.study.page import files as study_files
+
+        files |= study_files(progress)
     progress(f"writing to {out}")
     files["audit.csv"] = _csv(done).encode()
     files["audit.json"] = _json(done, [picture for picture, _ in drawn], tables).encode()
-    files["index.html"] = _page(done, drawn, tables).encode()
+    files["index.html"] = _page(done, drawn, tables, study=study).encode()
     _replace(out, files)
     return done
 
@@ -95,10 +99,6 @@ def _replace(out: Path, files: dict[str, bytes]) -> None:
     finally:
         for new in fresh.values():
             new.unlink(missing_ok=True)
-
-
-def _data_uri(svg: bytes) -> str:
-    return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
 
 
 def _json(done: Audit, drawn: list[Picture], tables: list[Table]) -> str:
@@ -143,44 +143,20 @@ def _csv(done: Audit) -> str:
     return stream.getvalue()
 
 
-def _page(done: Audit, drawn: list[tuple[Picture, str]], tables: list[Table]) -> str:
-    import jinja2
-
-    environment = jinja2.Environment(
-        loader=jinja2.PackageLoader("stackbounce.cross2007"),
-        autoescape=True,
-        trim_blocks=True,
-        lstrip_blocks=True,
-        undefined=jinja2.StrictUndefined,
+def _page(
+    done: Audit, drawn: list[tuple[Picture, str]], tables: list[Table], *, study: bool
+) -> str:
+    pages = environment()
+    pages.filters["digits"] = _digits
+    pages.filters["groupby_reason"] = _by_reason
+    return pages.get_template("paper.html.j2").render(
+        audit=done,
+        figures=drawn,
+        tables=tables,
+        version=__version__,
+        total=len(done.rows),
+        study=study,
     )
-    environment.filters["nice"] = _nice
-    environment.filters["digits"] = _digits
-    environment.filters["groupby_reason"] = _by_reason
-    return environment.get_template("paper.html.j2").render(
-        audit=done, figures=drawn, tables=tables, version=__version__, total=len(done.rows)
-    )
-
-
-_SIGNS = (
-    (r"\b([mvekhrF])_?([0-4]|(?<=r_)[mk])\b", r"\1<sub>\2</sub>"),
-    (r"\b1e(\d+)\b", r"10<sup>\1</sup>"),
-    (r"(\d)e(\d+)\b", r"\1 × 10<sup>\2</sup>"),
-    (r"(\d) x (\d)", r"\1 × \2"),
-    (r"sqrt\((\d+)\)", r"√\1"),
-    (r" - ", " − "),
-    (r"(?<![^\s(])&#39;(?=\S)", "\N{LEFT SINGLE QUOTATION MARK}"),
-    (r"&#39;", "\N{RIGHT SINGLE QUOTATION MARK}"),
-)
-
-
-def _nice(text: str) -> "Markup":
-    """A text as HTML, with indices, powers and signs as they are printed."""
-    from markupsafe import Markup, escape
-
-    html = str(escape(text))
-    for pattern, replacement in _SIGNS:
-        html = re.sub(pattern, replacement, html)
-    return Markup(html)
 
 
 def _by_reason(rows: Iterable[Row]) -> list[list[Row]]:

@@ -1,0 +1,52 @@
+"""How the report's pages are made: templates, and numbers and signs as they are printed."""
+
+import base64
+import re
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import jinja2
+    from markupsafe import Markup
+
+__all__ = ["data_uri", "environment", "nice"]
+
+_SIGNS = (
+    (r"\b([mvekhrF])_?([0-4]|(?<=r_)[mk])\b", r"\1<sub>\2</sub>"),
+    (r"\b1e(\d+)\b", r"10<sup>\1</sup>"),
+    (r"(\d)e(\d+)\b", r"\1 × 10<sup>\2</sup>"),
+    (r"(\d) x (\d)", r"\1 × \2"),
+    (r"sqrt\((\d+)\)", r"√\1"),
+    (r" - ", " − "),
+    (r"(?<![^\s(])&#39;(?=\S)", "\N{LEFT SINGLE QUOTATION MARK}"),
+    (r"&#39;", "\N{RIGHT SINGLE QUOTATION MARK}"),
+)
+
+
+def nice(text: str) -> "Markup":
+    """A text as HTML, with indices, powers and signs as they are printed."""
+    from markupsafe import Markup, escape
+
+    html = str(escape(text))
+    for pattern, replacement in _SIGNS:
+        html = re.sub(pattern, replacement, html)
+    return Markup(html)
+
+
+def data_uri(svg: bytes) -> str:
+    """Return a picture as an address that holds it."""
+    return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
+
+
+def environment() -> "jinja2.Environment":
+    """Return what renders the report's templates."""
+    import jinja2
+
+    found = jinja2.Environment(
+        loader=jinja2.PackageLoader("stackbounce.cross2007"),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    found.filters["nice"] = nice
+    return found

@@ -1,0 +1,122 @@
+"""A ball alone -> its law's numbers for many restitutions at once, from `stackbounce.calibrate`.
+
+A law that is calibrated to mass m, contact time T and impact speed v has, with the unit of length
+v T, the stiffness ``κ m/T**2 (v T)**(1 - p)`` and a loss that goes with T or v by its dimension
+alone. κ and the loss are smooth in restitution and exponent, and are taken from Chebyshev's
+polynomials through calibrated laws.
+"""
+
+import functools
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from stackbounce.calibrate import calibrate
+from stackbounce.cross2007.study.given import Solo
+from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
+
+__all__ = ["LOSS", "LOWEST", "Numbers", "numbers"]
+
+Array: TypeAlias = NDArray[np.float64]
+
+LOWEST = 0.5
+"""The smallest restitution of the tables."""
+_STEEPEST = 2.0  # the largest exponent
+_TERMS, _POWERS = 16, 8  # of the polynomials, in restitution and exponent
+
+LOSS: dict[Any, str] = {
+    HuntCrossley: "dissipation",
+    Viscoelastic: "dissipative_time",
+    Hysteretic: "restitution",
+}
+"""The number of each law that tells its loss."""
+
+
+class Numbers(NamedTuple):
+    """Stiffness in N/m**exponent and the number that tells the loss, each of (n,) trials."""
+
+    stiffness: Array
+    loss: Array
+
+
+def numbers(law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any) -> Numbers:
+    """Return the numbers of a ball's law, calibrated to its contact time and restitution.
+
+    Parameters
+    ----------
+    law : type
+        `HuntCrossley`, `Viscoelastic` or `Hysteretic`.
+    ball : Solo
+        Mass and contact time.
+    speed : float
+        Of the impact, in m/s.
+    restitution, exponent : float or ndarray
+        (n,), from 0.5 to 1 and from 1 to 2; a restitution of 1 is no loss.
+
+    Returns
+    -------
+    Numbers
+
+    Examples
+    --------
+    >>> ball = Solo(0.105, 4.3e-3)
+    >>> law = calibrate(HuntCrossley, mass=0.105, contact_time=4.3e-3, restitution=0.88,
+    ...                 impact_speed=2.0, exponent=1.5)
+    >>> abs(float(numbers(HuntCrossley, ball, 2.0, 0.88, 1.5).loss) / law.dissipation - 1.0) < 1e-9
+    True
+    """
+    p = np.asarray(exponent, dtype=float)
+    unit, loss = _at(law, np.asarray(restitution, dtype=float), p)
+    mass, time = ball
+    stiffness = unit * mass / time**2 * (speed * time) ** (1.0 - p)
+    if law is HuntCrossley:
+        loss = loss / speed
+    elif law is Viscoelastic:
+        loss = loss * time
+    return Numbers(stiffness, loss)
+
+
+def _at(law: Any, restitution: Array, exponent: Array) -> tuple[Array, Array]:
+    """Return stiffness and loss of a ball of 1 kg that touches for 1 s at 1 m/s."""
+    x = 2.0 * (restitution - LOWEST) / (1.0 - LOWEST) - 1.0
+    if exponent.ndim == 0:
+        table = _of_restitution(law, float(exponent))
+        found = [chebyshev.chebval(x, one) for one in table]
+    else:
+        y = 2.0 * (exponent - 1.0) / (_STEEPEST - 1.0) - 1.0
+        found = [chebyshev.chebval2d(x, y, one) for one in _of_both(law)]
+    top = 1.0 if law is Hysteretic else np.inf  # without loss, rounding must not bring a gain
+    return np.exp(found[0]), np.clip(found[1], 0.0, top)
+
+
+def _law(law: Any, restitution: float, exponent: float) -> tuple[float, float]:
+    options = {} if law is Viscoelastic else {"exponent": exponent}
+    made: Any = calibrate(
+        law, mass=1.0, contact_time=1.0, restitution=restitution, impact_speed=1.0, **options
+    )
+    return float(np.log(made.stiffness)), float(getattr(made, LOSS[law]))
+
+
+@functools.cache
+def _of_restitution(law: Any, exponent: float) -> Array:
+    """Return (2, terms) coefficients of the stiffness's logarithm and the loss."""
+    return _interpolated(lambda e: _law(law, e, exponent), LOWEST, 1.0, _TERMS)
+
+
+@functools.cache
+def _of_both(law: Any) -> Array:
+    """Return (2, terms, powers) coefficients in restitution and exponent."""
+    inner = _interpolated(
+        lambda p: _of_restitution(law, p).ravel(), 1.0, _STEEPEST, _POWERS
+    )  # (2 terms, powers)
+    return inner.reshape(2, _TERMS, _POWERS)
+
+
+def _interpolated(function: Callable[[float], Any], low: float, high: float, count: int) -> Array:
+    """Return (numbers, count) Chebyshev coefficients of a function of one number."""
+    nodes = chebyshev.chebpts1(count)
+    values = [function(float(low + 0.5 * (x + 1.0) * (high - low))) for x in nodes]
+    return np.asarray(chebyshev.chebfit(nodes, np.array(values), count - 1).T)

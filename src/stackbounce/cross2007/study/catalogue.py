@@ -1,0 +1,81 @@
+"""The models that the study compares, by short names."""
+
+import math
+
+from stackbounce.cross2007.study.given import PRINTED
+from stackbounce.cross2007.study.theories import ELASTIC, OWN, SHARED, Theory
+from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
+
+__all__ = ["AS_HEIGHTS", "AS_PRINTED", "CHOSEN", "MISPRINT", "NAMES", "THEORIES"]
+
+AS_PRINTED = {f"e_{ball}": value for ball, value in PRINTED.items()}
+"""Table I's COR taken as restitutions."""
+
+AS_HEIGHTS = {name: math.sqrt(value) for name, value in AS_PRINTED.items()}
+"""Table I's COR taken as ratios of heights, of which the restitution is the root."""
+
+MISPRINT = {**AS_PRINTED, "e_B1": 0.88}
+"""B1's 0.78 taken as a slip for 0.88."""
+
+_BOTH = ("e_B1", "e_B2")
+_SMALL = {"e_B2": PRINTED["B2"]}
+
+THEORIES: dict[str, Theory] = {
+    "Hertz": Theory("elastic balls (Hertz), nothing is lost", HuntCrossley, ELASTIC),
+    "A": Theory("loss at the floor only, Table I as printed", HuntCrossley, ELASTIC, AS_PRINTED),
+    "A, fitted": Theory(
+        "loss at the floor only, two restitutions", HuntCrossley, ELASTIC, {}, _BOTH
+    ),
+    "X": Theory("loss in every contact, Table I as printed", HuntCrossley, SHARED, AS_PRINTED),
+    "S": Theory("loss in every contact, roots of Table I", HuntCrossley, SHARED, AS_HEIGHTS),
+    "S, one factor": Theory(
+        "loss in every contact, one factor on Table I's losses",
+        HuntCrossley,
+        SHARED,
+        AS_PRINTED,
+        ("loss",),
+    ),
+    "S, fitted": Theory("loss in every contact, two restitutions", HuntCrossley, SHARED, {}, _BOTH),
+    "V": Theory(
+        "viscoelastic spheres in every contact, two restitutions", Viscoelastic, SHARED, {}, _BOTH
+    ),
+    "H": Theory("hysteresis in every contact, two restitutions", Hysteretic, SHARED, {}, _BOTH),
+    "L": Theory(
+        "hysteresis that loses on reloading too, B1's restitution",
+        Hysteretic,
+        SHARED,
+        _SMALL,
+        ("e_B1",),
+        reloading="lossy",
+    ),
+    "L, linear": Theory(
+        "as L, from linear springs, two restitutions",
+        Hysteretic,
+        SHARED,
+        {},
+        _BOTH,
+        exponent=1.0,
+        reloading="lossy",
+    ),
+    "B": Theory(
+        "hysteresis: B1 on the floor, and any two balls",
+        Hysteretic,
+        OWN,
+        _SMALL,
+        ("e_B1", "e_between"),
+    ),
+    "S, six": Theory(
+        "loss in every contact, six numbers fitted",
+        HuntCrossley,
+        SHARED,
+        {},
+        ("e_B1", "e_B2", "e_B3", "exponent", "between", "stiffer"),
+    ),
+}
+"""With finite contacts; separate collisions are in `stackbounce.cross2007.study.compared`."""
+
+CHOSEN = ("A", "S", "L", "B")
+"""Whose predictions are told: the paper's own idea without its fit, and three that do better."""
+
+NAMES = {"rigid, one": ("e",), "rigid, two": ("e_floor", "e_between")}
+"""Separate collisions, and what they fit."""

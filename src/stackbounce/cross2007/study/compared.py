@@ -1,0 +1,96 @@
+"""The comparison: every model of the catalogue fitted to the same ten values and five delays."""
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
+from stackbounce.cross2007.study.fitting import fitted
+from stackbounce.cross2007.study.theories import rigid
+from stackbounce.fit import Fit, Residual
+from stackbounce.fit.comparison import Comparison
+from stackbounce.model import Drop
+
+__all__ = ["Compared", "compared"]
+
+_MISS = 2.0  # errors
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """All models, fitted.
+
+    Parameters
+    ----------
+    comparison : Comparison
+        What `stackbounce.fit.compare` would return.
+    """
+
+    comparison: Comparison
+
+    def __getitem__(self, name: str) -> Fit:
+        """The fit of one model."""
+        return self.comparison[name]
+
+    def of_ratios(self, name: str) -> float:
+        """Return chi squared of the ten values of Table II alone."""
+        rows = self[name].residuals
+        return sum(one.pull**2 for one in rows if one.name in given.RATIOS)
+
+    def worst(self, name: str) -> list[Residual]:
+        """Return the values of Table II that a model misses by more than two errors."""
+        rows = [one for one in self[name].residuals if one.name in given.RATIOS]
+        return sorted(
+            (one for one in rows if abs(one.pull) > _MISS), key=lambda one: -abs(one.pull)
+        )
+
+    def within(self, name: str) -> int:
+        """Return how many of the ten values lie within the printed error of 0.02."""
+        rows = [one for one in self[name].residuals if one.name in given.RATIOS]
+        return sum(abs(one.pull) <= 1.0 for one in rows)
+
+    def pairs(self, name: str) -> dict[str, dict[str, float]]:
+        """Return each pair's ratios, their pulls, gap in m and delay in s, by a fitted model."""
+        found = {}
+        for pair in given.PAIRS:
+            lower, upper, delay = (one for one in self[name].residuals if one.drop == pair)
+            found[pair] = {
+                "e1": lower.fitted,
+                "e2": upper.fitted,
+                "pull1": lower.pull,
+                "pull2": upper.pull,
+                "gap": self[name].best[f"{pair}.gaps.0"],
+                "delay": delay.fitted,
+                "delay_pull": delay.pull,
+            }
+        return found
+
+    def shared(self, name: str) -> dict[str, float]:
+        """Return what a model fitted besides the gaps, by name."""
+        return {key: value for key, value in self[name].best.items() if not key.endswith("gaps.0")}
+
+    def drop(self, name: str, pair: str) -> Drop:
+        """Return a pair with the fitted contacts and gap of a model."""
+        return self[name].drops[pair]
+
+    @functools.cached_property
+    def titles(self) -> dict[str, str]:
+        """Each model in plain words."""
+        rigid_ones = {
+            "rigid, one": "separate collisions, one restitution",
+            "rigid, two": "separate collisions, of the floor and of balls",
+        }
+        return {**rigid_ones, **{name: one.title for name, one in THEORIES.items()}}
+
+
+def compared(progress: Callable[[str], None] = lambda _: None) -> Compared:
+    """Return all models of the catalogue, fitted to all five pairs of superballs together."""
+    fits: dict[str, Fit] = {}
+    for name, numbers in NAMES.items():
+        progress(f"study: model '{name}'")
+        fits[name] = fitted(rigid(*numbers), given.MEASURED)
+    for name, theory in THEORIES.items():
+        progress(f"study: model '{name}'")
+        fits[name] = fitted(theory.model(), given.MEASURED)
+    return Compared(Comparison(fits, {}))

@@ -1,0 +1,158 @@
+"""The study's figures of what was fitted: the comparison, the misfits, ratios and delays."""
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study.catalogue import CHOSEN
+from stackbounce.cross2007.study.compared import Compared
+from stackbounce.cross2007.study.predictions import by_gap
+from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, Picture
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["LINES", "comparison", "delays", "misfits", "wide"]
+
+_WIDE = 7.4  # inches
+_GREEN = "#009E73"
+LINES = {"A": (FLOOR, "--"), "S": (BLACK, "-"), "L": (_GREEN, "-."), "B": (UPPER, ":")}
+"""Colour and line style of each chosen model."""
+
+_SHOWN = (-0.28, 0.28)  # of a ratio, around what was measured
+_GAPS = {"B2_on_B1": 5e-3, "B1_on_B2": 9e-3, "B3_on_B1": 6e-3, "B1_on_B3": 13e-3, "B1_on_B1": 12e-3}
+_MOST = 6.0  # errors: where the colours end
+
+
+def wide(height: float, width: float = _WIDE) -> "Figure":
+    """Return an empty figure of a page's width."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height))
+
+
+def named(pair: str) -> str:
+    """Return a pair's name in words.
+
+    Examples
+    --------
+    >>> named("B2_on_B1")
+    'B2 on B1'
+    """
+    return pair.replace("_", " ")
+
+
+def comparison(compared: Compared) -> Picture:
+    """Return AICc and chi squared of every model."""
+    scores = compared.comparison.scores[::-1]
+    figure = wide(0.27 * len(scores) + 0.75)
+    ax = figure.subplots()
+    figure.subplots_adjust(left=0.57, right=0.97, bottom=0.5 / figure.get_figheight(), top=0.99)
+    places = np.arange(len(scores))
+    ax.hlines(places, 10.0, [one.aicc for one in scores], color=GREY, lw=0.6)
+    ax.plot([one.aicc for one in scores], places, "o", color=BLACK, label="AICc")
+    ten = [compared.of_ratios(one.model) for one in scores]
+    ax.plot(ten, places, "o", mfc="white", mec=UPPER, label=r"$\chi^2$ of the ten values")
+    ax.set(xscale="log", xlim=(1.5, 4000.0), ylim=(-0.6, len(scores) - 0.4))
+    ax.set_xlabel(r"AICc, $\chi^2$ (dotted: as many as values)")
+    ax.axvline(10.0, color=GREY, lw=0.8, ls=":")
+    names = [(one.model, compared.titles[one.model], one.parameters - 5) for one in scores]
+    ax.set_yticks(places, [f"{name}: {title} ({count})" for name, title, count in names])
+    ax.tick_params(axis="y", which="both", left=False, right=False)
+    ax.legend(loc="upper right", frameon=False, handlelength=0.8, handletextpad=0.4)
+    return Picture(
+        "study-comparison",
+        "Every model's criterion",
+        "In brackets the numbers that all pairs share and that were fitted; each model also fits "
+        "five gaps. AICc charges for each: less is better, and 4 apart means little.",
+        (),
+        (),
+        figure,
+    )
+
+
+def misfits(compared: Compared) -> Picture:
+    """Return the pulls of every datum under every model, as a map."""
+    pulls = compared.comparison.pulls
+    order = [one.model for one in compared.comparison.scores]
+    table = pulls.sel(model=order).values
+    figure = wide(0.27 * len(order) + 1.1)
+    ax = figure.subplots()
+    high = figure.get_figheight()
+    figure.subplots_adjust(left=0.13, right=0.95, bottom=0.05 / high, top=1.0 - 0.95 / high)
+    shown = np.clip(table, -_MOST, _MOST)
+    ax.imshow(shown, cmap="RdBu_r", vmin=-_MOST, vmax=_MOST, aspect="auto")
+    for (i, j), pull in np.ndenumerate(table):
+        color = "white" if abs(pull) > 0.6 * _MOST else BLACK
+        text = f"{pull:z.1f}" if abs(pull) < 10.0 else f"{pull:.0f}"
+        ax.text(j, i, text.replace("-", "−"), ha="center", va="center", fontsize=7.5, color=color)
+    labels = [_datum(str(name)) for name in pulls["datum"].values]
+    ax.set_xticks(range(len(labels)), labels, rotation=60, ha="left", rotation_mode="anchor")
+    ax.set_yticks(range(len(order)), order)
+    ax.xaxis.tick_top()
+    ax.tick_params(which="both", length=0)
+    ax.minorticks_off()
+    return Picture(
+        "study-misfits",
+        "What each model gets wrong",
+        "Computed less measured, in errors: 0.02 of each ratio, and of each delay what its text "
+        f"says. Colours end at {_MOST:.0f} errors.",
+        (),
+        (),
+        figure,
+    )
+
+
+def _datum(name: str) -> str:
+    pair, rest = name.split(".", 1)
+    what = {"rebound_ratios.0": "$e_1$", "rebound_ratios.1": "$e_2$"}.get(rest, "delay")
+    return f"{named(pair)}: {what}"
+
+
+def delays(compared: Compared) -> Picture:
+    """Return e1 and e2 of each pair against the delay, with what was measured."""
+    figure = wide(4.0)
+    panels = figure.subplots(2, len(given.PAIRS), sharex="col")
+    figure.subplots_adjust(
+        left=0.065, right=0.99, bottom=0.105, top=0.885, wspace=0.36, hspace=0.08
+    )
+    for pair, column in zip(given.PAIRS, panels.T, strict=True):
+        _column(compared, pair, list(column[::-1]))
+    panels[0, 0].set_ylabel("$e_2$")
+    panels[1, 0].set_ylabel("$e_1$")
+    figure.legend(
+        *panels[0, 0].get_legend_handles_labels(), loc="upper center", ncols=4, frameon=False
+    )
+    return Picture(
+        "study-delays",
+        "Ratios against the delay between the two touches",
+        "Bands: Table II's values ± 0.02 and the measured delays, for two balls B1 from 1 to 5 ms. "
+        "A model is right where its curve is in both bands of a column at one delay.",
+        (),
+        (),
+        figure,
+    )
+
+
+def _column(compared: Compared, pair: str, panels: "list[Axes]") -> None:
+    """Draw one pair: e1 below, e2 above."""
+    gaps = np.linspace(1e-4, _GAPS[pair], 160)
+    delay, spread = (1e3 * one for one in given.MEASURED[pair][given.DELAY])
+    ends = []
+    for name in CHOSEN:
+        *ratios, touch = by_gap(compared, name, pair, gaps)
+        color, style = LINES[name]
+        for ax, ratio in zip(panels, ratios, strict=True):
+            ax.plot(1e3 * touch, ratio, style, color=color, label=name)
+        ends.append(1e3 * float(touch[-1]))
+    for ax, measured in zip(panels, given.printed(pair), strict=True):
+        ax.axhspan(measured - given.ERROR, measured + given.ERROR, color=GREY, alpha=0.3, lw=0)
+        ax.axvspan(delay - spread, delay + spread, color=GREY, alpha=0.15, lw=0)
+        ax.set_ylim(measured + _SHOWN[0], measured + _SHOWN[1])
+        ax.set_xlim(0.5, math.floor(min(ends) * 2.0) / 2.0)
+        ax.tick_params(labelsize=8.5)
+    panels[0].set_xlabel("delay (ms)")
+    panels[1].set_title(named(pair), fontsize=10.5, pad=4)

@@ -1,0 +1,56 @@
+"""How the study fits: the search of `stackbounce.fit`, with fewer descents than a fit of unknowns.
+
+Each trial of the shared numbers has its gaps chosen pair by pair, so that few descents suffice:
+following eight instead of three changed no chi squared of the study's models by more than 0.1.
+"""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+import numpy as np
+
+from stackbounce.fit import Fit, Model
+from stackbounce.fit.problem import Problem
+from stackbounce.fit.question import read_problem
+from stackbounce.fit.search import Minimum, descend, search
+
+__all__ = ["again", "fitted"]
+
+_RTOL = 1e-6
+_SCREENED, _FOLLOWED = 32, 3
+
+
+def fitted(model: Model, data: Mapping[str, Any]) -> Fit:
+    """Return the best fit of a model to pairs of balls."""
+    return _apart(model, data, _best)
+
+
+def again(model: Model, data: Mapping[str, Any], near: Fit) -> Fit:
+    """Return the fit of a model that differs a little from one that is fitted."""
+    own = dict(zip(near.names, near.x, strict=True))
+
+    def nearest(problem: Problem) -> Minimum:
+        return descend(problem, np.array([own[one.name] for one in problem.parameters]))
+
+    return _apart(model, data, nearest)
+
+
+def _best(problem: Problem) -> Minimum:
+    nothing = np.empty((0, len(problem.parameters)))
+    return search(problem, nothing, _SCREENED, 0, _FOLLOWED)[0]
+
+
+def _apart(model: Model, data: Mapping[str, Any], solve: Callable[[Problem], Minimum]) -> Fit:
+    """Return a fit, each pair by itself where pairs share nothing that is varied."""
+    problem = read_problem(model.drop, data, model.vary, model.tie, _RTOL)
+    own = {key: [one for one in model.vary if one.startswith(f"{key}.")] for key in data}
+    if sum(map(len, own.values())) < len(model.vary):
+        return Fit(problem, [solve(problem)])
+    found: dict[str, float] = {}
+    drops: Any = model.drop
+    for key, names in own.items():
+        vary = {name: model.vary[name] for name in names}
+        alone = read_problem({key: drops[key]}, {key: data[key]}, vary, None, _RTOL)
+        found |= dict(zip(names, solve(alone).x, strict=True))
+    x = np.array([found[one.name] for one in problem.parameters])
+    return Fit(problem, [Minimum(x, float(problem.chi_squared(x[None])[0]), True)])

@@ -1,0 +1,147 @@
+"""The study's page, its figures and its numbers as files."""
+
+import json
+import math
+from collections.abc import Callable
+from typing import Any
+
+from stackbounce.cross2007.pages import data_uri, environment
+from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED, CHOSEN
+from stackbounce.cross2007.study.compared import Compared
+from stackbounce.cross2007.study.figures import comparison, delays, misfits, named
+from stackbounce.cross2007.study.figures_answers import decisive, energy
+from stackbounce.cross2007.study.readings import LAWS
+from stackbounce.cross2007.study.study import Study, study
+from stackbounce.cross2007.style import Picture, rendered, styled
+from stackbounce.fit import Residual
+from stackbounce.version import __version__
+
+__all__ = ["files", "page", "pictures"]
+
+
+def files(progress: Callable[[str], None] = lambda _: None) -> dict[str, bytes]:
+    """Return ``study.html``, ``study.json`` and the study's figures as bytes, by their names.
+
+    Parameters
+    ----------
+    progress : callable, optional
+        Is told what is being done, in a line each.
+    """
+    done = study(progress)
+    found: dict[str, bytes] = {}
+    drawn: dict[str, tuple[Picture, str]] = {}
+    for picture in pictures(done):
+        progress(f"figure {picture.name}")
+        images = rendered(picture.figure)
+        found |= {f"figures/{picture.name}.{end}": data for end, data in images.items()}
+        drawn[picture.name.removeprefix("study-")] = picture, data_uri(images["svg"])
+    found["study.json"] = (json.dumps(_plain(done.as_dict()), indent=1) + "\n").encode()
+    found["study.html"] = page(done, drawn).encode()
+    return found
+
+
+def pictures(done: Study) -> list[Picture]:
+    """Return the study's figures, in the order of the page."""
+    with styled():
+        return [
+            comparison(done.compared),
+            misfits(done.compared),
+            delays(done.compared),
+            energy(done.kept),
+            decisive(done.compared),
+        ]
+
+
+def page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
+    """Return the page as HTML."""
+    pages = environment()
+    pages.filters["number"] = _number
+    pages.filters["misses"] = _misses
+    pages.filters["named"] = named
+    pages.filters["fitted"] = _fitted
+    own = done.compared
+    return pages.get_template("study.html.j2").render(
+        study=done,
+        figures=drawn,
+        models={row["name"]: row for row in done.rows},
+        pairs={name: own.pairs(name) for name in CHOSEN},
+        biggest={name: _biggest(own, name) for name in ("S", "S, six")},
+        firm=_firm(own),
+        measured={pair: given.printed(pair) for pair in given.PAIRS},
+        balls={"printed": AS_PRINTED, "heights": AS_HEIGHTS},
+        said={one.what: one for one in done.predictions},
+        laws=list(LAWS),
+        chosen=CHOSEN,
+        version=__version__,
+    )
+
+
+def _firm(compared: Compared) -> tuple[float, float]:
+    """Return the least and the most restitution of B1 that laws with loss in every contact fit."""
+    found = [compared.shared(name)["e_B1"] for name in ("S, fitted", "V", "H", "L", "L, linear")]
+    return min(found), max(found)
+
+
+def _biggest(compared: Compared, name: str) -> Residual:
+    """Return the value of Table II that a model misses most."""
+    rows = [one for one in compared[name].residuals if one.name in given.RATIOS]
+    return max(rows, key=lambda one: abs(one.pull))
+
+
+def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
+    """A number with its sign as it is printed.
+
+    Examples
+    --------
+    >>> _number(-1.26), _number(0.5, 2, sign=True), _number(float("nan"))
+    ('−1.3', '+0.50', '–')
+    """
+    if math.isnan(value):
+        return "–"
+    return f"{value:{'+' if sign else ''}.{digits}f}".replace("-", "−")
+
+
+def _misses(rows: list[Residual]) -> str:
+    """What a model gets wrong, in words."""
+    found = [
+        f"{_datum(one)} ({_number(one.pull, 1 if abs(one.pull) < 10 else 0, sign=True)})"
+        for one in rows
+    ]
+    return ", ".join(found) or "none by more than two errors"
+
+
+def _datum(one: Residual) -> str:
+    return f"{'e2' if one.name.endswith('1') else 'e1'} of {named(one.drop)}"
+
+
+_WORDS = {
+    "e": "restitution",
+    "e_floor": "on the floor",
+    "e_between": "of two balls",
+    "e_B1": "B1",
+    "e_B2": "B2",
+    "e_B3": "B3",
+    "loss": "loss times",
+    "between": "loss of two balls times",
+    "stiffer": "stiffness of two balls times",
+    "exponent": "exponent",
+}
+
+
+def _fitted(shared: dict[str, float]) -> str:
+    """What a model fitted, in words."""
+    return ", ".join(f"{_WORDS[name]} {value:.3g}" for name, value in shared.items()) or "nothing"
+
+
+def _plain(value: Any) -> Any:
+    """Return named tuples as mappings, nan as None, for JSON."""
+    if hasattr(value, "_asdict"):
+        return _plain(value._asdict())
+    if isinstance(value, dict):
+        return {str(key): _plain(one) for key, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(one) for one in value]
+    if isinstance(value, float) and math.isnan(value):
+        return None
+    return value

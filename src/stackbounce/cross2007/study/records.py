@@ -1,0 +1,81 @@
+"""What the force records show and no fit was told: durations, and how many peaks."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.drops import peak_times
+from stackbounce.cross2007.stacks import gap_for_delay
+from stackbounce.cross2007.study.catalogue import CHOSEN
+from stackbounce.cross2007.study.compared import Compared
+from stackbounce.result import Result
+from stackbounce.simulate import simulate
+
+__all__ = ["Fact", "at_delay", "facts"]
+
+_RTOL = 1e-9
+
+
+class Fact(NamedTuple):
+    """A fact of the force records: as printed, and by model in words."""
+
+    what: str
+    printed: str
+    found: dict[str, str]
+
+
+def at_delay(compared: Compared, name: str, pair: str, delay: float) -> Result:
+    """Return a pair that meets at a delay in s, by a fitted model."""
+    drop = compared.drop(name, pair)
+    return simulate(replace(drop, gaps=(gap_for_delay(Bench(PAPER), drop, delay),)), rtol=_RTOL)
+
+
+def facts(compared: Compared) -> list[Fact]:
+    """Return the facts of Figs 10 to 12, as the chosen models have them at the recorded delays."""
+    return [
+        Fact(what, shown, {name: look(at_delay(compared, name, pair, delay)) for name in CHOSEN})
+        for what, shown, pair, delay, look in _FACTS
+    ]
+
+
+def _over(result: Result) -> str:
+    return f"{1e3 * float(max(result.last_release)):.1f} ms"
+
+
+def _floor(result: Result) -> str:
+    return f"{1e3 * float(result.last_release[0]):.1f} ms"
+
+
+def _peaks(contact: int) -> Callable[[Result], str]:
+    return lambda result: str(len(peak_times(result, contact, result.end_time)))
+
+
+def _contacts(result: Result) -> str:
+    """Count the contacts from the first to the last one between the balls."""
+    rows = result.intervals
+    met = [k for k, row in enumerate(rows) if row["contact"] == 1]
+    return str(met[-1] - met[0] + 1)
+
+
+_EARLY, _LATE = PAPER["superballs.delay"].value, PAPER["superballs.late_delay"].value
+_SHORTEST = PAPER["superballs.twin_delay"].value
+_AWAY = 3.9e-3  # s: so late that the impact of two balls B1 lasts the 12 ms of Fig. 12
+
+_FACTS: tuple[tuple[str, str, str, float, Callable[[Result], str]], ...] = (
+    ("B2 on B1, delay 2 ms: impact lasts", "6.0 ms", "B2_on_B1", _EARLY, _over),
+    ("B1 on B2, delay 2 ms: force on the floor ends", "9.0 ms", "B1_on_B2", _EARLY, _floor),
+    ("B1 on B2, delay 2 ms: peaks between the balls", "3", "B1_on_B2", _EARLY, _peaks(1)),
+    ("B1 on B3, delay 2 ms: peaks between the balls", "4", "B1_on_B3", _EARLY, _peaks(1)),
+    (
+        "B1 on B3, delay 7 ms: contacts, first to last of the balls",
+        "9",
+        "B1_on_B3",
+        _LATE,
+        _contacts,
+    ),
+    ("B1 on B1, delay 1 ms: impact lasts", "9 ms", "B1_on_B1", _SHORTEST, _over),
+    ("B1 on B1, delay 1 ms: peaks at the floor", "2", "B1_on_B1", _SHORTEST, _peaks(0)),
+    ("B1 on B1, delay 3.9 ms: impact lasts", "12 ms", "B1_on_B1", _AWAY, _over),
+)

@@ -1,0 +1,184 @@
+"""How much the answer hangs on what was assumed: delays, masses, times, and each pair of values."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, THEORIES
+from stackbounce.cross2007.study.compared import Compared
+from stackbounce.cross2007.study.fitting import again, fitted
+from stackbounce.cross2007.study.theories import Theory
+from stackbounce.fit import Fit
+from stackbounce.fit.comparison import Comparison
+from stackbounce.model import STANDARD_GRAVITY
+from stackbounce.simulate import simulate
+
+__all__ = ["Held", "between", "changes", "falling", "held_out", "late", "loose"]
+
+_BETWEEN = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0)
+_LOOSE = 1e-3  # s
+_STORY = 0.5  # s: by when all balls have been at their tops
+_LOOSENED = ("A", "S", "B", "S, six")
+
+
+class Held(NamedTuple):
+    """A pair whose ratios were held back: measured e1 and e2, those predicted, and their errors."""
+
+    pair: str
+    measured: tuple[float, float]
+    predicted: tuple[float, float]
+    error: tuple[float, float]
+
+    @property
+    def pulls(self) -> tuple[float, float]:
+        """Their differences, in the errors of both."""
+        first, second = (
+            (got - was) / np.hypot(off, given.ERROR)
+            for got, was, off in zip(self.predicted, self.measured, self.error, strict=True)
+        )
+        return float(first), float(second)
+
+
+def between(compared: Compared, progress: Callable[[str], None]) -> dict[float, float]:
+    """Return chi squared by how many times the balls' own loss is lost between two balls."""
+    found = {}
+    near = compared["S, fitted"]
+    for factor in _BETWEEN:
+        progress(f"study: {factor:g} times the loss between two balls")
+        theory = replace(THEORIES["S, fitted"], known={"between": factor})
+        near = again(theory.model(), given.MEASURED, near)
+        found[factor] = near.chi_squared
+    return found
+
+
+def changes(compared: Compared) -> dict[str, dict[str, float]]:
+    """Return chi squared of models A and S where an assumption is another, by what it is."""
+    return {
+        what: {name: _changed(compared, name, change) for name in ("A", "S")}
+        for what, change in _CHANGES.items()
+    }
+
+
+def _changed(compared: Compared, name: str, change: Callable[[Theory], Theory]) -> float:
+    model = change(THEORIES[name]).model()
+    return again(model, given.MEASURED, compared[name]).chi_squared
+
+
+def _other(ball: str, sign: float) -> Callable[[Theory], Theory]:
+    """Return the change of Table I's COR of a ball, or of both small ones, by its error."""
+    balls = ("B1",) if ball == "B1" else ("B2", "B3")
+    step = sign * PAPER["B1.restitution"].spread
+
+    def change(theory: Theory) -> Theory:
+        known = dict(theory.known)
+        for one in balls:
+            shown = given.PRINTED[one] + step
+            known[f"e_{one}"] = math.sqrt(shown) if theory.known == AS_HEIGHTS else shown
+        return replace(theory, known=known)
+
+    return change
+
+
+def _times(ball: str, sign: float) -> Callable[[Theory], Theory]:
+    return lambda theory: replace(
+        theory, longer={ball: sign * PAPER[f"{ball}.contact_time"].spread}
+    )
+
+
+def _stiffer(factor: float) -> Callable[[Theory], Theory]:
+    return lambda theory: replace(theory, known={**theory.known, "stiffer": factor})
+
+
+_CHANGES: dict[str, Callable[[Theory], Theory]] = {
+    "B1 of 101 g": lambda theory: replace(theory, heavy=PAPER["B1.mass"].value),
+    "B1's COR + 0.02": _other("B1", 1.0),
+    "B1's COR - 0.02": _other("B1", -1.0),
+    "COR of B2 and B3 + 0.02": _other("B2", 1.0),
+    "COR of B2 and B3 - 0.02": _other("B2", -1.0),
+    "contact time of B1 + 0.1 ms": _times("B1", 1.0),
+    "contact time of B1 - 0.1 ms": _times("B1", -1.0),
+    "stiffness between two balls × 0.7": _stiffer(0.7),
+    "stiffness between two balls × 1.5": _stiffer(1.5),
+    "pairs dropped from 18 cm": lambda theory: replace(theory, height=0.18),
+    "pairs dropped from 24 cm": lambda theory: replace(theory, height=0.24),
+}
+
+
+def loose(compared: Compared) -> Compared:
+    """Return the chosen models fitted with delays that are known to ± 1 ms only."""
+    data: dict[str, Any] = {}
+    for key, own in given.MEASURED.items():
+        value, error = own[given.DELAY]
+        data[key] = {**own, given.DELAY: (value, max(error, _LOOSE))}
+    fits = {name: again(THEORIES[name].model(), data, compared[name]) for name in _LOOSENED}
+    return Compared(Comparison(fits, {}))
+
+
+def late(compared: Compared) -> dict[str, float]:
+    """Return chi squared with the longer delay of B1 on B3, 7 ms, all shared numbers kept."""
+    return {name: _late(compared, name) for name in _LOOSENED}
+
+
+def _late(compared: Compared, name: str) -> float:
+    theory, own = THEORIES[name], "B1_on_B3"
+    known = {**theory.known, **compared.shared(name)}
+    alone = replace(theory, known=known, vary=(), exponent=known.pop("exponent", theory.exponent))
+    there = fitted(alone.model((own,)), {own: given.late()[own]}).chi_squared
+    here = sum(one.pull**2 for one in compared[name].residuals if one.drop == own)
+    return compared[name].chi_squared - here + there
+
+
+def falling(compared: Compared, name: str) -> float:
+    """Return chi squared of the ten values with gravity, gaps kept, ratios from the apexes.
+
+    Speeds at the end of such a run would not do: two balls B1 part at nearly one speed and touch
+    again in the air.
+    """
+    pulls = []
+    for pair in given.PAIRS:
+        drop = replace(compared.drop(name, pair), gravity=STANDARD_GRAVITY)
+        apexes = simulate(drop, until=_STORY, rtol=1e-8).apexes
+        for ball, measured in enumerate(given.printed(pair)):
+            height = float(apexes[apexes["ball"] == ball]["height"][0])
+            pulls.append((math.sqrt(height / given.HEIGHT) - measured) / given.ERROR)
+    return sum(pull**2 for pull in pulls)
+
+
+def held_out(compared: Compared, name: str) -> list[Held]:
+    """Return what a model fitted to the four other pairs predicts for the ratios of each.
+
+    The pair keeps its delay, which sets its gap; an error is the change of a ratio with the
+    delay's error. (`Comparison.left_out` leaves out the delay too and then takes any gap there is.)
+    """
+    rows = []
+    for key in given.PAIRS:
+        rest: dict[str, Mapping[str, Any]] = dict(given.MEASURED)
+        delay = rest[key][given.DELAY]
+        rest[key] = {given.DELAY: delay}
+        found = again(THEORIES[name].model(), rest, compared[name])
+        middle = _ratios(found, key, delay[0])
+        ends = [_ratios(found, key, delay[0] + sign * delay[1]) for sign in (-1.0, 1.0)]
+        errors = np.max(np.abs(np.array(ends) - middle), axis=0)
+        rows.append(Held(key, given.printed(key), _pair(middle), _pair(errors)))
+    return rows
+
+
+def _pair(numbers: Any) -> tuple[float, float]:
+    return float(numbers[0]), float(numbers[1])
+
+
+def _ratios(found: Fit, key: str, delay: float) -> Any:
+    """Return e1 and e2 of a pair that meets at a delay in s, by the numbers of a fit."""
+    problem = found.problem
+    k = found.names.index(f"{key}.gaps.0")
+    trials = np.tile(found.x, (241, 1))
+    trials[:, k] = np.linspace(0.0, 0.024, len(trials))
+    out, *_ = problem.outcomes(key, trials)
+    order = np.argsort(out.first_touch[:, 1])
+    touch = out.first_touch[order, 1]
+    return np.array([np.interp(delay, touch, out.velocity[order, ball]) for ball in (0, 1)])

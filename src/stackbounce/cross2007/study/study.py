@@ -1,0 +1,139 @@
+"""All of the study, computed."""
+
+import functools
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study.basketball import Stack, stacks
+from stackbounce.cross2007.study.compared import Compared, compared
+from stackbounce.cross2007.study.energy import Kept, kept
+from stackbounce.cross2007.study.predictions import Prediction, predictions
+from stackbounce.cross2007.study.readings import Reading, readings
+from stackbounce.cross2007.study.records import Fact, facts
+from stackbounce.cross2007.study.section_v import Refit, refits
+from stackbounce.cross2007.study.sensitivity import (
+    Held,
+    between,
+    changes,
+    falling,
+    held_out,
+    late,
+    loose,
+)
+from stackbounce.version import __version__
+
+__all__ = ["Study", "study"]
+
+_HELD = ("S, fitted", "B")
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """What was found; each part is told where it is made.
+
+    Examples
+    --------
+    >>> from stackbounce.cross2007.study.energy import kept
+    >>> kept("B3_on_B1").excess > 6.0
+    True
+    """
+
+    compared: Compared
+    kept: list[Kept]
+    readings: list[Reading]
+    between: dict[float, float]
+    changes: dict[str, dict[str, float]]
+    loose: Compared
+    late: dict[str, float]
+    falling: float
+    held_out: dict[str, list[Held]]
+    facts: list[Fact]
+    predictions: list[Prediction]
+    stacks: list[Stack]
+    refits: list[Refit]
+
+    @functools.cached_property
+    def rows(self) -> list[dict[str, Any]]:
+        """A row per model, the best by AICc first."""
+        own = self.compared
+        return [
+            {
+                "name": one.model,
+                "title": own.titles[one.model],
+                "shared": own.shared(one.model),
+                "ten": own.of_ratios(one.model),
+                "delays": one.chi_squared - own.of_ratios(one.model),
+                "chi_squared": one.chi_squared,
+                "aicc": one.aicc,
+                "bic": one.bic,
+                "worst": own.worst(one.model),
+                "within": own.within(one.model),
+            }
+            for one in own.comparison.scores
+        ]
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return all numbers as plain values, for machines."""
+        own = self.compared
+        return {
+            "stackbounce": __version__,
+            "data": given.MEASURED,
+            "models": [{**row, "pairs": own.pairs(row["name"])} for row in self.rows],
+            "energy": [{**one._asdict(), "excess": one.excess} for one in self.kept],
+            "readings": [one._asdict() for one in self.readings],
+            "loss_between_balls": self.between,
+            "changes": self.changes,
+            "delays_within_1_ms": {
+                name: one.chi_squared for name, one in self.loose.comparison.fits.items()
+            },
+            "B1_on_B3_at_7_ms": self.late,
+            "S_with_gravity": self.falling,
+            "held_out": {
+                name: [{**one._asdict(), "pulls": one.pulls} for one in rows]
+                for name, rows in self.held_out.items()
+            },
+            "records": [one._asdict() for one in self.facts],
+            "predictions": [one._asdict() for one in self.predictions],
+            "basketball": [one._asdict() for one in self.stacks],
+            "section_v": [
+                {**one._asdict(), "numbers": [number._asdict() for number in one.numbers]}
+                for one in self.refits
+            ],
+        }
+
+
+def study(progress: Callable[[str], None] = lambda _: None) -> Study:
+    """Return the study of Table II.
+
+    Parameters
+    ----------
+    progress : callable, optional
+        Is told what is being done, in a line each.
+    """
+    own = compared(progress)
+    read = readings(progress)
+    scan = between(own, progress)
+    progress("study: other assumptions")
+    changed, free, other = changes(own), loose(own), late(own)
+    progress("study: each pair from the other four")
+    held = {name: held_out(own, name) for name in _HELD}
+    progress("study: force records and measurements that would decide")
+    shown, said = facts(own), predictions(own)
+    progress("study: the basketball, and section V's fits")
+    return Study(
+        own,
+        [kept(pair) for pair in given.PAIRS],
+        read,
+        scan,
+        changed,
+        free,
+        other,
+        falling(own, "S"),
+        held,
+        shown,
+        said,
+        stacks(),
+        refits(),
+    )

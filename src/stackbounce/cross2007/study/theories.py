@@ -1,0 +1,196 @@
+"""From a few numbers of the balls to the contacts of every pair: what makes a model of Table II."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.cross2007.drops import fallen_speed
+from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study.alone import LOSS, Numbers, numbers
+from stackbounce.fit import Model
+from stackbounce.model import Drop, HuntCrossley, Hysteretic, Rigid, Viscoelastic
+
+__all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "rigid"]
+
+Array: TypeAlias = NDArray[np.float64]
+
+ELASTIC, SHARED, OWN = "elastic", "shared", "own"
+"""What two balls lose on each other: nothing; each as on the floor; as one number tells."""
+
+_BOUNDS = {
+    "e": (0.7, 1.0),
+    "e_B1": (0.7, 0.99),
+    "e_B2": (0.7, 0.99),
+    "e_B3": (0.7, 0.99),
+    "e_between": (0.7, 0.99),
+    "loss": (0.1, 1.2),
+    "between": (0.0, 4.0),
+    "stiffer": (0.4, 3.0),
+    "exponent": (1.0, 2.0),
+}
+_WIDEST = 0.03  # m: of the gaps that are searched
+_GAP = 4e-3  # m: where a search begins
+_SPEED = fallen_speed(given.HEIGHT)  # m/s: of a ball alone, at which Table I has its numbers
+
+
+@dataclass(frozen=True)
+class Theory:
+    """A model of all pairs of superballs, with numbers that they share.
+
+    Parameters
+    ----------
+    title : str
+        In plain words.
+    law : type
+        Of every contact: `HuntCrossley`, `Viscoelastic` or `Hysteretic`.
+    where : str
+        What two balls lose on each other: `ELASTIC`, `SHARED`, or `OWN` (of `Hysteretic` only).
+    known : mapping of str to float
+        What is told beforehand, of the names below.
+    vary : tuple of str
+        What is fitted: ``e_B1``, the restitution of B1 that falls alone, ``e_B2`` and ``e_B3``
+        (that of B2 unless told); ``e_between``, of two balls on each other; ``loss``, a factor on
+        what all balls lose; ``between``, one on what two balls lose on each other; ``stiffer``, one
+        on the stiffness between them; ``exponent``.
+    exponent : float
+        Of the law.
+    reloading : str
+        Of a hysteretic contact that is pressed anew before it has opened.
+    heavy, height : float
+        B1's mass in kg, and the pairs' fall in m; balls alone fall from 20 cm.
+    longer : mapping of str to float
+        By ball: s, what is added to its contact time.
+
+    Examples
+    --------
+    >>> theory = Theory("nothing fitted", HuntCrossley, SHARED, {"e_B1": 0.88, "e_B2": 0.95})
+    >>> floor, between = theory.drop("B2_on_B1").contacts
+    >>> round(floor.stiffness / between.stiffness, 2)
+    3.15
+    """
+
+    title: str
+    law: Any
+    where: str
+    known: Mapping[str, float] = field(default_factory=dict)
+    vary: tuple[str, ...] = ()
+    exponent: float = 1.5
+    reloading: str = "free"
+    heavy: float = given.HEAVY
+    height: float = given.HEIGHT
+    longer: Mapping[str, float] = field(default_factory=dict)
+
+    def model(self, pairs: tuple[str, ...] = tuple(given.PAIRS)) -> Model:
+        """Return what `stackbounce.fit.compare` takes: drops, what varies, what follows."""
+        vary: dict[str, Any] = {name: _BOUNDS[name] for name in self.vary}
+        vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in pairs}
+        middle = {name: 0.5 * sum(_BOUNDS[name]) for name in self.vary}
+        drops = {key: self.drop(key, _GAP, middle) for key in pairs}
+        return Model(drops, vary, self._ties(pairs) if self.vary else None)
+
+    def drop(self, key: str, gap: float = 0.0, varied: Mapping[str, float] | None = None) -> Drop:
+        """Return one pair with a gap in m and values for what is varied."""
+        values = self._values(varied or {})
+        contacts = [self._law(values, one) for one in self.contacts(values)[key]]
+        return Drop(given.balls(key, self.heavy), contacts, gaps=[gap], height=self.height)
+
+    def contacts(self, values: Mapping[str, Any]) -> dict[str, tuple[Numbers, Numbers]]:
+        """Return the numbers of each pair's contacts: the floor's, and that of the balls."""
+        alone = {ball: self.alone(ball, values) for ball in given.PRINTED}
+        return {
+            key: (alone[lower], self.between(alone[lower], alone[upper], values))
+            for key, (lower, upper) in given.PAIRS.items()
+        }
+
+    def alone(self, ball: str, values: Mapping[str, Any]) -> Numbers:
+        """Return the numbers of a ball's contact with the floor."""
+        mass, time = given.solo(ball, self.heavy)
+        own = given.Solo(mass, time + self.longer.get(ball, 0.0))
+        p = values["exponent"]
+        found = numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
+        if self.law is HuntCrossley:
+            found = found._replace(loss=found.loss * values["loss"])
+        return found
+
+    def between(self, lower: Numbers, upper: Numbers, values: Mapping[str, Any]) -> Numbers:
+        """Return the numbers of the contact of two balls, from those of each with the floor.
+
+        Both in series: at equal force the compressions add, so that ``k**(-1/p)`` adds, and the
+        lower ball has the share f of the compression and of the work.
+        """
+        p = values["exponent"]
+        soft = lower.stiffness ** (-1.0 / p), upper.stiffness ** (-1.0 / p)
+        f = soft[0] / (soft[0] + soft[1])
+        stiffness = values["stiffer"] * (soft[0] + soft[1]) ** -p
+        return Numbers(stiffness, self._lost(f, lower.loss, upper.loss, values))
+
+    def _lost(self, f: Array, lower: Array, upper: Array, values: Mapping[str, Any]) -> Array:
+        """Return the loss between two balls, the lower one of which has the share f."""
+        if self.where == OWN:
+            return np.asarray(values["e_between"])
+        if self.law is Hysteretic:  # shares of the energy, as `stackbounce.calibrate.between`
+            elastic = self.where == ELASTIC
+            return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
+        if self.where == ELASTIC:
+            return np.zeros_like(f)
+        if self.law is Viscoelastic:
+            return np.asarray(values["between"] * (f * lower + (1.0 - f) * upper))
+        # Hunt and Crossley's loss goes with the speed of compression, of which each ball has its
+        # share, and the work has that share once more
+        return np.asarray(values["between"] * (f**2 * lower + (1.0 - f) ** 2 * upper))
+
+    def _law(self, values: Mapping[str, Any], own: Numbers) -> Any:
+        options: dict[str, Any] = {
+            "stiffness": float(own.stiffness),
+            LOSS[self.law]: float(own.loss),
+        }
+        if self.law is not Viscoelastic:
+            options["exponent"] = float(values["exponent"])
+        if self.law is Hysteretic:
+            options["reloading"] = self.reloading
+        return self.law(**options)
+
+    def _values(self, varied: Mapping[str, Any]) -> dict[str, Any]:
+        """Return all numbers by name."""
+        usual = {"e_B1": 1.0, "e_B2": 1.0, "loss": 1.0, "between": 1.0, "stiffer": 1.0}
+        found: dict[str, Any] = {**usual, "exponent": self.exponent, **self.known}
+        found |= {name: varied[name] for name in self.vary}
+        return {"e_B3": found["e_B2"], **found}
+
+    def _ties(self, pairs: tuple[str, ...]) -> dict[str, Any]:
+        """Return the ties of all contacts; trials that come again are not computed again."""
+        kept: dict[bytes, dict[str, tuple[Numbers, Numbers]]] = {}
+
+        def contacts(varied: Mapping[str, Array]) -> dict[str, tuple[Numbers, Numbers]]:
+            own = b"".join(np.ascontiguousarray(varied[name]).tobytes() for name in self.vary)
+            if own not in kept:
+                kept.clear()
+                kept[own] = self.contacts(self._values(varied))
+            return kept[own]
+
+        def tie(key: str, i: int, name: str) -> Any:
+            return lambda varied: getattr(contacts(varied)[key][i], name)
+
+        ties: dict[str, Any] = {}
+        for key in pairs:
+            for i in (0, 1):
+                for name, path in (("stiffness", "stiffness"), ("loss", LOSS[self.law])):
+                    ties[f"{key}.contacts.{i}.{path}"] = tie(key, i, name)
+                if "exponent" in self.vary:
+                    ties[f"{key}.contacts.{i}.exponent"] = "exponent"
+        return ties
+
+
+def rigid(*names: str) -> Model:
+    """Return separate collisions: with one restitution, ``e``, or ``e_floor`` and ``e_between``."""
+    drops = {
+        key: Drop(given.balls(key), [Rigid(0.9), Rigid(0.9)], gaps=[_GAP], height=given.HEIGHT)
+        for key in given.PAIRS
+    }
+    vary: dict[str, Any] = dict.fromkeys(names, _BOUNDS["e"])
+    vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in drops}
+    ends = {"contacts.0.restitution": names[0], "contacts.1.restitution": names[-1]}
+    return Model(drops, vary, ends)
