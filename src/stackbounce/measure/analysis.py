@@ -15,6 +15,7 @@ from stackbounce.measure.sound import Knocks, knocks
 from stackbounce.measure.track import Tracks, track
 from stackbounce.measure.waveform import waveform
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,6 +40,8 @@ def analyse(
     restitution: "float | UFloat | None" = None,
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
+    law: "ContactLaw | type[ContactLaw] | str | None" = None,
+    exponent: "float | UFloat | None" = None,
 ) -> tuple[Any, ...]:
     r"""Return what is found in a measurement by the analysis, or analyses, that fit its kind.
 
@@ -71,6 +74,9 @@ def analyse(
         Of a piezo sensor's droop, in s, which is then undone.
     gravity : float, optional
         In m/s**2.
+    law, exponent : law, class or name; float or ufloat; optional
+        The contact's law and the exponent of its loading curve: touch and release in a force
+        waveform are the surer.
 
     Returns
     -------
@@ -113,7 +119,8 @@ def analyse(
     if holds == "track":
         return (_tracked(data, floor, places(measured_to)[1], diameter, gravity),)
     if holds == "waveform":
-        one = waveform(data, mass=mass, impact_speed=speed, time_constant=time_constant)
+        of_it: Any = {"time_constant": time_constant, "law": law, "exponent": exponent}
+        one = waveform(data, mass=mass, impact_speed=speed, **of_it)
         if speed is None and height is not None:
             speed = (2.0 * gravity * height) ** 0.5
         told = {"impact_speed": speed, "restitution": restitution, "time_constant": time_constant}

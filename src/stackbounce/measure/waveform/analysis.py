@@ -16,6 +16,8 @@ from stackbounce.measure.waveform.found import Contact, Waveform
 from stackbounce.measure.waveform.intervals import Stretch, find_stretches, smoothed, which_sign
 from stackbounce.measure.waveform.record import Array, Record, read_record
 from stackbounce.measure.waveform.sensor import known, sensitivity_of
+from stackbounce.measure.waveform.ways import ways_of
+from stackbounce.model.laws import ContactLaw, Dashpot, Viscoelastic
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,6 +28,10 @@ _MARGIN = 0.2  # of a contact, on each side of it, that is not taken as quiet
 _ROUNDS = 4
 _FEW = 6  # samples of a contact that are few
 _UNDERSHOOT = 5.0  # errors
+_BEGINS = {
+    Dashpot: "the force seems to begin with a jump",
+    Viscoelastic: "the force seems to begin as the root of the time",
+}
 
 
 class _Seen(NamedTuple):
@@ -46,6 +52,8 @@ def waveform(
     time_constant: float | None = None,
     threshold: float | None = None,
     sign: int | None = None,
+    law: "ContactLaw | type[ContactLaw] | str | None" = None,
+    exponent: Any = None,
 ) -> Waveform:
     """Find the contacts in a force record, when they begin and end, their peaks and impulses.
 
@@ -65,6 +73,10 @@ def waveform(
         noise, and 1 % of the highest peak.
     sign : int, optional
         +1 or -1 if contacts go up or down in the record. Default: it is found.
+    law : ContactLaw, its class or its name, optional
+        Of the contact, if it is known: touch and release are the surer. `Rigid` tells nothing.
+    exponent : float or UFloat, optional
+        Of the law's loading curve, where the law itself does not tell; default unknown.
 
     Returns
     -------
@@ -81,13 +93,15 @@ def waveform(
     Notes
     -----
     Touch and release are not where the force passes a threshold, which is late, but where its
-    flanks begin: they are fitted as powers of the time since the touch, of unknown exponent, with
-    corrections (`stackbounce.measure.waveform.flanks`). Before the data are seen, the exponent of a
-    touch is from 1 (a linear spring) to 1.5 (Hertz's law) or, less probably, up to 2.5, and that of
-    a release from 1 to 2.5 or more, as lossy contacts end softly. Where samples are many and noise
-    is low this does not matter; else the error bars hold it. They do not hold touches that begin
-    with a jump (`Dashpot`) or as the root of the time (`Viscoelastic`), which are found too early,
-    nor releases of very lossy contacts (a restitution below 0.8 or so).
+    flanks begin: they are fitted by what contact laws begin and end with
+    (`stackbounce.measure.waveform.shapes`). Where no `law` is told, a touch may be a power of the
+    time since then, with an exponent from 1 (a linear spring) to 1.5 (Hertz's law) or, less
+    probably, up to 2.5; or begin with a jump as a `Dashpot` does, or as the root of the time as a
+    `Viscoelastic` contact does, each of them less probable beforehand. A release may have an
+    exponent from 1 to 2.5, more where the pulse leans back, as lossy contacts end softly. Both
+    flanks and the lean of the whole pulse tell which it is; where they do not, the error bars hold
+    all that it may be. A law that is told is believed: the errors are those for this law, and for
+    a ball that no other presses at its touch and release.
 
     The impulse is ``m v0 (1 + e)``. With `mass` and `impact_speed`, and e from the time to the next
     contact, if one follows, it gives the volts per newton; without a next contact e may be
@@ -103,6 +117,7 @@ def waveform(
     >>> print(f"{found.contacts[0].time * 1e3:.1uS} ms, {found.stiffness / 1e3:.1uS} kN/m")
     3.999(7) ms, 61.7(2) kN/m
     """
+    ways = ways_of(law, exponent)
     if sign not in (None, 1, -1):
         raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")
     if threshold is not None:
@@ -118,7 +133,7 @@ def waveform(
     local = Local(record.times, seen.signal, raw, seen.quiet, record.quantum, quiet)
     around = [None, *seen.stretches, None]
     contacts = tuple(
-        measure_contact(local, around[k], one, around[k + 2])
+        measure_contact(local, around[k], one, around[k + 2], ways)
         for k, one in enumerate(seen.stretches)
     )
     notes = [
@@ -217,6 +232,12 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
         notes.append("the record begins within a contact: its touch is unknown")
     if contacts and contacts[-1].end is None:
         notes.append("the record stops within a contact: its release is unknown")
+    laws = {one.law for one in contacts} - {None}
+    for law in sorted(laws, key=lambda one: one.__name__):
+        notes.append(
+            f"{_BEGINS[law]}, as on a {law.__name__}: touch and release suppose that, and if you "
+            f"know the law, tell it (--law {law.__name__.lower()})"
+        )
     few = min((one.samples for one in contacts), default=_FEW)
     if few < _FEW:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
