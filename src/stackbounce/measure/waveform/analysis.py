@@ -28,9 +28,9 @@ _MARGIN = 0.2  # of a contact, on each side of it, that is not taken as quiet
 _ROUNDS = 4
 _FEW = 6  # samples of a contact that are few
 _UNDERSHOOT = 5.0  # errors
-_BEGINS = {
-    Dashpot: "the force seems to begin with a jump",
-    Viscoelastic: "the force seems to begin as the root of the time",
+_BEGINS: dict[type[ContactLaw], str] = {
+    Dashpot: "with a jump",
+    Viscoelastic: "as the root of the time",
 }
 
 
@@ -232,12 +232,12 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
         notes.append("the record begins within a contact: its touch is unknown")
     if contacts and contacts[-1].end is None:
         notes.append("the record stops within a contact: its release is unknown")
-    laws = {one.law for one in contacts} - {None}
-    for law in sorted(laws, key=lambda one: one.__name__):
-        notes.append(
-            f"{_BEGINS[law]}, as on a {law.__name__}: touch and release suppose that, and if you "
-            f"know the law, tell it (--law {law.__name__.lower()})"
-        )
+    for law, begins in _BEGINS.items():
+        if any(one.law is law for one in contacts):
+            notes.append(
+                f"the force seems to begin {begins}, as that of a {law.__name__} contact: if you "
+                f"know the law, tell it (--law {law.__name__.lower()})"
+            )
     few = min((one.samples for one in contacts), default=_FEW)
     if few < _FEW:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")

@@ -1,8 +1,8 @@
 """One contact: its own baseline, its flanks, peaks and impulse."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -216,9 +216,7 @@ def _heeding(shares: Array, tried: Tried | None) -> Array:
     return whole
 
 
-def _tried(
-    part: _Part, peak: Peak, shapes: Sequence[Shape], *, forward: bool
-) -> Tried | None:
+def _tried(part: _Part, peak: Peak, shapes: Sequence[Shape], *, forward: bool) -> Tried | None:
     """Try shapes on the flank before a peak, or with time reversed on the one after it."""
     top = int(np.searchsorted(part.times, peak.time))
     if forward:

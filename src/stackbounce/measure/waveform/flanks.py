@@ -171,9 +171,7 @@ def fit_flank(
             break
         bare = _points(times, values, sigma, cut)
         points = replace(bare, height=level * peak, level=level, offset=offset, length=length)
-        tried = Tried(
-            tuple(scan(points, shape) for shape in shapes), max(1, len(points.times) - 5)
-        )
+        tried = Tried(tuple(scan(points, shape) for shape in shapes), max(1, len(points.times) - 5))
         if tried.found[int(np.argmax(tried.evidence))].chi < _most(tried.freedom):
             break
     return tried
@@ -215,6 +213,9 @@ def _points(times: Array, values: Array, sigma: float, cut: _Cut) -> Points:
     if width == 1:
         return Points(t, None, y, noise)
     between = 0.5 * (times[starts[1:] - 1] + times[starts[1:]])
-    half = 0.5 * (times[first + 1] - times[first]), 0.5 * (times[cut.stop - 1] - times[cut.stop - 2])
+    half = (
+        0.5 * (times[first + 1] - times[first]),
+        0.5 * (times[cut.stop - 1] - times[cut.stop - 2]),
+    )
     edges = np.concatenate([[times[first] - half[0]], between, [times[cut.stop - 1] + half[1]]])
     return Points(t, edges, y, noise, step=2.0 * half[1])

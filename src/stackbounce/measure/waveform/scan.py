@@ -151,9 +151,7 @@ def _unknown(points: Points, shape: Shape, logs: Array) -> Array:
     return unknown if shape.kind == "power" else unknown * points.length / points.unit
 
 
-def _score(
-    points: Points, shape: Shape, starts: Array, logs: Array
-) -> tuple[Array, Array, Array]:
+def _score(points: Points, shape: Shape, starts: Array, logs: Array) -> tuple[Array, Array, Array]:
     """Return the logarithm of the probability of each pair of start and unknown.
 
     For each pair the curve is linear in all else, which is integrated over. Also the best of that,
@@ -168,7 +166,7 @@ def _score(
     values = points.values / points.sigma
     normal = rows @ np.swapaxes(rows, -1, -2)
     means = np.stack(shape.corrections(logs, points.level), axis=-1)[:, None] * points.height
-    spreads = np.array([shape.others, shape.slowing]) * points.height
+    spreads: Array = np.array([shape.others, shape.slowing]) * points.height
     offset = max(points.offset, 1e-6 * points.height)
     normal[..., range(4), range(4)] += (1e-12, *spreads**-2, offset**-2)
     right = rows @ values
@@ -177,4 +175,6 @@ def _score(
     cost = np.sum((means / spreads) ** 2, axis=-1) - np.sum(right * solved, axis=-1)
     score = -0.5 * cost - 0.5 * np.linalg.slogdet(normal)[1] - np.log(spreads).sum()
     score = score + shape.prior(logs)[:, None]
-    return score + np.log(starts[:, 1:2] - starts[:, :1]), solved, heights
+    wanted: Array = score + np.log(starts[:, 1:2] - starts[:, :1])
+    best: Array = solved
+    return wanted, best, heights

@@ -17,6 +17,7 @@ unknown each:
 
 from dataclasses import dataclass
 from math import log, pi, sqrt
+from typing import Any
 
 import numpy as np
 
@@ -130,7 +131,7 @@ class Shape:
         units of u.
         """
         wide = np.diff(u, axis=-1) if averaged else None
-        on = u > 0.0
+        on = (u > 0.0).astype(float)
         u = np.maximum(u, 0.0)
         if self.kind == "power":
             first = u**unknown
@@ -168,7 +169,7 @@ class Shape:
         return area
 
 
-def power(least: float, most: float | None = None, **spreads: float) -> Shape:
+def power(least: float, most: float | None = None, **spreads: Any) -> Shape:
     """Return a force that begins as a power, of an exponent that is known or between two.
 
     Examples

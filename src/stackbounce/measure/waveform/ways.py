@@ -13,9 +13,11 @@ from stackbounce.model.laws import (
     LAWS,
     ContactLaw,
     Dashpot,
+    Hertz,
     HuntCrossley,
     Hysteretic,
     Rigid,
+    Spring,
     Viscoelastic,
     law_named,
 )
@@ -23,15 +25,14 @@ from stackbounce.model.laws import (
 __all__ = ["Way", "informed", "ways_of"]
 
 _LINE = power(1.0)
+_SOFT = power(1.0, 2.5)  # also for Hunt and Crossley's, which losses bend more than by a power
 _SURE = {"others": 0.03, "slowing": 0.04}  # spreads of the corrections where the law is told
-_LOSSY = {"others": 0.2, "slowing": 0.4}  # of Hunt and Crossley's release
 _RARE = 0.05  # share of dashpots, and of viscoelastic contacts, where no law is told
 _EVEN = 0.7  # share of the others whose pulses do not lean
 _LEANS = 0.3  # range of leans of those that do
 _SCATTER = 0.003  # of leans about what is expected
-_STEADY = 5.0 / 3.0  # exponent of a release over that of the touch, at the least
-_BACK, _LEAST = 0.1, 0.5  # lean for what is lost, 1 - e, of a hysteretic contact; the least e
-_SOFTEST = 6.0  # exponent of a release: a restitution of 0.6 of p = 1.5
+_SYMMETRIC, _BACK = 1.3, 75.0  # exponent of a release, and by how much it grows as pulses lean back
+_SOFTEST = 6.0  # exponent of a hysteretic release where the pulse does not tell
 
 
 class Way(NamedTuple):
@@ -46,9 +47,8 @@ class Way(NamedTuple):
     law: type[ContactLaw] | None = None
 
 
-_ANY = power(1.0, 1.5)
 _UNTOLD = (
-    Way(_ANY, power(1.0, 2.5), 1.0 - 2.0 * _RARE),
+    Way(power(1.0, 1.5), _SOFT, 1.0 - 2.0 * _RARE),
     Way(JUMP, _LINE, _RARE, Dashpot),
     Way(ROOT, FADE, _RARE, Viscoelastic),
 )
@@ -88,7 +88,7 @@ def ways_of(
         return (Way(JUMP, _LINE),)
     if kind is Viscoelastic:
         return (Way(ROOT, FADE),)
-    fixed = "exponent" not in kind.__dataclass_fields__
+    fixed = kind in (Spring, Hertz)
     told = law if isinstance(law, kind) else kind if fixed else None
     p = getattr(told, "exponent", exponent)
     if p is not None:
@@ -96,11 +96,10 @@ def ways_of(
     if kind is Hysteretic:
         touch = power(p or 1.0, p or 1.5, **_SURE)
         n = getattr(told, "unloading_exponent", None)
-        release = power(n or p or 1.0, n or max(_SOFTEST, 2.0 * (p or 1.0)), **_SURE)
+        release = power(n or p or 1.0, n or _SOFTEST, **_SURE)
         return (Way(touch, release),)
-    range_ = p or 1.0, p or (1.5 if kind is HuntCrossley else 2.5)
-    lossy = _LOSSY if kind is HuntCrossley else _SURE
-    return (Way(power(*range_, **_SURE), power(*range_, **lossy)),)
+    touch = power(p or 1.0, p or (1.5 if kind is HuntCrossley else 2.5), **_SURE)
+    return (Way(touch, _SOFT if kind is HuntCrossley else touch),)
 
 
 def informed(ways: Sequence[Way], lean: Lean) -> list[Way]:
@@ -123,7 +122,10 @@ def _informed(way: Way, lean: Lean) -> Way:
     even = exp(float(lean.likelihood(np.zeros(()))))
     share = way.share * (_EVEN * even + (1.0 - _EVEN) / _LEANS)
     if not release.known:
-        restitution = max(_LEAST, 1.0 + min(lean.value, 0.0) / _BACK)
-        softest = max(_STEADY * touch.most, (touch.most + 1.0) / restitution**2 - 1.0)
-        release = replace(release, most=softest if touch == _ANY else max(release.most, softest))
+        n = _SYMMETRIC - _BACK * min(lean.value, 0.0)
+        if release.most == _SOFTEST:  # hysteretic for sure
+            least, most = max(touch.least, 0.8 * n), 1.25 * n
+        else:
+            least, most = max(release.least, 0.5 * n), max(release.most, 1.25 * n)
+        release = replace(release, least=least, most=max(least, most))
     return way._replace(release=release, share=share)
