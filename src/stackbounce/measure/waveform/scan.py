@@ -176,5 +176,5 @@ def _score(points: Points, shape: Shape, starts: Array, logs: Array) -> tuple[Ar
     score = -0.5 * cost - 0.5 * np.linalg.slogdet(normal)[1] - np.log(spreads).sum()
     score = score + shape.prior(logs)[:, None]
     wanted: Array = score + np.log(starts[:, 1:2] - starts[:, :1])
-    best: Array = solved
+    best: Array = np.asarray(solved, dtype=np.float64)
     return wanted, best, heights
