@@ -12,12 +12,12 @@ from stackbounce.measure.uncertain import known_to
 from stackbounce.measure.waveform.baseline import Quiet, first_guess, quiet_parts
 from stackbounce.measure.waveform.contact import Local, measure_contact
 from stackbounce.measure.waveform.droop import undrooped
+from stackbounce.measure.waveform.ends import ends_of
 from stackbounce.measure.waveform.found import Contact, Waveform
 from stackbounce.measure.waveform.intervals import Stretch, find_stretches, smoothed, which_sign
 from stackbounce.measure.waveform.record import Array, Record, read_record
 from stackbounce.measure.waveform.sensor import known, sensitivity_of
-from stackbounce.measure.waveform.ways import ways_of
-from stackbounce.model.laws import ContactLaw, Dashpot, Viscoelastic
+from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -28,10 +28,6 @@ _MARGIN = 0.2  # of a contact, on each side of it, that is not taken as quiet
 _ROUNDS = 4
 _FEW = 6  # samples of a contact that are few
 _UNDERSHOOT = 5.0  # errors
-_BEGINS: dict[type[ContactLaw], str] = {
-    Dashpot: "with a jump",
-    Viscoelastic: "as the root of the time",
-}
 
 
 class _Seen(NamedTuple):
@@ -53,7 +49,7 @@ def waveform(
     threshold: float | None = None,
     sign: int | None = None,
     law: "ContactLaw | type[ContactLaw] | str | None" = None,
-    exponent: Any = None,
+    exponent: float | None = None,
 ) -> Waveform:
     """Find the contacts in a force record, when they begin and end, their peaks and impulses.
 
@@ -75,7 +71,7 @@ def waveform(
         +1 or -1 if contacts go up or down in the record. Default: it is found.
     law : ContactLaw, its class or its name, optional
         Of the contact, if it is known: touch and release are the surer. `Rigid` tells nothing.
-    exponent : float or UFloat, optional
+    exponent : float, optional
         Of the law's loading curve, where the law itself does not tell; default unknown.
 
     Returns
@@ -117,7 +113,7 @@ def waveform(
     >>> print(f"{found.contacts[0].time * 1e3:.1uS} ms, {found.stiffness / 1e3:.1uS} kN/m")
     3.999(7) ms, 61.7(2) kN/m
     """
-    ways = ways_of(law, exponent)
+    ends = ends_of(law, exponent)
     if sign not in (None, 1, -1):
         raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")
     if threshold is not None:
@@ -133,7 +129,7 @@ def waveform(
     local = Local(record.times, seen.signal, raw, seen.quiet, record.quantum, quiet)
     around = [None, *seen.stretches, None]
     contacts = tuple(
-        measure_contact(local, around[k], one, around[k + 2], ways)
+        measure_contact(local, around[k], one, around[k + 2], ends)
         for k, one in enumerate(seen.stretches)
     )
     notes = [
@@ -232,12 +228,6 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
         notes.append("the record begins within a contact: its touch is unknown")
     if contacts and contacts[-1].end is None:
         notes.append("the record stops within a contact: its release is unknown")
-    for law, begins in _BEGINS.items():
-        if any(one.law is law for one in contacts):
-            notes.append(
-                f"the force seems to begin {begins}, as that of a {law.__name__} contact: if you "
-                f"know the law, tell it (--law {law.__name__.lower()})"
-            )
     few = min((one.samples for one in contacts), default=_FEW)
     if few < _FEW:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")

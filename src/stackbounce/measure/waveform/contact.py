@@ -1,6 +1,5 @@
 """One contact: its own baseline, its flanks, peaks and impulse."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from math import hypot
 from typing import TYPE_CHECKING
@@ -10,14 +9,13 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.uncertain import known_to
 from stackbounce.measure.waveform.baseline import Quiet, scatter, stuck
-from stackbounce.measure.waveform.flanks import Flank, Tried, fit_flank
+from stackbounce.measure.waveform.ends import Ends
+from stackbounce.measure.waveform.flanks import Flank, fit_flank
 from stackbounce.measure.waveform.found import Contact
 from stackbounce.measure.waveform.intervals import Stretch
 from stackbounce.measure.waveform.peaks import Peak, find_peaks, flat_top, impulse_of
 from stackbounce.measure.waveform.record import Array
-from stackbounce.measure.waveform.shapes import Lean, Shape
-from stackbounce.measure.waveform.ways import Way, informed
-from stackbounce.model.laws import ContactLaw
+from stackbounce.measure.waveform.shapes import Shape
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -29,10 +27,6 @@ _SOME = 4  # quiet samples that tell a level
 _MANY = 60  # quiet samples that tell the noise
 _LEAST = 40  # samples of baseline looked at on each side
 _AVERAGES = 80  # over a contact, to see where its flanks are
-_SAMPLED = 0.15  # of a step: what sampling adds to differences of times
-_DONE = (0.15, 0.5, 0.85)  # of the impulse
-_BRIDGE, _USUAL = 0.84, 0.75  # what noise between fixed ends adds; force there, of the peak's
-_SLIGHT, _LIKELY = 1e-3, 0.5  # probabilities: of what is left out, and of what is told
 _TAIL = 0.25  # of a contact's length that its end may still reach
 
 
@@ -84,11 +78,7 @@ class _Part:
 
 
 def measure_contact(
-    local: Local,
-    before: Stretch | None,
-    one: Stretch,
-    after: Stretch | None,
-    ways: Sequence[Way],
+    local: Local, before: Stretch | None, one: Stretch, after: Stretch | None, ends: Ends
 ) -> Contact:
     """Return what a stretch of the record tells about a contact.
 
@@ -98,7 +88,7 @@ def measure_contact(
         The record.
     before, one, after : Stretch
         The contact and its neighbours, None where it has none.
-    ways : sequence of Way
+    ends : Ends
         How it may begin and end.
 
     Returns
@@ -110,17 +100,15 @@ def measure_contact(
     inner = slice(max(0, part.first - pad), part.last + pad + 1)
     peaks = find_peaks(part.times[inner], part.values[inner], part.noise, part.density)
     whole = one.first > 1, one.last < len(local.times) - 2
-    if len(peaks) == 1 and all(whole):
-        lean = _lean(part, inner, peaks[0])
-        ways = ways if lean is None else informed(ways, lean)
-    rise, fall, law = _flanks(part, peaks, ways, whole)
-    ends = (
+    rise = _flank(part, peaks[0], ends.touch, forward=True) if whole[0] else None
+    fall = _flank(part, peaks[-1], ends.release, forward=False) if whole[1] else None
+    inside = (
         rise.time if rise else float(part.times[part.first]),
         fall.time if fall else float(part.times[part.last]),
     )
-    area = impulse_of(part.times, part.values, part.density, part.offset, ends)
+    area = impulse_of(part.times, part.values, part.density, part.offset, inside)
     clipped = flat_top(local.raw[one.first : one.last + 1], local.quantum)
-    return _contact(peaks, part.offset, (rise, fall), area, clipped, len(one), law)
+    return _contact(peaks, part.offset, (rise, fall), area, clipped, len(one))
 
 
 def _contact(
@@ -130,7 +118,6 @@ def _contact(
     area: tuple[float, float],
     clipped: bool,
     samples: int,
-    law: type[ContactLaw] | None,
 ) -> Contact:
     start, end = (known_to(one.time, one.error) if one else None for one in flanks)
     tops: list[tuple[UFloat, UFloat]] = [
@@ -154,7 +141,6 @@ def _contact(
         clipped=clipped,
         samples=samples,
         flanks=flanks,
-        law=law,
     )
 
 
@@ -185,66 +171,21 @@ def _part(local: Local, before: Stretch | None, one: Stretch, after: Stretch | N
     return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
 
 
-def _flanks(
-    part: _Part, peaks: Sequence[Peak], ways: Sequence[Way], whole: tuple[bool, bool]
-) -> tuple[Flank | None, Flank | None, type[ContactLaw] | None]:
-    """Return the flanks before the first peak and after the last, and a law that both speak for.
-
-    The touch tells in which ways the release may be, and the other way round.
-    """
-    shares = np.array([way.share for way in ways])
-    rise = _tried(part, peaks[0], [way.touch for way in ways], forward=True) if whole[0] else None
-    shares = _heeding(shares, rise)
-    able = [k for k, share in enumerate(shares) if share > _SLIGHT]
-    shares = shares[able]
-    releases = [ways[k].release for k in able]
-    fall = _tried(part, peaks[-1], releases, forward=False) if whole[1] else None
-    shares = _heeding(shares, fall)
-    likely = int(np.argmax(shares))
-    return (
-        rise.only(able).flank(shares) if rise else None,
-        fall.flank(shares).reversed() if fall else None,
-        ways[able[likely]].law if shares[likely] > _LIKELY else None,
-    )
-
-
-def _heeding(shares: Array, tried: Tried | None) -> Array:
-    """Return the shares of ways as a flank changes them; their sum is 1."""
-    if tried is not None:
-        shares = shares * np.exp(tried.evidence - tried.evidence.max())
-    whole: Array = shares / shares.sum()
-    return whole
-
-
-def _tried(part: _Part, peak: Peak, shapes: Sequence[Shape], *, forward: bool) -> Tried | None:
-    """Try shapes on the flank before a peak, or with time reversed on the one after it."""
+def _flank(part: _Part, peak: Peak, shape: Shape, *, forward: bool) -> Flank | None:
+    """Return the flank before the first peak, or with time reversed the one after the last."""
     top = int(np.searchsorted(part.times, peak.time))
     if forward:
         times, values = part.times[: top + 1], part.values[: top + 1]
     else:
         times, values = -part.times[top - 1 :][::-1], part.values[top - 1 :][::-1]
-    return fit_flank(
+    found = fit_flank(
         times,
         values,
         part.density,
-        shapes,
+        shape,
         peak=peak.force,
         offset=part.offset,
         length=float(part.times[part.last] - part.times[part.first]),
         width=2 * ((part.last - part.first) // _AVERAGES // 2) + 1,
     )
-
-
-def _lean(part: _Part, inner: slice, peak: Peak) -> Lean | None:
-    """Return how the pulse leans, with what noise adds to that."""
-    times, values = part.times[inner], part.values[inner]
-    area = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(times) * (values[1:] + values[:-1]))])
-    area = np.maximum.accumulate(area)
-    first, middle, last = np.interp(np.multiply(area[-1], _DONE), area, times)
-    if not last > first:
-        return None
-    step = (times[-1] - times[0]) / (len(times) - 1)
-    noise = part.density * np.sqrt(step * (part.times[part.last] - part.times[part.first]))
-    error = _BRIDGE * noise / (_USUAL * peak.force * (last - first))
-    error = np.hypot(error, _SAMPLED * step / (last - first))
-    return Lean(float((first - 2.0 * middle + last) / (last - first)), float(error))
+    return found if found is None or forward else found.reversed()

@@ -1,12 +1,11 @@
 """When a contact began or ended: its flank followed down through the noise.
 
 A threshold is crossed too late by an amount that depends on the threshold. Here the rise itself is
-fitted, by the curves of `stackbounce.measure.waveform.shapes`. Start, shape, all else of the curve
-and the level before the touch are unknown, and the error of the start holds what the others leave
-open.
+fitted, by the curve of a shape (`stackbounce.measure.waveform.shapes`). The start, the shape's
+unknown, all else of the curve and the level before the touch are unknown, and the error of the
+start holds what the others leave open.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -14,17 +13,19 @@ import numpy as np
 
 from stackbounce.measure.waveform.intervals import smoothed
 from stackbounce.measure.waveform.record import Array
-from stackbounce.measure.waveform.scan import Found, Points, scan
 from stackbounce.measure.waveform.shapes import Shape
 
-__all__ = ["Flank", "Tried", "fit_flank"]
+__all__ = ["Flank", "fit_flank"]
 
-_MOST, _QUIET = 36, 6  # points on and before a flank; more are averaged
+_STARTS = 21
+_ZOOMS, _SETTLED = 7, 3
+_MOST = 36  # points; more are averaged
+_AROUND = 4.5  # standard deviations on the fine grid
 _LEVELS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1)
 _FEW = 8  # points on a flank, below which it is not cut shorter
 _CLEAR, _FEWEST = 3.0, 3  # noise levels of the lowest level; samples
-_SLACK = 3.0  # standard deviations of chi squared
 _ONE = (0.1587, 0.8413)  # of the probability: below minus one error, and below plus one
+_SLACK = 3.0  # standard deviations of chi squared
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,81 +54,45 @@ class Flank:
 
     def reversed(self) -> "Flank":
         """Return the same with time running the other way."""
-        back = -self.times[::-1], self.force[::-1]
-        return replace(self, time=-self.time, times=back[0], force=back[1])
+        times, force = -self.times[::-1], self.force[::-1]
+        return replace(self, time=-self.time, times=times, force=force)
 
 
 @dataclass(frozen=True, eq=False)
-class Tried:
-    """A flank as each of several shapes tells it, and the number of degrees of freedom."""
+class _Points:
+    """Samples, or averages over blocks of them between `edges`; `level` is that of the last.
 
-    found: tuple[Found, ...]
-    freedom: int
+    `length` is that of the contact and `step` that between averaged samples, in s.
+    """
+
+    times: Array
+    edges: Array | None
+    values: Array
+    sigma: float
+    height: float = 0.0
+    level: float = 0.0
+    offset: float = 0.0
+    length: float = 0.0
+    step: float = 0.0
 
     @property
-    def evidence(self) -> Array:
-        """Logarithm of how probable the record is with each shape, but for a common number."""
-        return np.array([one.evidence for one in self.found])
-
-    def only(self, which: Sequence[int]) -> "Tried":
-        """Return the same of some shapes."""
-        return replace(self, found=tuple(self.found[k] for k in which))
-
-    def flank(self, shares: Array) -> Flank:
-        """Return the flank, each shape having a share of the probability; the shares' sum is 1."""
-        best = self.found[int(np.argmax(shares))]
-        starts, powers = (
-            np.concatenate([getattr(one, name) for one in self.found])
-            for name in ("starts", "powers")
-        )
-        weights = np.concatenate(
-            [share * one.weights for share, one in zip(shares, self.found, strict=True)]
-        )
-        coarse = sum(
-            share * one.coarse**2 / 12.0 for share, one in zip(shares, self.found, strict=True)
-        )
-        misfit = 1.0
-        if best.chi > _most(self.freedom):
-            misfit = float(np.sqrt(best.chi / self.freedom))
-        time, spread = _moments(starts, weights)
-        error = misfit * max(float(np.hypot(spread, np.sqrt(coarse))), _half(starts, weights))
-        power, spread = _moments(powers, weights)
-        return Flank(time, error, power, spread * misfit, best.times, best.force, misfit)
-
-
-def _most(freedom: int) -> float:
-    """Return the largest chi squared that is not held against a curve."""
-    return freedom + _SLACK * float(np.sqrt(2.0 * freedom))
-
-
-def _moments(grid: Array, weight: Array) -> tuple[float, float]:
-    mean = float(np.sum(grid * weight))
-    return mean, float(np.sqrt(np.sum((grid - mean) ** 2 * weight)))
-
-
-def _half(grid: Array, weight: Array) -> float:
-    """Return half of the range that holds 68 %; it is more than the spread for a jump.
-
-    A jump between two samples is as probable anywhere between them.
-    """
-    order = np.argsort(grid)
-    below = np.cumsum(weight[order]) - 0.5 * weight[order]
-    low, high = np.interp(_ONE, below, grid[order])
-    return 0.5 * float(high - low)
+    def unit(self) -> float:
+        """The whole time in s."""
+        return float(self.times[-1] - self.times[0])
 
 
 def fit_flank(
     times: Array,
     values: Array,
     sigma: float,
-    shapes: Sequence[Shape],
+    shape: Shape,
     *,
     peak: float,
     offset: float,
     length: float,
     width: int = 1,
-) -> Tried | None:
-    """Return what shapes make of a rise from the baseline, or None where nothing rises.
+) -> Flank | None:
+    """Return the beginning of a rise from the baseline, or None where nothing rises.
 
     Parameters
     ----------
@@ -137,7 +102,7 @@ def fit_flank(
         (n,) without baseline.
     sigma : float
         Standard deviation of a value.
-    shapes : sequence of Shape
+    shape : Shape
         How the force may begin.
     peak : float
         The height of the first peak.
@@ -150,31 +115,30 @@ def fit_flank(
 
     Returns
     -------
-    Tried or None
+    Flank or None
 
     Examples
     --------
-    >>> from stackbounce.measure.waveform.shapes import power
     >>> times = np.arange(0.0, 1.0, 0.01)
     >>> values = np.sin(np.maximum(times - 0.314, 0.0))
-    >>> tried = fit_flank(times, values, 1e-3, [power(1.0, 1.5)], peak=0.6, offset=0.0, length=1.4)
-    >>> flank = tried.flank(np.ones(1))
+    >>> shape = Shape(1.0, 1.5)
+    >>> flank = fit_flank(times, values, 1e-3, shape, peak=0.6, offset=0.0, length=1.4)
     >>> abs(flank.time - 0.314) < 2 * flank.error < 0.02
     True
     """
-    tried: Tried | None = None
+    found: Flank | None = None
     even = smoothed(values, width)
     calm = sigma / np.sqrt(width)
     for level in _LEVELS:
         cut = _cut(times, even, calm, level * peak)
-        if cut is None or (tried is not None and (cut.stop - cut.foot) // width < _FEW):
+        if cut is None or (found is not None and (cut.stop - cut.foot) // width < _FEW):
             break
         bare = _points(times, values, sigma, cut)
         points = replace(bare, height=level * peak, level=level, offset=offset, length=length)
-        tried = Tried(tuple(scan(points, shape) for shape in shapes), max(1, len(points.times) - 5))
-        if tried.found[int(np.argmax(tried.evidence))].chi < _most(tried.freedom):
+        found = _fit(points, shape)
+        if found.misfit == 1.0:
             break
-    return tried
+    return found
 
 
 class _Cut(NamedTuple):
@@ -199,23 +163,125 @@ def _cut(times: Array, even: Array, calm: float, level: float) -> _Cut | None:
     return _Cut(start, foot, last + 1)
 
 
-def _points(times: Array, values: Array, sigma: float, cut: _Cut) -> Points:
-    """Return the samples of a cut, averaged over blocks: long ones where it is quiet for sure."""
-    near = max(cut.start, cut.foot - (cut.stop - cut.foot) // 2 - 1)
-    width = max(1, (cut.stop - near) // _MOST)
-    near += (cut.stop - near) % width
-    wide = max(width, -(-(near - cut.start) // _QUIET))
-    first = near - (near - cut.start) // wide * wide
-    starts = np.concatenate([np.arange(first, near, wide), np.arange(near, cut.stop, width)])
-    counts = np.diff(starts, append=cut.stop)
-    t, y = (np.add.reduceat(one[: cut.stop], starts) / counts for one in (times, values))
-    noise = sigma / np.sqrt(counts)
+def _points(times: Array, values: Array, sigma: float, cut: _Cut) -> _Points:
+    """Return the samples of a cut, averaged over blocks where they are many."""
+    width = max(1, (cut.stop - cut.start) // _MOST)
+    first = cut.start + (cut.stop - cut.start) % width
+    t, y = times[first : cut.stop], values[first : cut.stop]
     if width == 1:
-        return Points(t, None, y, noise)
-    between = 0.5 * (times[starts[1:] - 1] + times[starts[1:]])
-    half = (
-        0.5 * (times[first + 1] - times[first]),
-        0.5 * (times[cut.stop - 1] - times[cut.stop - 2]),
-    )
-    edges = np.concatenate([[times[first] - half[0]], between, [times[cut.stop - 1] + half[1]]])
-    return Points(t, edges, y, noise, step=2.0 * half[1])
+        return _Points(t, None, y, sigma)
+    half = 0.5 * (t[1] - t[0])
+    inner = 0.5 * (t[width - 1 : -1 : width] + t[width::width])
+    edges = np.concatenate([[t[0] - half], inner, [t[-1] + half]])
+    t, y = (one.reshape(-1, width).mean(axis=1) for one in (t, y))
+    return _Points(t, edges, y, float(sigma / np.sqrt(width)), step=2.0 * half)
+
+
+def _fit(points: _Points, shape: Shape) -> Flank:
+    """Return the flank from all starts and unknowns of the shape."""
+    times = points.times
+    end = times[-1]
+    low = np.flatnonzero(points.values < max(0.3 * points.height, 2.0 * points.sigma))
+    latest = times[low[-1] + 1] if len(low) and low[-1] + 1 < len(times) else end
+    logs = shape.grid()
+    first = np.linspace(times[0], min(latest, end - 1e-6 * points.unit), _STARTS)
+    starts = np.tile(first, (len(logs), 1))
+    for k in range(_ZOOMS):
+        score = _scan(points, shape, starts, logs)[0]
+        finer = k >= _SETTLED and not shape.known  # each unknown needs its best start before
+        starts, logs = _closer(starts, logs, score, end, finer=finer)
+    score, chi, best = _scan(points, shape, starts, logs)
+    weight = np.exp(score - score.max())
+    weight /= weight.sum()
+    t, e = _moments(starts, weight)
+    if shape.kind == "jump":
+        e = max(float(np.hypot(e, points.step / np.sqrt(12.0))), _half(starts, weight))
+    p, r = shape.begins(*_moments(logs, weight.sum(axis=1)))
+    freedom = max(1, len(times) - 5)
+    fits = chi < freedom + _SLACK * np.sqrt(2.0 * freedom)
+    misfit = 1.0 if fits else float(np.sqrt(chi / freedom))
+    return Flank(t, e * misfit, p, r * misfit, *_curve(points, shape, *best), misfit)
+
+
+def _closer(
+    starts: Array, logs: Array, score: Array, end: float, *, finer: bool
+) -> tuple[Array, Array]:
+    """Return a finer grid around the weight on a coarse one.
+
+    Each exponent has starts of its own: the larger it is, the earlier the touch, and where noise is
+    low the weight lies on a line between the two that is much thinner than it is long.
+    """
+    best = score.max(axis=1)
+    own = np.exp(score - best[:, None])
+    rows = np.exp(best - best.max()) * own.sum(axis=1)
+    rows /= rows.sum()
+    own /= own.sum(axis=1)[:, None]
+    middles = np.sum(starts * own, axis=1)
+    spreads = np.sqrt(np.sum((starts - middles[:, None]) ** 2 * own, axis=1))
+    wide = _AROUND * np.maximum(spreads, 0.5 * (starts[:, 1] - starts[:, 0]))
+    powers = logs
+    if finer:
+        mean, spread = _moments(logs, rows)
+        reach = _AROUND * max(spread, 0.5 * (logs[1] - logs[0]))
+        powers = np.linspace(mean - reach, mean + reach, len(logs))
+    middle, half = (np.interp(powers, logs, one) for one in (middles, wide))
+    top = np.minimum(middle + half, end - 1e-9 * half)
+    return np.linspace(middle - half, top, starts.shape[1], axis=1), powers
+
+
+def _moments(grid: Array, weight: Array) -> tuple[float, float]:
+    mean = float(np.sum(grid * weight))
+    return mean, float(np.sqrt(np.sum((grid - mean) ** 2 * weight)))
+
+
+def _half(grid: Array, weight: Array) -> float:
+    """Return half of the range that holds 68 %, which exceeds the spread for a jump.
+
+    A jump between two samples is as probable anywhere between them.
+    """
+    order = np.argsort(grid, axis=None)
+    share, places = weight.ravel()[order], grid.ravel()[order]
+    low, high = np.interp(_ONE, np.cumsum(share) - 0.5 * share, places)
+    return 0.5 * float(high - low)
+
+
+def _scan(
+    points: _Points, shape: Shape, starts: Array, logs: Array
+) -> tuple[Array, float, tuple[float, float, Array]]:
+    """Return the logarithm of the probability of each pair of start and unknown.
+
+    For each pair the curve is linear in all else, which is integrated over. Also chi squared of the
+    best pair, and what its curve needs.
+    """
+    where = points.times if points.edges is None else points.edges
+    u = (where - starts[:, :, None]) / points.unit
+    unknown = shape.unknown(logs, points.length / points.unit)
+    rows = shape.rows(u, unknown[:, None, None], averaged=points.edges is not None)
+    heights = np.maximum(rows[..., -1:], 1e-300)  # so that each is 1 at the end of the flank
+    rows = rows / heights / points.sigma
+    values = points.values / points.sigma
+    normal = rows @ np.swapaxes(rows, -1, -2)
+    spreads: Array = np.array([shape.others, shape.slowing]) * points.height
+    offset = max(points.offset, 1e-6 * points.height)
+    normal[..., range(4), range(4)] += (1e-12, *spreads**-2, offset**-2)
+    right = rows @ values
+    means = np.stack(shape.corrections(logs, points.level), axis=-1)[:, None] * points.height
+    right[..., 1:3] += means / spreads**2
+    solved = np.linalg.solve(normal, right[..., None])[..., 0]
+    cost = np.sum((means / spreads) ** 2, axis=-1) - np.sum(right * solved, axis=-1)
+    score = -0.5 * cost - 0.5 * np.linalg.slogdet(normal)[1] + shape.prior(logs)[:, None]
+    score = score + np.log(starts[:, 1:2] - starts[:, :1])
+    i, j = np.unravel_index(int(np.argmax(score)), score.shape)
+    chi = float(np.sum((values - solved[i, j] @ rows[i, j]) ** 2))
+    scaled = solved[i, j] / heights[i, j, :, 0]
+    return score, chi, (float(starts[i, j]), float(unknown[i]), scaled)
+
+
+def _curve(
+    points: _Points, shape: Shape, start: float, unknown: float, scaled: Array
+) -> tuple[Array, Array]:
+    """Return the best curve, from the touch on."""
+    times = np.linspace(start, points.times[-1], 60)
+    u = (times - start) / points.unit
+    force: Array = scaled @ shape.rows(u, np.array(unknown), averaged=False)
+    return times, force

@@ -7,7 +7,6 @@ from stackbounce.measure.stiffness import dynamic_stiffness
 from stackbounce.measure.table import Row
 from stackbounce.measure.waveform.flanks import Flank
 from stackbounce.measure.waveform.record import Array
-from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -45,8 +44,6 @@ class Contact:
         How many samples the contact has.
     flanks : (Flank or None, Flank or None)
         The fits behind `start` and `end`, for a picture.
-    law : type or None
-        `Dashpot` or `Viscoelastic` where no law was told and the record shows one of these.
     """
 
     start: "UFloat | None"
@@ -61,7 +58,6 @@ class Contact:
     clipped: bool
     samples: int
     flanks: tuple[Flank | None, Flank | None] = field(repr=False)
-    law: type[ContactLaw] | None = None
 
 
 @dataclass(frozen=True, eq=False)
