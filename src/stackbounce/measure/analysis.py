@@ -41,7 +41,7 @@ def analyse(
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
     law: "ContactLaw | type[ContactLaw] | str | None" = None,
-    exponent: "float | UFloat | None" = None,
+    exponent: float | None = None,
 ) -> tuple[Any, ...]:
     r"""Return what is found in a measurement by the analysis, or analyses, that fit its kind.
 
@@ -74,9 +74,10 @@ def analyse(
         Of a piezo sensor's droop, in s, which is then undone.
     gravity : float, optional
         In m/s**2.
-    law, exponent : law, class or name; float or ufloat; optional
-        The contact's law and the exponent of its loading curve: touch and release in a force
-        waveform are the surer.
+    law : ContactLaw, its class or its name, optional
+        Of the contact that a force waveform shows: its touch and release are the surer.
+    exponent : float, optional
+        Of the loading curve of a law that has one to choose.
 
     Returns
     -------
@@ -124,7 +125,9 @@ def analyse(
         if speed is None and height is not None:
             speed = (2.0 * gravity * height) ** 0.5
         told = {"impact_speed": speed, "restitution": restitution, "time_constant": time_constant}
-        gap = () if alone is None else (floor_gap(one, alone, mass=mass, **told),)
+        gap = (
+            () if alone is None else (floor_gap(one, waveform(alone, **of_it), mass=mass, **told),)
+        )
         return (*_by_two_sensors(data, speed, contact_time), one, *gap)
     if holds == "acceleration":
         return (accelerometer(data, gravity=gravity),)

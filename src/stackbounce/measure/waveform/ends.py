@@ -20,9 +20,9 @@ from stackbounce.model.laws import (
 
 __all__ = ["UNTOLD", "Ends", "ends_of"]
 
-_SURE = {"others": 0.03, "slowing": 0.04}  # spreads of the corrections where the law is told
+_OTHERS, _SLOWING = 0.03, 0.04  # spreads of the corrections where the law is told
 _SOFTEST, _STEEPEST = 6.0, 20.0  # exponents of a hysteretic release, and of what can be fitted
-_FIXED = {Spring: Spring.exponent, Hertz: Hertz.exponent}
+_FIXED: dict[type[Any], float] = {Spring: Spring.exponent, Hertz: Hertz.exponent}
 
 
 class Ends(NamedTuple):
@@ -84,17 +84,17 @@ def ends_of(
         return Ends(_sure(p, 1.0, 1.5), UNTOLD.release)
     if kind is Hysteretic:
         n = getattr(law, "unloading_exponent", None) if isinstance(law, kind) else None
-        return Ends(_sure(p, 1.0, 1.5), _sure(n, p or 1.0, _SOFTEST))
+        return Ends(_sure(p, 1.0, 1.5), Shape(n or p or 1.0, n or _SOFTEST))
     either = _sure(p, 1.0, 2.5)
     return Ends(either, either)
 
 
 def _sure(known: float | None, least: float, most: float) -> Shape:
     """Return a power that is known, or between two, with the corrections of a told law."""
-    return Shape(known or least, known or most, **_SURE)
+    return Shape(known or least, known or most, others=_OTHERS, slowing=_SLOWING)
 
 
-def _exponent(law: Any, kind: type, exponent: float | None) -> float | None:
+def _exponent(law: Any, kind: type[Any], exponent: float | None) -> float | None:
     """Return the exponent of a law that has one, or the one that is told beside it."""
     own = getattr(law, "exponent", None) if isinstance(law, kind) else _FIXED.get(kind)
     if exponent is None:
