@@ -140,12 +140,20 @@ def test_what_makes_no_sense_is_refused(law, exponent, error, words):
         waveform((times, force), law=law, exponent=exponent)
 
 
-@pytest.mark.parametrize("exponent", [1.0, 6.0, 20.0])
-def test_any_exponent_of_a_law_gives_numbers(exponent):
+@pytest.mark.parametrize("exponent", [1.0, 8.0, 100.0])
+@pytest.mark.parametrize("law", [sb.PowerLaw, sb.HuntCrossley, sb.Hysteretic])
+def test_any_exponent_of_a_law_gives_numbers(law, exponent):
     record, _, _ = bounce(sb.Hertz)
-    (contact,) = waveform(record, law=sb.PowerLaw, exponent=exponent).contacts
-    assert np.isfinite([contact.start.nominal_value, contact.start.std_dev]).all()
+    (contact,) = waveform(record, law=law, exponent=exponent).contacts
+    for one in (contact.start, contact.end):
+        assert np.isfinite([one.nominal_value, one.std_dev]).all()
     assert contact.exponents[0].nominal_value == pytest.approx(exponent)
+
+
+def test_a_very_soft_release_gives_numbers():
+    record, _, _ = bounce(sb.Hertz)
+    (contact,) = waveform(record, law=sb.Hysteretic(1.0, restitution=0.05)).contacts
+    assert np.isfinite([contact.end.nominal_value, contact.end.std_dev]).all()
 
 
 def test_a_wrong_law_shows_in_the_misfit():

@@ -21,7 +21,7 @@ from stackbounce.model.laws import (
 __all__ = ["UNTOLD", "Ends", "ends_of"]
 
 _OTHERS, _SLOWING = 0.03, 0.04  # spreads of the corrections where the law is told
-_SOFTEST, _STEEPEST = 6.0, 20.0  # exponents of a hysteretic release, and of what can be fitted
+_SOFTEST, _STEEPEST = 6.0, 100.0  # exponents of a hysteretic release, and of what can be fitted
 _FIXED: dict[type[Any], float] = {Spring: Spring.exponent, Hertz: Hertz.exponent}
 
 
@@ -83,8 +83,7 @@ def ends_of(
     if kind is HuntCrossley:  # which a loss bends otherwise than by a power
         return Ends(_sure(p, 1.0, 1.5), UNTOLD.release)
     if kind is Hysteretic:
-        n = getattr(law, "unloading_exponent", None) if isinstance(law, kind) else None
-        return Ends(_sure(p, 1.0, 1.5), Shape(n or p or 1.0, n or _SOFTEST))
+        return Ends(_sure(p, 1.0, 1.5), _unloading(law, p or 1.0))
     either = _sure(p, 1.0, 2.5)
     return Ends(either, either)
 
@@ -94,13 +93,22 @@ def _sure(known: float | None, least: float, most: float) -> Shape:
     return Shape(known or least, known or most, others=_OTHERS, slowing=_SLOWING)
 
 
+def _unloading(law: Any, least: float) -> Shape:
+    """Return the release of a `Hysteretic`, which is never harder than its touch."""
+    n = getattr(law, "unloading_exponent", None) if isinstance(law, Hysteretic) else None
+    if n is None:
+        return Shape(least, max(least, _SOFTEST))
+    return Shape(min(n, _STEEPEST), min(n, _STEEPEST))
+
+
 def _exponent(law: Any, kind: type[Any], exponent: float | None) -> float | None:
     """Return the exponent of a law that has one, or the one that is told beside it."""
     own = getattr(law, "exponent", None) if isinstance(law, kind) else _FIXED.get(kind)
-    if exponent is None:
-        return own
-    told = between("exponent", exponent, 1.0, _STEEPEST)
-    if kind not in (PowerLaw, HuntCrossley, Hysteretic):
+    told = own if exponent is None else exponent
+    if told is None:
+        return None
+    told = between("exponent", told, 1.0, _STEEPEST)
+    if exponent is not None and kind not in (PowerLaw, HuntCrossley, Hysteretic):
         raise InvalidValue(f"exponent goes with a law that has one to choose, got law {shown(law)}")
     if own not in (None, told):
         raise InvalidValue(f"exponent must be that of the law, {own:g}, got {told:g}")

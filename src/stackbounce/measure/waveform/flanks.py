@@ -188,7 +188,7 @@ def _fit(points: _Points, shape: Shape) -> Flank:
     starts = np.tile(first, (len(logs), 1))
     for k in range(_ZOOMS):
         score = _scan(points, shape, starts, logs)[0]
-        finer = k >= _SETTLED and not shape.known  # each unknown needs its best start before
+        finer = k >= _SETTLED and not shape.known  # each needs its best start first
         starts, logs = _closer(starts, logs, score, end, finer=finer)
     score, chi, best = _scan(points, shape, starts, logs)
     weight = np.exp(score - score.max())
