@@ -165,7 +165,6 @@ LIMITS: dict[str, Callable[[int], list[tuple[str, Any, float]]]] = {
     ),
     "Hunt-Crossley of restitution 0.7": partial(_ends, **LOSSY, **SCOPE),
     "hysteretic of restitution 0.75": partial(_ends, **SOFT, **SCOPE),
-    "told: Hunt-Crossley, 8 bits": partial(_ends, **LOSSY, **SCOPE, told=True),
     "told: hysteretic, 1 % noise": partial(_ends, **SOFT, **NOISY, told=True, only="release"),
     "told: hysteretic, 8 bits": partial(_ends, **SOFT, **SCOPE, told=True),
     "told: hysteretic, 0.1 % noise": partial(_ends, **SOFT, **FINE, told=True),

@@ -101,8 +101,8 @@ def waveform(
 
     A law that is told is believed: touch and release begin as it says, and the errors are those for
     this law, and for a ball that no other presses at its touch and release. Where the noise is as
-    low as 0.1 % of the peak, the errors of exponents of 2 and more, and those of the releases of
-    `Hysteretic` and `Viscoelastic` contacts, are too small by half or more.
+    low as 0.1 % of the peak, the errors of exponents of 2 and more and those of the releases of
+    `Hysteretic` and `Viscoelastic` contacts are too small.
 
     The impulse is ``m v0 (1 + e)``. With `mass` and `impact_speed`, and e from the time to the next
     contact, if one follows, it gives the volts per newton; without a next contact e may be
