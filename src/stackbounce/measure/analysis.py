@@ -15,6 +15,7 @@ from stackbounce.measure.sound import Knocks, knocks
 from stackbounce.measure.track import Tracks, track
 from stackbounce.measure.waveform import waveform
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,6 +40,8 @@ def analyse(
     restitution: "float | UFloat | None" = None,
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
+    law: "ContactLaw | type[ContactLaw] | str | None" = None,
+    exponent: float | None = None,
 ) -> tuple[Any, ...]:
     r"""Return what is found in a measurement by the analysis, or analyses, that fit its kind.
 
@@ -71,6 +74,10 @@ def analyse(
         Of a piezo sensor's droop, in s, which is then undone.
     gravity : float, optional
         In m/s**2.
+    law : ContactLaw, its class or its name, optional
+        Of the contact that a force waveform shows: its touch and release are the surer.
+    exponent : float, optional
+        Of the loading curve of a law that has one to choose.
 
     Returns
     -------
@@ -113,11 +120,14 @@ def analyse(
     if holds == "track":
         return (_tracked(data, floor, places(measured_to)[1], diameter, gravity),)
     if holds == "waveform":
-        one = waveform(data, mass=mass, impact_speed=speed, time_constant=time_constant)
+        of_it: Any = {"time_constant": time_constant, "law": law, "exponent": exponent}
+        one = waveform(data, mass=mass, impact_speed=speed, **of_it)
         if speed is None and height is not None:
             speed = (2.0 * gravity * height) ** 0.5
         told = {"impact_speed": speed, "restitution": restitution, "time_constant": time_constant}
-        gap = () if alone is None else (floor_gap(one, alone, mass=mass, **told),)
+        gap = (
+            () if alone is None else (floor_gap(one, waveform(alone, **of_it), mass=mass, **told),)
+        )
         return (*_by_two_sensors(data, speed, contact_time), one, *gap)
     if holds == "acceleration":
         return (accelerometer(data, gravity=gravity),)

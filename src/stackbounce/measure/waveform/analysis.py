@@ -12,10 +12,12 @@ from stackbounce.measure.uncertain import known_to
 from stackbounce.measure.waveform.baseline import Quiet, first_guess, quiet_parts
 from stackbounce.measure.waveform.contact import Local, measure_contact
 from stackbounce.measure.waveform.droop import undrooped
+from stackbounce.measure.waveform.ends import UNTOLD, ends_of
 from stackbounce.measure.waveform.found import Contact, Waveform
 from stackbounce.measure.waveform.intervals import Stretch, find_stretches, smoothed, which_sign
 from stackbounce.measure.waveform.record import Array, Record, read_record
 from stackbounce.measure.waveform.sensor import known, sensitivity_of
+from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,6 +28,7 @@ _MARGIN = 0.2  # of a contact, on each side of it, that is not taken as quiet
 _ROUNDS = 4
 _FEW = 6  # samples of a contact that are few
 _UNDERSHOOT = 5.0  # errors
+_STEEP, _SURELY = 0.85, 3.0  # an exponent too small for a power law; errors below 1
 
 
 class _Seen(NamedTuple):
@@ -46,6 +49,8 @@ def waveform(
     time_constant: float | None = None,
     threshold: float | None = None,
     sign: int | None = None,
+    law: "ContactLaw | type[ContactLaw] | str | None" = None,
+    exponent: float | None = None,
 ) -> Waveform:
     """Find the contacts in a force record, when they begin and end, their peaks and impulses.
 
@@ -65,6 +70,10 @@ def waveform(
         noise, and 1 % of the highest peak.
     sign : int, optional
         +1 or -1 if contacts go up or down in the record. Default: it is found.
+    law : ContactLaw, its class or its name, optional
+        Of the contact, if it is known: touch and release are the surer. `Rigid` tells nothing.
+    exponent : float, optional
+        Of the loading curve of a law that has one to choose; default unknown.
 
     Returns
     -------
@@ -81,13 +90,19 @@ def waveform(
     Notes
     -----
     Touch and release are not where the force passes a threshold, which is late, but where its
-    flanks begin: they are fitted as powers of the time since the touch, of unknown exponent, with
-    corrections (`stackbounce.measure.waveform.flanks`). Before the data are seen, the exponent of a
-    touch is from 1 (a linear spring) to 1.5 (Hertz's law) or, less probably, up to 2.5, and that of
-    a release from 1 to 2.5 or more, as lossy contacts end softly. Where samples are many and noise
-    is low this does not matter; else the error bars hold it. They do not hold touches that begin
-    with a jump (`Dashpot`) or as the root of the time (`Viscoelastic`), which are found too early,
-    nor releases of very lossy contacts (a restitution below 0.8 or so).
+    flanks begin: they are fitted by the curves of `stackbounce.measure.waveform.shapes`. Where no
+    `law` is told these are powers of the time since the touch, of unknown exponent, with
+    corrections. Before the data are seen, the exponent of a touch is from 1 (a linear spring) to
+    1.5 (Hertz's law) or, less probably, up to 2.5, and that of a release from 1 to 2.5 or more, as
+    lossy contacts end softly. Where samples are many and noise is low this does not matter; else
+    the error bars hold it. They do not hold touches that begin with a jump (`Dashpot`) or as the
+    root of the time (`Viscoelastic`), which are found too early, nor releases of very lossy
+    contacts (a restitution below 0.8 or so): there tell the law.
+
+    A law that is told is believed: touch and release begin as it says, and the errors are those for
+    this law, and for a ball that no other presses at its touch and release. Where the noise is as
+    low as 0.1 % of the peak, the errors of exponents of 2 and more and those of the releases of
+    `Hysteretic` and `Viscoelastic` contacts are too small.
 
     The impulse is ``m v0 (1 + e)``. With `mass` and `impact_speed`, and e from the time to the next
     contact, if one follows, it gives the volts per newton; without a next contact e may be
@@ -103,6 +118,7 @@ def waveform(
     >>> print(f"{found.contacts[0].time * 1e3:.1uS} ms, {found.stiffness / 1e3:.1uS} kN/m")
     3.999(7) ms, 61.7(2) kN/m
     """
+    ends = ends_of(law, exponent)
     if sign not in (None, 1, -1):
         raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")
     if threshold is not None:
@@ -118,13 +134,14 @@ def waveform(
     local = Local(record.times, seen.signal, raw, seen.quiet, record.quantum, quiet)
     around = [None, *seen.stretches, None]
     contacts = tuple(
-        measure_contact(local, around[k], one, around[k + 2])
+        measure_contact(local, around[k], one, around[k + 2], ends)
         for k, one in enumerate(seen.stretches)
     )
     notes = [
         *record.notes,
         *_notes(original, seen, contacts, m),
         *_droops(seen, local, time_constant),
+        *(_steep(contacts) if ends == UNTOLD else ()),
     ]
     sensitivity, why = sensitivity_of(contacts, record.unit, m, v)
     return Waveform(
@@ -232,6 +249,18 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
             "one spring"
         )
     return notes
+
+
+def _steep(contacts: tuple[Contact, ...]) -> list[str]:
+    """Return a note if the force begins more steeply than as a power, as damped contacts do."""
+    power = contacts[0].exponents[0] if contacts else None
+    if power is None or power.nominal_value > min(_STEEP, 1.0 - _SURELY * power.std_dev):
+        return []
+    note = (
+        "the force begins more steeply than that of any spring, as if with a jump: the touch found "
+        "may be too early; if the contact is damped, tell its law (--law dashpot or viscoelastic)"
+    )
+    return [note]
 
 
 def _droops(seen: _Seen, local: Local, time_constant: float | None) -> list[str]:

@@ -2,18 +2,20 @@
 
 from dataclasses import dataclass
 from math import hypot
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.uncertain import known_to
 from stackbounce.measure.waveform.baseline import Quiet, scatter, stuck
-from stackbounce.measure.waveform.flanks import FALL, RISE, Flank, fit_flank
+from stackbounce.measure.waveform.ends import Ends
+from stackbounce.measure.waveform.flanks import Flank, fit_flank
 from stackbounce.measure.waveform.found import Contact
 from stackbounce.measure.waveform.intervals import Stretch
 from stackbounce.measure.waveform.peaks import Peak, find_peaks, flat_top, impulse_of
 from stackbounce.measure.waveform.record import Array
+from stackbounce.measure.waveform.shapes import Shape
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -76,7 +78,7 @@ class _Part:
 
 
 def measure_contact(
-    local: Local, before: Stretch | None, one: Stretch, after: Stretch | None
+    local: Local, before: Stretch | None, one: Stretch, after: Stretch | None, ends: Ends
 ) -> Contact:
     """Return what a stretch of the record tells about a contact.
 
@@ -86,6 +88,8 @@ def measure_contact(
         The record.
     before, one, after : Stretch
         The contact and its neighbours, None where it has none.
+    ends : Ends
+        How it may begin and end.
 
     Returns
     -------
@@ -96,13 +100,13 @@ def measure_contact(
     inner = slice(max(0, part.first - pad), part.last + pad + 1)
     peaks = find_peaks(part.times[inner], part.values[inner], part.noise, part.density)
     whole = one.first > 1, one.last < len(local.times) - 2
-    rise = _flank(part, peaks[0], RISE, forward=True) if whole[0] else None
-    fall = _flank(part, peaks[-1], FALL, forward=False) if whole[1] else None
-    ends = (
+    rise = _flank(part, peaks[0], ends.touch, forward=True) if whole[0] else None
+    fall = _flank(part, peaks[-1], ends.release, forward=False) if whole[1] else None
+    inside = (
         rise.time if rise else float(part.times[part.first]),
         fall.time if fall else float(part.times[part.last]),
     )
-    area = impulse_of(part.times, part.values, part.density, part.offset, ends)
+    area = impulse_of(part.times, part.values, part.density, part.offset, inside)
     clipped = flat_top(local.raw[one.first : one.last + 1], local.quantum)
     return _contact(peaks, part.offset, (rise, fall), area, clipped, len(one))
 
@@ -167,26 +171,21 @@ def _part(local: Local, before: Stretch | None, one: Stretch, after: Stretch | N
     return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
 
 
-def _flank(
-    part: _Part, peak: Peak, exponents: tuple[float, float], *, forward: bool
-) -> Flank | None:
+def _flank(part: _Part, peak: Peak, shape: Shape, *, forward: bool) -> Flank | None:
     """Return the flank before the first peak, or with time reversed the one after the last."""
     top = int(np.searchsorted(part.times, peak.time))
     if forward:
         times, values = part.times[: top + 1], part.values[: top + 1]
     else:
         times, values = -part.times[top - 1 :][::-1], part.values[top - 1 :][::-1]
-    width = 2 * ((part.last - part.first) // _AVERAGES // 2) + 1
-    how: Any = {"peak": peak.force, "offset": part.offset, "width": width}
-    found = fit_flank(times, values, part.density, exponents=exponents, **how)
-    if found is None or forward:
-        return found
-    return Flank(
-        -found.time,
-        found.error,
-        found.exponent,
-        found.exponent_error,
-        -found.times[::-1],
-        found.force[::-1],
-        found.misfit,
+    found = fit_flank(
+        times,
+        values,
+        part.density,
+        shape,
+        peak=peak.force,
+        offset=part.offset,
+        length=float(part.times[part.last] - part.times[part.first]),
+        width=2 * ((part.last - part.first) // _AVERAGES // 2) + 1,
     )
+    return found if found is None or forward else found.reversed()

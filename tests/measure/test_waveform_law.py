@@ -1,0 +1,242 @@
+"""Force records whose contact law is told: surer touches and releases, right ones for a dashpot."""
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import analyse
+from stackbounce.measure.synthetic.waveform import waveform as record_of
+from stackbounce.measure.waveform import waveform
+
+LAB = Path(__file__).parents[2] / "docs" / "lab"
+
+
+def bounce(law, seed=1, **shape):
+    """Return a record of 4 ms with 1 % noise, and when the contact in it began and ended."""
+    made = sb.calibrate(law, mass=0.1, contact_time=4e-3, impact_speed=2.0, **shape)
+    result = sb.simulate(sb.Drop([sb.Ball(0.1)], [made], impact_speed=2.0))
+    record = record_of(result, rate=5e4, noise=2.0, seed=seed)
+    touch = record.attrs["touch"]
+    return record, touch, touch + float(result.intervals["end"][0])
+
+
+def off(value, truth):
+    return (value.nominal_value - truth) / value.std_dev
+
+
+@pytest.mark.parametrize(
+    ("law", "shape", "at_most"),
+    [
+        ("spring", {}, 0.6),
+        ("hertz", {}, 0.6),
+        ("power-law", {"exponent": 1.25}, 0.6),
+        ("hysteretic", {"exponent": 1.5, "restitution": 0.75}, 0.8),
+    ],
+)
+def test_a_told_law_narrows_the_touch(law, shape, at_most):
+    record, touch, end = bounce(sb.model.laws.law_named(law), **shape)
+    (free,) = waveform(record).contacts
+    (told,) = waveform(record, law=law, exponent=shape.get("exponent")).contacts
+    assert told.start.std_dev < at_most * free.start.std_dev
+    assert abs(off(told.start, touch)) < 3.0
+    assert abs(off(told.end, end)) < 3.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("restitution", [0.6, 0.8])
+def test_the_jump_of_a_dashpot_is_not_followed_down_too_early(restitution, seed):
+    record, touch, end = bounce(sb.Dashpot, seed, restitution=restitution)
+    (free,) = waveform(record).contacts
+    (told,) = waveform(record, law=sb.Dashpot).contacts
+    assert off(free.start, touch) < -1.0
+    assert abs(told.start.nominal_value - touch) < 2e-5  # one sample
+    assert abs(off(told.start, touch)) < 3.0
+    assert abs(off(told.end, end)) < 3.0
+    assert told.exponents[0].nominal_value == 0.0
+    assert told.exponents[1].nominal_value == 1.0
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_viscoelastic_contact_begins_as_a_root_of_the_time(seed):
+    record, touch, end = bounce(sb.Viscoelastic, seed, restitution=0.7)
+    (told,) = waveform(record, law="viscoelastic").contacts
+    assert abs(off(told.start, touch)) < 3.0
+    assert abs(off(told.end, end)) < 3.0
+    assert told.exponents[0].nominal_value == 0.5
+
+
+def test_an_averaged_jump_is_as_unsure_as_its_samples_are_apart():
+    made = sb.calibrate(sb.Dashpot, mass=0.1, contact_time=4e-3, impact_speed=2.0, restitution=0.7)
+    drop = sb.Drop([sb.Ball(0.1)], [made], impact_speed=2.0)
+    record = record_of(drop, rate=2e5, noise=0.01, seed=1)
+    (told,) = waveform(record, law=made).contacts
+    assert told.start.std_dev >= 5e-6 / 12**0.5
+    assert abs(off(told.start, record.attrs["touch"])) < 3.0
+
+
+def test_an_exponent_says_more_than_a_law_that_leaves_it_open():
+    record, _, _ = bounce(sb.PowerLaw, exponent=1.25)
+    errors = [
+        waveform(record, law=sb.PowerLaw, exponent=one).contacts[0].start.std_dev
+        for one in (1.25, None)
+    ]
+    assert errors[0] < 0.7 * errors[1]
+
+
+def test_an_unloading_exponent_says_how_the_contact_ends():
+    record, _, end = bounce(sb.Hysteretic, exponent=1.5, restitution=0.75)
+    law = sb.Hysteretic(1.0, exponent=1.5, restitution=0.75)
+    (told,) = waveform(record, law=law).contacts
+    (open_,) = waveform(record, law=sb.Hysteretic, exponent=1.5).contacts
+    assert told.end.std_dev < 0.5 * open_.end.std_dev
+    assert abs(off(told.end, end)) < 3.0
+
+
+def test_class_name_and_law_say_the_same():
+    record, _, _ = bounce(sb.Hertz)
+    one, *others = (waveform(record, law=law) for law in (sb.Hertz, "Hertz", sb.Hertz(1e6)))
+    for other in others:
+        assert other.contacts[0].start.nominal_value == one.contacts[0].start.nominal_value
+        assert other.contacts[0].start.std_dev == one.contacts[0].start.std_dev
+
+
+@pytest.mark.parametrize("law", [None, "rigid", sb.Rigid, sb.Rigid(0.8)])
+def test_nothing_told_changes_nothing(law):
+    record, _, _ = bounce(sb.Hertz)
+    told, free = waveform(record, law=law), waveform(record)
+    assert told.contacts[0].start.nominal_value == free.contacts[0].start.nominal_value
+    assert told.contacts[0].start.std_dev == free.contacts[0].start.std_dev
+
+
+@pytest.mark.parametrize(
+    ("law", "exponent", "error", "words"),
+    [
+        ("hert", None, InvalidValue, "Hertz"),
+        (2.0, None, InvalidType, "law must be a contact law, its class or its name, got 2.0"),
+        (dict, None, InvalidType, "law must be a contact law, its class or its name, got"),
+        (None, 1.5, InvalidValue, "exponent goes with a law that has one to choose, got law None"),
+        ("spring", 2.0, InvalidValue, "exponent goes with a law that has one to choose, got law"),
+        ("power-law", 0.5, InvalidValue, "exponent must be a number .*got 0.5"),
+        ("power-law", float("nan"), InvalidValue, "exponent must be .*got nan"),
+        ("power-law", "steep", InvalidType, "exponent must be .*got 'steep'"),
+        (
+            sb.PowerLaw(1e6, 1.3),
+            1.5,
+            InvalidValue,
+            "exponent must be that of the law, 1.3, got 1.5",
+        ),
+    ],
+)
+def test_what_makes_no_sense_is_refused(law, exponent, error, words):
+    times = np.arange(0.0, 0.02, 1e-5)
+    force = 200.0 * np.sin(np.pi * np.clip(times - 3e-3, 0.0, 4e-3) / 4e-3)
+    with pytest.raises(error, match=words):
+        waveform((times, force), law=law, exponent=exponent)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 8.0, 100.0])
+@pytest.mark.parametrize("law", [sb.PowerLaw, sb.HuntCrossley, sb.Hysteretic])
+def test_any_exponent_of_a_law_gives_numbers(law, exponent):
+    record, _, _ = bounce(sb.Hertz)
+    (contact,) = waveform(record, law=law, exponent=exponent).contacts
+    for one in (contact.start, contact.end):
+        assert np.isfinite([one.nominal_value, one.std_dev]).all()
+    assert contact.exponents[0].nominal_value == pytest.approx(exponent)
+
+
+def test_a_very_soft_release_gives_numbers():
+    record, _, _ = bounce(sb.Hertz)
+    (contact,) = waveform(record, law=sb.Hysteretic(1.0, restitution=0.05)).contacts
+    assert np.isfinite([contact.end.nominal_value, contact.end.std_dev]).all()
+
+
+def test_a_wrong_law_shows_in_the_misfit():
+    record, _, _ = bounce(sb.Spring)
+    (right,) = waveform(record, law="spring").contacts
+    (wrong,) = waveform(record, law="power-law", exponent=3.0).contacts
+    assert right.flanks[0].misfit == 1.0
+    assert wrong.start.std_dev > right.start.std_dev
+
+
+def test_a_gap_has_both_records_by_the_law_that_is_told():
+    balls, laws = [sb.Ball(0.101), sb.Ball(0.0248)], [sb.Spring(5.6e4), sb.Spring(1.6e4)]
+    drops = sb.Drop(balls, laws, gaps=[1e-3], height=0.2), sb.Drop(balls[:1], laws[:1], height=0.2)
+    both, alone = (record_of(drop, rate=1e5, noise=0.3, seed=1) for drop in drops)
+    for one in (both, alone):
+        one.attrs["holds"] = "waveform"
+    *_, found = analyse(both, alone=alone, mass=0.101, law="spring")
+    assert abs(off(found.gap, 1e-3)) < 3.0
+
+
+STEEP = "more steeply than that of any spring"
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize(
+    ("law", "shape"),
+    [
+        (sb.Spring, {}),
+        (sb.Hertz, {}),
+        (sb.PowerLaw, {"exponent": 2.0}),
+        (sb.HuntCrossley, {"exponent": 1.0, "restitution": 0.7}),
+        (sb.Hysteretic, {"exponent": 1.0, "restitution": 0.75}),
+    ],
+)
+def test_nothing_is_said_of_a_force_that_begins_as_a_power(law, shape, seed):
+    record, _, _ = bounce(law, seed, **shape)
+    assert not any(STEEP in note for note in waveform(record).notes)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_jump_that_is_not_told_is_said(seed):
+    record, _, _ = bounce(sb.Dashpot, seed, restitution=0.7)
+    assert any(STEEP in note for note in waveform(record).notes)
+    assert not any(STEEP in note for note in waveform(record, law="dashpot").notes)
+
+
+@pytest.fixture
+def run(capfd, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(LAB / "tennis-force.csv", tmp_path)
+
+    def run_main(*more):
+        code = main(["measure", "tennis-force.csv", "--mass", "57g", *more])
+        return code, *capfd.readouterr()
+
+    return run_main
+
+
+def touch_error(out):
+    file = json.loads(out)["files"][0]
+    (error,) = (row["error"] for row in file["found"] if row["name"] == "touch")
+    return error
+
+
+def test_the_command_tells_the_law(run):
+    _, free, _ = run("--json")
+    code, told, _ = run("--json", "--restitution", "0.75", "--law", "hysteretic exponent=1")
+    assert code == 0
+    assert touch_error(told) < 0.7 * touch_error(free)
+
+
+@pytest.mark.parametrize(
+    ("law", "words"),
+    [
+        ("hert", "Hertz"),
+        ("spring exponent=2", "exponent goes with a law that has one to choose, got law"),
+        ("power-law exponent=0.5", "exponent must be a number"),
+    ],
+)
+def test_the_command_refuses_what_makes_no_sense(run, law, words):
+    code, out, err = run("--law", law)
+    assert code != 0
+    assert out == ""
+    assert words in err
+    assert "Traceback" not in err
+    assert len(err.strip().splitlines()) == 1
