@@ -3,6 +3,7 @@
 import contextlib
 import json
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -179,6 +180,7 @@ def test_draws_in_a_table(run):
     assert (code, err) == (0, "")
     ((*numbers, unit),) = cells(out, "contacts.1.stiffness")
     assert (len(numbers), unit) == (8, "N/m")
+    assert re.search(r"Draws: \d+ kept; \d\d% of the steps were taken, and a walker", out)
 
 
 @pytest.mark.parametrize("picture", ["fit.png", "fit.svg"])

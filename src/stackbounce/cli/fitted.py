@@ -183,6 +183,8 @@ def tell(console: "Console", done: Fitted) -> None:
     pairs = _strong(found)
     if pairs:
         console.print("Correlations: " + "; ".join(pairs))
+    if done.posterior is not None:
+        console.print(_draws(done.posterior))
     notes = found.notes + (done.posterior.notes if done.posterior else ())
     for note in notes:
         console.print(f"Note: {note}.")
@@ -322,6 +324,18 @@ def _goodness(found: Fit) -> str:
     share = 100.0 * found.probability
     often = f"{share:.2g} %" if share >= 0.01 else "less than 0.01 %"
     return f"{words}; were the model right, it would be larger in {often} of all cases."
+
+
+def _draws(drawn: Posterior) -> str:
+    """Return how good some draws are, in words."""
+    count, longest = (
+        drawn.chain.shape[0] * drawn.chain.shape[1],
+        max(drawn.autocorrelation.values()),
+    )
+    return (
+        f"Draws: {count} kept; {drawn.acceptance:.0%} of the steps were taken, and a walker forgets "
+        f"where it was after {longest:.0f} of them."
+    )
 
 
 def _strong(found: Fit) -> list[str]:
