@@ -333,8 +333,8 @@ def _draws(drawn: Posterior) -> str:
         max(drawn.autocorrelation.values()),
     )
     return (
-        f"Draws: {count} kept; {drawn.acceptance:.0%} of the steps were taken, and a walker forgets "
-        f"where it was after {longest:.0f} of them."
+        f"Draws: {count} kept; {drawn.acceptance:.0%} of the steps were taken, and a walker "
+        f"forgets where it was after {longest:.0f} of them."
     )
 
 
