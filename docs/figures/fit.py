@@ -39,4 +39,4 @@ def models():
 
 def draws():
     """The same, drawn from."""
-    show(plots.corner, _two().sample(12_800))
+    show(plots.corner, _two().sample(6_400))

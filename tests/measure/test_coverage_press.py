@@ -16,7 +16,6 @@ FEW = chosen(
     CASES,
     "noise that remembers",
     "coarse digits",
-    "an exponent of 3",
 )
 
 

@@ -15,7 +15,6 @@ SEEDS = range(400)  # of 200 chance alone would put one quantity in fifty outsid
 FEW = chosen(
     CASES,
     "track, 60 frames per second",
-    "track, pixels of 4 mm",
 )
 
 

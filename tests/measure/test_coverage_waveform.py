@@ -15,7 +15,6 @@ from benchmarks.coverage.waveform import CASES, TOLD
 SEEDS, FEWER = range(220), range(100)
 FEW = chosen(
     CASES,
-    "Hertz, 1 % noise",
     "any law, 30 samples",
     "hysteretic of restitution 0.9",
     "told: dashpot",

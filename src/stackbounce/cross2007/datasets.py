@@ -29,7 +29,19 @@ _WIDEST = 0.03  # m
 
 
 class DataSet(NamedTuple):
-    """A measurement of the paper, and what is varied in its drop unless something else is told."""
+    """A measurement of the paper, and what is varied in its drop unless something else is told.
+
+    Parameters
+    ----------
+    drop : Drop
+        What was dropped.
+    data : dict
+        What was measured, as `stackbounce.fit` takes it.
+    vary : dict
+        What is varied.
+    what : str
+        Where the paper has it.
+    """
 
     drop: Drop
     data: dict[str, Any]

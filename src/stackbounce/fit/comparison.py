@@ -143,7 +143,13 @@ class Comparison:
         return {name: _predictions(found) for name, found in self.fits.items()}
 
     def predictive(self, name: str) -> float:
-        """Return the logarithm of how probable a model held what was left out; more is better."""
+        """Return the logarithm of how probable a model held what was left out; more is better.
+
+        Parameters
+        ----------
+        name : str
+            The model.
+        """
         return sum(
             -0.5 * one.pull**2 - math.log(math.hypot(one.error, one.predicted_error) / one.error)
             for one in self.left_out[name]
