@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from stackbounce.cli.output import new_table
 from stackbounce.cli.show import number
 from stackbounce.fit import Comparison, Question, compare, standard_models
 from stackbounce.fit.quantities import QUANTITIES
@@ -46,11 +47,7 @@ def summary(done: Comparison) -> dict[str, Any]:
 
 def tell(console: "Console", done: Comparison) -> None:
     """Print a comparison, for people."""
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
-    table.add_column("\nModel", overflow="fold")
+    table = new_table("\nModel")
     name = _CRITERIA[done.criterion]
     headings = (
         "\nnumbers",
@@ -85,14 +82,10 @@ def tell(console: "Console", done: Comparison) -> None:
 
 def _tell_pulls(console: "Console", done: Comparison) -> None:
     """Print what each model gets wrong, in errors, where there are few data."""
-    from rich import box
-    from rich.table import Table
-
     data = done.pulls.datum.values.tolist()
     if len(data) > _MANY:
         return
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
-    table.add_column("Fitted less measured, in errors", overflow="fold")
+    table = new_table("Fitted less measured, in errors")
     for datum in data:
         table.add_column(datum.replace(".", ".\n", 1), justify="right", no_wrap=True)
     for score in done.scores:

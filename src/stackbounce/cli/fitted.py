@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.cli import scenario
-from stackbounce.cli.output import progress_bar
+from stackbounce.cli.output import check_scenario, new_table, progress_bar, write_scenario
 from stackbounce.cli.show import number
 from stackbounce.cross2007.datasets import PREFIX, dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
@@ -118,32 +118,29 @@ def posterior(done: Fitted) -> "Figure":
 
 def check_save(path: Path, asked: Question) -> None:
     """Refuse to save what could not be written, before anything is computed."""
-    if len(asked.drops) > 1:
-        if path.suffix or (path.exists() and not path.is_dir()):
-            raise InvalidValue(
-                f"--save must name a folder for {len(asked.drops)} drops, a file each, got {path}"
-            )
-    elif path.suffix.lower() != ".toml":
-        raise InvalidValue(f"--save must end in .toml, got {path}")
-    elif path.is_dir():
-        raise FileError(f"{path} cannot be written: it is a folder")
-    if not path.parent.is_dir():
+    if len(asked.drops) == 1:
+        check_scenario(path)
+    elif path.suffix or (path.exists() and not path.is_dir()):
+        raise InvalidValue(
+            f"--save must name a folder for {len(asked.drops)} drops, a file each, got {path}"
+        )
+    elif not path.parent.is_dir():
         raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
 
 
 def save(done: Fitted, path: Path) -> list[Path]:
     """Write the fitted drop into a file, or several into a folder, and return the files."""
     drops = done.fit.drops
-    texts = {path: next(iter(drops.values())).to_toml()}
-    try:
-        if len(drops) > 1:
+    files = {path: next(iter(drops.values()))}
+    if len(drops) > 1:
+        try:
             path.mkdir(exist_ok=True)
-            texts = {path / f"{name}.toml": drop.to_toml() for name, drop in drops.items()}
-        for file, text in texts.items():
-            _write(file, text)
-    except OSError as error:
-        raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
-    return list(texts)
+        except OSError as error:
+            raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
+        files = {path / f"{name}.toml": drop for name, drop in drops.items()}
+    for file, drop in files.items():
+        write_scenario(drop.to_toml(), file)
+    return list(files)
 
 
 def summary(done: Fitted, saved: Sequence[Path]) -> dict[str, Any]:
@@ -232,16 +229,6 @@ def _own_name(asked: Question, name: str) -> tuple[str, str]:
     return key, own
 
 
-def _write(path: Path, text: str) -> None:
-    """Write a file that is whole or not there."""
-    part = path.with_name(f".{path.name}.part")
-    try:
-        part.write_text(text, encoding="utf-8")
-        part.replace(path)
-    finally:
-        part.unlink(missing_ok=True)
-
-
 def _drawn(drawn: Posterior, name: str) -> dict[str, Any]:
     return {
         "mean": drawn[name].nominal_value,
@@ -256,7 +243,7 @@ def _drawn(drawn: Posterior, name: str) -> dict[str, Any]:
 
 def _parameters(done: Fitted) -> "Table":
     """Return the table of what was varied."""
-    table = _empty("\nVaried")
+    table = new_table("\nVaried")
     headings = ["\nvalue", "\nerror"]
     headings += ["interval\nfrom", "\nto"] if done.intervals else []
     headings += ["draws\n15.9 %", "\n50 %", "\n84.1 %"] if done.posterior else []
@@ -290,7 +277,7 @@ def _least(done: Fitted, name: str) -> float:
 
 
 def _residuals(found: Fit) -> "Table":
-    table = _empty("\nMeasured")
+    table = new_table("\nMeasured")
     for heading in ("\nvalue", "\nerror", "\nfitted", "off by\nerrors"):
         table.add_column(heading, justify="right", no_wrap=True)
     table.add_column("\nunit")
@@ -302,15 +289,6 @@ def _residuals(found: Fit) -> "Table":
         numbers = [factor * value for value in (one.measured, one.error, one.fitted)]
         name = f"{one.drop}.{one.name}" if one.drop else one.name
         table.add_row(name, *rounded(numbers, factor * one.error), f"{one.pull:+.2f}", unit)
-    return table
-
-
-def _empty(title: str) -> "Table":
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
-    table.add_column(title, overflow="fold")
     return table
 
 

@@ -11,6 +11,7 @@ from stackbounce.errors import FileError, InvalidValue
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
+    from rich.table import Table
 
 __all__ = [
     "SUFFIXES",
@@ -18,6 +19,7 @@ __all__ = [
     "check_scenario",
     "console",
     "draw",
+    "new_table",
     "progress_bar",
     "write_scenario",
 ]
@@ -88,17 +90,32 @@ def draw(make: Callable[[], "Figure"], path: Path) -> None:
 
 
 def write_scenario(text: str, path: Path) -> None:
-    """Write a scenario file.
+    """Write a scenario file that is whole or not there.
 
     Raises
     ------
     FileError
         If it cannot be written.
     """
+    part = path.with_name(f".{path.name}.part")
     try:
-        path.write_text(text, encoding="utf-8")
+        try:
+            part.write_text(text, encoding="utf-8")
+            part.replace(path)
+        finally:
+            part.unlink(missing_ok=True)
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
+
+
+def new_table(title: str) -> "Table":
+    """Return an empty table for people, with its first column."""
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
+    table.add_column(title, overflow="fold")
+    return table
 
 
 def console() -> "Console":

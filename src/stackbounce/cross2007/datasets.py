@@ -21,7 +21,6 @@ __all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "pair"]
 PREFIX = "cross2007/"
 """What a data set's name begins with on the command line."""
 
-_HEAVIER = 1.040  # Table II's mass ratio of the two balls B1, the heavier one below
 _SMALLER = (0.90, 0.02)  # Table I's restitution of B2 and of B3, which no row of the audit needs
 _LEAST = 1e-4  # s: the error of an impact duration
 _STIFF = (1e3, 1e6)  # N/m
@@ -176,7 +175,7 @@ def _alone(name: str) -> DataSet:
 
 
 def _ball(name: str, *, heavier: bool = False) -> Ball:
-    mass = _value(f"{name}.mass") * (_HEAVIER if heavier else 1.0)
+    mass = _value(f"{name}.mass") * (_value("B1_on_B1.mass_ratio") if heavier else 1.0)
     return Ball(mass, _value(f"{name}.diameter"), name=name)
 
 
