@@ -106,7 +106,7 @@ def test_two_workers_and_the_loss_of_one(whole, tmp_path):
         "n_workers": 2,
         "threads_per_worker": 1,
         "processes": True,
-        "dashboard_address": None,
+        "dashboard_address": "127.0.0.1:0",  # any free port: None would ask for 8787
     }
     killed = []
     with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
@@ -238,6 +238,7 @@ def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
     out = tmp_path / whole[0].name
     command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--no-dashboard"]
+    command += ["--dashboard-address", "127.0.0.1:0"]
     command += ["--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(tmp_path / "at")]
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     with subprocess.Popen(command, **quiet) as scheduler:
