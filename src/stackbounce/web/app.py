@@ -33,7 +33,7 @@ _PROBLEMS: dict[int | str, dict[str, Any]] = {
         503: "Too much is asked for at once, or of one request; the detail says what.",
     }.items()
 }
-_EXPORTED = {
+_EXPORTED: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "The file.",
         "content": {

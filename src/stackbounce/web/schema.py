@@ -146,7 +146,16 @@ Contact = Annotated[
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 _Name = Annotated[str, Field(max_length=100)]
-_Law = Literal[tuple(LAWS)]  # type: ignore[valid-type]
+_Law = Literal[
+    "Rigid",
+    "Spring",
+    "Hertz",
+    "PowerLaw",
+    "Dashpot",
+    "Viscoelastic",
+    "HuntCrossley",
+    "Hysteretic",
+]
 
 
 ExportKind = Literal["csv", "toml", "python", "svg", "png"]

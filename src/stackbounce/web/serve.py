@@ -3,8 +3,10 @@
 import contextlib
 import socket
 import threading
+import time
 import webbrowser
 from collections.abc import Callable
+from typing import Any
 
 from stackbounce.errors import FileError, InvalidValue, whole
 from stackbounce.web.limits import Limits
@@ -106,14 +108,12 @@ def _shown(host: str) -> str:
 
 
 def _when_started(
-    server: "uvicorn.Server",  # noqa: F821
+    server: Any,
     address: str,
     browser: bool,
     tell: Callable[[str], None],
 ) -> None:
     """Tell the address, and open it, once the server answers."""
-    import time
-
     while not server.started:
         if server.should_exit:
             return

@@ -64,7 +64,7 @@ class Workers:
 
     def stop(self) -> None:
         """End the processes, whatever they do."""
-        self._pool.stop()
+        self._pool.stop()  # type: ignore[no-untyped-call]
         self._pool.join(timeout=5.0)
 
     async def run(self, job: Callable[..., Any], *arguments: Any, seconds: float) -> Any:

@@ -75,8 +75,8 @@ def _field(kind: type[ContactLaw], one: "dataclasses.Field[Any]") -> dict[str, A
     steep = one.name == "stiffness" and unit != "N/m"
     default, low, high, said = _FIELDS["stiffness**1.5" if steep else one.name]
     required = one.default is dataclasses.MISSING
-    if one.name == "exponent" and not required:
-        default = float(one.default)
+    if one.name == "exponent" and isinstance(one.default, float):
+        default = one.default
     return {
         "name": one.name,
         "unit": unit,
@@ -98,7 +98,7 @@ def stacked(names: list[str], height: float) -> str:
 
 def measured_law(law: str, given: dict[str, float]) -> str:
     """Return, as JSON, the law of a name that has what was measured; see `calibrate`."""
-    return _contact(calibrate(law_named(law), **given))  # type: ignore[arg-type]
+    return _contact(calibrate(law_named(law), **given))
 
 
 def like(
@@ -125,7 +125,7 @@ def like(
         given["restitution"] = kept
     if to == "PowerLaw":
         given["exponent"] = getattr(contact, "exponent", 1.5)
-    return _contact(calibrate(law_named(to), **given))  # type: ignore[arg-type]
+    return _contact(calibrate(law_named(to), **given))
 
 
 def _contact(law: ContactLaw) -> str:

@@ -86,11 +86,11 @@ def _times(result: Result, until: float | None, frames: int) -> _Times:
         if drop.gravity > 0.0 and drop.velocities is None:
             begin = -drop.reference_speed / drop.gravity  # from rest
         frames //= 2  # the other half goes to the contacts, which are short
-    times = [np.linspace(begin, end, frames), [0.0]]
+    times = [np.linspace(begin, end, frames), np.zeros(1)]
     spans = result.intervals[:_INTERVALS]
     each = max(8, frames // max(1, len(spans))) if until is not None else 2
     times += [np.linspace(one["start"], min(one["end"], end), each) for one in spans]
-    every = np.unique(np.concatenate(times))
+    every: _Times = np.unique(np.concatenate(times))
     return every[(every >= begin) & (every <= end)]
 
 

@@ -199,9 +199,10 @@ def _usable(data: "xr.Dataset", found: Sequence[Any]) -> dict[str, str]:
         elif isinstance(one, Tracks) and one.rebound_ratios:
             for i, ratio in enumerate(one.rebound_ratios):
                 usable[f"rebound_ratios.{i}"] = _written(ratio)
-        elif isinstance(one, Tracks) or getattr(one, "restitutions", ()):
-            kept = (one.balls[0] if isinstance(one, Tracks) else one).restitutions[0]
-            usable["rebound_ratios.0"] = _written(kept)
+        else:
+            of_one = one.balls[0] if isinstance(one, Tracks) else one
+            for kept in getattr(of_one, "restitutions", ())[:1]:
+                usable["rebound_ratios.0"] = _written(kept)
     return usable
 
 
@@ -219,7 +220,7 @@ def _series(data: "xr.Dataset", found: Sequence[Any]) -> list[_Series]:
             for i, ball in enumerate(tracks.balls)
         ]
     wave = next((one for one in found if isinstance(one, Waveform)), None)
-    curves = []
+    curves: list[_Series] = []
     for name, values in data.data_vars.items():
         if values.dims != ("time",):
             continue
@@ -268,7 +269,7 @@ def _record(
         raise InvalidValue(f"{what}: {name} holds no force over time, but a {data.attrs['holds']}")
     if which not in own:
         raise InvalidValue(f"{what} must be a channel, got {shown(which)}; {nearest(which, own)}")
-    record = data[which].dropna("time").sortby("time")
+    record: xr.DataArray = data[which].dropna("time").sortby("time")
     first = wave.contacts[0]
     if first.start is None:
         return record
