@@ -1,7 +1,7 @@
 /** The controls: presets, how the tower comes in, and the tower. */
 
 import { h, write } from "./dom.js";
-import { GRAVITY, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
+import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
 import { choice, numberField } from "./fields.js";
 import { asMeasured, changeLaw } from "./laws.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
@@ -76,19 +76,24 @@ export function mountControls(root, store, api, catalogue) {
     } else {
       for (const field of fields) field.update(field.path === "until" ? until : valueAt(drop, field.path));
     }
+    if (drop !== example) presets.querySelector("select").value = "";
     showError(fields, general, error);
   };
 
+  let example = null;
   const presets = presetChoice(catalogue, (preset) => {
     write(said, preset.says);
-    change({ gaps: [], ...preset.drop });
-    store.set({ t: null, until: null });
+    notes = [];
+    example = complete(preset.drop);
+    store.set({ drop: example, t: null, until: null });
   });
   root.replaceChildren(presets, said, general, drops, tower);
   store.subscribe((state, before) => {
+    if (state.notice !== before.notice) write(said, state.notice ?? "");
     const touched = ["drop", "error", "until"].some((name) => state[name] !== before[name]);
     if (touched) update();
   });
+  write(said, store.get().notice ?? "");
   update();
 }
 

@@ -2,8 +2,6 @@
 
 import { contactMass, speedOf, withValue } from "./drops.js";
 
-const COLLISION = 5e-3; // s that a contact lasts which was Rigid before
-
 /** Return a contact of a law with the catalogue's defaults. */
 function plain(law) {
   const fields = law.fields.filter((field) => field.required || field.default !== null);
@@ -42,10 +40,6 @@ async function converted(api, law, drop, place) {
   const common = { mass: contactMass(drop, place), impact_speed: speedOf(drop) };
   try {
     if (contact.law === "none") return { contact: plain(law), kept: true };
-    if (contact.law === "Rigid" && law.law !== "Rigid") {
-      const asked = { ...common, restitution: contact.restitution, contact_time: COLLISION, law: law.law };
-      return { contact: (await api.law(asked)).contact, kept: true };
-    }
     return { contact: (await api.like({ contact, to: law.law, ...common })).contact, kept: true };
   } catch (error) {
     if (error.offline) throw error;

@@ -157,6 +157,7 @@ class Panel {
           dash: line.dash,
           fill: this.panel.what === "force" ? `${this.color(line)}22` : undefined,
           points: { show: false },
+          pxAlign: 0,
         })),
       ],
       hooks: { draw: [(plot) => this.drawMore(plot)] },

@@ -27,6 +27,7 @@ export const FIRST = {
   result: null,
   busy: false,
   error: null, // {detail, offline}
+  notice: null, // one line about the page itself, such as a link that could not be read
   overlays: [],
 };
 

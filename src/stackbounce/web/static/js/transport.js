@@ -97,7 +97,7 @@ function keep(store, clock) {
 function choices(store) {
   const { slow, magnify, ghosts, until, result } = store.get();
   const numbers = (list, own) => [...new Set(own === null ? list : [...list, own])].sort((a, b) => a - b);
-  const speeds = numbers(SLOW, slow).map((one) => [one, one === 1 ? "real time" : `${one} times slower`]);
+  const speeds = numbers(SLOW, slow).map((one) => [one, one === 1 ? "real time" : `${one}× slower`]);
   const sizes = numbers(MAGNIFY, magnify).map((one) => [one, `×${one}`]);
   const boxes = [
     choice({ label: "Shown", groups: [["", speeds]], value: slow, set: (value) => store.set({ slow: Number(value) }) }),

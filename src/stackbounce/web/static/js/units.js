@@ -25,7 +25,7 @@ const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
 
 /** Return the unit in which people read an SI unit, and how many SI units one of it is. */
 export function shownUnit(unit, large = false) {
-  if (unit === "m" && large) return { unit: "m", size: 1 };
+  if (large) return { unit, size: 1 };
   const [name, size] = SHOWN[unit] ?? [unit, 1];
   return { unit: name, size };
 }

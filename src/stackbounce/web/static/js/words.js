@@ -13,6 +13,17 @@ export function contactName(drop, contact) {
   return `${lower} – ${ballName(drop, contact)}`;
 }
 
+/** Return a ball's name as short as a legend of many needs it: its place, whose colour stands beside it. */
+export function shortBall(drop, ball) {
+  return drop.balls.length > 3 ? String(ball) : ballName(drop, ball);
+}
+
+/** Return a contact's name, short where there are many. */
+export function shortContact(drop, contact) {
+  if (drop.balls.length <= 3) return contactName(drop, contact);
+  return contact === 0 ? "floor–0" : `${contact - 1}–${contact}`;
+}
+
 /** Return how often a contact met. */
 export function count(collisions) {
   return collisions < 0 ? "infinitely many" : String(collisions);
@@ -37,7 +48,7 @@ export function percent(share) {
 }
 
 /** Return a result in one or two sentences, as somebody would tell it. */
-export function told(result) {
+export function told(result, until) {
   const { drop } = result;
   const one = (ball) => {
     const ratio = result.rebound_ratios[ball];
@@ -48,8 +59,10 @@ export function told(result) {
   };
   const balls = drop.balls.map((_, ball) => one(ball)).reverse();
   const kept = percent(result.energy_retained);
-  const end = result.status === "FINISHED" ? "" : ` ${capital(result.advice)}.`;
-  return `After the impact, ${balls.join("; ")}. Kinetic energy kept: ${kept}.${end}`;
+  const expected = result.status === "FINISHED" || (until !== null && result.status === "TIME_REACHED");
+  const end = expected ? "" : ` ${capital(result.advice)}.`;
+  const when = until === null ? "the impact" : `${format(until)} seconds`;
+  return `After ${when}, ${balls.join("; ")}. Kinetic energy kept: ${kept}.${end}`;
 }
 
 /** Return a text with a capital first letter. */
