@@ -217,6 +217,28 @@ class Result:
         ]
         return _frozen(np.array(rows, dtype=APEX))
 
+    def to_mapping(self) -> dict[str, Any]:
+        """Return what came out as a dict: how the run ended, speeds, ratios, collisions, energy.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(22500.0)], impact_speed=3.5)
+        >>> sb.simulate(drop).to_mapping()["status"]
+        'FINISHED'
+        """
+        return {
+            "status": self.status.name,
+            "advice": self.status.advice,
+            "rebound_speeds": self.rebound_speeds,
+            "rebound_ratios": self.rebound_ratios,
+            "collisions": self.collisions,
+            "first_touch": self.first_touch,
+            "last_release": self.last_release,
+            "energy_retained": self.energy_retained,
+            "end_time": self.end_time,
+        }
+
     def sample(self, times: ArrayLike) -> "xarray.Dataset":
         """Return where everything is at given times.
 

@@ -205,6 +205,53 @@ def paper(
         show.audit(console(), audit, folder / "index.html")
 
 
+@app.command(name="app", epilog="For a class: stackbounce app --host 0.0.0.0")
+def explore(
+    host: Annotated[
+        str,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Where to listen: on this machine alone by default; 0.0.0.0 for a class.",
+        ),
+    ] = "127.0.0.1",
+    port: Annotated[
+        int | None,
+        typer.Option(
+            metavar="PORT",
+            help="By default the first free one from 8050; 0 for any.",
+            show_default=False,
+        ),
+    ] = None,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
+    ] = True,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            metavar="COUNT",
+            help="Processes that compute; by default one for each core, 8 at most.",
+            show_default=False,
+        ),
+    ] = None,
+) -> None:
+    """Open the explorer in the browser: see it happen, slowly."""
+    import dataclasses
+
+    from stackbounce.errors import whole
+    from stackbounce.web import LIMITS
+    from stackbounce.web.serve import serve
+
+    count = min(os.cpu_count() or 1, 8) if workers is None else whole("--workers", workers, 1, 64)
+    limits = dataclasses.replace(LIMITS, workers=max(2, count) if workers is None else count)
+    serve(
+        host,
+        port,
+        limits,
+        browser=browser,
+        tell=lambda address: typer.echo(f"The explorer: {address} (Ctrl+C ends it)"),
+    )
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line.
 

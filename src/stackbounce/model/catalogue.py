@@ -9,8 +9,8 @@ balls have their own springs in series.
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Annotated
+from dataclasses import asdict, dataclass, fields
+from typing import Annotated, Any
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model.ball import Ball
@@ -54,6 +54,17 @@ class CatalogueBall:
     static_stiffness: Annotated[float, Unit("N/m")]
     contact_time: Annotated[float, Unit("s")] | None
     sources: tuple[tuple[str, str], ...]
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return all figures of the ball, and the ball's own fields, as plain values.
+
+        Examples
+        --------
+        >>> catalogue_ball("B1").to_mapping()["mass"]
+        0.101
+        """
+        figures = {one.name: getattr(self, one.name) for one in fields(self)}
+        return asdict(figures.pop("ball")) | figures | {"sources": dict(self.sources)}
 
 
 @dataclass(frozen=True)

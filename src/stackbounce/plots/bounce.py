@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType
 from stackbounce.plots.style import STYLE, color_of
+from stackbounce.plots.window import impact_window, positions
 from stackbounce.result import Result
 
 if TYPE_CHECKING:
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 __all__ = ["bounce"]
 
 _SAMPLES = 1200
-_BEFORE, _AFTER = 0.15, 0.35  # of the impact's duration shown before and after it
 _LABEL = 0.13  # height of a label in its axes
 
 
@@ -60,7 +60,7 @@ def bounce(result: Result) -> "Figure":
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 5.6))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
-        times = _times(result)
+        times = np.linspace(*impact_window(result), _SAMPLES)
         _draw_positions(above, result, times)
         if result.drop.rigid:
             _draw_impulses(below, result)
@@ -73,28 +73,12 @@ def bounce(result: Result) -> "Figure":
     return figure
 
 
-def _times(result: Result) -> NDArray[np.float64]:
-    """Return times in s from a little before the first touch to a little after the last release."""
-    ends = result.intervals["end"]
-    finite = ends[np.isfinite(ends)]
-    last = max([0.0, *finite, result.end_time])
-    span = last if last > 0.0 else 0.010
-    stopped = result.status.name in ("TIME_REACHED", "EVENT_LIMIT", "INVALID")
-    stop = last if stopped else last + _AFTER * span
-    return np.linspace(-_BEFORE * span, stop, _SAMPLES)
-
-
 def _draw_positions(axes: "Axes", result: Result, times: NDArray[np.float64]) -> None:
     """Draw the path of each ball, straight before the first touch."""
     drop = result.drop
-    flown = result.sample(np.maximum(times, 0.0)).position.values
-    early = np.minimum(times, 0.0)
     ends = []
-    for b, (ball, path, start) in enumerate(
-        zip(drop.balls, flown, drop.start_velocities, strict=True)
-    ):
-        fallen = start * early - 0.5 * drop.gravity * early**2
-        axes.plot(1e3 * times, 1e3 * (path + fallen), color=color_of(b))
+    for b, (ball, path) in enumerate(zip(drop.balls, positions(result, times), strict=True)):
+        axes.plot(1e3 * times, 1e3 * path, color=color_of(b))
         ends.append((1e3 * float(path[-1]), b, f"{ball.name or f'ball {b}'}"))
     _label_ends(axes, 1e3 * times[-1], ends, result.rebound_ratios)
     axes.set_ylabel("position (mm)")

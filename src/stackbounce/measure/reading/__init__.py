@@ -18,6 +18,6 @@ wav      sound
 ======== ======================================================================
 """
 
-from stackbounce.measure.reading.reader import read
+from stackbounce.measure.reading.reader import read, read_content
 
-__all__ = ["read"]
+__all__ = ["read", "read_content"]

@@ -3,7 +3,7 @@
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,7 +26,7 @@ from stackbounce.measure.reading.text import decode, tabulate
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["read"]
+__all__ = ["read", "read_content"]
 
 
 def read(
@@ -109,6 +109,46 @@ def read(
     """
     told = told_by(holds, table, run, names, units, decimal)
     name, content = content_of(path)
+    return _named(name, content, told)
+
+
+def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
+    r"""Return what the content of a file holds, wherever it comes from.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    content : bytes
+        All of it.
+    **options
+        As of `read`.
+
+    Returns
+    -------
+    xarray.Dataset
+
+    Raises
+    ------
+    FileError
+        If it is empty, or nothing that can be told.
+    InvalidValue, InvalidType
+        If an option makes no sense for it.
+
+    Examples
+    --------
+    >>> content = b"Time (s),Force (N)\n0,0\n1,2\n2,0\n"
+    >>> read_content("force.csv", content).attrs["holds"]
+    'waveform'
+    """
+    known = dict.fromkeys(("holds", "table", "run", "names", "units", "decimal"))
+    told = told_by(**(known | options))
+    if not content:
+        raise FileError(f"{name} is empty")
+    return _named(name, bytearray(content), told)
+
+
+def _named(name: str, content: bytearray, told: Told) -> "xr.Dataset":
     try:
         data = _read(content, told)
     except StackbounceError as error:

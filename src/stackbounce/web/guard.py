@@ -1,0 +1,185 @@
+"""Which requests are let in at all, and the headers that every answer has.
+
+The server belongs to the page that it serves: pages of other sites must not use it behind their
+reader's back, so a request has to name this machine, and must not come from elsewhere.
+"""
+
+import asyncio
+import ipaddress
+import json
+import socket
+from collections.abc import Awaitable, Callable, MutableMapping
+from typing import Any
+from urllib.parse import urlsplit
+
+from stackbounce.web.limits import Limits
+
+__all__ = ["Guard"]
+
+_Message = MutableMapping[str, Any]
+_Receive = Callable[[], Awaitable[_Message]]
+_Send = Callable[[_Message], Awaitable[None]]
+_App = Callable[[_Message, _Receive, _Send], Awaitable[None]]
+
+_PAGE = (
+    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+_PAPER = (  # one file with all its style and pictures inside, and no script
+    "default-src 'none'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
+    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+_HEADERS = {
+    "x-content-type-options": "nosniff",
+    "x-frame-options": "DENY",
+    "referrer-policy": "no-referrer",
+    "cross-origin-opener-policy": "same-origin",
+    "cross-origin-resource-policy": "same-origin",
+    "cross-origin-embedder-policy": "require-corp",
+    "permissions-policy": "camera=(), geolocation=(), microphone=()",
+    "cache-control": "no-cache",
+}
+_UPLOADS = ("/api/measure", "/api/fit")
+
+
+class _Refused(Exception):
+    """A request that is not let in."""
+
+    def __init__(self, status: int, detail: str) -> None:
+        super().__init__(detail)
+        self.status, self.detail = status, detail
+
+
+class Guard:
+    """An ASGI application around another one.
+
+    Parameters
+    ----------
+    app : callable
+        What answers the requests that are let in.
+    limits : Limits
+        How large a request may be, and how long it may take to come.
+
+    Examples
+    --------
+    >>> from stackbounce.web import LIMITS
+    >>> guard = Guard(None, LIMITS)
+    """
+
+    def __init__(self, app: Any, limits: Limits) -> None:
+        self._app, self._limits = app, limits
+        self._names = {"localhost", socket.gethostname().casefold()}
+
+    async def __call__(self, scope: _Message, receive: _Receive, send: _Send) -> None:
+        """Answer one request, or refuse it."""
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        headers = {
+            key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
+        }
+        answer = _with_headers(send, scope["path"])
+        try:
+            self._check(scope, headers)
+            body = await self._body(scope, headers, receive)
+        except _Refused as refused:
+            await _refuse(answer, refused)
+            return
+        await self._app(scope, _replayed(body, receive), answer)
+
+    def _check(self, scope: _Message, headers: dict[str, str]) -> None:
+        host = headers.get("host", "")
+        if not self._is_here(host):
+            raise _Refused(
+                400, f"this server answers to its own address only, not to {host[:60]!r}"
+            )
+        origin = headers.get("origin")
+        if origin is not None and urlsplit(origin).netloc != host:
+            raise _Refused(403, "pages of other sites cannot use this server")
+        site, mode = headers.get("sec-fetch-site"), headers.get("sec-fetch-mode")
+        followed = mode == "navigate" and scope["method"] == "GET"  # a link may lead here
+        if site in ("cross-site", "same-site") and not followed:
+            raise _Refused(403, "pages of other sites cannot use this server")
+
+    def _is_here(self, host: str) -> bool:
+        """Tell whether a name is this machine's: any other may have been made to lead here."""
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+        except ValueError:
+            return False
+        if name in self._names:
+            return True
+        try:
+            ipaddress.ip_address(name)
+        except ValueError:
+            return False
+        return True
+
+    async def _body(self, scope: _Message, headers: dict[str, str], receive: _Receive) -> bytes:
+        """Return a request's body, if it is small enough and comes in time."""
+        limits = self._limits
+        most = limits.upload_bytes if scope["path"] in _UPLOADS else limits.body_bytes
+        length = headers.get("content-length", "0")
+        if length.isdecimal() and int(length) > most:
+            raise _too_large(most)
+        body = bytearray()
+        try:
+            async with asyncio.timeout(limits.upload_seconds):
+                while True:
+                    message = await receive()
+                    if message["type"] != "http.request":
+                        raise _Refused(400, "the request ended before it was whole")
+                    body += message.get("body", b"")
+                    if len(body) > most:
+                        raise _too_large(most)
+                    if not message.get("more_body", False):
+                        return bytes(body)
+        except TimeoutError:
+            seconds = limits.upload_seconds
+            raise _Refused(408, f"the request did not come in whole within {seconds:g} s") from None
+
+
+def _too_large(most: int) -> _Refused:
+    size = f"{most >> 20} MiB" if most >= 1 << 20 else f"{most >> 10} KiB"
+    return _Refused(413, f"the request is larger than {size}: send less, such as a shorter record")
+
+
+def _replayed(body: bytes, receive: _Receive) -> _Receive:
+    """Return what hands out a body that was received already."""
+    left = [body]
+
+    async def again() -> _Message:
+        if left:
+            return {"type": "http.request", "body": left.pop(), "more_body": False}
+        return await receive()
+
+    return again
+
+
+def _with_headers(send: _Send, path: str) -> _Send:
+    """Return what sends an answer with the headers that all answers have."""
+    policy = _PAPER if path.startswith("/paper") else _PAGE
+    own = [
+        (name.encode(), value.encode())
+        for name, value in (_HEADERS | {"content-security-policy": policy}).items()
+    ]
+    names = {name for name, _ in own}
+
+    async def answer(message: _Message) -> None:
+        if message["type"] == "http.response.start":
+            given = [(name, value) for name, value in message["headers"] if name not in names]
+            message = {**message, "headers": given + own}
+        await send(message)
+
+    return answer
+
+
+async def _refuse(send: _Send, refused: _Refused) -> None:
+    body = json.dumps({"detail": refused.detail}).encode()
+    headers = [
+        (b"content-type", b"application/json"),
+        (b"content-length", str(len(body)).encode()),
+        (b"connection", b"close"),
+    ]
+    await send({"type": "http.response.start", "status": refused.status, "headers": headers})
+    await send({"type": "http.response.body", "body": body})

@@ -1,0 +1,86 @@
+"""The paper's pages: computed when they are first asked for, kept while the server runs."""
+
+import asyncio
+from pathlib import Path
+
+from fastapi.responses import FileResponse, HTMLResponse, RedirectResponse, Response
+from starlette.exceptions import HTTPException
+
+from stackbounce.errors import StackbounceError
+from stackbounce.web.answers import paper
+from stackbounce.web.work import Workers
+
+__all__ = ["Papers"]
+
+_AGAIN = "2"  # s, until the page asks whether they are there
+_WAIT = """<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>The paper recomputed</title>
+<link rel="stylesheet" href="/style.css">
+</head>
+<body>
+<main role="status"><h1>The paper is being recomputed</h1>
+<p>{words}</p></main>
+</body>
+</html>
+"""
+_COMPUTING = (
+    "Its figures, its tables and the audit of every number in it: half a minute or so. "
+    "This page shows them when they are there."
+)
+
+
+class Papers:
+    """A folder of pages, and the job that writes it.
+
+    Parameters
+    ----------
+    workers : Workers
+        What runs the job.
+    folder : Path
+        Where to: an empty folder.
+    seconds : float
+        How long it may take.
+
+    Examples
+    --------
+    >>> from stackbounce.web import LIMITS
+    >>> workers = Workers(LIMITS)
+    >>> papers = Papers(workers, getfixture("tmp_path"), 60.0)
+    >>> workers.stop()
+    """
+
+    def __init__(self, workers: Workers, folder: Path, seconds: float) -> None:
+        self._workers, self._folder, self._seconds = workers, folder, seconds
+        self._job: asyncio.Task[None] | None = None
+
+    async def page(self, name: str) -> Response:
+        """Return a page or a file of the paper, or one that says that it is being computed.
+
+        Raises
+        ------
+        HTTPException
+            If there is no file of this name.
+        """
+        if self._job is None:
+            job = self._workers.run(paper.write_paper, str(self._folder), seconds=self._seconds)
+            self._job = asyncio.create_task(job)
+        if not self._job.done():
+            return HTMLResponse(_WAIT.format(words=_COMPUTING), headers={"refresh": _AGAIN})
+        error = self._job.exception()
+        if error is not None:
+            self._job = None
+            words = str(error) if isinstance(error, StackbounceError) else type(error).__name__
+            return HTMLResponse(_WAIT.format(words=f"It failed: {words}"), 503)
+        if not name:
+            return RedirectResponse("/paper/index.html")
+        return self._file(name)
+
+    def _file(self, name: str) -> Response:
+        path = (self._folder / name).resolve()
+        if not (path.is_relative_to(self._folder.resolve()) and path.is_file()):
+            raise HTTPException(404, "the paper has no such page")
+        return FileResponse(path)

@@ -1,0 +1,383 @@
+"""What requests and answers look like: pydantic over the model's own dataclasses.
+
+A drop is read by `Drop.from_mapping`, as from TOML: one schema, the same units, the same messages.
+What pydantic adds is the description for machines, and the bounds of one request.
+"""
+
+from collections.abc import Callable
+from dataclasses import MISSING, fields
+from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from stackbounce.errors import InvalidValue, shown
+from stackbounce.model import LAWS, Ball, ContactLaw, Drop
+from stackbounce.model.schema import NO_FLOOR, read_law
+from stackbounce.units import Unit
+from stackbounce.web.limits import LIMITS
+
+__all__ = [
+    "Catalogue",
+    "CatalogueStack",
+    "Contact",
+    "Export",
+    "ExportKind",
+    "Fitted",
+    "LikeLaw",
+    "Map",
+    "MapPaths",
+    "MapRequest",
+    "Measured",
+    "MeasuredLaw",
+    "OneContact",
+    "Paths",
+    "Play",
+    "Problem",
+    "Scenario",
+    "Simulation",
+    "StackRequest",
+    "State",
+    "read_drop",
+    "told",
+]
+
+_Json = dict[str, Any]
+
+
+class _ReadBy:
+    """Says to pydantic that a function reads this value, and how it is described."""
+
+    def __init__(self, read: Callable[[object], Any], described: Callable[[], _Json]) -> None:
+        self._read, self._described = read, described
+
+    def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self._read)
+
+    def __get_pydantic_json_schema__(self, _: CoreSchema, __: GetJsonSchemaHandler) -> _Json:
+        return self._described()
+
+
+def read_drop(value: object) -> Drop:
+    """Return the drop that a mapping describes, if it is small enough.
+
+    Raises
+    ------
+    ScenarioError, InvalidValue
+        If it is no drop, or has too many balls.
+
+    Examples
+    --------
+    >>> contact = {"law": "Spring", "stiffness": "22.5 kN/m"}
+    >>> drop = {"balls": [{"mass": "57 g"}], "contacts": [contact], "impact_speed": 1}
+    >>> read_drop(drop).balls[0].mass
+    0.057
+    """
+    if isinstance(value, dict):
+        for name in ("balls", "contacts", "gaps", "velocities"):
+            many = value.get(name)
+            if isinstance(many, list) and len(many) > LIMITS.balls:
+                raise InvalidValue(
+                    f"{name} must be at most {LIMITS.balls} in the explorer, got {len(many)}"
+                )
+    return Drop.from_mapping(value)  # type: ignore[arg-type]
+
+
+def _described_drop() -> _Json:
+    drop = _described(Drop)
+    laws = [_described(law, name) for name, law in LAWS.items()]
+    laws.append(_object({"law": {"const": NO_FLOOR}}, ["law"]))
+    drop["properties"]["balls"] = _list(_described(Ball), 1)
+    drop["properties"]["contacts"] = _list({"anyOf": laws}, 1)
+    return drop
+
+
+def _described(kind: type, law: str | None = None) -> _Json:
+    """Return the JSON schema of a dataclass, whose numbers may be texts with a unit."""
+    properties: _Json = {} if law is None else {"law": {"const": law}}
+    hints = get_type_hints(kind, include_extras=True)
+    for one in fields(kind):
+        if one.init and not one.name.startswith("_"):
+            properties[one.name] = _described_field(hints[one.name])
+    missing = [one.name for one in fields(kind) if one.init and one.default is MISSING]
+    return _object(properties, ([] if law is None else ["law"]) + missing)
+
+
+def _described_field(hint: Any) -> _Json:
+    unit = _unit(hint)
+    if unit is None:
+        return {"type": "string"}
+    said = f"in {unit.symbol}, or a text with a unit" if unit.symbol else "a pure number"
+    number: _Json = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": said}
+    return _list(number, 0) if "Sequence" in str(hint) else number
+
+
+def _unit(hint: Any) -> Unit | None:
+    if get_origin(hint) is Annotated:
+        return next((note for note in hint.__metadata__ if isinstance(note, Unit)), None)
+    return next((unit for unit in map(_unit, get_args(hint)) if unit is not None), None)
+
+
+def _list(items: _Json, least: int) -> _Json:
+    return {"type": "array", "items": items, "minItems": least, "maxItems": LIMITS.balls}
+
+
+def _object(properties: _Json, required: list[str]) -> _Json:
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": required,
+        "additionalProperties": False,
+    }
+
+
+Scenario = Annotated[Drop, _ReadBy(read_drop, _described_drop)]
+"""A drop, with the keys and units of a scenario file."""
+
+Contact = Annotated[
+    ContactLaw | None,
+    _ReadBy(
+        lambda value: read_law(value, "contact"),
+        lambda: {"anyOf": [_described(law, name) for name, law in LAWS.items()]},
+    ),
+]
+"""A contact law, as in a scenario file."""
+
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
+_Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+_Name = Annotated[str, Field(max_length=100)]
+_Law = Literal[
+    "Rigid",
+    "Spring",
+    "Hertz",
+    "PowerLaw",
+    "Dashpot",
+    "Viscoelastic",
+    "HuntCrossley",
+    "Hysteretic",
+]
+
+
+ExportKind = Literal["csv", "toml", "python", "svg", "png"]
+"""What a drop can be written to."""
+
+
+def told(error: Any) -> str:
+    """Return an error of pydantic in one line: where it is, what was wrong, what was got.
+
+    Examples
+    --------
+    >>> told({"type": "missing", "loc": ("body", "x", "low"), "msg": "Field required"})
+    'x.low: field required'
+    """
+    if error["type"] == "value_error":  # the package's own words, which begin with the path
+        return str(error["ctx"]["error"])
+    if error["type"] == "json_invalid" or error["loc"] == ("body",):
+        return "the request must be an object in JSON, with content-type application/json"
+    where = ".".join(str(part) for part in error["loc"] if part != "body")
+    words = error["msg"][:1].lower() + error["msg"][1:]
+    got = "" if error["type"] == "missing" else f", got {shown(error['input'])}"
+    return f"{where}: {words}{got}"
+
+
+class _Request(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class Play(_Request):
+    """A drop to be played."""
+
+    drop: Scenario
+    until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
+    frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
+
+
+class Export(_Request):
+    """A drop to be written to a file."""
+
+    drop: Scenario
+    until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
+
+
+class StackRequest(_Request):
+    """Balls of the catalogue, the lowest first."""
+
+    balls: Annotated[list[_Name], Field(min_length=1, max_length=LIMITS.balls)]
+    height: _Positive = 1.0
+
+
+class MeasuredLaw(_Request):
+    """What was measured of a contact, and the law that is to have it."""
+
+    law: _Law
+    mass: _Positive
+    restitution: _Positive | None = None
+    contact_time: _Positive | None = None
+    impact_speed: _Positive | None = None
+    exponent: _Positive | None = None
+
+
+class LikeLaw(_Request):
+    """A contact, and another law that is to have its restitution and contact time."""
+
+    contact: Contact
+    to: _Law
+    mass: _Positive
+    impact_speed: _Positive
+    restitution: _Positive | None = None
+    contact_time: _Positive | None = None
+
+
+class Axis(_Request):
+    """A number that varies over one side of a map."""
+
+    path: _Name
+    low: _Finite
+    high: _Finite
+    count: Annotated[int, Field(ge=2, le=1000)] = 80
+    log: bool = False
+
+
+class MapRequest(_Request):
+    """A map of a drop over two of its numbers."""
+
+    drop: Scenario
+    x: Axis
+    y: Axis
+    show: _Name = "rebound_ratio.1"
+
+
+class MapPaths(_Request):
+    """A drop whose numbers are asked for."""
+
+    drop: Scenario
+
+
+class Problem(BaseModel):
+    """What was wrong, in one line."""
+
+    detail: str
+
+
+class State(BaseModel):
+    """Whether the compiled kernels are there yet."""
+
+    stackbounce: str
+    ready: bool
+
+
+class Catalogue(BaseModel):
+    """Balls, laws, the paper's cases, and the bounds of one request."""
+
+    stackbounce: str
+    balls: list[_Json]
+    laws: list[_Json]
+    presets: list[_Json]
+    limits: _Json
+
+
+class CatalogueStack(BaseModel):
+    """Balls of the catalogue on top of each other, and where their numbers come from."""
+
+    drop: _Json
+    contact_sources: list[str]
+    gap_sources: list[str]
+
+
+class OneContact(BaseModel):
+    """A contact law, as in a scenario file."""
+
+    contact: _Json
+
+
+class Simulation(BaseModel):
+    """What happened to a drop, moment by moment; numbers in SI units, null if not finite."""
+
+    stackbounce: str
+    drop: _Json
+    reference_speed: float
+    status: str
+    advice: str
+    rebound_speeds: list[float | None]
+    rebound_ratios: list[float | None]
+    rebound_heights: list[float | None]
+    collisions: list[int]
+    first_touch: list[float | None]
+    last_release: list[float | None]
+    energy_retained: float | None
+    end_time: float
+    intervals: list[_Json]
+    impact: list[float]
+    frames: _Json
+    separate: _Json | None
+
+
+class Side(BaseModel):
+    """One side of a map."""
+
+    path: str
+    label: str
+    unit: str
+    values: list[float]
+
+
+class Map(BaseModel):
+    """A number of the outcome over two numbers of the drop: ``values[y][x]``."""
+
+    stackbounce: str
+    drop: _Json
+    x: Side
+    y: Side
+    show: str
+    label: str
+    unit: str
+    values: list[list[float | None]]
+    unfinished: int
+
+
+class Paths(BaseModel):
+    """What can vary over a map, and what it can show."""
+
+    paths: list[_Json]
+    shows: list[_Json]
+
+
+class Curve(BaseModel):
+    """A record over time, in SI units."""
+
+    label: str
+    what: str
+    index: int
+    unit: str
+    time: list[float]
+    values: list[float]
+
+
+class Measured(BaseModel):
+    """What a file is, and what was found in it."""
+
+    stackbounce: str
+    file: str
+    format: str
+    why: str
+    doubt: str
+    holds: str
+    found: list[_Json]
+    notes: list[str]
+    series: list[Curve]
+    zero: float | None
+    measured: dict[str, str]
+
+
+class Fitted(BaseModel):
+    """A drop fitted to what was measured."""
+
+    stackbounce: str
+    drop: _Json
+    values: list[_Json]
+    chi_squared: float
+    degrees_of_freedom: int
+    probability: float | None
+    notes: list[str]
+    residuals: list[_Json]
+    series: list[Curve]

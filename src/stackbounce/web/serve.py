@@ -1,0 +1,123 @@
+"""Run the explorer: find a port, start the server, open the browser."""
+
+import contextlib
+import socket
+import threading
+import time
+import webbrowser
+from collections.abc import Callable
+from typing import Any
+
+from stackbounce.errors import FileError, InvalidValue, whole
+from stackbounce.web.limits import Limits
+
+__all__ = ["HOST", "PORT", "serve"]
+
+HOST = "127.0.0.1"
+"""Where it listens: on this machine alone."""
+
+PORT = 8050
+"""The first port that is tried, if none is asked for."""
+
+_MORE = 20  # further ports that are tried
+
+
+def serve(
+    host: str,
+    port: int | None,
+    limits: Limits,
+    *,
+    browser: bool,
+    tell: Callable[[str], None],
+) -> None:
+    """Serve the explorer until it is interrupted.
+
+    Parameters
+    ----------
+    host : str
+        The address to listen at; ``"0.0.0.0"`` for all of this machine's, so that a class can use
+        it.
+    port : int or None
+        The port, or None for the first free one from `PORT`; 0 for any.
+    limits : Limits
+        How much one request may ask for.
+    browser : bool
+        Whether to open the page.
+    tell : callable
+        Is told the page's address, in a line, once it is served.
+
+    Raises
+    ------
+    FileError
+        If the address cannot be used, or the port is taken.
+    InvalidValue
+        If it is no port.
+    """
+    import uvicorn
+
+    from stackbounce.web.app import create_app
+
+    with contextlib.closing(_listening(host, port)) as listening:
+        address = f"http://{_shown(host)}:{listening.getsockname()[1]}/"
+        config = uvicorn.Config(
+            create_app(limits),
+            log_level="warning",
+            limit_concurrency=limits.connections,
+            timeout_keep_alive=30,
+            timeout_graceful_shutdown=2,
+            server_header=False,
+        )
+        server = uvicorn.Server(config)
+        waiting = threading.Thread(
+            target=_when_started, args=(server, address, browser, tell), daemon=True
+        )
+        waiting.start()
+        with contextlib.suppress(KeyboardInterrupt):
+            server.run(sockets=[listening])
+
+
+def _listening(host: str, port: int | None) -> socket.socket:
+    """Return a socket that listens at a host, and at a port or the first free one."""
+    tried = [whole("port", port, 0, 65535)] if port is not None else range(PORT, PORT + _MORE)
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    problem: OSError | None = None
+    for number in tried:
+        listening = socket.socket(family)
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            listening.bind((host, number))
+        except socket.gaierror:
+            listening.close()
+            raise InvalidValue(
+                f"--host must be an address of this machine, such as {HOST}, got {host}"
+            ) from None
+        except OSError as error:
+            listening.close()
+            problem = error
+            continue
+        return listening
+    assert problem is not None
+    raise FileError(f"{host}, port {tried[-1]} cannot be used: {problem.strerror or problem}")
+
+
+def _shown(host: str) -> str:
+    """Return a host as an address has it."""
+    if host in ("0.0.0.0", "::"):
+        return socket.gethostname()
+    return f"[{host}]" if ":" in host else host
+
+
+def _when_started(
+    server: Any,
+    address: str,
+    browser: bool,
+    tell: Callable[[str], None],
+) -> None:
+    """Tell the address, and open it, once the server answers."""
+    while not server.started:
+        if server.should_exit:
+            return
+        time.sleep(0.02)
+    tell(address)
+    if browser:
+        webbrowser.open(address)

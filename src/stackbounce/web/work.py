@@ -1,0 +1,132 @@
+"""Processes that compute: no job holds up the server, and none runs longer than it may."""
+
+import asyncio
+import concurrent.futures
+import multiprocessing
+import threading
+from collections.abc import Callable
+from typing import Any
+
+from stackbounce.errors import StackbounceError
+from stackbounce.web.limits import Limits
+
+__all__ = ["Busy", "TooLong", "Workers", "prepared"]
+
+
+class Busy(StackbounceError):
+    """More is asked for than can be answered now."""
+
+
+class TooLong(StackbounceError):
+    """A job that took longer than it may."""
+
+
+class Workers:
+    """A few processes, and a queue of jobs for them.
+
+    Parameters
+    ----------
+    limits : Limits
+        How many processes, and how many jobs may wait.
+
+    Examples
+    --------
+    >>> from stackbounce.web import LIMITS
+    >>> workers = Workers(LIMITS)
+    >>> workers.ready
+    False
+    >>> workers.stop()
+    """
+
+    def __init__(self, limits: Limits) -> None:
+        from pebble import ProcessPool
+
+        context = multiprocessing.get_context("spawn")  # a fork would copy the server's threads
+        self._limits = limits
+        self._ready = context.Event()
+        self._under_way = 0
+        self._pool = ProcessPool(
+            limits.workers,
+            initializer=_begin,
+            initargs=(context.Lock(), self._ready),
+            context=context,
+        )
+
+    @property
+    def ready(self) -> bool:
+        """Whether the compiled kernels are there: the first start on a machine compiles them."""
+        return self._ready.is_set()
+
+    def start(self) -> None:
+        """Start the processes now, which begin to load the compiled kernels."""
+        for _ in range(self._limits.workers):
+            self._pool.submit(prepared, None)
+
+    def stop(self) -> None:
+        """End the processes, whatever they do."""
+        self._pool.stop()  # type: ignore[no-untyped-call]
+        self._pool.join(timeout=5.0)
+
+    async def run(self, job: Callable[..., Any], *arguments: Any, seconds: float) -> Any:
+        """Return what a job returns, or raise what it raises.
+
+        Parameters
+        ----------
+        job : callable
+            A function of a module, which goes to another process by its name.
+        *arguments
+            For it.
+        seconds : float
+            After which its process is ended.
+
+        Raises
+        ------
+        Busy
+            If too many jobs are waiting.
+        TooLong
+            If it was ended.
+        """
+        from pebble import ProcessExpired
+
+        if self._under_way >= self._limits.waiting:
+            raise Busy(
+                f"{self._limits.waiting} requests are being computed already: "
+                "wait a few seconds and try again"
+            )
+        self._under_way += 1
+        try:
+            return await asyncio.wrap_future(self._pool.submit(job, seconds, *arguments))
+        except ProcessExpired:
+            raise TooLong(
+                "the process that computed this ended, perhaps for want of memory: "
+                "ask for fewer balls, points or numbers at once"
+            ) from None
+        except concurrent.futures.TimeoutError:
+            raise TooLong(
+                f"this takes longer than the {seconds:g} s that one request may: "
+                "ask for fewer balls, points or numbers at once"
+            ) from None
+        finally:
+            self._under_way -= 1
+
+
+_prepared = threading.Event()
+
+
+def prepared() -> bool:
+    """Tell, in a process that computes, whether the compiled kernels are at hand."""
+    return _prepared.is_set()
+
+
+def _begin(one_at_a_time: Any, ready: Any) -> None:
+    """Begin a process: load the kernels while the first jobs run as plain Python."""
+    threading.Thread(target=_prepare, args=(one_at_a_time, ready), daemon=True).start()
+
+
+def _prepare(one_at_a_time: Any, ready: Any) -> None:
+    from stackbounce.web.answers.warm import warm
+
+    with one_at_a_time:  # the first process compiles, the others find it in numba's cache
+        warm()
+    _prepared.set()
+    ready.set()
