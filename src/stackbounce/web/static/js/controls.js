@@ -4,12 +4,13 @@ import { h, write } from "./dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
 import { choice, numberField } from "./fields.js";
 import { asMeasured, changeLaw } from "./laws.js";
+import { FIRST } from "./store.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
 
 const INCIDENCE = [
   ["height", "Height"],
   ["impact_speed", "Speed"],
-  ["velocities", "Each its own"],
+  ["velocities", "Per ball"],
 ];
 
 /** Build the controls into `root`; they change the store's drop and follow it. */
@@ -46,7 +47,7 @@ export function mountControls(root, store, api, catalogue) {
     });
   const relaw = (contact, name) =>
     attempt(async () => {
-      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name);
+      const { drop, note } = await changeLaw(api, store.get().drop, contact, name);
       change(drop, placed(contact, note));
     });
   const measured = (contact, values) =>
@@ -85,7 +86,8 @@ export function mountControls(root, store, api, catalogue) {
     write(said, preset.says);
     notes = [];
     example = complete(preset.drop);
-    store.set({ drop: example, t: null, until: null });
+    const { until, slow, replay } = store.get();
+    store.set({ drop: example, until: null, t: null, slow: until === null ? slow : FIRST.slow, replay: replay + 1 });
   });
   root.replaceChildren(presets, said, general, drops, tower);
   store.subscribe((state, before) => {
