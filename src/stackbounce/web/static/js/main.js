@@ -33,6 +33,7 @@ mountTabs(store, {
   measure: (section) => open("./measure.js", section),
 });
 followResults();
+addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();
 loadCatalogue();
 

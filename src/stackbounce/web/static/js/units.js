@@ -44,7 +44,7 @@ export function format(value, digits = 4) {
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return tidy(value.toExponential(digits - 1));
+  if (size >= 1e5 || size < 1e-4) return tidy(value.toExponential(digits - 1));
   return tidy(String(Number(value.toPrecision(digits))));
 }
 
