@@ -1,5 +1,6 @@
 /** The state in the address: a link shows again what it was copied from. */
 
+import { complete, isDrop } from "./drops.js";
 import { FIRST } from "./store.js";
 
 const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height", "gravity"];
@@ -35,7 +36,8 @@ export function read(fragment) {
     else if (parts[0] === "map") insert(map, parts.slice(1), text);
     else readOne(patch, key, text);
   }
-  if (Array.isArray(drop.balls) && Array.isArray(drop.contacts)) patch.drop = drop;
+  if (isDrop(drop)) patch.drop = complete(drop);
+  else if (Object.keys(drop).length) patch.notice = "The link holds no whole drop: this is what was here.";
   if (Object.keys(map).length) patch.map = map;
   return patch;
 }

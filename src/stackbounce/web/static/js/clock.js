@@ -57,7 +57,8 @@ export class Clock {
 
   play() {
     if (this.playing) return;
-    if (this.time >= this.end) this.time = this.begin;
+    const rest = this.end - this.time;
+    if (rest <= 1e-6 * (this.end - this.begin)) this.time = this.begin;
     this.playing = true;
     this.last = null;
     this.touch();

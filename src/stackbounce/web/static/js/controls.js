@@ -1,15 +1,16 @@
 /** The controls: presets, how the tower comes in, and the tower. */
 
 import { h, write } from "./dom.js";
-import { GRAVITY, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
+import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
 import { choice, numberField } from "./fields.js";
 import { asMeasured, changeLaw } from "./laws.js";
+import { FIRST } from "./store.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
 
 const INCIDENCE = [
   ["height", "Height"],
   ["impact_speed", "Speed"],
-  ["velocities", "Each its own"],
+  ["velocities", "Per ball"],
 ];
 
 /** Build the controls into `root`; they change the store's drop and follow it. */
@@ -46,7 +47,7 @@ export function mountControls(root, store, api, catalogue) {
     });
   const relaw = (contact, name) =>
     attempt(async () => {
-      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name);
+      const { drop, note } = await changeLaw(api, store.get().drop, contact, name);
       change(drop, placed(contact, note));
     });
   const measured = (contact, values) =>
@@ -76,19 +77,29 @@ export function mountControls(root, store, api, catalogue) {
     } else {
       for (const field of fields) field.update(field.path === "until" ? until : valueAt(drop, field.path));
     }
+    if (example && drop !== example) {
+      example = null;
+      presets.querySelector("select").value = "";
+      write(said, "");
+    }
     showError(fields, general, error);
   };
 
+  let example = null;
   const presets = presetChoice(catalogue, (preset) => {
     write(said, preset.says);
-    change({ gaps: [], ...preset.drop });
-    store.set({ t: null, until: null });
+    notes = [];
+    example = complete(preset.drop);
+    const { until, slow, replay } = store.get();
+    store.set({ drop: example, until: null, t: null, slow: until === null ? slow : FIRST.slow, replay: replay + 1 });
   });
   root.replaceChildren(presets, said, general, drops, tower);
   store.subscribe((state, before) => {
+    if (state.notice !== before.notice) write(said, state.notice ?? "");
     const touched = ["drop", "error", "until"].some((name) => state[name] !== before[name]);
     if (touched) update();
   });
+  write(said, store.get().notice ?? "");
   update();
 }
 

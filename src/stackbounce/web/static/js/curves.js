@@ -1,7 +1,7 @@
 /** Which curves a result has: three panels of lines in the units that people read. */
 
 import { format } from "./units.js";
-import { ballName, contactName } from "./words.js";
+import { shortBall, shortContact } from "./words.js";
 
 /**
  * Return the panels of a result: `{what, title, unit, times, lines, stems, factor}`; a line is
@@ -31,7 +31,7 @@ function scaled(values, factor) {
 function positions({ drop, frames }, whole) {
   const factor = whole ? 1 : 1e3;
   const lines = frames.position.map((values, index) => ({
-    label: ballName(drop, index),
+    label: shortBall(drop, index),
     index,
     values: scaled(values, factor),
   }));
@@ -40,7 +40,7 @@ function positions({ drop, frames }, whole) {
 
 function forces({ drop, frames }) {
   const lines = frames.force
-    .map((values, index) => ({ label: contactName(drop, index), index, values }))
+    .map((values, index) => ({ label: shortContact(drop, index), index, values }))
     .filter((_, index) => drop.contacts[index]?.law !== "none");
   return { what: "force", title: "Force", unit: "N", factor: 1, floor: 0, lines };
 }
@@ -49,7 +49,7 @@ function forces({ drop, frames }) {
 function impulses({ drop, intervals }, scale) {
   const stems = intervals.map(({ contact, start, impulse }) => ({ index: contact, time: start * scale, impulse }));
   const met = [...new Set(stems.map(({ index }) => index))].sort();
-  const lines = met.map((index) => ({ label: contactName(drop, index), index, values: null }));
+  const lines = met.map((index) => ({ label: shortContact(drop, index), index, values: null }));
   const most = stems.reduce((most, { impulse }) => Math.max(most, impulse), 0);
   return { what: "impulse", title: "Impulse", unit: "N s", floor: 0, ceiling: most || 1, lines, stems };
 }
@@ -60,7 +60,7 @@ function energies({ drop, frames }) {
   const factor = most < 1 ? 1e3 : 1;
   const lines = [
     { label: "total", index: null, values: scaled(total, factor) },
-    ...kinetic.map((values, index) => ({ label: ballName(drop, index), index, values: scaled(values, factor) })),
+    ...kinetic.map((values, index) => ({ label: shortBall(drop, index), index, values: scaled(values, factor) })),
   ];
   if (stored.some((value) => value > 1e-9 * most)) {
     lines.push({ label: "in contacts", index: null, dash: [5, 4], values: scaled(stored, factor) });

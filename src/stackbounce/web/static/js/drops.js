@@ -28,6 +28,20 @@ export function gapsOf(drop) {
   return drop.balls.slice(1).map((_, i) => drop.gaps?.[i] ?? 0);
 }
 
+/** Return a drop with all its gaps and its gravity said. */
+export function complete(drop) {
+  return { ...drop, gaps: gapsOf(drop), gravity: drop.gravity ?? 0 };
+}
+
+/** Return whether a mapping that somebody brought has the shape of a drop; its numbers are the server's to judge. */
+export function isDrop(drop) {
+  const { balls, contacts, gaps, velocities } = drop;
+  const members = (list) => Array.isArray(list) && list.every((one) => typeof one === "object" && one !== null);
+  const numbers = (list) => list === undefined || (Array.isArray(list) && list.every((one) => typeof one !== "object"));
+  if (!members(balls) || !members(contacts) || balls.length === 0 || balls.length !== contacts.length) return false;
+  return contacts.every(({ law }) => typeof law === "string") && numbers(gaps) && numbers(velocities);
+}
+
 /** Return a drop with a lighter ball on top. */
 export function withBall(drop) {
   const top = drop.balls.at(-1);

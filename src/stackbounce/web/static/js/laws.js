@@ -1,35 +1,36 @@
 /** Contacts with another law, or with the law's constants for a bounce that was measured. */
 
 import { contactMass, speedOf, withValue } from "./drops.js";
+import { clean } from "./units.js";
 
-const COLLISION = 5e-3; // s that a contact lasts which was Rigid before
-
-/** Return a contact of a law with the catalogue's defaults. */
-function plain(law) {
-  const fields = law.fields.filter((field) => field.required || field.default !== null);
-  return { law: law.law, ...Object.fromEntries(fields.map((field) => [field.name, field.default])) };
-}
+const LOSSLESS = ["Spring", "Hertz", "PowerLaw"];
+const BALL = { law: "Rigid", restitution: 0.8 }; // what a contact is made like that has no law before
 
 /**
  * Return `{drop, note}`: the drop with a contact's law changed, restitution and contact time kept
  * where the law can. All contacts change to Rigid, or away from it, together.
  */
-export async function changeLaw(api, laws, drop, contact, name) {
+export async function changeLaw(api, drop, contact, name) {
   if (name === "none") return { drop: withValue(drop, `contacts.${contact}`, { law: "none" }), note: "" };
   const one = drop.contacts[contact];
   const others = drop.contacts.some((other, i) => i !== contact && other.law !== "none");
   const mixed = others && (one.law === "Rigid" || name === "Rigid" || rigid(drop, contact));
   const places = mixed ? drop.contacts.map((_, i) => i).filter((i) => i === contact || drop.contacts[i].law !== "none") : [contact];
   let next = drop;
-  let kept = true;
   for (const place of places) {
-    const law = laws.find((entry) => entry.law === name);
-    const changed = await converted(api, law, drop, place);
-    kept &&= changed.kept;
-    next = withValue(next, `contacts.${place}`, changed.contact);
+    next = withValue(next, `contacts.${place}`, await converted(api, name, drop, place));
   }
-  const all = mixed && places.length > 1 ? `All contacts are ${name} now: Rigid and other laws cannot be mixed. ` : "";
-  return { drop: next, note: all + (kept ? "" : `${name} has its usual constants here.`) };
+  const all = places.length > 1 ? `All contacts are ${name} now: Rigid and other laws cannot be mixed. ` : "";
+  return { drop: next, note: all + kept(one.law, name) };
+}
+
+/** Return what a contact kept when its law was changed. */
+function kept(before, name) {
+  if (before === "none") return "";
+  if (name === "Rigid") return "Restitution kept.";
+  const time = before === "Rigid" ? "A contact now lasts 5 ms" : "Contact time kept";
+  const loss = LOSSLESS.includes(name) ? `${name} loses no energy` : "restitution kept";
+  return `${time}, ${loss}.`;
 }
 
 function rigid(drop, contact) {
@@ -37,20 +38,17 @@ function rigid(drop, contact) {
 }
 
 /** Return a contact with another law, as like the one before as it can be. */
-async function converted(api, law, drop, place) {
-  const contact = drop.contacts[place];
-  const common = { mass: contactMass(drop, place), impact_speed: speedOf(drop) };
-  try {
-    if (contact.law === "none") return { contact: plain(law), kept: true };
-    if (contact.law === "Rigid" && law.law !== "Rigid") {
-      const asked = { ...common, restitution: contact.restitution, contact_time: COLLISION, law: law.law };
-      return { contact: (await api.law(asked)).contact, kept: true };
-    }
-    return { contact: (await api.like({ contact, to: law.law, ...common })).contact, kept: true };
-  } catch (error) {
-    if (error.offline) throw error;
-    return { contact: plain(law), kept: false };
-  }
+async function converted(api, name, drop, place) {
+  const { law, ...numbers } = drop.contacts[place];
+  const contact = law === "none" ? BALL : { law, ...numbers };
+  const request = { contact, to: name, mass: contactMass(drop, place), impact_speed: speedOf(drop) };
+  return tidied((await api.like(request)).contact);
+}
+
+/** Return a contact without the last digits of a search, which would only lengthen the address. */
+function tidied(contact) {
+  const entries = Object.entries(contact);
+  return Object.fromEntries(entries.map(([name, value]) => [name, typeof value === "number" ? clean(value) : value]));
 }
 
 /** Return the contact of the law it has that shows a measured restitution and contact time. */
@@ -59,5 +57,5 @@ export async function asMeasured(api, drop, place, { restitution, contactTime })
   const request = { law, mass: contactMass(drop, place), impact_speed: speedOf(drop), restitution };
   if (law !== "Rigid") request.contact_time = contactTime;
   if (exponent !== undefined) request.exponent = exponent;
-  return (await api.law(request)).contact;
+  return tidied((await api.law(request)).contact);
 }

@@ -33,6 +33,7 @@ mountTabs(store, {
   measure: (section) => open("./measure.js", section),
 });
 followResults();
+addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();
 loadCatalogue();
 
@@ -54,25 +55,35 @@ async function loadCatalogue() {
   }
 }
 
-/** Keep the clock's window at the result's, and its cursor where it was. */
+/** Keep the clock's window at the result's, and its cursor where the state has it. */
 function followResults() {
-  let first = true;
+  let wanted = store.get().t; // a time that a link asks for, of a result still to come
+  let replay = store.get().replay;
   let shown = null; // what the cursor belongs to: the impact or the whole drop
   store.subscribe((state, before) => {
-    if (state.result === before.result) {
-      if (state.t !== before.t && state.t !== null && !clock.playing) clock.seek(state.t);
-      return;
+    const other = state.drop !== before.drop || state.until !== before.until;
+    if (state.t !== before.t && state.t !== null) {
+      if (other) wanted = state.t;
+      else if (!clock.playing) clock.seek(state.t);
     }
-    const { frames, intervals } = state.result;
-    const { time } = frames;
-    const events = intervals.flatMap(({ start, end }) => [start, end]).filter((event) => event !== null);
+    if (state.result === before.result) return;
     const kind = state.until === null ? "impact" : "whole";
-    clock.span(time[0], time.at(-1), [...new Set([0, ...events])].sort((a, b) => a - b));
-    if (first && state.t !== null) clock.seek(state.t);
-    else if (first || kind !== shown || (state.t === null && !clock.playing)) restart();
-    first = false;
+    setWindow(state.result);
+    if (wanted !== null) {
+      clock.pause();
+      clock.seek(wanted);
+    } else if (kind !== shown || state.replay !== replay) restart();
+    wanted = null;
     shown = kind;
+    replay = state.replay;
   });
+}
+
+/** Give the clock the time that a result shows, and its events as stops. */
+function setWindow({ frames, intervals }) {
+  const { time } = frames;
+  const events = intervals.flatMap(({ start, end }) => [start, end]).filter((event) => event !== null);
+  clock.span(time[0], time.at(-1), [...new Set([0, ...events])].sort((a, b) => a - b));
 }
 
 /** Show the drop from its begin; who wants less motion starts it themselves. */

@@ -1,8 +1,9 @@
 /** What came out: speeds, ratios, heights, collisions and energy, beside the separate collisions. */
 
 import { h, write } from "./dom.js";
+import { GRAVITY, speedOf } from "./drops.js";
 import { fixed, format } from "./units.js";
-import { ballName, capital, contactName, count, height, percent, told } from "./words.js";
+import { ballName, capital, contactName, count, height, percent, setUp, shortContact, told } from "./words.js";
 
 const SETTLED = 700; // ms without a new result before it is said
 
@@ -10,65 +11,105 @@ const SETTLED = 700; // ms without a new result before it is said
 export function mountNumbers({ root, table, live }, store) {
   let timer = 0;
   const show = () => {
-    const { result } = store.get();
+    const { result, until } = store.get();
     if (!result) return;
-    root.replaceChildren(ballTable(result), facts(result));
+    root.replaceChildren(ballTable(result, until), facts(result, until));
     table.replaceChildren(intervalTable(result));
     clearTimeout(timer);
-    timer = setTimeout(() => write(live, told(result)), SETTLED);
+    timer = setTimeout(() => write(live, told(result, until)), SETTLED);
   };
   store.subscribe((state, before) => {
     if (state.result !== before.result) show();
   });
 }
 
-function head(...names) {
-  return h("thead", {}, h("tr", {}, names.map((name) => h("th", { scope: "col" }, name))));
+function columns(...names) {
+  return h("tr", {}, names.map((name) => h("th", { scope: "col" }, ...[name].flat())));
 }
 
 function row(name, index, ...cells) {
   const swatch = h("span", { class: "swatch", "aria-hidden": "true" });
   swatch.style.setProperty("--ball", `var(--ball-${index % 6})`);
-  return h("tr", {}, h("th", { scope: "row" }, swatch, name), cells.map((text) => h("td", { text })));
+  return h("tr", {}, h("th", { scope: "row" }, swatch, name), cells.map((cell) => h("td", {}, cell)));
+}
+
+/** Return the separate collisions' numbers, where there are any. */
+function textbook({ separate }) {
+  return separate && !separate.error ? separate : null;
 }
 
 /** The table of the balls, the highest first, as they lie. */
-function ballTable(result) {
-  const { drop, separate } = result;
-  const names = ["Ball", "Speed m/s", "v / v₀", "Rises"];
-  if (separate) names.push("Textbook v / v₀", "Rises");
-  const rows = drop.balls.map((_, ball) => {
-    const cells = [
-      fixed(result.rebound_speeds[ball], 2),
-      fixed(result.rebound_ratios[ball], 3),
-      height(result.rebound_heights[ball]),
-    ];
-    if (separate) cells.push(fixed(separate.rebound_ratios[ball], 3), height(separate.rebound_heights[ball]));
-    return row(ballName(drop, ball), ball, ...cells);
-  });
+function ballTable(result, until) {
+  const { drop } = result;
+  const separate = textbook(result);
+  const own = until === null ? impactColumns(result, result) : wholeColumns(result, result.frames.position);
+  const theirs = separate && (until === null ? impactColumns(result, separate).slice(1) : wholeColumns(result, separate.position));
+  const all = [...own, ...(theirs ?? [])];
+  const when = until === null ? "After the impact" : `Within ${format(until)} s`;
+  const groups = [h("td"), h("th", { scope: "colgroup", colspan: own.length, text: when })];
+  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: "Textbook" }));
+  const rows = drop.balls.map((_, ball) => row(ballName(drop, ball), ball, ...all.map(({ cell }) => cell(ball))));
   return h(
     "table",
-    { class: "numbers-table" },
-    h("caption", { class: "quiet", text: "After the impact, the highest ball first" }),
-    head(...names),
+    { class: until === null ? "numbers-table" : "numbers-table whole" },
+    h("caption", { class: "quiet", text: "Speeds and heights of the balls, the highest ball first" }),
+    h("thead", {}, h("tr", { class: "groups" }, groups), columns("Ball", ...all.map(({ name }) => name))),
     h("tbody", {}, rows.reverse()),
   );
 }
 
+/** The columns of an impact, of the drop itself or of its separate collisions. */
+function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }) {
+  const fallen = speedOf(drop) ** 2 / 2 / GRAVITY;
+  return [
+    { name: "m/s", cell: (ball) => fixed(speeds[ball], 2) },
+    { name: "v / v₀", cell: (ball) => fixed(ratios[ball], 3) },
+    { name: ["rises", wide(" (× drop)")], cell: (ball) => [height(heights[ball]), times(heights[ball], fallen)] },
+  ];
+}
+
+/** The columns of a whole drop: how high each ball comes. */
+function wholeColumns({ drop }, positions) {
+  const fallen = speedOf(drop) ** 2 / 2 / (drop.gravity || GRAVITY);
+  const tops = positions.map((values) => values.reduce((most, value) => Math.max(most, value), 0));
+  return [{ name: ["highest", wide(" (× drop)")], cell: (ball) => [height(tops[ball]), times(tops[ball], fallen)] }];
+}
+
+/** Return how many times the height of the drop a ball comes up, to stand behind the height. */
+function times(reached, fallen) {
+  return reached > 0.1 * fallen ? wide(` (${format(reached / fallen, 2)}×)`) : null;
+}
+
+/** Return a text for which a phone has no room. */
+function wide(text) {
+  return h("span", { class: "wide-only", text });
+}
+
 /** Energy, collisions and how the run ended. */
-function facts(result) {
-  const { drop, separate } = result;
-  const pair = (name, own, other) =>
-    h("div", {}, h("dt", { text: name }), h("dd", {}, own, other === undefined ? null : h("small", { text: ` textbook ${other}` })));
+function facts(result, until) {
+  const { drop } = result;
+  const separate = textbook(result);
+  const pair = (name, own, other) => {
+    const beside = other === undefined ? null : h("small", { text: ` textbook ${other}` });
+    return h("div", {}, h("dt", { text: name }), h("dd", {}, own, beside));
+  };
   const list = h("dl", { class: "facts" }, pair("Impact speed", `${format(result.reference_speed, 3)} m/s`));
-  list.append(pair("Energy kept", percent(result.energy_retained), separate ? percent(separate.energy_retained) : undefined));
+  if (until === null) {
+    const theirs = separate ? percent(separate.energy_retained) : undefined;
+    list.append(pair("Energy kept", percent(result.energy_retained), theirs));
+  }
   const met = drop.contacts
     .map((_, contact) => contact)
     .filter((contact) => drop.contacts[contact]?.law !== "none")
-    .map((contact) => `${contactName(drop, contact)} ${count(result.collisions[contact])}`);
+    .map((contact) => `${shortContact(drop, contact)}: ${count(result.collisions[contact])}`);
   const theirs = separate?.collisions.map(count).join(", ");
   list.append(pair("Collisions", met.join(", "), theirs));
-  if (result.status !== "FINISHED") list.append(pair("Note", capital(result.advice)));
+  const set = pair("Set-up", setUp(drop));
+  set.classList.add("print-only");
+  list.prepend(set);
+  if (result.separate?.error) list.append(pair("Textbook", result.separate.error));
+  const asked = until !== null && result.status === "TIME_REACHED";
+  if (result.status !== "FINISHED" && !asked) list.append(pair("Note", capital(result.advice)));
   return list;
 }
 
@@ -92,7 +133,7 @@ function intervalTable({ drop, intervals }) {
     "table",
     {},
     h("caption", { text: `Each time a contact was closed.${more}` }),
-    head("Contact", "from ms", "to ms", "for ms", "peak force N", "compression mm", "impulse N s"),
+    h("thead", {}, columns("Contact", "from ms", "to ms", "for ms", "peak force N", "compression mm", "impulse N s")),
     h("tbody", {}, rows),
   );
 }

@@ -41,8 +41,9 @@ export function mountPlots(root, store, clock) {
 }
 
 /** What makes a panel another one, beyond its numbers. */
-function keyOf({ what, unit, timeUnit, lines }) {
-  return JSON.stringify([what, unit, timeUnit, lines.map(({ label, index, dash }) => [label, index, dash])]);
+function keyOf({ what, unit, timeUnit, lines, overlays }) {
+  const named = [...lines, ...overlays].map(({ label, index, dash }) => [label, index, dash]);
+  return JSON.stringify([what, unit, timeUnit, named]);
 }
 
 /** One plot with its heading and legend. */
@@ -53,6 +54,7 @@ class Panel {
     this.values = panel.lines.map(() => h("span", { class: "legend-value" }));
     const items = panel.lines.map((line, i) => this.legendItem(line, this.values[i]));
     this.host = h("div", { class: "plot-canvas", role: "img" });
+    items.push(...panel.overlays.map((one) => this.legendItem({ ...one, index: one.index ?? null, dash: [1, 2] }, null)));
     const title = h("h3", {}, panel.title, h("span", { class: "unit", text: ` ${panel.unit}` }));
     root.append(
       h("figure", { class: "plot" }, h("figcaption", {}, title, h("ul", { class: "legend" }, items)), this.host),
@@ -157,6 +159,7 @@ class Panel {
           dash: line.dash,
           fill: this.panel.what === "force" ? `${this.color(line)}22` : undefined,
           points: { show: false },
+          pxAlign: 0,
         })),
       ],
       hooks: { draw: [(plot) => this.drawMore(plot)] },

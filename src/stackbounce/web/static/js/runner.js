@@ -2,54 +2,53 @@
 
 const REST = 30; // ms without a change
 
-/** Keep `result`, `busy` and `error` of the store in step with `drop` and `until`. */
+/** Keep `result`, `busy` and `error` of the store in step with `drop` and `until`; `again()` asks anew. */
 export function run(store, api) {
   let timer = 0;
-  let busy = false;
-  let wanted = false;
+  let asking = false;
+  let stale = false;
+  let adopted = null; // a drop that came with its result
 
   const start = async () => {
-    timer = 0;
-    if (busy) {
-      wanted = true;
+    if (asking) {
+      stale = true;
       return;
     }
-    busy = true;
-    wanted = false;
+    asking = true;
+    stale = false;
     const { drop, until } = store.get();
-    const patch = { busy: false };
-    try {
-      const result = await api.simulate(drop, until);
-      Object.assign(patch, { result, error: null });
-      // A link may bring texts with units; from here on they are numbers.
-      if (store.get().drop === drop && hasTexts(drop)) patch.drop = result.drop;
-    } catch (error) {
-      patch.error = { detail: error.message, offline: Boolean(error.offline) };
+    const patch = await answer(api, drop, until);
+    asking = false;
+    if (patch.result && store.get().drop === drop && hasTexts(drop)) {
+      adopted = patch.result.drop;
+      patch.drop = adopted;
     }
-    busy = false;
-    own = patch.drop ?? own;
-    if (wanted) {
-      delete patch.busy;
-      if (patch.error) delete patch.error;
-    }
-    store.set(patch);
-    if (wanted) start();
+    if (stale) delete patch.error; // the newest state is told about, not the one before
+    store.set({ ...patch, busy: stale });
+    if (stale) start();
   };
-
-  let own = null;
-  const ask = () => {
+  const again = () => {
     store.set({ busy: true });
     clearTimeout(timer);
-    timer = setTimeout(start, busy ? 0 : REST);
+    timer = setTimeout(start, REST);
   };
   store.subscribe((state, before) => {
-    if (state.drop === own && before.until === state.until) return;
-    if (state.drop !== before.drop || state.until !== before.until) ask();
+    const other = state.drop !== before.drop && state.drop !== adopted;
+    if (other || state.until !== before.until) again();
   });
-  ask();
-  return { again: ask };
+  again();
+  return { again };
 }
 
+async function answer(api, drop, until) {
+  try {
+    return { result: await api.simulate(drop, until), error: null };
+  } catch (error) {
+    return { error: { detail: error.message, offline: Boolean(error.offline) } };
+  }
+}
+
+/** Return whether a drop has texts with units, as a link may bring them: the result has them as numbers. */
 function hasTexts(value, key = "") {
   if (typeof value === "string") return !["name", "law", "reloading"].includes(key);
   if (value === null || typeof value !== "object") return false;

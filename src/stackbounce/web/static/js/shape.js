@@ -34,7 +34,7 @@ export function magnification(result, asked) {
   if (asked !== null) return Math.min(asked, room);
   const third = Math.min(...compression.map((c, i) => (c > 0 ? smaller(radius, i) / 3 / c : Infinity)));
   const nice = MAGNIFICATIONS.filter((one) => one <= third).at(-1) ?? 1;
-  return Math.min(nice, room);
+  return Number.isFinite(third) ? Math.min(nice, room) : 1;
 }
 
 /** Return how metres become pixels: radii, rest places, and pixels per metre of movement. */
@@ -43,7 +43,7 @@ export function camera(result, { width, height, whole, asked }) {
   const stack = 2 * radius.reduce((sum, r) => sum + r, 0);
   const paths = [...result.frames.position];
   const top = paths[paths.length - 1].reduce((most, q) => Math.max(most, q), 0);
-  const wide = (0.44 * width) / (2 * Math.max(...radius));
+  const wide = Math.min(0.44 * width, width - 210) / (2 * Math.max(...radius));
   const times = whole ? 1 : magnification(result, asked);
   const seen = whole ? stack + Math.max(...largest(paths)) : clamp(stack + times * top, 1.15 * stack, 1.7 * stack);
   const scale = Math.min(height / seen, wide);

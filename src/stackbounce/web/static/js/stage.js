@@ -1,7 +1,7 @@
 /** The stage: the balls at the clock's time, and the textbook's beside them as outlines. */
 
 import { between, locate } from "./clock.js";
-import { put, s, write } from "./dom.js";
+import { h, put, s, write } from "./dom.js";
 import { camera, clamp, flattening, outline } from "./shape.js";
 import { fixed, format } from "./units.js";
 import { ballName, moment } from "./words.js";
@@ -21,12 +21,15 @@ export function mountStage(root, store, clock) {
   const balls = s("g", { class: "balls" });
   svg.append(shading(), ruler, ground, balls, ghosts, time, scale);
   root.append(svg);
+  const nothing = h("p", { class: "stage-empty note", text: "No drop yet." });
+  root.append(nothing);
   let scene = null;
 
   const build = () => {
     const { result, until, magnify } = store.get();
     const { width, height } = root.getBoundingClientRect();
     if (!result || width < 10 || height < 10) return;
+    nothing.hidden = true;
     put(svg, "viewBox", `0 0 ${width} ${height}`);
     const whole = until !== null;
     const view = camera(result, { width, height: height - FOOT - HEAD, whole, asked: magnify });
@@ -78,10 +81,8 @@ function ballGroup(drop, ball, { view }) {
   const group = s("g", { class: "ball", "data-ball": ball });
   group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
   const name = s("text", { class: "ball-name", "text-anchor": "end", text: ballName(drop, ball) });
-  put(name, "x", -(view.radius[ball] + 12));
   put(name, "y", 4);
   const speed = s("text", { class: "ball-speed" });
-  put(speed, "x", view.radius[ball] + 28);
   put(speed, "y", 4);
   group.append(
     s("path", { class: "ball-body" }),
@@ -94,20 +95,22 @@ function ballGroup(drop, ball, { view }) {
 }
 
 function moveBall(group, scene, ball, { position, velocity, flat }) {
-  const [body, light, arrow, , speed] = group.children;
-  const { path } = outline(scene.view.radius[ball], flat);
+  const [body, light, arrow, name, speed] = group.children;
+  const { path, side } = outline(scene.view.radius[ball], flat);
   put(group, "data-position", position);
   put(group, "transform", `translate(${scene.middle} ${centre(scene, ball, position)})`);
   put(body, "d", path);
   put(light, "d", path);
-  put(arrow, "d", arrowPath(scene.view.radius[ball] + 17, (-ARROW * velocity) / scene.fastest));
+  put(arrow, "d", arrowPath((side + 17).toFixed(1), (-ARROW * velocity) / scene.fastest));
+  put(name, "x", (-side - 10).toFixed(1));
+  put(speed, "x", (side + 28).toFixed(1));
   write(speed, `${fixed(velocity, 2)} m/s`);
 }
 
 /** Return an arrow from a height of 0 to `length` px down, at `x`. */
 function arrowPath(x, length) {
-  if (Math.abs(length) < 1.5) return `M${x - 3} 0h6`;
-  const head = clamp(length, -6, 6);
+  if (Math.abs(length) < 1.5) return `M${x} 0m-3 0h6`;
+  const head = clamp(length, -5, 5);
   const tip = length.toFixed(1);
   return `M${x} 0V${tip}m-4 ${-head}L${x} ${tip}l4 ${-head}`;
 }

@@ -20,13 +20,15 @@ export const FIRST = {
   drop: FIRST_DROP,
   until: null, // s of the whole drop, or null for the impact alone
   ghosts: true,
-  slow: 1000, // how many times slower than life
+  slow: 1000, // how many times slower than life: 10 ms in 10 s
   magnify: null, // how many times movement is shown larger, null to let the page choose
   t: null, // s, where the cursor stands, null for the begin
   map: null,
   result: null,
   busy: false,
   error: null, // {detail, offline}
+  notice: null, // one line about the page itself, such as a link that could not be read
+  replay: 0, // raised where a drop is to be shown from its begin
   overlays: [],
 };
 

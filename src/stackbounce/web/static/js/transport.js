@@ -3,13 +3,13 @@
 import { h, put, write } from "./dom.js";
 import { GRAVITY } from "./drops.js";
 import { choice } from "./fields.js";
+import { FIRST } from "./store.js";
 import { moment } from "./words.js";
 
 const STEPS = 2000; // of the cursor
 const SLOW = [10000, 3000, 1000, 300, 100, 30, 10, 3, 1];
 const MAGNIFY = [1, 2, 3, 5, 8, 10, 20, 30, 50];
 const LIFE = 1; // how many times slower a whole drop is shown
-const IMPACT = 1000; // and an impact: 10 ms in 10 s
 const STRIDE = 1 / 200; // of the window, that an arrow key moves the cursor
 
 /** Build the transport into `root`; it drives the clock, and follows it. */
@@ -97,7 +97,7 @@ function keep(store, clock) {
 function choices(store) {
   const { slow, magnify, ghosts, until, result } = store.get();
   const numbers = (list, own) => [...new Set(own === null ? list : [...list, own])].sort((a, b) => a - b);
-  const speeds = numbers(SLOW, slow).map((one) => [one, one === 1 ? "real time" : `${one} times slower`]);
+  const speeds = numbers(SLOW, slow).map((one) => [one, one === 1 ? "real time" : `${one}× slower`]);
   const sizes = numbers(MAGNIFY, magnify).map((one) => [one, `×${one}`]);
   const boxes = [
     choice({ label: "Shown", groups: [["", speeds]], value: slow, set: (value) => store.set({ slow: Number(value) }) }),
@@ -132,5 +132,5 @@ function whole({ drop, result }) {
 }
 
 function alone({ drop }) {
-  return { until: null, slow: IMPACT, t: null, drop: { ...drop, gravity: 0 } };
+  return { until: null, slow: FIRST.slow, t: null, drop: { ...drop, gravity: 0 } };
 }

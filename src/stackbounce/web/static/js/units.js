@@ -25,7 +25,7 @@ const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
 
 /** Return the unit in which people read an SI unit, and how many SI units one of it is. */
 export function shownUnit(unit, large = false) {
-  if (unit === "m" && large) return { unit: "m", size: 1 };
+  if (large) return { unit, size: 1 };
   const [name, size] = SHOWN[unit] ?? [unit, 1];
   return { unit: name, size };
 }
@@ -44,7 +44,7 @@ export function format(value, digits = 4) {
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return tidy(value.toExponential(digits - 1));
+  if (size >= 1e5 || size < 1e-4) return tidy(value.toExponential(digits - 1));
   return tidy(String(Number(value.toPrecision(digits))));
 }
 

@@ -13,6 +13,17 @@ export function contactName(drop, contact) {
   return `${lower} – ${ballName(drop, contact)}`;
 }
 
+/** Return a ball's name as short as a legend of many needs it: its place, whose colour stands beside it. */
+export function shortBall(drop, ball) {
+  return drop.balls.length > 3 ? String(ball) : ballName(drop, ball);
+}
+
+/** Return a contact's name, short where there are many. */
+export function shortContact(drop, contact) {
+  if (drop.balls.length <= 3) return contactName(drop, contact);
+  return contact === 0 ? "floor–0" : `${contact - 1}–${contact}`;
+}
+
 /** Return how often a contact met. */
 export function count(collisions) {
   return collisions < 0 ? "infinitely many" : String(collisions);
@@ -36,20 +47,37 @@ export function percent(share) {
   return `${format(share * 100, 3)} %`;
 }
 
+/** Return what was dropped, for paper: balls and contacts from the floor up. */
+export function setUp(drop) {
+  const parts = drop.balls.map((ball, i) => {
+    const { law, ...numbers } = drop.contacts[i];
+    const given = Object.entries(numbers).map(([name, value]) => `${name.replaceAll("_", " ")} ${typeof value === "number" ? format(value) : value}`);
+    const gap = i > 0 && drop.gaps?.[i - 1] ? `, gap ${format(drop.gaps[i - 1] * 1e3)} mm` : "";
+    return `${law === "none" ? "no floor" : `${law} (${given.join(", ")})${gap}`}; ${ballName(drop, i)} ${format(ball.mass * 1e3)} g`;
+  });
+  return `${parts.join("; ")}; in SI units from the floor up.`;
+}
+
 /** Return a result in one or two sentences, as somebody would tell it. */
-export function told(result) {
+export function told(result, until) {
   const { drop } = result;
-  const one = (ball) => {
-    const ratio = result.rebound_ratios[ball];
-    if (ratio === null) return `${ballName(drop, ball)} has no end speed`;
-    if (Math.abs(ratio) < 5e-4) return `${ballName(drop, ball)} stands still`;
-    const way = ratio > 0 ? "goes up" : "goes on down";
-    return `${ballName(drop, ball)} ${way} at ${format(Math.abs(ratio), 3)} times the impact speed`;
-  };
-  const balls = drop.balls.map((_, ball) => one(ball)).reverse();
-  const kept = percent(result.energy_retained);
-  const end = result.status === "FINISHED" ? "" : ` ${capital(result.advice)}.`;
-  return `After the impact, ${balls.join("; ")}. Kinetic energy kept: ${kept}.${end}`;
+  const own = until === null ? (ball) => leaving(result, ball) : (ball) => rising(result, ball);
+  const balls = drop.balls.map((_, ball) => `${ballName(drop, ball)} ${own(ball)}`).reverse();
+  const expected = result.status === "FINISHED" || (until !== null && result.status === "TIME_REACHED");
+  const end = expected ? "" : ` ${capital(result.advice)}.`;
+  if (until !== null) return `Within ${format(until)} seconds, ${balls.join("; ")}.${end}`;
+  return `After the impact, ${balls.join("; ")}. Kinetic energy kept: ${percent(result.energy_retained)}.${end}`;
+}
+
+function leaving(result, ball) {
+  const ratio = result.rebound_ratios[ball];
+  if (ratio === null) return "has no end speed";
+  if (Math.abs(ratio) < 5e-4) return "stands still";
+  return `goes ${ratio > 0 ? "up" : "on down"} at ${format(Math.abs(ratio), 3)} times the impact speed`;
+}
+
+function rising(result, ball) {
+  return `rises to ${height(result.frames.position[ball].reduce((most, value) => Math.max(most, value), 0))}`;
 }
 
 /** Return a text with a capital first letter. */
