@@ -32,8 +32,8 @@ export function scaleOfColors(values, whole) {
   if (whole) {
     const order = (count) => (count < 0 ? Infinity : count);
     const counts = [...new Set(known)].sort((a, b) => order(a) - order(b));
-    const last = Math.max(counts.length - 1, 1);
-    return { kind: "counts", counts, color: (value) => colorAt(counts.indexOf(value) / last) };
+    const part = (count) => (counts.length > 1 ? counts.indexOf(count) / (counts.length - 1) : 0.5);
+    return { kind: "counts", counts, color: (count) => colorAt(part(count)) };
   }
   let low = known.reduce((a, b) => Math.min(a, b), Infinity);
   let high = known.reduce((a, b) => Math.max(a, b), -Infinity);

@@ -6,8 +6,9 @@ import { sideOf } from "./map_axes.js";
 import { drawMap, drawMarks, frameOf } from "./map_draw.js";
 import { mapForm } from "./map_form.js";
 import { mapper } from "./map_request.js";
-import { outcome, place, summary, withNumbers } from "./map_words.js";
+import { outcome, place, summary as inWords, withNumbers } from "./map_words.js";
 import { onRepaint, palette } from "./palette.js";
+import { capital } from "./words.js";
 
 const REST = 40; // ms without a change
 const STEP = 1 / 60; // of a side, for one press of an arrow
@@ -18,7 +19,7 @@ const KEYS =
 export function mount(root, store, api) {
   const parts = build();
   const form = mapForm((map) => store.set({ map }));
-  root.replaceChildren(parts.figure, h("div", { class: "map-side" }, form.element, parts.note));
+  root.replaceChildren(parts.figure, h("div", { class: "map-side" }, form.element, parts.summary));
   let chosen = null; // {settings, paths, shows}
   let answer = null;
   let pointed = null; // [x, y] as parts of the sides
@@ -39,7 +40,7 @@ export function mount(root, store, api) {
     }
     parts.figure.classList.toggle("stale", Boolean(news.problem));
     if (news.problem) {
-      write(parts.message, news.preparing ? `${news.problem[0].toUpperCase()}${news.problem.slice(1)} …` : news.problem);
+      write(parts.message, news.preparing ? `${capital(news.problem)} …` : news.problem);
       parts.again.hidden = Boolean(news.preparing);
     }
   });
@@ -60,8 +61,9 @@ export function mount(root, store, api) {
     if (!answer || root.hidden) return;
     const whole = answer.show.startsWith("collisions");
     drawMap(parts.field, answer, answer.settings, scaleOfColors(answer.values, whole), palette());
-    write(parts.summary, summary(answer));
-    parts.board.setAttribute("aria-label", `Map of ${answer.label} over ${answer.x.label} and ${answer.y.label}`);
+    write(parts.summary, inWords(answer));
+    parts.board.setAttribute("aria-label", `Map: ${answer.label}; across, ${answer.x.label}; up, ${answer.y.label}`);
+    write(parts.title, capital(answer.label));
     mark();
   };
   const mark = () => {
@@ -86,9 +88,9 @@ export function mount(root, store, api) {
       value: values[nearest(y, values.length)][nearest(x, values[0].length)],
     };
   };
-  const told = (parts_) => {
-    const { point, value } = at(parts_);
-    return `${place(answer, point)}: ${answer.label} ${outcome(answer, value)}.`;
+  const told = (spot) => {
+    const { point, value } = at(spot);
+    return `${capital(place(answer, point))}: ${outcome(answer, value)}.`;
   };
   const play = () => {
     if (!answer || !pointed) return;
@@ -158,13 +160,14 @@ function build() {
     field,
     marks,
   );
+  const title = h("h2", { class: "map-title" });
   const readout = h("p", { class: "map-readout" });
   const live = h("p", { class: "quiet", "aria-live": "polite" });
   const message = h("p", { class: "map-message", role: "status" });
   const again = h("button", { type: "button", text: "Try again", hidden: true });
-  const summaryText = h("p", { class: "note", id: "map-summary" });
+  const summary = h("p", { class: "note", id: "map-summary" });
   const keys = h("p", { class: "quiet", id: "map-keys", text: KEYS });
   const box = h("div", { class: "map-box" }, board, h("div", { class: "map-over" }, message, again));
-  const figure = h("section", { class: "map-figure", "aria-label": "Map" }, readout, box, keys, live);
-  return { figure, field, marks, board, readout, live, message, again, summary: summaryText, note: summaryText };
+  const figure = h("section", { class: "map-figure", "aria-label": "Map" }, title, readout, box, keys, live);
+  return { figure, field, marks, board, title, readout, live, message, again, summary };
 }

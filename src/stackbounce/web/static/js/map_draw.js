@@ -82,7 +82,7 @@ function drawLevels(ctx, frame, values, scale) {
   const toX = (column) => frame.left + (column / (columns - 1)) * frame.width;
   const toY = (row) => frame.top + (1 - row / (rows - 1)) * frame.height;
   const taken = [];
-  for (const { value: level } of ticks(scale.low, scale.high, false, 8)) {
+  for (const { value: level } of ticks(scale.low, scale.high, false, 10)) {
     const pieces = contour(values, level).map(([a, b, c, d]) => [toX(a), toY(b), toX(c), toY(d)]);
     if (pieces.length === 0) continue;
     const light = isLight(scale.color(level));
