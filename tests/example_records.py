@@ -1,7 +1,6 @@
 """The records that the explorer offers for a try: made from simulated drops, with noise."""
 
 import stackbounce as sb
-from stackbounce.measure import synthetic  # noqa: F401
 from stackbounce.measure.synthetic.track import track
 from stackbounce.measure.synthetic.waveform import waveform
 
@@ -20,13 +19,13 @@ def floor_force() -> str:
 
 
 def two_tracks() -> str:
-    """Return where both balls are in a video of 240 frames per second, as Tracker exports it."""
-    contacts = [sb.Dashpot(2700.0, 4.0), sb.Dashpot(1350.0, 2.0)]
-    drop = sb.Drop(_BALLS, contacts, gaps=[0.002], height=0.636, gravity=9.80665)
-    seen = track(sb.simulate(drop, until=0.6), frame_rate=240, noise=5e-4, seed=2007, names=["basketball", "tennis"])
-    y = seen.y.values
+    """Return where both balls are in a video of 120 frames per second, as Tracker exports it."""
+    balls = [sb.Ball(0.101, diameter=0.058, name="B1"), sb.Ball(0.0248, diameter=0.038, name="B2")]
+    contacts = [sb.Dashpot(54e3, 8.0), sb.Dashpot(24e3, 2.0)]
+    drop = sb.Drop(balls, contacts, gaps=[0.0], height=1.0, gravity=9.80665)
+    seen = track(sb.simulate(drop, until=0.34), frame_rate=120, noise=4e-3, seed=2007)
     rows = [
-        f"{t:.6E},{0:.1E},{a + 0.08:.4E},{0:.1E},{b + 0.193:.4E},"
-        for t, (a, b) in zip(seen.time.values, y)
+        f"{t:.6E},0.0E0,{lower + 0.029:.4E},0.0E0,{upper + 0.077:.4E},"
+        for t, (lower, upper) in zip(seen.time.values, seen.y.values, strict=True)
     ]
-    return "\n".join(["#multi:", ",basketball,,tennis,,", "t,x,y,x,y,", *rows, ""])
+    return "\n".join(["#multi:", ",B1,,B2,,", "t,x,y,x,y,", *rows, ""])
