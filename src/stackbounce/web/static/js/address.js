@@ -1,0 +1,119 @@
+/** The state in the address: a link shows again what it was copied from. */
+
+import { complete, isDrop } from "./drops.js";
+import { FIRST } from "./store.js";
+
+const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height", "gravity"];
+const WORDS = new Set(["name", "law", "reloading", "path", "show", "x", "y"]);
+const PART = /^[a-z]+(_[a-z]+)*$/;
+const MOST = 16; // more members than any list of a drop may have
+
+/** Return a state as the text of a fragment: a drop by the paths of its numbers, as sweeps name them. */
+export function write(state) {
+  const pairs = [["view", state.view]];
+  flatten("", state.drop, pairs);
+  if (state.until !== FIRST.until) pairs.push(["until", state.until]);
+  if (state.ghosts !== FIRST.ghosts) pairs.push(["ghosts", Number(state.ghosts)]);
+  if (state.slow !== FIRST.slow) pairs.push(["slow", state.slow]);
+  if (state.magnify !== FIRST.magnify) pairs.push(["magnify", state.magnify]);
+  if (state.t !== null) pairs.push(["t", Number(state.t.toPrecision(6))]);
+  if (state.map) flatten("map.", state.map, pairs);
+  return pairs.map(([key, value]) => `${key}=${escape(String(value))}`).join("&");
+}
+
+/** Return the patch of the state that a fragment describes; what it does not know it leaves alone. */
+export function read(fragment) {
+  const patch = {};
+  const drop = {};
+  const map = {};
+  for (const pair of fragment.replace(/^#/, "").split("&")) {
+    const cut = pair.indexOf("=");
+    if (cut < 1) continue;
+    const key = decode(pair.slice(0, cut));
+    const text = decode(pair.slice(cut + 1));
+    const parts = key.split(".");
+    if (DROP.includes(parts[0])) insert(drop, parts, text);
+    else if (parts[0] === "map") insert(map, parts.slice(1), text);
+    else readOne(patch, key, text);
+  }
+  if (isDrop(drop)) patch.drop = complete(drop);
+  else if (Object.keys(drop).length) patch.notice = "The link holds no whole drop: this is what was here.";
+  if (Object.keys(map).length) patch.map = map;
+  return patch;
+}
+
+/** Keep the address and the state in step: writes soon after a change, reads when a link is followed. */
+export function follow(store) {
+  let timer = 0;
+  let written = location.hash;
+  const later = () => {
+    timer = 0;
+    written = `#${write(store.get())}`;
+    if (location.hash !== written) history.replaceState(null, "", written);
+  };
+  store.subscribe(() => {
+    timer ||= setTimeout(later, 300);
+  });
+  addEventListener("hashchange", () => {
+    if (location.hash === written) return;
+    clearTimeout(timer);
+    timer = 0;
+    store.set({ ...FIRST_SHOWN, ...read(location.hash) });
+  });
+}
+
+const FIRST_SHOWN = Object.fromEntries(
+  ["view", "until", "ghosts", "slow", "magnify", "t", "map"].map((name) => [name, FIRST[name]]),
+);
+
+function flatten(path, value, pairs) {
+  if (value === null || value === undefined) return;
+  if (typeof value !== "object") {
+    pairs.push([path, value]);
+    return;
+  }
+  const dot = path && !path.endsWith(".") ? `${path}.` : path;
+  for (const [key, member] of Object.entries(value)) flatten(dot + key, member, pairs);
+}
+
+function insert(target, parts, text) {
+  let place = target;
+  for (const [depth, part] of parts.entries()) {
+    const index = /^\d+$/.test(part) ? Number(part) : part;
+    const fits = Array.isArray(place) ? index < MOST && index <= place.length : PART.test(part);
+    if (!fits) return;
+    if (depth === parts.length - 1) {
+      place[index] = WORDS.has(part) ? text : number(text);
+      return;
+    }
+    if (typeof (place[index] ?? {}) !== "object") return;
+    place[index] ??= /^\d+$/.test(parts[depth + 1]) ? [] : {};
+    place = place[index];
+  }
+}
+
+function readOne(patch, key, text) {
+  const value = number(text);
+  const finite = typeof value === "number" && Number.isFinite(value);
+  if (key === "view" && ["play", "map", "measure", "paper"].includes(text)) patch.view = text;
+  if (key === "ghosts") patch.ghosts = text !== "0";
+  if (key === "t" && finite) patch.t = value;
+  if (["until", "slow", "magnify"].includes(key) && finite && value > 0) patch[key] = value;
+}
+
+function number(text) {
+  if (text === "true" || text === "false") return text === "true";
+  return text.trim() !== "" && Number.isFinite(Number(text)) ? Number(text) : text;
+}
+
+function escape(text) {
+  return encodeURIComponent(text).replaceAll("%20", "+").replaceAll("%2F", "/");
+}
+
+function decode(text) {
+  try {
+    return decodeURIComponent(text.replaceAll("+", " "));
+  } catch {
+    return text;
+  }
+}

@@ -1,0 +1,196 @@
+/** The controls: presets, how the tower comes in, and the tower. */
+
+import { h, write } from "./dom.js";
+import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
+import { choice, numberField } from "./fields.js";
+import { asMeasured, changeLaw } from "./laws.js";
+import { FIRST } from "./store.js";
+import { shapeOf, towerOf, withChosen } from "./tower.js";
+
+const INCIDENCE = [
+  ["height", "Height"],
+  ["impact_speed", "Speed"],
+  ["velocities", "Per ball"],
+];
+
+/** Build the controls into `root`; they change the store's drop and follow it. */
+export function mountControls(root, store, api, catalogue) {
+  const said = h("p", { class: "note", id: "preset-says" });
+  const drops = h("fieldset", { class: "incidence" });
+  const tower = h("section", { class: "tower-box", "aria-label": "Tower" });
+  const general = h("p", { class: "field-error", role: "alert", hidden: true });
+  let fields = [];
+  let shape = "";
+  let notes = [];
+
+  const change = (drop, news = []) => {
+    notes = news;
+    store.set({ drop });
+  };
+  const set = (path, value) => {
+    const { drop } = store.get();
+    if (path === "until") store.set({ until: value });
+    else if (valueAt(drop, path) !== value) store.set({ drop: withValue({ ...drop, gaps: gapsOf(drop) }, path, value) });
+  };
+  const attempt = async (act) => {
+    try {
+      await act();
+    } catch (error) {
+      store.set({ error: { detail: error.message, offline: Boolean(error.offline) } });
+    }
+  };
+  const choose = (ball, name) =>
+    attempt(async () => {
+      const entry = catalogue.balls.find((one) => one.name === name);
+      const drop = withChosen(store.get().drop, ball, entry);
+      change(...(await asStacked(api, catalogue, drop, entry ? ball : null)));
+    });
+  const relaw = (contact, name) =>
+    attempt(async () => {
+      const { drop, note } = await changeLaw(api, store.get().drop, contact, name);
+      change(drop, placed(contact, note));
+    });
+  const measured = (contact, values) =>
+    attempt(async () => {
+      const { drop } = store.get();
+      const changed = await asMeasured(api, drop, contact, values);
+      change(withValue(drop, `contacts.${contact}`, changed), placed(contact, "As measured."));
+    });
+  const tools = { catalogue, set, change, choose, relaw, measured, drop: () => store.get().drop };
+
+  const rebuild = () => {
+    const { drop, until } = store.get();
+    const focused = document.activeElement?.closest?.("[data-key], [data-path], [data-slider]");
+    const open = [...root.querySelectorAll("details[open]")].map((one) => one.dataset.key);
+    const built = towerOf(drop, tools, notes);
+    tower.replaceChildren(built.element);
+    fields = [...incidence(drops, drop, until, tools), ...built.fields];
+    for (const key of open) tower.querySelector(`details[data-key="${key}"]`)?.setAttribute("open", "");
+    focusAgain(root, focused);
+  };
+  const update = () => {
+    const { drop, until, error } = store.get();
+    const now = JSON.stringify([shapeOf(drop), until === null, drop.gravity > 0, notes]);
+    if (now !== shape) {
+      shape = now;
+      rebuild();
+    } else {
+      for (const field of fields) field.update(field.path === "until" ? until : valueAt(drop, field.path));
+    }
+    if (drop !== example) presets.querySelector("select").value = "";
+    showError(fields, general, error);
+  };
+
+  let example = null;
+  const presets = presetChoice(catalogue, (preset) => {
+    write(said, preset.says);
+    notes = [];
+    example = complete(preset.drop);
+    const { until, slow, replay } = store.get();
+    store.set({ drop: example, until: null, t: null, slow: until === null ? slow : FIRST.slow, replay: replay + 1 });
+  });
+  root.replaceChildren(presets, said, general, drops, tower);
+  store.subscribe((state, before) => {
+    if (state.notice !== before.notice) write(said, state.notice ?? "");
+    const touched = ["drop", "error", "until"].some((name) => state[name] !== before[name]);
+    if (touched) update();
+  });
+  write(said, store.get().notice ?? "");
+  update();
+}
+
+function placed(contact, note) {
+  const notes = [];
+  if (note) notes[contact] = note;
+  return notes;
+}
+
+/**
+ * Return `[drop, notes]`: where all balls are the paper's and all contacts springs, the contacts that
+ * a chosen ball touches become those that these balls have.
+ */
+async function asStacked(api, catalogue, drop, ball) {
+  const names = drop.balls.map(({ name }) => name);
+  const known = names.every((name) => catalogue.balls.some((one) => one.name === name));
+  const springs = drop.contacts.every(({ law }) => law === "Spring");
+  if (ball === null || !known || !springs) return [drop, []];
+  const stack = await api.stack(names, 1);
+  const touched = (contact) => contact === ball || contact === ball + 1 || contact === 0;
+  const contacts = drop.contacts.map((one, i) => (touched(i) ? stack.drop.contacts[i] : one));
+  const gaps = gapsOf(drop).map((gap, i) => (touched(i + 1) ? stack.drop.gaps[i] : gap));
+  return [{ ...drop, contacts, gaps }, stack.contact_sources.map((source, i) => (touched(i) ? source : undefined))];
+}
+
+function presetChoice({ presets }, use) {
+  const groups = new Map([["", [["", "Choose an example"]]]]);
+  for (const { group, name, title } of presets) groups.set(group, [...(groups.get(group) ?? []), [name, title]]);
+  return choice({
+    label: "Example",
+    key: "preset",
+    groups: [...groups],
+    value: "",
+    set: (name) => {
+      const preset = presets.find((one) => one.name === name);
+      if (preset) use(preset);
+    },
+  });
+}
+
+/** Fill the box on how the tower comes in; returns its fields. */
+function incidence(box, drop, until, { set, change, drop: current }) {
+  const kind = incidenceOf(drop);
+  const radios = INCIDENCE.map(([value, text]) =>
+    h(
+      "label",
+      {},
+      h("input", {
+        type: "radio",
+        name: "incidence",
+        value,
+        checked: value === kind,
+        "data-key": `incidence-${value}`,
+        onchange: () => change(withIncidence(current(), value)),
+      }),
+      h("span", { text }),
+    ),
+  );
+  const fields = [];
+  if (kind === "height") fields.push(numberField({ path: "height", label: "falls from", unit: "m", large: true, low: 0.02, high: 10, set }));
+  if (kind === "impact_speed") fields.push(numberField({ path: "impact_speed", label: "comes in at", unit: "m/s", low: 0.1, high: 15, set }));
+  if (until !== null) fields.push(numberField({ path: "until", label: "shown for", unit: "s", large: true, low: 0.2, high: 20, set }));
+  for (const field of fields) field.update(field.path === "until" ? until : drop[field.path]);
+  const gravity = h("input", {
+    type: "checkbox",
+    checked: drop.gravity > 0,
+    "data-key": "gravity",
+    onchange: (event) => set("gravity", event.target.checked ? GRAVITY : 0),
+  });
+  box.replaceChildren(
+    h("legend", { text: "The drop" }),
+    h("div", { class: "segments" }, radios),
+    ...fields.map((field) => field.element),
+    h("label", { class: "check" }, gravity, "gravity during the impact"),
+  );
+  return fields;
+}
+
+/** Show an error beside the field that it names, else above all. */
+function showError(fields, general, error) {
+  const detail = error && !error.offline ? error.detail : null;
+  const named = detail && fields.filter(({ path }) => mentions(detail, path)).sort((a, b) => b.path.length - a.path.length)[0];
+  for (const field of fields) field.fail(field === named ? detail : null);
+  general.hidden = !detail || Boolean(named);
+  write(general, general.hidden ? "" : detail);
+}
+
+function mentions(detail, path) {
+  return detail.startsWith(path) && !/[\w.]/.test(detail[path.length] ?? " ");
+}
+
+function focusAgain(root, focused) {
+  if (!focused) return;
+  const names = ["key", "path", "slider"].filter((name) => focused.dataset[name] && focused.tagName !== "DETAILS");
+  const attribute = names[0];
+  if (!attribute || focused.isConnected) return;
+  root.querySelector(`[data-${attribute}="${CSS.escape(focused.dataset[attribute])}"]`)?.focus();
+}

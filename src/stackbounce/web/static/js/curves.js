@@ -1,0 +1,87 @@
+/** Which curves a result has: three panels of lines in the units that people read. */
+
+import { format } from "./units.js";
+import { shortBall, shortContact } from "./words.js";
+
+/**
+ * Return the panels of a result: `{what, title, unit, times, lines, stems, factor}`; a line is
+ * `{label, index, values, dash}` and has the colour of ball or contact `index`, or of text.
+ */
+export function panels(result, whole, overlays = []) {
+  const scale = whole ? 1 : 1e3;
+  const times = result.frames.time.map((time) => time * scale);
+  const common = { times, scale, timeUnit: whole ? "s" : "ms" };
+  const own = (what, factor) =>
+    overlays
+      .filter((one) => one.what === what)
+      .map((one) => ({
+        ...one,
+        time: one.time.map((time) => time * scale),
+        values: one.values.map((value) => (value === null ? null : value * factor)),
+      }));
+  return [positions(result, whole), result.separate ? forces(result) : impulses(result, scale), energies(result)].map(
+    (panel) => ({ ...common, ...panel, overlays: own(panel.what, panel.factor ?? 1) }),
+  );
+}
+
+function scaled(values, factor) {
+  return factor === 1 ? values : values.map((value) => value * factor);
+}
+
+function positions({ drop, frames }, whole) {
+  const factor = whole ? 1 : 1e3;
+  const lines = frames.position.map((values, index) => ({
+    label: shortBall(drop, index),
+    index,
+    values: scaled(values, factor),
+  }));
+  return { what: "position", title: "Position", unit: whole ? "m" : "mm", factor, lines };
+}
+
+function forces({ drop, frames }) {
+  const lines = frames.force
+    .map((values, index) => ({ label: shortContact(drop, index), index, values }))
+    .filter((_, index) => drop.contacts[index]?.law !== "none");
+  return { what: "force", title: "Force", unit: "N", factor: 1, floor: 0, lines };
+}
+
+/** A rigid collision has an impulse and no finite force. */
+function impulses({ drop, intervals }, scale) {
+  const stems = intervals.map(({ contact, start, impulse }) => ({ index: contact, time: start * scale, impulse }));
+  const met = [...new Set(stems.map(({ index }) => index))].sort();
+  const lines = met.map((index) => ({ label: shortContact(drop, index), index, values: null }));
+  const most = stems.reduce((most, { impulse }) => Math.max(most, impulse), 0);
+  return { what: "impulse", title: "Impulse", unit: "N s", floor: 0, ceiling: most || 1, lines, stems };
+}
+
+function energies({ drop, frames }) {
+  const { kinetic, stored, potential, total } = frames.energy;
+  const most = Math.max(...total.filter(Number.isFinite), 0);
+  const factor = most < 1 ? 1e3 : 1;
+  const lines = [
+    { label: "total", index: null, values: scaled(total, factor) },
+    ...kinetic.map((values, index) => ({ label: shortBall(drop, index), index, values: scaled(values, factor) })),
+  ];
+  if (stored.some((value) => value > 1e-9 * most)) {
+    lines.push({ label: "in contacts", index: null, dash: [5, 4], values: scaled(stored, factor) });
+  }
+  if (drop.gravity > 0) {
+    lines.push({ label: "potential", index: null, dash: [1, 3], values: scaled(potential, factor) });
+  }
+  return { what: "energy", title: "Energy", unit: factor === 1 ? "J" : "mJ", factor, lines };
+}
+
+/** Return a panel in words, for who does not see it. */
+export function described(panel) {
+  const { title, unit, lines, stems } = panel;
+  const ranges = lines.map(({ label, index, values }) => {
+    if (!values) {
+      const own = stems.filter((stem) => stem.index === index).map((stem) => stem.impulse);
+      return `${label} ${own.length} times, up to ${format(Math.max(...own), 3)} ${unit}`;
+    }
+    const low = values.reduce((a, b) => Math.min(a, b), Infinity);
+    const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
+    return `${label} from ${format(low, 3)} to ${format(high, 3)} ${unit}`;
+  });
+  return `${title} against time: ${ranges.join("; ")}.`;
+}

@@ -1,0 +1,122 @@
+/** One number of the drop: a label, a slider and a field that reads "57 g". */
+
+import { h } from "./dom.js";
+import { clean, format, numeric, pretty, read, shownUnit } from "./units.js";
+
+const STEPS = 1000; // of a slider
+
+/**
+ * Return a field `{element, path, update(value), fail(message)}`.
+ * @param {object} spec `{path, label, unit, low, high, large, says, optional, set(path, value)}`
+ */
+export function numberField(spec) {
+  const { path, label, unit, low, high } = spec;
+  const shown = shownUnit(unit, spec.large);
+  const id = `field-${path.replaceAll(".", "-")}`;
+  const ladder = scaleOf(low, high);
+  const input = h("input", {
+    id,
+    class: "field-number",
+    type: "text",
+    inputmode: "decimal",
+    autocomplete: "off",
+    spellcheck: "false",
+    "data-path": path,
+    "aria-describedby": `${id}-unit ${id}-error`,
+    title: spec.says || null,
+  });
+  const slider = h("input", {
+    class: "field-slider",
+    type: "range",
+    min: 0,
+    max: STEPS,
+    step: 1,
+    "data-slider": path,
+    "aria-label": `${label}, slider`,
+  });
+  const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
+  const element = h(
+    "div",
+    { class: "field" },
+    h("label", { for: id, text: label }),
+    slider,
+    h("span", { class: "field-box" }, input, h("span", { class: "unit", id: `${id}-unit`, text: pretty(shown.unit) })),
+    error,
+  );
+
+  const place = (value) => {
+    const si = numeric(value, unit);
+    if (!Number.isFinite(si)) return;
+    slider.value = ladder.toSlider(si);
+    slider.setAttribute("aria-valuetext", `${format(si / shown.size)} ${pretty(shown.unit)}`);
+  };
+  const written = (value) => {
+    const si = numeric(value, unit);
+    return Number.isFinite(si) ? format(clean(si / shown.size), 6) : String(value ?? "");
+  };
+  const update = (value) => {
+    place(value);
+    if (document.activeElement !== input) input.value = written(value);
+  };
+  const commit = () => {
+    if (spec.optional && input.value.trim() === "") spec.set(path, undefined);
+    else spec.set(path, read(input.value, unit, shown));
+  };
+  slider.addEventListener("input", () => {
+    const value = ladder.toValue(Number(slider.value));
+    place(value);
+    input.value = written(value);
+    spec.set(path, value);
+  });
+  input.addEventListener("change", () => {
+    commit();
+    const value = read(input.value, unit, shown);
+    if (typeof value === "number") {
+      place(value);
+      input.value = written(value);
+    }
+  });
+  input.addEventListener("keydown", (event) => {
+    const up = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (event.key === "Enter") event.preventDefault();
+    if (event.key === "Enter") commit();
+    if (!up) return;
+    event.preventDefault();
+    const value = ladder.toValue(Number(slider.value) + 5 * up);
+    place(value);
+    input.value = written(value);
+    spec.set(path, value);
+  });
+  const fail = (message) => {
+    error.textContent = message ?? "";
+    error.hidden = !message;
+    input.setAttribute("aria-invalid", message ? "true" : "false");
+  };
+  return { element, path, update, fail };
+}
+
+/** Return how a slider's steps become values: by factors over a wide range, else evenly. */
+function scaleOf(low, high) {
+  const wide = low > 0 && high / low > 15;
+  const step = high - low;
+  return {
+    toValue(place) {
+      const part = Math.min(Math.max(place / STEPS, 0), 1);
+      return clean(Number((wide ? low * (high / low) ** part : low + step * part).toPrecision(3)));
+    },
+    toSlider(value) {
+      const part = wide ? Math.log(Math.max(value, low) / low) / Math.log(high / low) : (value - low) / step;
+      return Math.round(STEPS * Math.min(Math.max(part, 0), 1));
+    },
+  };
+}
+
+/** Return a labelled choice; `groups` is a list of `[title, [[value, text], …]]`, without title for none. */
+export function choice({ label, groups, value, set, quiet, key }) {
+  const options = groups.map(([title, entries]) => {
+    const list = entries.map(([entry, text]) => h("option", { value: entry, text, selected: entry === value }));
+    return title ? h("optgroup", { label: title }, list) : list;
+  });
+  const select = h("select", { "data-key": key, onchange: (event) => set(event.target.value) }, options);
+  return h("label", { class: "choice" }, h("span", { class: quiet ? "quiet" : "choice-label", text: label }), select);
+}

@@ -1,0 +1,54 @@
+/** Contacts with another law, or with the law's constants for a bounce that was measured. */
+
+import { contactMass, speedOf, withValue } from "./drops.js";
+
+const LOSSLESS = ["Spring", "Hertz", "PowerLaw"];
+const BALL = { law: "Rigid", restitution: 0.8 }; // what a contact is made like that has no law before
+
+/**
+ * Return `{drop, note}`: the drop with a contact's law changed, restitution and contact time kept
+ * where the law can. All contacts change to Rigid, or away from it, together.
+ */
+export async function changeLaw(api, drop, contact, name) {
+  if (name === "none") return { drop: withValue(drop, `contacts.${contact}`, { law: "none" }), note: "" };
+  const one = drop.contacts[contact];
+  const others = drop.contacts.some((other, i) => i !== contact && other.law !== "none");
+  const mixed = others && (one.law === "Rigid" || name === "Rigid" || rigid(drop, contact));
+  const places = mixed ? drop.contacts.map((_, i) => i).filter((i) => i === contact || drop.contacts[i].law !== "none") : [contact];
+  let next = drop;
+  for (const place of places) {
+    next = withValue(next, `contacts.${place}`, await converted(api, name, drop, place));
+  }
+  const all = places.length > 1 ? `All contacts are ${name} now: Rigid and other laws cannot be mixed. ` : "";
+  return { drop: next, note: all + kept(one.law, name) };
+}
+
+/** Return what a contact kept when its law was changed. */
+function kept(before, name) {
+  if (before === "none") return "";
+  if (name === "Rigid") return "Restitution kept.";
+  const time = before === "Rigid" ? "A contact now lasts 5 ms" : "Contact time kept";
+  const loss = LOSSLESS.includes(name) ? `${name} loses no energy` : "restitution kept";
+  return `${time}, ${loss}.`;
+}
+
+function rigid(drop, contact) {
+  return drop.contacts.some((other, i) => i !== contact && other.law === "Rigid");
+}
+
+/** Return a contact with another law, as like the one before as it can be. */
+async function converted(api, name, drop, place) {
+  const { law, ...numbers } = drop.contacts[place];
+  const contact = law === "none" ? BALL : { law, ...numbers };
+  const request = { contact, to: name, mass: contactMass(drop, place), impact_speed: speedOf(drop) };
+  return (await api.like(request)).contact;
+}
+
+/** Return the contact of the law it has that shows a measured restitution and contact time. */
+export async function asMeasured(api, drop, place, { restitution, contactTime }) {
+  const { law, exponent } = drop.contacts[place];
+  const request = { law, mass: contactMass(drop, place), impact_speed: speedOf(drop), restitution };
+  if (law !== "Rigid") request.contact_time = contactTime;
+  if (exponent !== undefined) request.exponent = exponent;
+  return (await api.law(request)).contact;
+}

@@ -1,0 +1,109 @@
+/** The explorer: puts the parts of the page together. */
+
+import * as address from "./address.js";
+import * as api from "./api.js";
+import { Clock } from "./clock.js";
+import { mountControls } from "./controls.js";
+import { h, write } from "./dom.js";
+import { mountNumbers } from "./numbers.js";
+import { mountPlots } from "./plots.js";
+import { run } from "./runner.js";
+import { mountShare } from "./share.js";
+import { mountStage } from "./stage.js";
+import { createStore } from "./store.js";
+import { mountTabs } from "./tabs.js";
+import { mountTransport } from "./transport.js";
+
+const place = (id) => document.getElementById(id);
+const reduced = matchMedia("(prefers-reduced-motion: reduce)");
+
+const store = createStore(address.read(location.hash));
+const clock = new Clock(() => reduced.matches);
+window.stackbounce = { store, clock };
+
+address.follow(store);
+const runner = run(store, api);
+mountStage(place("stage"), store, clock);
+mountTransport(place("transport"), store, clock);
+mountPlots(place("plots"), store, clock);
+mountNumbers({ root: place("numbers"), table: place("intervals"), live: place("live") }, store);
+mountShare(place("share"), store, api);
+mountTabs(store, {
+  map: (section) => open("./map.js", section),
+  measure: (section) => open("./measure.js", section),
+});
+followResults();
+showBanner();
+loadCatalogue();
+
+/** Build a view from its own module when it is first opened. */
+async function open(module, section) {
+  try {
+    (await import(module)).mount(section, store, api);
+  } catch (error) {
+    section.append(h("p", { class: "field-error", role: "alert", text: `This view could not be opened: ${error.message}` }));
+  }
+}
+
+/** The controls need the catalogue; until the server gives it there is none. */
+async function loadCatalogue() {
+  try {
+    mountControls(place("controls"), store, api, await api.catalogue());
+  } catch (error) {
+    store.set({ error: { detail: error.message, offline: true } });
+  }
+}
+
+/** Keep the clock's window at the result's, and its cursor where the state has it. */
+function followResults() {
+  let wanted = store.get().t; // a time that a link asks for, of a result still to come
+  let replay = store.get().replay;
+  let shown = null; // what the cursor belongs to: the impact or the whole drop
+  store.subscribe((state, before) => {
+    const other = state.drop !== before.drop || state.until !== before.until;
+    if (state.t !== before.t && state.t !== null) {
+      if (other) wanted = state.t;
+      else if (!clock.playing) clock.seek(state.t);
+    }
+    if (state.result === before.result) return;
+    const kind = state.until === null ? "impact" : "whole";
+    setWindow(state.result);
+    if (wanted !== null) {
+      clock.pause();
+      clock.seek(wanted);
+    } else if (kind !== shown || state.replay !== replay) restart();
+    wanted = null;
+    shown = kind;
+    replay = state.replay;
+  });
+}
+
+/** Give the clock the time that a result shows, and its events as stops. */
+function setWindow({ frames, intervals }) {
+  const { time } = frames;
+  const events = intervals.flatMap(({ start, end }) => [start, end]).filter((event) => event !== null);
+  clock.span(time[0], time.at(-1), [...new Set([0, ...events])].sort((a, b) => a - b));
+}
+
+/** Show the drop from its begin; who wants less motion starts it themselves. */
+function restart() {
+  clock.seek(clock.begin);
+  if (!reduced.matches && store.get().view === "play") clock.play();
+}
+
+/** Tell about a server that does not answer, and offer to try again. */
+function showBanner() {
+  const text = place("banner-text");
+  place("banner-again").addEventListener("click", () => {
+    store.set({ error: null });
+    if (!place("controls").hasChildNodes()) loadCatalogue();
+    runner.again();
+  });
+  const show = ({ error, busy }) => {
+    place("banner").hidden = !error?.offline;
+    write(text, error?.offline ? error.detail : "");
+    document.body.classList.toggle("busy", busy);
+  };
+  store.subscribe(show);
+  show(store.get());
+}

@@ -1,0 +1,26 @@
+/** The colours of the page, for what is drawn on a canvas: read from style.css, so that they stand once. */
+
+const NAMES = ["text", "muted", "line", "paper", "ball-0", "ball-1", "ball-2", "ball-3", "ball-4", "ball-5"];
+
+/** Return the colours that hold now, by name. */
+export function palette() {
+  const style = getComputedStyle(document.documentElement);
+  return Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+}
+
+/** Return the colour of a ball, or of the contact below it. */
+export function colorOf(colors, index) {
+  return colors[`ball-${index % 6}`];
+}
+
+/** Call a listener whenever the colours change: dark or light, and for paper. */
+export function onRepaint(listener) {
+  const root = document.documentElement;
+  const paper = (on) => () => {
+    root.classList.toggle("on-paper", on);
+    listener();
+  };
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", listener);
+  addEventListener("beforeprint", paper(true));
+  addEventListener("afterprint", paper(false));
+}

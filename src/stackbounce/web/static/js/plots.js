@@ -1,0 +1,229 @@
+/** Position, force and energy against time, under one cursor that is the clock's. */
+
+import uPlot from "../vendor/uplot/uPlot.esm.js";
+import { between, locate } from "./clock.js";
+import { described, panels } from "./curves.js";
+import { h, write } from "./dom.js";
+import { colorOf, onRepaint, palette } from "./palette.js";
+import { format } from "./units.js";
+
+/** Draw the plots into `root` and keep their cursor at the clock's time. */
+export function mountPlots(root, store, clock) {
+  let shown = [];
+  const build = () => {
+    const { result, until, overlays } = store.get();
+    if (!result) return;
+    const wanted = panels(result, until !== null, overlays);
+    const same = shown.length > 0 && wanted.every((panel, i) => shown[i].key === keyOf(panel));
+    if (same) {
+      wanted.forEach((panel, i) => shown[i].update(panel));
+    } else {
+      for (const one of shown) one.remove();
+      const colors = palette();
+      root.replaceChildren();
+      shown = wanted.map((panel) => new Panel(root, panel, colors, clock));
+    }
+    clock.touch();
+  };
+  const repaint = () => {
+    for (const one of shown) one.remove();
+    shown = [];
+    build();
+  };
+  store.subscribe((state, before) => {
+    if (state.result !== before.result || state.overlays !== before.overlays) build();
+  });
+  clock.subscribe(() => {
+    for (const one of shown) one.follow(clock.time);
+  });
+  onRepaint(repaint);
+  build();
+}
+
+/** What makes a panel another one, beyond its numbers. */
+function keyOf({ what, unit, timeUnit, lines, overlays }) {
+  const named = [...lines, ...overlays].map(({ label, index, dash }) => [label, index, dash]);
+  return JSON.stringify([what, unit, timeUnit, named]);
+}
+
+/** One plot with its heading and legend. */
+class Panel {
+  constructor(root, panel, colors, clock) {
+    this.key = keyOf(panel);
+    this.colors = colors;
+    this.values = panel.lines.map(() => h("span", { class: "legend-value" }));
+    const items = panel.lines.map((line, i) => this.legendItem(line, this.values[i]));
+    this.host = h("div", { class: "plot-canvas", role: "img" });
+    items.push(...panel.overlays.map((one) => this.legendItem({ ...one, index: one.index ?? null, dash: [1, 2] }, null)));
+    const title = h("h3", {}, panel.title, h("span", { class: "unit", text: ` ${panel.unit}` }));
+    root.append(
+      h("figure", { class: "plot" }, h("figcaption", {}, title, h("ul", { class: "legend" }, items)), this.host),
+    );
+    this.line = h("div", { class: "cursor-line" });
+    this.dots = panel.lines.map((line) => this.dot(line));
+    this.panel = panel;
+    this.plot = new uPlot(this.options(), this.data(), this.host);
+    this.plot.over.append(this.line, ...this.dots);
+    grab(this.plot, clock, () => this.panel.scale);
+    this.watch = new ResizeObserver(() => this.resize(clock));
+    this.watch.observe(this.host);
+    this.describe();
+  }
+
+  remove() {
+    this.watch.disconnect();
+    this.plot.destroy();
+  }
+
+  update(panel) {
+    this.panel = panel;
+    this.plot.setData(this.data());
+    this.describe();
+  }
+
+  describe() {
+    this.host.setAttribute("aria-label", described(this.panel));
+  }
+
+  resize(clock) {
+    const { width, height } = this.host.getBoundingClientRect();
+    if (width < 20 || height < 20) return;
+    this.plot.setSize({ width, height });
+    clock.touch();
+  }
+
+  /** Move the cursor, its dots and the legend's values to a time in s. */
+  follow(time) {
+    const at = time * this.panel.scale;
+    const place = locate(this.panel.times, at);
+    const left = this.plot.valToPos(at, "x");
+    this.line.style.transform = `translateX(${left.toFixed(1)}px)`;
+    this.panel.lines.forEach(({ values }, i) => {
+      if (!values) return;
+      const value = between(values, place);
+      const top = this.plot.valToPos(value, "y");
+      this.dots[i].style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
+      write(this.values[i], format(Math.abs(value) < 1e-9 ? 0 : value, 3));
+    });
+  }
+
+  data() {
+    const { times, lines } = this.panel;
+    return [times, ...lines.map(({ values }) => values ?? times.map(() => null))];
+  }
+
+  color({ index }) {
+    return index === null ? this.colors.text : colorOf(this.colors, index);
+  }
+
+  legendItem(line, value) {
+    const swatch = h("span", { class: line.dash ? "swatch dashed" : "swatch", "aria-hidden": "true" });
+    swatch.style.setProperty("--ball", this.color(line));
+    return h("li", {}, swatch, line.label, value);
+  }
+
+  dot(line) {
+    const dot = h("div", { class: "cursor-dot", hidden: !line.values });
+    dot.style.setProperty("--ball", this.color(line));
+    return dot;
+  }
+
+  options() {
+    const { width, height } = this.host.getBoundingClientRect();
+    const { colors } = this;
+    const axis = {
+      stroke: colors.muted,
+      font: "11px system-ui, sans-serif",
+      grid: { stroke: colors.line, width: 1 },
+      ticks: { show: false },
+    };
+    return {
+      width: Math.max(width, 40),
+      height: Math.max(height, 40),
+      padding: [6, 8, 0, 0],
+      legend: { show: false },
+      cursor: { show: false },
+      scales: {
+        x: { time: false, range: () => [this.panel.times[0], this.panel.times.at(-1)] },
+        y: { range: (_, low, high) => this.range(low, high) },
+      },
+      axes: [
+        { ...axis, size: 22, gap: 3, values: (_, ticks) => ticks.map((tick) => this.tick(tick)) },
+        { ...axis, size: 46, gap: 4, space: 26, values: (_, ticks) => ticks.map((tick) => format(tick, 4)) },
+      ],
+      series: [
+        {},
+        ...this.panel.lines.map((line) => ({
+          stroke: this.color(line),
+          width: line.index === null ? 1.2 : 2,
+          dash: line.dash,
+          fill: this.panel.what === "force" ? `${this.color(line)}22` : undefined,
+          points: { show: false },
+          pxAlign: 0,
+        })),
+      ],
+      hooks: { draw: [(plot) => this.drawMore(plot)] },
+    };
+  }
+
+  tick(tick) {
+    return `${format(tick, 4)}${tick === 0 ? ` ${this.panel.timeUnit}` : ""}`;
+  }
+
+  /** Return the range of the values, of what is laid over them, with a little air. */
+  range(low, high) {
+    const { floor, ceiling, overlays } = this.panel;
+    const more = overlays.flatMap(({ values }) => values.filter((value) => value !== null));
+    const bottom = more.reduce((a, b) => Math.min(a, b), Math.min(floor ?? Infinity, low ?? Infinity));
+    const top = more.reduce((a, b) => Math.max(a, b), Math.max(ceiling ?? -Infinity, high ?? -Infinity));
+    if (!Number.isFinite(bottom) || !Number.isFinite(top)) return [0, 1];
+    const air = 0.06 * (top - bottom) || 1;
+    return [bottom === floor ? floor : bottom - air, top + air];
+  }
+
+  /** Draw what is no line of the simulation: impulses as stems, measurements as dots. */
+  drawMore(plot) {
+    const { ctx } = plot;
+    const { left, top, width, height } = plot.bbox;
+    ctx.save();
+    ctx.beginPath();
+    ctx.rect(left, top, width, height);
+    ctx.clip();
+    for (const { index, time, impulse } of this.panel.stems ?? []) {
+      ctx.strokeStyle = colorOf(this.colors, index);
+      ctx.lineWidth = 3 * devicePixelRatio;
+      ctx.beginPath();
+      ctx.moveTo(plot.valToPos(time, "x", true), plot.valToPos(0, "y", true));
+      ctx.lineTo(plot.valToPos(time, "x", true), plot.valToPos(impulse, "y", true));
+      ctx.stroke();
+    }
+    const size = 2 * devicePixelRatio;
+    for (const { index, time, values } of this.panel.overlays) {
+      ctx.fillStyle = this.color({ index: index ?? null });
+      values.forEach((value, i) => {
+        if (value === null) return;
+        const x = plot.valToPos(time[i], "x", true);
+        ctx.fillRect(x - size / 2, plot.valToPos(value, "y", true) - size / 2, size, size);
+      });
+    }
+    ctx.restore();
+  }
+}
+
+/** Let the cursor be dragged on a plot. */
+function grab(plot, clock, scale) {
+  const { over } = plot;
+  const move = (event) => {
+    const left = event.clientX - over.getBoundingClientRect().left;
+    clock.seek(plot.posToVal(left, "x") / scale());
+  };
+  over.addEventListener("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    over.setPointerCapture(event.pointerId);
+    clock.pause();
+    move(event);
+  });
+  over.addEventListener("pointermove", (event) => {
+    if (over.hasPointerCapture(event.pointerId)) move(event);
+  });
+}

@@ -1,0 +1,61 @@
+/** Share: the link, the numbers, the pictures, the scenario. */
+
+import { write as addressOf } from "./address.js";
+import { h, write } from "./dom.js";
+
+const FILES = [
+  ["csv", "Table (CSV)", "csv"],
+  ["png", "Picture (PNG)", "png"],
+  ["svg", "Picture (SVG)", "svg"],
+  ["toml", "Scenario (TOML)", "toml"],
+  ["python", "Python lines", "py"],
+];
+
+/** Build the share menu into `root`. */
+export function mountShare(root, store, api) {
+  const said = h("p", { class: "note", role: "status" });
+  const copy = async () => {
+    const link = `${location.origin}${location.pathname}#${addressOf(store.get())}`;
+    try {
+      await navigator.clipboard.writeText(link);
+      write(said, "The link is copied: it opens this view again.");
+    } catch {
+      location.hash = addressOf(store.get());
+      write(said, "Copying is not allowed here; the address of this page is the link.");
+    }
+  };
+  const save = async (kind, ending) => {
+    write(said, "");
+    try {
+      const { drop, until } = store.get();
+      download(await api.exportFile(kind, drop, until), `stackbounce.${ending}`);
+    } catch (error) {
+      write(said, error.message);
+    }
+  };
+  const button = (text, act) => h("button", { type: "button", class: "small", text, onclick: act });
+  const list = h(
+    "div",
+    { class: "share-list" },
+    button("Copy link", copy),
+    FILES.map(([kind, text, ending]) => button(text, () => save(kind, ending))),
+    button("Print", () => print()),
+    said,
+  );
+  const box = h("details", { class: "share" }, h("summary", { text: "Share" }), list);
+  box.addEventListener("keydown", (event) => {
+    if (event.key !== "Escape") return;
+    box.open = false;
+    box.querySelector("summary").focus();
+  });
+  document.addEventListener("pointerdown", (event) => {
+    if (!box.contains(event.target)) box.open = false;
+  });
+  root.replaceChildren(box);
+}
+
+function download(blob, name) {
+  const url = URL.createObjectURL(blob);
+  h("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10_000);
+}

@@ -1,0 +1,53 @@
+/** One observable state for the whole page. */
+
+/** What the page shows before anybody has chosen: the paper's basketball and tennis ball (Fig. 9). */
+export const FIRST_DROP = {
+  balls: [
+    { mass: 0.15, diameter: 0.16, name: "basketball" },
+    { mass: 0.057, diameter: 0.066, name: "tennis" },
+  ],
+  contacts: [
+    { law: "Spring", stiffness: 2500 },
+    { law: "Spring", stiffness: 1000 },
+  ],
+  gaps: [0],
+  impact_speed: 3.53,
+  gravity: 0,
+};
+
+export const FIRST = {
+  view: "play",
+  drop: FIRST_DROP,
+  until: null, // s of the whole drop, or null for the impact alone
+  ghosts: true,
+  slow: 1000, // how many times slower than life: 10 ms in 10 s
+  magnify: null, // how many times movement is shown larger, null to let the page choose
+  t: null, // s, where the cursor stands, null for the begin
+  map: null,
+  result: null,
+  busy: false,
+  error: null, // {detail, offline}
+  notice: null, // one line about the page itself, such as a link that could not be read
+  replay: 0, // raised where a drop is to be shown from its begin
+  overlays: [],
+};
+
+/** Return a store: `get()`, `set(patch)`, `subscribe(listener)`. */
+export function createStore(first = {}) {
+  let state = { ...FIRST, ...first };
+  const listeners = new Set();
+  const get = () => state;
+  /** Merge a patch and tell everybody once, with the state and the one before. */
+  const set = (patch) => {
+    const before = state;
+    if (Object.entries(patch).every(([name, value]) => before[name] === value)) return;
+    state = { ...state, ...patch };
+    for (const listener of [...listeners]) listener(state, before);
+  };
+  /** Call a listener with (state, before) after each change; returns what ends that. */
+  const subscribe = (listener) => {
+    listeners.add(listener);
+    return () => listeners.delete(listener);
+  };
+  return { get, set, subscribe };
+}

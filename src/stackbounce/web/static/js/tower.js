@@ -1,0 +1,166 @@
+/** The tower as it stands: cards of balls, and between them those of the contacts. */
+
+import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
+import { h } from "./dom.js";
+import { choice, numberField } from "./fields.js";
+import { ballName, contactName } from "./words.js";
+
+const OWN = "";
+
+/**
+ * Return `{element, fields}` of the tower of a drop.
+ * @param {object} tools `{catalogue, change(drop), set(path, value), choose(ball, name), relaw(contact, name), measured(contact, values)}`
+ */
+export function towerOf(drop, tools, notes) {
+  const fields = [];
+  const field = (spec) => {
+    const one = numberField({ set: tools.set, ...spec });
+    one.update(valueAt(drop, spec.path));
+    fields.push(one);
+    return one.element;
+  };
+  const items = [];
+  for (let ball = drop.balls.length - 1; ball >= 0; ball -= 1) {
+    items.push(ballCard(drop, ball, tools, field), contactCard(drop, ball, tools, field, notes[ball]));
+  }
+  const full = drop.balls.length >= tools.catalogue.limits.balls;
+  const add = h("button", {
+    type: "button",
+    class: "small",
+    "data-key": "add",
+    disabled: full,
+    text: "Add a ball on top",
+    onclick: () => tools.change(withBall(tools.drop())),
+  });
+  return { element: h("div", {}, add, h("ol", { class: "tower" }, items)), fields };
+}
+
+function ballCard(drop, ball, tools, field) {
+  const last = drop.balls.length - 1;
+  const name = ballName(drop, ball);
+  const button = (text, label, key, disabled, act) =>
+    h("button", {
+      type: "button",
+      class: "icon",
+      "aria-label": label,
+      title: label,
+      "data-key": `${key}-${ball}`,
+      disabled,
+      text,
+      onclick: () => tools.change(act(tools.drop())),
+    });
+  const entries = tools.catalogue.balls.map((one) => [one.name, one.name]);
+  const known = tools.catalogue.balls.some((one) => one.name === drop.balls[ball].name);
+  const choose = choice({
+    label: `Ball ${ball}`,
+    quiet: true,
+    key: `ball-${ball}`,
+    groups: [["", [[OWN, known ? "another ball" : name]]], ["Balls of the paper", entries]],
+    value: known ? drop.balls[ball].name : OWN,
+    set: (chosen) => tools.choose(ball, chosen),
+  });
+  const header = h(
+    "div",
+    { class: "card-head" },
+    swatch(ball),
+    choose,
+    button("↑", `Move ${name} up`, "up", ball === last, (now) => withSwap(now, ball)),
+    button("↓", `Move ${name} down`, "down", ball === 0, (now) => withSwap(now, ball - 1)),
+    button("×", `Remove ${name}`, "remove", last === 0, (now) => withoutBall(now, ball)),
+  );
+  const rows = [field({ path: `balls.${ball}.mass`, label: "mass", unit: "kg", low: 1e-3, high: 2 })];
+  if (incidenceOf(drop) === "velocities") {
+    rows.push(field({ path: `velocities.${ball}`, label: "velocity", unit: "m/s", low: -10, high: 10, says: "up is positive" }));
+  }
+  const size = { path: `balls.${ball}.diameter`, label: "diameter", unit: "m", low: 0.01, high: 0.4, optional: true };
+  const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: "Size" }), field({ ...size, says: "for the picture only" }));
+  return h("li", { class: "card ball-card" }, header, rows, more);
+}
+
+function swatch(index) {
+  const mark = h("span", { class: "swatch round", "aria-hidden": "true" });
+  mark.style.setProperty("--ball", `var(--ball-${index % 6})`);
+  return mark;
+}
+
+function contactCard(drop, contact, tools, field, note) {
+  const law = tools.catalogue.laws.find((one) => one.law === drop.contacts[contact].law);
+  const laws = tools.catalogue.laws.map((one) => [one.law, one.law]);
+  if (contact === 0) laws.push(["none", "no floor"]);
+  const header = h(
+    "div",
+    { class: "card-head" },
+    choice({
+      label: contactName(drop, contact),
+      key: `law-${contact}`,
+      groups: [["", laws]],
+      value: drop.contacts[contact].law,
+      set: (name) => tools.relaw(contact, name),
+    }),
+  );
+  const rows = law ? lawFields(drop, contact, law, field) : [];
+  if (contact > 0) {
+    rows.push(field({ path: `gaps.${contact - 1}`, label: "gap", unit: "m", low: 0, high: 0.02, says: "air between the two" }));
+  }
+  if (note) rows.push(h("p", { class: "note", text: note }));
+  const more = law ? measuredBox(contact, law, tools) : null;
+  return h("li", { class: "card contact-card" }, header, rows, more);
+}
+
+/** The fields of a law: those it needs, and of the others those that the contact has. */
+function lawFields(drop, contact, law, field) {
+  const own = drop.contacts[contact];
+  return law.fields
+    .filter((one) => typeof one.low === "number" && (one.required || own[one.name] !== undefined))
+    .map((one) => {
+      const unit = one.unit === "N/m**exponent" && own.exponent === 1 ? "N/m" : one.unit;
+      const { name, low, high, says } = one;
+      return field({ path: `contacts.${contact}.${name}`, label: name.replaceAll("_", " "), unit, low, high, says });
+    });
+}
+
+/** A measured restitution and contact time, to be turned into the law's constants. */
+function measuredBox(contact, law, tools) {
+  const values = { restitution: 0.8, contact_time: 5e-3 };
+  const local = (spec) => {
+    const one = numberField({ ...spec, path: `measured.${contact}.${spec.name}`, set: (_, value) => (values[spec.name] = value) });
+    one.update(values[spec.name]);
+    return one;
+  };
+  const boxes = [local({ name: "restitution", label: "restitution", unit: "", low: 0.05, high: 1 })];
+  if (law.law !== "Rigid") boxes.push(local({ name: "contact_time", label: "contact time", unit: "s", low: 5e-4, high: 5e-2 }));
+  const apply = h("button", {
+    type: "button",
+    class: "small",
+    text: "Same bounce as measured",
+    onclick: () => tools.measured(contact, { restitution: values.restitution, contactTime: values.contact_time }),
+  });
+  const about = h("p", { class: "note", text: `${law.formula} – ${law.says} (${law.source})` });
+  return h(
+    "details",
+    { "data-key": `measured-${contact}` },
+    h("summary", { text: "Law, or a measured bounce" }),
+    about,
+    boxes.map((one) => one.element),
+    apply,
+  );
+}
+
+/** Return what a tower is built of, beyond its numbers: two drops of the same shape share their fields. */
+export function shapeOf(drop) {
+  return JSON.stringify([
+    incidenceOf(drop),
+    drop.balls.map(({ name }) => name ?? null),
+    drop.contacts.map((contact) => [contact.law, Object.keys(contact).sort(), contact.exponent === 1]),
+  ]);
+}
+
+/** Return a drop with a ball of the catalogue in a place; an own one keeps its mass without a name. */
+export function withChosen(drop, ball, entry) {
+  if (!entry) {
+    const { name: _name, ...rest } = drop.balls[ball];
+    return withValue(drop, `balls.${ball}`, rest);
+  }
+  const { name, mass, diameter } = entry;
+  return withValue({ ...drop, gaps: gapsOf(drop) }, `balls.${ball}`, { mass, diameter, name });
+}

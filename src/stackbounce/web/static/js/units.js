@@ -1,0 +1,86 @@
+/** Units on screen: numbers are SI everywhere else. */
+
+/** For each SI unit what people use, and how many SI units one of it is. */
+const SHOWN = {
+  kg: ["g", 1e-3],
+  m: ["mm", 1e-3],
+  s: ["ms", 1e-3],
+  "N/m": ["kN/m", 1e3],
+  J: ["mJ", 1e-3],
+};
+
+/** What one written unit is in SI, by the SI unit it belongs to. The server knows many more. */
+const WRITTEN = {
+  kg: { kg: 1, g: 1e-3, mg: 1e-6 },
+  m: { m: 1, cm: 1e-2, mm: 1e-3, "µm": 1e-6, um: 1e-6 },
+  s: { s: 1, ms: 1e-3, "µs": 1e-6, us: 1e-6 },
+  "m/s": { "m/s": 1, "cm/s": 1e-2, "mm/s": 1e-3, "km/h": 1 / 3.6 },
+  "m/s**2": { "m/s**2": 1, "m/s^2": 1, "m/s²": 1 },
+  "N/m": { "N/m": 1, "kN/m": 1e3, "MN/m": 1e6, "N/mm": 1e3, "N/cm": 1e2 },
+  "N s/m": { "N s/m": 1, "N*s/m": 1, "Ns/m": 1 },
+  "s/m": { "s/m": 1 },
+};
+
+const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
+
+/** Return the unit in which people read an SI unit, and how many SI units one of it is. */
+export function shownUnit(unit, large = false) {
+  if (large) return { unit, size: 1 };
+  const [name, size] = SHOWN[unit] ?? [unit, 1];
+  return { unit: name, size };
+}
+
+/** Write a unit as people do: N/m**1.5 becomes N/m^1.5 with a raised exponent where there is one. */
+export function pretty(unit) {
+  return unit
+    .replace("**exponent", "ᵖ")
+    .replace("**1.5", "¹·⁵")
+    .replace("**2", "²");
+}
+
+/** Return a number with about `digits` digits and no needless zeros. */
+export function format(value, digits = 4) {
+  if (value === null || value === undefined || Number.isNaN(value)) return "–";
+  if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-4) return tidy(value.toExponential(digits - 1));
+  return tidy(String(Number(value.toPrecision(digits))));
+}
+
+/** Return a number with a fixed number of decimals and a true minus sign. */
+export function fixed(value, decimals) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const text = value.toFixed(decimals);
+  return tidy(Number(text) === 0 ? text.replace("-", "") : text);
+}
+
+/** Write ASCII's minus as a minus, and drop zeros of a mantissa. */
+function tidy(text) {
+  return text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−");
+}
+
+/**
+ * Read what somebody typed for a field: a bare number is in the shown unit, "57 g" or "0.057 kg" as
+ * it says. Anything else is returned as text, for the server to read or to refuse.
+ */
+export function read(text, unit, shown) {
+  const found = QUANTITY.exec(text.trim().replaceAll("−", "-").replace(/^([^,]*),(\d+)/, "$1.$2"));
+  if (!found) return text.trim();
+  const number = Number(found[1]);
+  if (found[2] === "") return clean(number * shown.size);
+  const size = WRITTEN[unit]?.[found[2]];
+  return size === undefined ? text.trim() : clean(number * size);
+}
+
+/** Return the SI number of a value of a drop, which is a number, or a text that a link brought. */
+export function numeric(value, unit) {
+  if (typeof value === "number") return value;
+  const si = typeof value === "string" ? read(value, unit, { size: 1 }) : NaN;
+  return typeof si === "number" ? si : NaN;
+}
+
+/** Round off what binary fractions add, so that 57 g is 0.057. */
+export function clean(number) {
+  return Number(number.toPrecision(12));
+}
