@@ -80,7 +80,7 @@ function centre({ view, floor }, ball, position) {
 function ballGroup(drop, ball, { view }) {
   const group = s("g", { class: "ball", "data-ball": ball });
   group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
-  const name = s("text", { class: "ball-name", "text-anchor": "end", text: ballName(drop, ball) });
+  const name = s("text", { class: "ball-name", "text-anchor": "end", text: shortened(ballName(drop, ball)) });
   put(name, "y", 4);
   const speed = s("text", { class: "ball-speed" });
   put(speed, "y", 4);
@@ -92,6 +92,10 @@ function ballGroup(drop, ball, { view }) {
     speed,
   );
   return group;
+}
+
+function shortened(name) {
+  return name.length > 16 ? `${name.slice(0, 15)}…` : name;
 }
 
 function moveBall(group, scene, ball, { position, velocity, flat }) {
