@@ -119,7 +119,7 @@ class Panel {
   legendItem(line, value) {
     const swatch = h("span", { class: line.dash ? "swatch dashed" : "swatch", "aria-hidden": "true" });
     swatch.style.setProperty("--ball", this.color(line));
-    return h("li", {}, swatch, line.label, value);
+    return h("li", {}, swatch, h("span", { class: "legend-label", text: line.label }), value);
   }
 
   dot(line) {
