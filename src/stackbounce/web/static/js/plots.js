@@ -197,7 +197,7 @@ class Panel {
       ctx.lineTo(plot.valToPos(time, "x", true), plot.valToPos(impulse, "y", true));
       ctx.stroke();
     }
-    const size = 2 * devicePixelRatio;
+    const size = 3 * devicePixelRatio;
     for (const { index, time, values } of this.panel.overlays) {
       ctx.fillStyle = this.color({ index: index ?? null });
       values.forEach((value, i) => {

@@ -14,7 +14,7 @@ const ARROW = 46; // px of the fastest ball's arrow
 export function mountStage(root, store, clock) {
   const svg = s("svg", { class: "scene", role: "img" });
   const time = s("text", { class: "scene-time", x: 12, y: 22 });
-  const scale = s("text", { class: "scene-note", x: 12, y: 40 });
+  const scale = s("text", { class: "scene-note", x: 12, y: 42 });
   const ground = s("g", { class: "ground" });
   const ruler = s("g", { class: "ruler" });
   const ghosts = s("g", { class: "ghosts" });
