@@ -45,7 +45,7 @@ def test_a_link_may_lead_here_and_the_page_itself_may_ask(server, address):
         assert server.get("/api/status", headers={"host": f"{name}:{port}"}).status_code == 200
 
 
-@pytest.mark.parametrize("path", ["/", "/api/status", "/none", "/paper", "/api/openapi.json"])
+@pytest.mark.parametrize("path", ["/", "/api/status", "/none", "/api/openapi.json"])
 def test_every_answer_has_the_headers(server, path):
     headers = server.get(path).headers
     assert "default-src 'none'" in headers["content-security-policy"]
@@ -84,14 +84,10 @@ def test_large_requests_are_refused(server, path, most):
     assert server.post(path, content=parts()).status_code == 413  # with no length told before
 
 
-def asked(app, messages, **headers):
-    """Return status and body of an answer to a request that comes in these parts."""
-    scope = {
-        "type": "http",
-        "method": "POST",
-        "path": "/api/simulate",
-        "headers": [(b"host", b"127.0.0.1")] + [(k.encode(), v) for k, v in headers.items()],
-    }
+def asked(app, messages, path="/api/simulate"):
+    """Return head and body of an answer to a request that comes in these parts."""
+    headers = [(b"host", b"127.0.0.1")]
+    scope = {"type": "http", "method": "POST", "path": path, "headers": headers}
     sent = []
 
     async def run():
@@ -109,17 +105,41 @@ def asked(app, messages, **headers):
         await app(scope, receive, send)
 
     asyncio.run(run())
-    return sent[0]["status"], sent[1]["body"]
+    return sent[0], sent[1]["body"]
 
 
 def test_a_request_that_does_not_come_is_ended():
     guard = Guard(None, dataclasses.replace(LIMITS, upload_seconds=0.05))
     part = {"type": "http.request", "body": b"{", "more_body": True}
-    status, body = asked(guard, [part])
-    assert status == 408
+    head, body = asked(guard, [part])
+    assert head["status"] == 408
     assert b"did not come in whole within 0.05 s" in body
-    status, _ = asked(guard, [part, {"type": "http.disconnect"}])
-    assert status == 400
+    head, _ = asked(guard, [part, {"type": "http.disconnect"}])
+    assert head["status"] == 400
+
+
+async def echo(_, receive, send):
+    message = await receive()
+    await send(
+        {"type": "http.response.start", "status": 200, "headers": [(b"x-frame-options", b"")]}
+    )
+    await send({"type": "http.response.body", "body": message["body"]})
+
+
+@pytest.mark.parametrize(
+    ("path", "scripts"), [("/", True), ("/api/map", True), ("/paper/index.html", False)]
+)
+def test_pages_of_the_paper_run_no_script(path, scripts):
+    parts = [
+        {"type": "http.request", "body": b"ab", "more_body": True},
+        {"type": "http.request", "body": b"c", "more_body": False},
+    ]
+    head, body = asked(Guard(echo, LIMITS), parts, path)
+    headers = dict(head["headers"])
+    assert body == b"abc"
+    assert headers[b"x-frame-options"] == b"DENY"
+    assert (b"script-src" in headers[b"content-security-policy"]) is scripts
+    assert (b"unsafe-inline" in headers[b"content-security-policy"]) is not scripts
 
 
 def sleeps(seconds):
