@@ -14,7 +14,7 @@ RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
 .DEFAULT_GOAL := help
-.PHONY: help venv paper test coverage bench check lint types imports docs format fuzz constraints clean distclean
+.PHONY: help venv paper app test coverage bench check lint types imports docs format fuzz constraints clean distclean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1|\2/p' $(MAKEFILE_LIST) | \
@@ -24,7 +24,11 @@ paper: $(RUNTIME)  ## recompute the paper: figures, tables and audit, in build/p
 	@$(BIN)/stackbounce paper --out build/paper
 	@echo "Open $(CURDIR)/build/paper/index.html"
 
-test: $(DEV)  ## run the tests
+app: $(RUNTIME)  ## open the explorer in the browser
+	@$(BIN)/stackbounce app
+
+test: $(DEV)  ## run the tests, those of the page in Chromium
+	@tests/web/browser/chromium.sh
 	@$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
 
 coverage: $(DEV)  ## hold all error bars to their claim (make test: some of them); half an hour

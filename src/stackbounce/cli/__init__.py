@@ -229,27 +229,29 @@ def explore(
         int | None,
         typer.Option(
             metavar="COUNT",
-            help="Processes that compute; by default one for each core, 8 at most.",
+            help="Processes that compute; by default one for each core, 2 to 8.",
             show_default=False,
         ),
     ] = None,
+    as_json: AsJson = False,
 ) -> None:
     """Open the explorer in the browser: see it happen, slowly."""
     import dataclasses
 
+    from stackbounce.cli import machine
     from stackbounce.errors import whole
+    from stackbounce.version import __version__
     from stackbounce.web import LIMITS
     from stackbounce.web.serve import serve
 
-    count = min(os.cpu_count() or 1, 8) if workers is None else whole("--workers", workers, 1, 64)
-    limits = dataclasses.replace(LIMITS, workers=max(2, count) if workers is None else count)
-    serve(
-        host,
-        port,
-        limits,
-        browser=browser,
-        tell=lambda address: typer.echo(f"The explorer: {address} (Ctrl+C ends it)"),
-    )
+    def tell(address: str) -> None:
+        told = machine.text({"stackbounce": __version__, "address": address})
+        typer.echo(told if as_json else f"The explorer: {address} (Ctrl+C ends it)")
+
+    cores = min(max(os.cpu_count() or 1, 2), 8)
+    count = cores if workers is None else whole("--workers", workers, 1, 64)
+    limits = dataclasses.replace(LIMITS, workers=count)
+    serve(host, port, limits, browser=browser, tell=tell)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

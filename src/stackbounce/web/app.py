@@ -189,6 +189,11 @@ def _add_records(app: FastAPI, workers: Workers, limits: Limits) -> None:
         told = _object("measured", measured)
         if not all(isinstance(value, str) for value in told.values()):
             raise InvalidValue("measured must have texts such as '1.64 ± 0.02'")
+        if not told:
+            raise InvalidValue(
+                "measured must name what was measured, such as "
+                '{"rebound_ratios.1": "1.64 ± 0.02"}, got nothing'
+            )
         content = b"" if file is None else await file.read()
         name = "" if file is None else _name(file)
         asked = schema.read_drop(_parsed("drop", drop))

@@ -1,6 +1,7 @@
 """The paper's pages: computed when they are first asked for, kept while the server runs."""
 
 import asyncio
+import html
 from pathlib import Path
 
 from fastapi.responses import FileResponse, HTMLResponse, RedirectResponse, Response
@@ -74,7 +75,7 @@ class Papers:
         if error is not None:
             self._job = None
             words = str(error) if isinstance(error, StackbounceError) else type(error).__name__
-            return HTMLResponse(_WAIT.format(words=f"It failed: {words}"), 503)
+            return HTMLResponse(_WAIT.format(words=html.escape(f"It failed: {words}")), 503)
         if not name:
             return RedirectResponse("/paper/index.html")
         return self._file(name)

@@ -1,6 +1,7 @@
 """Run the explorer: find a port, start the server, open the browser."""
 
 import contextlib
+import signal
 import socket
 import threading
 import time
@@ -72,8 +73,17 @@ def serve(
             target=_when_started, args=(server, address, browser, tell), daemon=True
         )
         waiting.start()
-        with contextlib.suppress(KeyboardInterrupt):
-            server.run(sockets=[listening])
+        before = signal.signal(signal.SIGTERM, _end)  # uvicorn passes it on once all is stopped
+        try:
+            with contextlib.suppress(KeyboardInterrupt):
+                server.run(sockets=[listening])
+        finally:
+            signal.signal(signal.SIGTERM, before)
+
+
+def _end(*_: Any) -> None:
+    """End as a program does, so that what the processes share is given back."""
+    raise SystemExit(0)
 
 
 def _listening(host: str, port: int | None) -> socket.socket:

@@ -7,10 +7,11 @@ const STEPS = 1000; // of a slider
 
 /**
  * Return a field `{element, path, update(value), fail(message)}`.
- * @param {object} spec `{path, label, unit, low, high, large, says, optional, set(path, value)}`
+ * @param {object} spec `{path, label, of, unit, low, high, large, says, optional, set(path, value)}`
  */
 export function numberField(spec) {
   const { path, label, unit, low, high } = spec;
+  const spoken = spec.of ? `${label} of ${spec.of}` : label;
   const shown = shownUnit(unit, spec.large);
   const id = `field-${path.replaceAll(".", "-")}`;
   const ladder = scaleOf(low, high);
@@ -22,6 +23,7 @@ export function numberField(spec) {
     autocomplete: "off",
     spellcheck: "false",
     "data-path": path,
+    "aria-label": spoken,
     "aria-describedby": `${id}-unit ${id}-error`,
     title: spec.says || null,
   });
@@ -32,7 +34,7 @@ export function numberField(spec) {
     max: STEPS,
     step: 1,
     "data-slider": path,
-    "aria-label": `${label}, slider`,
+    "aria-label": `${spoken}, slider`,
   });
   const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
   const element = h(

@@ -3,7 +3,7 @@
 import { h, write } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
 import { fixed, format } from "./units.js";
-import { ballName, capital, contactName, count, height, percent, setUp, shortContact, told } from "./words.js";
+import { ballName, capital, contactName, count, height, highest, percent, setUp, shortContact, told } from "./words.js";
 
 const SETTLED = 700; // ms without a new result before it is said
 
@@ -69,9 +69,9 @@ function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratio
 }
 
 /** The columns of a whole drop: how high each ball comes. */
-function wholeColumns({ drop }, positions) {
+function wholeColumns({ drop, frames }, positions) {
   const fallen = speedOf(drop) ** 2 / 2 / (drop.gravity || GRAVITY);
-  const tops = positions.map((values) => values.reduce((most, value) => Math.max(most, value), 0));
+  const tops = positions.map((path) => highest(frames.time, path));
   return [{ name: ["highest", wide(" (× drop)")], cell: (ball) => [height(tops[ball]), times(tops[ball], fallen)] }];
 }
 

@@ -76,8 +76,13 @@ function leaving(result, ball) {
   return `goes ${ratio > 0 ? "up" : "on down"} at ${format(Math.abs(ratio), 3)} times the impact speed`;
 }
 
-function rising(result, ball) {
-  return `rises to ${height(result.frames.position[ball].reduce((most, value) => Math.max(most, value), 0))}`;
+function rising({ frames }, ball) {
+  return `rises to ${height(highest(frames.time, frames.position[ball]))}`;
+}
+
+/** Return how high a path comes once the floor has been touched. */
+export function highest(times, path) {
+  return path.reduce((most, value, i) => (times[i] > 0 ? Math.max(most, value) : most), 0);
 }
 
 /** Return a text with a capital first letter. */

@@ -1,0 +1,45 @@
+"""A server of the explorer, as `stackbounce app` runs it."""
+
+import subprocess
+import sys
+import time
+
+import httpx
+import pytest
+
+DROP = {
+    "balls": [{"mass": "150 g", "name": "basketball"}, {"mass": "57 g"}],
+    "contacts": [{"law": "Spring", "stiffness": 2500.0}, {"law": "Spring", "stiffness": 1000.0}],
+    "impact_speed": 3.53,
+}
+
+
+@pytest.fixture(scope="session")
+def address():
+    """Serve the explorer at a free port; yield its address."""
+    command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0"]
+    with subprocess.Popen(
+        [*command, "--workers", "2"], stdout=subprocess.PIPE, text=True
+    ) as process:
+        try:
+            yield process.stdout.readline().split()[2]
+        finally:
+            process.terminate()
+
+
+@pytest.fixture(scope="session")
+def server(address):
+    """Return a client of the server, whose kernels are compiled."""
+    with httpx.Client(base_url=address, timeout=120.0) as client:
+        while not client.get("/api/status").json()["ready"]:
+            time.sleep(0.1)
+        yield client
+
+
+@pytest.fixture
+def drop():
+    """Return a drop, as a page sends it."""
+    return {
+        key: [dict(one) for one in value] if isinstance(value, list) else value
+        for key, value in DROP.items()
+    }

@@ -1,0 +1,187 @@
+"""Other sites, large and slow requests are kept out; a job that takes too long is ended."""
+
+import asyncio
+import dataclasses
+import os
+import socket
+import time
+
+import pytest
+
+from stackbounce.errors import InvalidValue
+from stackbounce.web import LIMITS
+from stackbounce.web.guard import Guard
+from stackbounce.web.work import Busy, TooLong, Workers
+
+FOREIGN = [
+    ({"host": "evil.example"}, 400),
+    ({"host": "127.0.0.1.evil.example"}, 400),
+    ({"host": "evil.example:8050"}, 400),
+    ({"host": ""}, 400),
+    ({"host": "[::1"}, 400),
+    ({"origin": "http://evil.example"}, 403),
+    ({"origin": "null"}, 403),
+    ({"origin": "http://127.0.0.1:1"}, 403),
+    ({"sec-fetch-site": "cross-site"}, 403),
+    ({"sec-fetch-site": "same-site", "sec-fetch-mode": "cors"}, 403),
+]
+
+
+@pytest.mark.parametrize(("headers", "status"), FOREIGN)
+def test_other_sites_are_kept_out(server, headers, status):
+    response = server.get("/api/status", headers=headers)
+    assert response.status_code == status
+    assert "detail" in response.json()
+
+
+def test_a_link_may_lead_here_and_the_page_itself_may_ask(server, address):
+    link = {"sec-fetch-site": "cross-site", "sec-fetch-mode": "navigate"}
+    assert server.get("/", headers=link).status_code == 200
+    assert server.post("/api/stack", headers=link, json={"balls": ["B1"]}).status_code == 403
+    own = {"origin": address.rstrip("/"), "sec-fetch-site": "same-origin"}
+    assert server.post("/api/stack", headers=own, json={"balls": ["B1"]}).status_code == 200
+    port = address.rstrip("/").rpartition(":")[2]
+    for name in ("localhost", "[::1]", "192.168.0.7", socket.gethostname()):
+        assert server.get("/api/status", headers={"host": f"{name}:{port}"}).status_code == 200
+
+
+@pytest.mark.parametrize("path", ["/", "/api/status", "/none", "/api/openapi.json"])
+def test_every_answer_has_the_headers(server, path):
+    headers = server.get(path).headers
+    assert "default-src 'none'" in headers["content-security-policy"]
+    assert "frame-ancestors 'none'" in headers["content-security-policy"]
+    assert headers["x-content-type-options"] == "nosniff"
+    assert headers["cross-origin-resource-policy"] == "same-origin"
+    assert headers["referrer-policy"] == "no-referrer"
+    assert "set-cookie" not in headers
+    assert "server" not in headers
+
+
+def test_no_file_beside_the_page_is_served(server):
+    for path in (
+        "/../app.py",
+        "/%2e%2e/app.py",
+        "/..%2fapp.py",
+        "/js/../../app.py",
+        "//etc/passwd",
+    ):
+        response = server.get(path)
+        assert response.status_code in (400, 404)
+        assert "import" not in response.text
+
+
+@pytest.mark.parametrize(
+    ("path", "most"), [("/api/simulate", LIMITS.body_bytes), ("/api/measure", LIMITS.upload_bytes)]
+)
+def test_large_requests_are_refused(server, path, most):
+    def parts():
+        for _ in range(most // 65_536 + 2):
+            yield b"x" * 65_536
+
+    whole = server.post(path, content=b"x" * (most + 1))
+    assert whole.status_code == 413
+    assert "larger than" in whole.json()["detail"]
+    assert server.post(path, content=parts()).status_code == 413  # with no length told before
+
+
+def asked(app, messages, path="/api/simulate"):
+    """Return head and body of an answer to a request that comes in these parts."""
+    headers = [(b"host", b"127.0.0.1")]
+    scope = {"type": "http", "method": "POST", "path": path, "headers": headers}
+    sent = []
+
+    async def run():
+        left = iter(messages)
+
+        async def receive():
+            message = next(left, None)
+            if message is None:
+                await asyncio.sleep(3600.0)
+            return message
+
+        async def send(message):
+            sent.append(message)
+
+        await app(scope, receive, send)
+
+    asyncio.run(run())
+    return sent[0], sent[1]["body"]
+
+
+def test_a_request_that_does_not_come_is_ended():
+    guard = Guard(None, dataclasses.replace(LIMITS, upload_seconds=0.05))
+    part = {"type": "http.request", "body": b"{", "more_body": True}
+    head, body = asked(guard, [part])
+    assert head["status"] == 408
+    assert b"did not come in whole within 0.05 s" in body
+    head, _ = asked(guard, [part, {"type": "http.disconnect"}])
+    assert head["status"] == 400
+
+
+async def echo(_, receive, send):
+    message = await receive()
+    await send(
+        {"type": "http.response.start", "status": 200, "headers": [(b"x-frame-options", b"")]}
+    )
+    await send({"type": "http.response.body", "body": message["body"]})
+
+
+@pytest.mark.parametrize(
+    ("path", "scripts"), [("/", True), ("/api/map", True), ("/paper/index.html", False)]
+)
+def test_pages_of_the_paper_run_no_script(path, scripts):
+    parts = [
+        {"type": "http.request", "body": b"ab", "more_body": True},
+        {"type": "http.request", "body": b"c", "more_body": False},
+    ]
+    head, body = asked(Guard(echo, LIMITS), parts, path)
+    headers = dict(head["headers"])
+    assert body == b"abc"
+    assert headers[b"x-frame-options"] == b"DENY"
+    assert (b"script-src" in headers[b"content-security-policy"]) is scripts
+    assert (b"unsafe-inline" in headers[b"content-security-policy"]) is not scripts
+
+
+def sleeps(seconds):
+    time.sleep(seconds)
+    return "slept"
+
+
+def dies():
+    os._exit(1)
+
+
+def fails():
+    raise InvalidValue("x must be 3, got 4")
+
+
+@pytest.fixture
+def workers():
+    made = Workers(dataclasses.replace(LIMITS, workers=1, waiting=2))
+    yield made
+    made.stop()
+
+
+def test_a_job_that_takes_too_long_is_ended_and_others_go_on(workers):
+    async def run():
+        with pytest.raises(TooLong, match=r"longer than the 0.5 s that one request may"):
+            await workers.run(sleeps, 60.0, seconds=0.5)
+        with pytest.raises(TooLong, match="the process that computed this ended"):
+            await workers.run(dies, seconds=60.0)
+        with pytest.raises(InvalidValue, match="x must be 3"):
+            await workers.run(fails, seconds=60.0)
+        return await workers.run(sleeps, 0.0, seconds=60.0)
+
+    assert asyncio.run(run()) == "slept"
+
+
+def test_too_many_at_once_are_sent_away(workers):
+    async def run():
+        jobs = [asyncio.create_task(workers.run(sleeps, 0.5, seconds=60.0)) for _ in range(2)]
+        await asyncio.sleep(0.1)
+        with pytest.raises(Busy, match="wait a few seconds and try again"):
+            await workers.run(sleeps, 0.0, seconds=60.0)
+        assert await asyncio.gather(*jobs) == ["slept", "slept"]
+        return await workers.run(sleeps, 0.0, seconds=60.0)
+
+    assert asyncio.run(run()) == "slept"

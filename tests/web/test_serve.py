@@ -1,0 +1,149 @@
+"""`stackbounce app`: where it listens, what it says, how it ends."""
+
+import asyncio
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+from pathlib import Path
+
+import httpx
+import pytest
+
+from stackbounce.cli import main
+from stackbounce.web import LIMITS, papers
+from stackbounce.web.serve import PORT
+
+APP = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--workers", "1"]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--port", "70000"], "port must be a whole number from 0 to 65535, got 70000"),
+        (["--port", "x"], "'--port': Input should be a valid integer"),
+        (["--host", "no.such.host.invalid"], "--host must be an address of this machine"),
+        (["--host", "203.0.113.7"], "cannot be used"),  # an address of nobody (RFC 5737)
+        (["--workers", "0"], "--workers must be a whole number from 1 to 64, got 0"),
+    ],
+)
+def test_what_is_wrong_is_told(capsys, options, message):
+    assert main(["app", "--no-browser", *options]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert message in err
+    assert err.count("\n") == 1
+
+
+def test_a_port_that_is_taken(capsys):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        assert main(["app", "--no-browser", "--port", str(port)]) == 2
+    assert f"127.0.0.1, port {port} cannot be used" in capsys.readouterr().err
+
+
+def children(process):
+    tasks = Path(f"/proc/{process.pid}/task").glob("*/children")
+    return [int(child) for task in tasks for child in task.read_text().split()]
+
+
+def runs(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen([*APP, "--json", "--port", "0"], **pipes) as process:
+        lines = [process.stdout.readline() for _ in range(4)]
+        address = json.loads("".join(lines))["address"]
+        answer = httpx.post(f"{address}api/stack", json={"balls": ["B1"]}, timeout=60.0)
+        assert answer.status_code == 200
+        workers = children(process)
+        assert workers
+        os.kill(process.pid, how)
+        out, err = process.communicate(timeout=30)
+    assert process.returncode == 0
+    assert out == ""
+    assert err == ""
+    assert not [pid for pid in workers if runs(pid)]
+
+
+def test_without_a_port_the_first_free_one_is_taken():
+    with socket.socket() as first:
+        first.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            first.bind(("127.0.0.1", PORT))
+        except OSError:
+            pass  # somebody else has it, which does as well
+        else:
+            first.listen()
+        with subprocess.Popen(APP, stdout=subprocess.PIPE, text=True) as process:
+            try:
+                line = process.stdout.readline()
+            finally:
+                process.terminate()
+    port = int(line.split()[2].rstrip("/").rpartition(":")[2])
+    assert PORT < port < PORT + 20
+    assert line.endswith("(Ctrl+C ends it)\n")
+
+
+class Stub:
+    """Workers that write a page at once, or fail."""
+
+    def __init__(self, error=None):
+        self.error = error
+
+    async def run(self, job, folder, seconds):
+        assert job is papers.paper.write_paper
+        assert seconds == LIMITS.paper_seconds
+        if self.error:
+            raise self.error
+        Path(folder, "index.html").write_text("<h1>The paper</h1>")
+
+
+def pages(stub, folder, names):
+    made = papers.Papers(stub, folder, LIMITS.paper_seconds)
+
+    async def ask():
+        answers = []
+        for name in names:
+            try:
+                answers.append(await made.page(name))
+            except Exception as error:
+                answers.append(error)
+            await asyncio.sleep(0.01)
+        return answers
+
+    return asyncio.run(ask())
+
+
+def test_pages_of_the_paper(tmp_path):
+    secret = tmp_path / "secret"
+    secret.write_text("secret")
+    folder = tmp_path / "pages"
+    folder.mkdir()
+    names = ["", "", "index.html", "none.html", "../secret", "../pages/../secret", "figures"]
+    waiting, lead, page, *others = pages(Stub(), folder, names)
+    assert b"is being recomputed" in waiting.body
+    assert waiting.headers["refresh"] == "2"
+    assert lead.headers["location"] == "/paper/index.html"
+    assert page.path == folder / "index.html"
+    assert [other.status_code for other in others] == [404] * 4
+
+
+def test_a_paper_that_failed_says_so_and_is_tried_again(tmp_path):
+    first, second, third = pages(
+        Stub(papers.StackbounceError("no room <left>")), tmp_path, [""] * 3
+    )
+    assert b"is being recomputed" in first.body
+    assert b"It failed: no room &lt;left&gt;" in second.body
+    assert second.status_code == 503
+    assert b"is being recomputed" in third.body
