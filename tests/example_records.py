@@ -6,7 +6,10 @@ from stackbounce.measure.synthetic.waveform import waveform
 
 __all__ = ["floor_force", "two_tracks"]
 
-_BALLS = [sb.Ball(0.150, diameter=0.160, name="basketball"), sb.Ball(0.057, diameter=0.066, name="tennis")]
+_BALLS = [
+    sb.Ball(0.150, diameter=0.160, name="basketball"),
+    sb.Ball(0.057, diameter=0.066, name="tennis"),
+]
 
 
 def floor_force() -> str:
@@ -14,7 +17,10 @@ def floor_force() -> str:
     contacts = [sb.Spring(2700.0), sb.Spring(1350.0)]
     drop = sb.Drop(_BALLS, contacts, gaps=[0.0], impact_speed=3.53)
     record = waveform(drop, rate=2e4, before=4e-3, noise=0.5, seed=2007)
-    rows = [f"{t:.5f},{force:.1f}" for t, force in zip(record.time.values, record.force.values)]
+    rows = [
+        f"{t:.5f},{force:.1f}"
+        for t, force in zip(record.time.values, record.force.values, strict=True)
+    ]
     return "\n".join(["Time (s),Force (N)", *rows, ""])
 
 

@@ -37,6 +37,7 @@ export function mount(root, store, api) {
       said.replaceChildren(...recognised(answer));
       found.replaceChildren(...foundIn(answer, store));
       found.hidden = false;
+      if (answer.doubt) unsaid.open = true;
       overlay.show(answer);
       fit.offer({ measured: answer.measured, file, options });
     } catch (error) {
@@ -44,6 +45,7 @@ export function mount(root, store, api) {
       write(said, "");
       write(problem, error.message);
       problem.hidden = false;
+      unsaid.open = true;
       found.hidden = true;
       overlay.clear();
       fit.offer(null);
@@ -55,13 +57,19 @@ export function mount(root, store, api) {
     if (known) store.set({ drop: known, until: null });
     ask();
   });
+  const unsaid = h(
+    "details",
+    { class: "measure-card", open: matchMedia("(min-width: 900px)").matches },
+    h("summary", {}, h("h2", { text: "What the file does not say" })),
+    form.element,
+  );
   root.replaceChildren(
     h(
       "div",
       { class: "measure-in" },
       h("section", { class: "measure-card", "aria-labelledby": "measure-title" }, drop, said, problem),
       found,
-      h("section", { class: "measure-card" }, h("h2", { text: "What the file does not say" }), form.element),
+      unsaid,
     ),
     h("div", { class: "measure-out" }, plot, h("section", { class: "measure-card" }, fit.element)),
   );

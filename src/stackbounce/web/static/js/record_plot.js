@@ -68,8 +68,8 @@ const headings = { force: "Force, measured and simulated", position: "Position, 
 function scales({ curves, simulated, window }, whole) {
   const [begin, end] = whole || !simulated ? ends(curves) : window;
   const { unit, size } = shownUnit("s", end - begin > 0.3);
-  const large = curves.some(({ values }) => values.some((value) => Math.abs(value) > 0.3));
-  return { begin, end, time: size, timeUnit: unit, value: shownUnit(curves[0].unit, large) };
+  const [low, high] = span([...curves, ...(simulated ?? [])], { begin, end });
+  return { begin, end, low, high, time: size, timeUnit: unit, value: shownUnit(curves[0].unit, high - low > 0.3) };
 }
 
 /** Return when the first of curves begins and the last ends. */
@@ -100,7 +100,7 @@ function options(host, content, whole) {
     cursor: { show: false },
     scales: {
       x: { time: false, range: () => [scale.begin, scale.end] },
-      y: { range: () => span([...curves, ...(simulated ?? [])], scale) },
+      y: { range: () => [scale.low, scale.high] },
     },
     axes: [
       { ...axis, size: 24, gap: 3, values: label(scale.time, scale.timeUnit) },
