@@ -30,7 +30,6 @@ export function mount(root, store, api) {
     if (news.settings) {
       chosen = news;
       form.update(news);
-      write(parts.message, answer ? "" : "Computing …");
     }
     if (news.answer) {
       answer = { ...news.answer, settings: chosen.settings, paths: chosen.paths };
@@ -54,6 +53,7 @@ export function mount(root, store, api) {
     }
     timer = setTimeout(() => {
       asked = [drop, map];
+      if (!answer) write(parts.message, "Computing …");
       requests.ask(drop, map);
     }, REST);
   };

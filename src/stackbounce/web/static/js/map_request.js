@@ -16,6 +16,11 @@ export function fineness(drop) {
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, {answer} or {problem, preparing}. */
 export function mapper(api, tell) {
   let newest = 0;
+  let ready = false;
+  const prepare = async () => {
+    ready ||= (await api.status()).ready;
+    if (!ready) throw new Error("the fast engine is being prepared, which takes a minute at the first start");
+  };
   const ask = async (drop, wanted) => {
     newest += 1;
     const mine = newest;
@@ -24,6 +29,7 @@ export function mapper(api, tell) {
       if (mine !== newest) return;
       const settings = complete(wanted, paths, shows, drop);
       tell({ settings, paths, shows });
+      await prepare();
       for (const [across, up] of [COARSE, fineness(drop)]) {
         const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
         const answer = await api.map({ drop, x, y, show: settings.show });
