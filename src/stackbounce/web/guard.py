@@ -5,6 +5,7 @@ reader's back, so a request has to name this machine, and must not come from els
 """
 
 import asyncio
+import contextlib
 import ipaddress
 import json
 import socket
@@ -39,6 +40,8 @@ _HEADERS = {
     "permissions-policy": "camera=(), geolocation=(), microphone=()",
     "cache-control": "no-cache",
 }
+_LINGER = 3.0  # s, for which a refused request is listened to
+_PATIENCE = 8  # times an upload, of a refused request that is still taken
 _UPLOADS = ("/api/measure", "/api/fit")
 
 
@@ -86,6 +89,7 @@ class Guard:
             await self._receive(body, scope, headers, receive)
             await self._app(scope, _replayed(bytes(body), receive), answer)
         except _Refused as refused:
+            await self._let_out(receive)
             await _refuse(answer, refused)
         finally:
             self._held -= len(body)
@@ -145,6 +149,17 @@ class Guard:
         except TimeoutError:
             seconds = limits.upload_seconds
             raise _Refused(408, f"the request did not come in whole within {seconds:g} s") from None
+
+    async def _let_out(self, receive: _Receive) -> None:
+        """Take what still comes of a refused request, so that its sender listens to the answer."""
+        left = _PATIENCE * self._limits.upload_bytes
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(_LINGER):
+                while left > 0:
+                    message = await receive()
+                    left -= len(message.get("body", b""))
+                    if message["type"] != "http.request" or not message.get("more_body", False):
+                        return
 
 
 def _too_large(most: int) -> _Refused:
