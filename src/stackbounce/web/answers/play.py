@@ -1,5 +1,6 @@
 """A drop: where everything is at each moment, and the textbook's separate collisions beside it."""
 
+import dataclasses
 import math
 from typing import Any
 
@@ -137,6 +138,8 @@ def _separate(drop: Drop, until: float | None, times: _Times, events: int) -> di
     """Return the textbook's version at the same times; None where there is none."""
     try:
         textbook = separate(drop)
+        if until is not None:  # the whole story has flights
+            textbook = dataclasses.replace(textbook, gravity=drop.gravity)
         result = ran(textbook, until, events)
         reached = result.end_time if _stopped(result) else math.inf
         place = positions(result, np.minimum(times, reached))

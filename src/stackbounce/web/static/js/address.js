@@ -55,7 +55,7 @@ export function follow(store) {
     timer ||= setTimeout(later, 300);
   });
   addEventListener("hashchange", () => {
-    if (location.hash === written) return;
+    if (location.hash === written || !location.hash.includes("=")) return;
     clearTimeout(timer);
     timer = 0;
     store.set({ ...FIRST_SHOWN, ...read(location.hash) });

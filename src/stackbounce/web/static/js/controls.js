@@ -77,7 +77,11 @@ export function mountControls(root, store, api, catalogue) {
     } else {
       for (const field of fields) field.update(field.path === "until" ? until : valueAt(drop, field.path));
     }
-    if (drop !== example) presets.querySelector("select").value = "";
+    if (example && drop !== example) {
+      example = null;
+      presets.querySelector("select").value = "";
+      write(said, "");
+    }
     showError(fields, general, error);
   };
 

@@ -7,10 +7,11 @@ const STEPS = 1000; // of a slider
 
 /**
  * Return a field `{element, path, update(value), fail(message)}`.
- * @param {object} spec `{path, label, unit, low, high, large, says, optional, set(path, value)}`
+ * @param {object} spec `{path, label, of, unit, low, high, large, says, optional, set(path, value)}`
  */
 export function numberField(spec) {
   const { path, label, unit, low, high } = spec;
+  const spoken = spec.of ? `${label} of ${spec.of}` : label;
   const shown = shownUnit(unit, spec.large);
   const id = `field-${path.replaceAll(".", "-")}`;
   const ladder = scaleOf(low, high);
@@ -22,6 +23,7 @@ export function numberField(spec) {
     autocomplete: "off",
     spellcheck: "false",
     "data-path": path,
+    "aria-label": spoken,
     "aria-describedby": `${id}-unit ${id}-error`,
     title: spec.says || null,
   });
@@ -32,7 +34,7 @@ export function numberField(spec) {
     max: STEPS,
     step: 1,
     "data-slider": path,
-    "aria-label": `${label}, slider`,
+    "aria-label": `${spoken}, slider`,
   });
   const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
   const element = h(
@@ -52,29 +54,33 @@ export function numberField(spec) {
   };
   const written = (value) => {
     const si = numeric(value, unit);
-    return Number.isFinite(si) ? format(clean(si / shown.size), 6) : String(value ?? "");
+    return Number.isFinite(si) ? format(clean(si / shown.size), 5) : String(value ?? "");
+  };
+  let before = "";
+  const show = (value) => {
+    place(value);
+    input.value = written(value);
+    before = input.value;
   };
   const update = (value) => {
     place(value);
-    if (document.activeElement !== input) input.value = written(value);
+    if (document.activeElement !== input) show(value);
   };
   const commit = () => {
+    if (input.value === before) return; // what is shown may be rounded
+    before = input.value;
     if (spec.optional && input.value.trim() === "") spec.set(path, undefined);
     else spec.set(path, read(input.value, unit, shown));
   };
   slider.addEventListener("input", () => {
     const value = ladder.toValue(Number(slider.value));
-    place(value);
-    input.value = written(value);
+    show(value);
     spec.set(path, value);
   });
   input.addEventListener("change", () => {
     commit();
     const value = read(input.value, unit, shown);
-    if (typeof value === "number") {
-      place(value);
-      input.value = written(value);
-    }
+    if (typeof value === "number") show(value);
   });
   input.addEventListener("keydown", (event) => {
     const up = { ArrowUp: 1, ArrowDown: -1 }[event.key];
@@ -83,8 +89,7 @@ export function numberField(spec) {
     if (!up) return;
     event.preventDefault();
     const value = ladder.toValue(Number(slider.value) + 5 * up);
-    place(value);
-    input.value = written(value);
+    show(value);
     spec.set(path, value);
   });
   const fail = (message) => {

@@ -1,6 +1,7 @@
 /** Contacts with another law, or with the law's constants for a bounce that was measured. */
 
 import { contactMass, speedOf, withValue } from "./drops.js";
+import { clean } from "./units.js";
 
 const LOSSLESS = ["Spring", "Hertz", "PowerLaw"];
 const BALL = { law: "Rigid", restitution: 0.8 }; // what a contact is made like that has no law before
@@ -41,7 +42,13 @@ async function converted(api, name, drop, place) {
   const { law, ...numbers } = drop.contacts[place];
   const contact = law === "none" ? BALL : { law, ...numbers };
   const request = { contact, to: name, mass: contactMass(drop, place), impact_speed: speedOf(drop) };
-  return (await api.like(request)).contact;
+  return tidied((await api.like(request)).contact);
+}
+
+/** Return a contact without the last digits of a search, which would only lengthen the address. */
+function tidied(contact) {
+  const entries = Object.entries(contact);
+  return Object.fromEntries(entries.map(([name, value]) => [name, typeof value === "number" ? clean(value) : value]));
 }
 
 /** Return the contact of the law it has that shows a measured restitution and contact time. */
@@ -50,5 +57,5 @@ export async function asMeasured(api, drop, place, { restitution, contactTime })
   const request = { law, mass: contactMass(drop, place), impact_speed: speedOf(drop), restitution };
   if (law !== "Rigid") request.contact_time = contactTime;
   if (exponent !== undefined) request.exponent = exponent;
-  return (await api.law(request)).contact;
+  return tidied((await api.law(request)).contact);
 }

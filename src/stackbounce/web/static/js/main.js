@@ -32,7 +32,13 @@ mountTabs(store, {
   map: (section) => open("./map.js", section),
   measure: (section) => open("./measure.js", section),
 });
+place("skip").addEventListener("click", (event) => {
+  event.preventDefault(); // the fragment is the state's
+  place("stage-box").focus();
+});
+store.subscribe(({ view }) => view !== "play" && clock.pause());
 followResults();
+addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();
 loadCatalogue();
 

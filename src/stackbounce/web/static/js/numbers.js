@@ -1,8 +1,9 @@
 /** What came out: speeds, ratios, heights, collisions and energy, beside the separate collisions. */
 
 import { h, write } from "./dom.js";
+import { GRAVITY, speedOf } from "./drops.js";
 import { fixed, format } from "./units.js";
-import { ballName, capital, contactName, count, height, percent, shortContact, told } from "./words.js";
+import { ballName, capital, contactName, count, height, highest, percent, setUp, shortContact, told } from "./words.js";
 
 const SETTLED = 700; // ms without a new result before it is said
 
@@ -23,13 +24,13 @@ export function mountNumbers({ root, table, live }, store) {
 }
 
 function columns(...names) {
-  return h("tr", {}, names.map((name) => h("th", { scope: "col" }, name)));
+  return h("tr", {}, names.map((name) => h("th", { scope: "col" }, ...[name].flat())));
 }
 
 function row(name, index, ...cells) {
   const swatch = h("span", { class: "swatch", "aria-hidden": "true" });
   swatch.style.setProperty("--ball", `var(--ball-${index % 6})`);
-  return h("tr", {}, h("th", { scope: "row" }, swatch, name), cells.map((text) => h("td", { text })));
+  return h("tr", {}, h("th", { scope: "row" }, swatch, name), cells.map((cell) => h("td", {}, cell)));
 }
 
 /** Return the separate collisions' numbers, where there are any. */
@@ -41,37 +42,47 @@ function textbook({ separate }) {
 function ballTable(result, until) {
   const { drop } = result;
   const separate = textbook(result);
-  const whole = until !== null;
-  const [rises, theirs] = whole ? [tops(result.frames.position), tops(separate?.position)] : [result.rebound_heights, separate?.rebound_heights];
-  const up = whole ? "highest" : "rises";
-  const names = ["Ball", "m/s", "v / v₀", up];
-  const when = whole ? `After ${format(until)} s` : "After the impact";
-  const groups = [h("td"), h("th", { scope: "colgroup", colspan: 3, text: when })];
-  if (separate) {
-    names.push("v / v₀", up);
-    groups.push(h("th", { scope: "colgroup", colspan: 2, text: "Textbook" }));
-  }
-  const rows = drop.balls.map((_, ball) => {
-    const cells = [
-      fixed(result.rebound_speeds[ball], 2),
-      fixed(result.rebound_ratios[ball], 3),
-      height(rises[ball]),
-    ];
-    if (separate) cells.push(fixed(separate.rebound_ratios[ball], 3), height(theirs[ball]));
-    return row(ballName(drop, ball), ball, ...cells);
-  });
+  const own = until === null ? impactColumns(result, result) : wholeColumns(result, result.frames.position);
+  const theirs = separate && (until === null ? impactColumns(result, separate).slice(1) : wholeColumns(result, separate.position));
+  const all = [...own, ...(theirs ?? [])];
+  const when = until === null ? "After the impact" : `Within ${format(until)} s`;
+  const groups = [h("td"), h("th", { scope: "colgroup", colspan: own.length, text: when })];
+  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: "Textbook" }));
+  const rows = drop.balls.map((_, ball) => row(ballName(drop, ball), ball, ...all.map(({ cell }) => cell(ball))));
   return h(
     "table",
-    { class: "numbers-table" },
-    h("caption", { class: "quiet", text: "Speeds and heights after the impact, the highest ball first" }),
-    h("thead", {}, h("tr", { class: "groups" }, groups), columns(...names)),
+    { class: until === null ? "numbers-table" : "numbers-table whole" },
+    h("caption", { class: "quiet", text: "Speeds and heights of the balls, the highest ball first" }),
+    h("thead", {}, h("tr", { class: "groups" }, groups), columns("Ball", ...all.map(({ name }) => name))),
     h("tbody", {}, rows.reverse()),
   );
 }
 
-/** Return how high each ball comes in what is shown. */
-function tops(positions) {
-  return positions?.map((values) => values.reduce((most, value) => Math.max(most, value), 0));
+/** The columns of an impact, of the drop itself or of its separate collisions. */
+function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }) {
+  const fallen = speedOf(drop) ** 2 / 2 / GRAVITY;
+  return [
+    { name: "m/s", cell: (ball) => fixed(speeds[ball], 2) },
+    { name: "v / v₀", cell: (ball) => fixed(ratios[ball], 3) },
+    { name: ["rises", wide(" (× drop)")], cell: (ball) => [height(heights[ball]), times(heights[ball], fallen)] },
+  ];
+}
+
+/** The columns of a whole drop: how high each ball comes. */
+function wholeColumns({ drop, frames }, positions) {
+  const fallen = speedOf(drop) ** 2 / 2 / (drop.gravity || GRAVITY);
+  const tops = positions.map((path) => highest(frames.time, path));
+  return [{ name: ["highest", wide(" (× drop)")], cell: (ball) => [height(tops[ball]), times(tops[ball], fallen)] }];
+}
+
+/** Return how many times the height of the drop a ball comes up, to stand behind the height. */
+function times(reached, fallen) {
+  return reached > 0.1 * fallen ? wide(` (${format(reached / fallen, 2)}×)`) : null;
+}
+
+/** Return a text for which a phone has no room. */
+function wide(text) {
+  return h("span", { class: "wide-only", text });
 }
 
 /** Energy, collisions and how the run ended. */
@@ -83,13 +94,19 @@ function facts(result, until) {
     return h("div", {}, h("dt", { text: name }), h("dd", {}, own, beside));
   };
   const list = h("dl", { class: "facts" }, pair("Impact speed", `${format(result.reference_speed, 3)} m/s`));
-  list.append(pair("Energy kept", percent(result.energy_retained), separate ? percent(separate.energy_retained) : undefined));
+  if (until === null) {
+    const theirs = separate ? percent(separate.energy_retained) : undefined;
+    list.append(pair("Energy kept", percent(result.energy_retained), theirs));
+  }
   const met = drop.contacts
     .map((_, contact) => contact)
     .filter((contact) => drop.contacts[contact]?.law !== "none")
     .map((contact) => `${shortContact(drop, contact)}: ${count(result.collisions[contact])}`);
   const theirs = separate?.collisions.map(count).join(", ");
   list.append(pair("Collisions", met.join(", "), theirs));
+  const set = pair("Set-up", setUp(drop));
+  set.classList.add("print-only");
+  list.prepend(set);
   if (result.separate?.error) list.append(pair("Textbook", result.separate.error));
   const asked = until !== null && result.status === "TIME_REACHED";
   if (result.status !== "FINISHED" && !asked) list.append(pair("Note", capital(result.advice)));

@@ -119,7 +119,7 @@ class Panel {
   legendItem(line, value) {
     const swatch = h("span", { class: line.dash ? "swatch dashed" : "swatch", "aria-hidden": "true" });
     swatch.style.setProperty("--ball", this.color(line));
-    return h("li", {}, swatch, line.label, value);
+    return h("li", {}, swatch, h("span", { class: "legend-label", text: line.label }), value);
   }
 
   dot(line) {
@@ -197,7 +197,7 @@ class Panel {
       ctx.lineTo(plot.valToPos(time, "x", true), plot.valToPos(impulse, "y", true));
       ctx.stroke();
     }
-    const size = 2 * devicePixelRatio;
+    const size = 3 * devicePixelRatio;
     for (const { index, time, values } of this.panel.overlays) {
       ctx.fillStyle = this.color({ index: index ?? null });
       values.forEach((value, i) => {

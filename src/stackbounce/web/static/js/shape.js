@@ -37,15 +37,24 @@ export function magnification(result, asked) {
   return Number.isFinite(third) ? Math.min(nice, room) : 1;
 }
 
+const BEYOND = 1.3; // times the balls' own height that is shown for the textbook's to be seen
+
+/** Return the height in m that a whole drop needs: the balls' own, and not too far beyond the textbook's. */
+function highest({ separate }, tops) {
+  const own = Math.max(...tops);
+  const theirs = Math.max(0, ...largest(separate?.position ?? []));
+  return Math.max(own, Math.min(theirs, BEYOND * own));
+}
+
 /** Return how metres become pixels: radii, rest places, and pixels per metre of movement. */
 export function camera(result, { width, height, whole, asked }) {
   const radius = radii(result.drop);
   const stack = 2 * radius.reduce((sum, r) => sum + r, 0);
-  const paths = [...result.frames.position];
-  const top = paths[paths.length - 1].reduce((most, q) => Math.max(most, q), 0);
+  const tops = largest(result.frames.position);
   const wide = Math.min(0.44 * width, width - 210) / (2 * Math.max(...radius));
   const times = whole ? 1 : magnification(result, asked);
-  const seen = whole ? stack + Math.max(...largest(paths)) : clamp(stack + times * top, 1.15 * stack, 1.7 * stack);
+  const high = stack + times * tops.at(-1);
+  const seen = whole ? stack + highest(result, tops) : clamp(high, 1.15 * stack, 1.7 * stack);
   const scale = Math.min(height / seen, wide);
   const drawn = radius.map((r) => Math.max(LEAST_RADIUS, r * scale));
   let below = 0;

@@ -14,7 +14,7 @@ const ARROW = 46; // px of the fastest ball's arrow
 export function mountStage(root, store, clock) {
   const svg = s("svg", { class: "scene", role: "img" });
   const time = s("text", { class: "scene-time", x: 12, y: 22 });
-  const scale = s("text", { class: "scene-note", x: 12, y: 40 });
+  const scale = s("text", { class: "scene-note", x: 12, y: 42 });
   const ground = s("g", { class: "ground" });
   const ruler = s("g", { class: "ruler" });
   const ghosts = s("g", { class: "ghosts" });
@@ -80,7 +80,7 @@ function centre({ view, floor }, ball, position) {
 function ballGroup(drop, ball, { view }) {
   const group = s("g", { class: "ball", "data-ball": ball });
   group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
-  const name = s("text", { class: "ball-name", "text-anchor": "end", text: ballName(drop, ball) });
+  const name = s("text", { class: "ball-name", "text-anchor": "end", text: shortened(ballName(drop, ball)) });
   put(name, "y", 4);
   const speed = s("text", { class: "ball-speed" });
   put(speed, "y", 4);
@@ -92,6 +92,10 @@ function ballGroup(drop, ball, { view }) {
     speed,
   );
   return group;
+}
+
+function shortened(name) {
+  return name.length > 16 ? `${name.slice(0, 15)}…` : name;
 }
 
 function moveBall(group, scene, ball, { position, velocity, flat }) {

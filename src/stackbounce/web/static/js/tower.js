@@ -68,11 +68,11 @@ function ballCard(drop, ball, tools, field) {
     button("↓", `Move ${name} down`, "down", ball === 0, (now) => withSwap(now, ball - 1)),
     button("×", `Remove ${name}`, "remove", last === 0, (now) => withoutBall(now, ball)),
   );
-  const rows = [field({ path: `balls.${ball}.mass`, label: "mass", unit: "kg", low: 1e-3, high: 2 })];
+  const rows = [field({ path: `balls.${ball}.mass`, label: "mass", of: name, unit: "kg", low: 1e-3, high: 2 })];
   if (incidenceOf(drop) === "velocities") {
-    rows.push(field({ path: `velocities.${ball}`, label: "velocity", unit: "m/s", low: -10, high: 10, says: "up is positive" }));
+    rows.push(field({ path: `velocities.${ball}`, label: "velocity", of: name, unit: "m/s", low: -10, high: 10, says: "up is positive" }));
   }
-  const size = { path: `balls.${ball}.diameter`, label: "diameter", unit: "m", low: 0.01, high: 0.4, optional: true };
+  const size = { path: `balls.${ball}.diameter`, label: "diameter", of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
   const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: "Size" }), field({ ...size, says: "for the picture only" }));
   return h("li", { class: "card ball-card" }, header, rows, more);
 }
@@ -100,7 +100,7 @@ function contactCard(drop, contact, tools, field, note) {
   );
   const rows = law ? lawFields(drop, contact, law, field) : [];
   if (contact > 0) {
-    rows.push(field({ path: `gaps.${contact - 1}`, label: "gap", unit: "m", low: 0, high: 0.02, says: "air between the two" }));
+    rows.push(field({ path: `gaps.${contact - 1}`, label: "gap", of: contactName(drop, contact), unit: "m", low: 0, high: 0.03, says: "air between the two" }));
   }
   if (note) rows.push(h("p", { class: "note", text: note }));
   const more = law ? measuredBox(contact, law, tools) : null;
@@ -114,8 +114,9 @@ function lawFields(drop, contact, law, field) {
     .filter((one) => typeof one.low === "number" && (one.required || own[one.name] !== undefined))
     .map((one) => {
       const unit = one.unit === "N/m**exponent" && own.exponent === 1 ? "N/m" : one.unit;
-      const { name, low, high, says } = one;
-      return field({ path: `contacts.${contact}.${name}`, label: name.replaceAll("_", " "), unit, low, high, says });
+      const { name, low, high } = one;
+      const spec = { label: name.replaceAll("_", " "), of: contactName(drop, contact), unit, low, high };
+      return field({ path: `contacts.${contact}.${name}`, ...spec });
     });
 }
 

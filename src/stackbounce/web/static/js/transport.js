@@ -10,7 +10,7 @@ const STEPS = 2000; // of the cursor
 const SLOW = [10000, 3000, 1000, 300, 100, 30, 10, 3, 1];
 const MAGNIFY = [1, 2, 3, 5, 8, 10, 20, 30, 50];
 const LIFE = 1; // how many times slower a whole drop is shown
-const STRIDE = 1 / 200; // of the window, that an arrow key moves the cursor
+const STRIDE = 1 / 200; // of the window, that an arrow key moves the cursor; ten times that for a page
 
 /** Build the transport into `root`; it drives the clock, and follows it. */
 export function mountTransport(root, store, clock) {
@@ -42,8 +42,6 @@ export function mountTransport(root, store, clock) {
     const moves = {
       ArrowLeft: () => clock.seek(clock.time - stride),
       ArrowRight: () => clock.seek(clock.time + stride),
-      PageDown: () => clock.seek(clock.time - 10 * stride),
-      PageUp: () => clock.seek(clock.time + 10 * stride),
       Home: () => clock.seek(clock.begin),
       End: () => clock.seek(clock.end),
     };
@@ -57,7 +55,14 @@ export function mountTransport(root, store, clock) {
   document.addEventListener("keydown", (event) => {
     if (store.get().view !== "play" || event.ctrlKey || event.metaKey || event.altKey) return;
     const own = event.target === cursor;
-    if (!own && event.target.closest("input, select, textarea, button, summary, a, [role=tab]")) return;
+    const pages = { PageUp: 10 * STRIDE, PageDown: -10 * STRIDE };
+    if (own && pages[event.key]) {
+      event.preventDefault();
+      clock.pause();
+      clock.seek(clock.time + pages[event.key] * (clock.end - clock.begin));
+      return;
+    }
+    if (!own && event.target.closest("input, select, textarea, button, summary, a, [role=region]")) return;
     const key = own ? { ArrowUp: "ArrowRight", ArrowDown: "ArrowLeft" }[event.key] ?? event.key : event.key;
     if (act(key)) event.preventDefault();
   });

@@ -44,7 +44,7 @@ export function format(value, digits = 4) {
   if (!Number.isFinite(value)) return value > 0 ? "∞" : "−∞";
   if (value === 0) return "0";
   const size = Math.abs(value);
-  if (size >= 1e6 || size < 1e-4) return tidy(value.toExponential(digits - 1));
+  if (size >= 1e5 || size < 1e-4) return tidy(value.toExponential(digits - 1));
   return tidy(String(Number(value.toPrecision(digits))));
 }
 
@@ -65,12 +65,17 @@ function tidy(text) {
  * it says. Anything else is returned as text, for the server to read or to refuse.
  */
 export function read(text, unit, shown) {
-  const found = QUANTITY.exec(text.trim().replaceAll("−", "-").replace(/^([^,]*),(\d+)/, "$1.$2"));
+  const found = QUANTITY.exec(pointed(text.trim().replaceAll("−", "-")));
   if (!found) return text.trim();
   const number = Number(found[1]);
   if (found[2] === "") return clean(number * shown.size);
   const size = WRITTEN[unit]?.[found[2]];
   return size === undefined ? text.trim() : clean(number * size);
+}
+
+/** Return a text with a decimal point for a decimal comma; 1,000 could be either and stays as it is. */
+function pointed(text) {
+  return /^[+-]?[1-9]\d{0,2},\d{3}(?!\d)/.test(text) ? text : text.replace(/^([+-]?\d*),(\d+)/, "$1.$2");
 }
 
 /** Return the SI number of a value of a drop, which is a number, or a text that a link brought. */

@@ -47,22 +47,42 @@ export function percent(share) {
   return `${format(share * 100, 3)} %`;
 }
 
+/** Return what was dropped, for paper: balls and contacts from the floor up. */
+export function setUp(drop) {
+  const parts = drop.balls.map((ball, i) => {
+    const { law, ...numbers } = drop.contacts[i];
+    const given = Object.entries(numbers).map(([name, value]) => `${name.replaceAll("_", " ")} ${typeof value === "number" ? format(value) : value}`);
+    const gap = i > 0 && drop.gaps?.[i - 1] ? `, gap ${format(drop.gaps[i - 1] * 1e3)} mm` : "";
+    return `${law === "none" ? "no floor" : `${law} (${given.join(", ")})${gap}`}; ${ballName(drop, i)} ${format(ball.mass * 1e3)} g`;
+  });
+  return `${parts.join("; ")}; in SI units from the floor up.`;
+}
+
 /** Return a result in one or two sentences, as somebody would tell it. */
 export function told(result, until) {
   const { drop } = result;
-  const one = (ball) => {
-    const ratio = result.rebound_ratios[ball];
-    if (ratio === null) return `${ballName(drop, ball)} has no end speed`;
-    if (Math.abs(ratio) < 5e-4) return `${ballName(drop, ball)} stands still`;
-    const way = ratio > 0 ? "goes up" : "goes on down";
-    return `${ballName(drop, ball)} ${way} at ${format(Math.abs(ratio), 3)} times the impact speed`;
-  };
-  const balls = drop.balls.map((_, ball) => one(ball)).reverse();
-  const kept = percent(result.energy_retained);
+  const own = until === null ? (ball) => leaving(result, ball) : (ball) => rising(result, ball);
+  const balls = drop.balls.map((_, ball) => `${ballName(drop, ball)} ${own(ball)}`).reverse();
   const expected = result.status === "FINISHED" || (until !== null && result.status === "TIME_REACHED");
   const end = expected ? "" : ` ${capital(result.advice)}.`;
-  const when = until === null ? "the impact" : `${format(until)} seconds`;
-  return `After ${when}, ${balls.join("; ")}. Kinetic energy kept: ${kept}.${end}`;
+  if (until !== null) return `Within ${format(until)} seconds, ${balls.join("; ")}.${end}`;
+  return `After the impact, ${balls.join("; ")}. Kinetic energy kept: ${percent(result.energy_retained)}.${end}`;
+}
+
+function leaving(result, ball) {
+  const ratio = result.rebound_ratios[ball];
+  if (ratio === null) return "has no end speed";
+  if (Math.abs(ratio) < 5e-4) return "stands still";
+  return `goes ${ratio > 0 ? "up" : "on down"} at ${format(Math.abs(ratio), 3)} times the impact speed`;
+}
+
+function rising({ frames }, ball) {
+  return `rises to ${height(highest(frames.time, frames.position[ball]))}`;
+}
+
+/** Return how high a path comes once the floor has been touched. */
+export function highest(times, path) {
+  return path.reduce((most, value, i) => (times[i] > 0 ? Math.max(most, value) : most), 0);
 }
 
 /** Return a text with a capital first letter. */
