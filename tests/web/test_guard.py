@@ -118,6 +118,13 @@ def test_a_request_that_does_not_come_is_ended():
     assert head["status"] == 400
 
 
+def test_all_requests_together_are_bounded():
+    guard = Guard(echo, dataclasses.replace(LIMITS, held_bytes=5))
+    for body, status in ((b"123456", 503), (b"12345", 200), (b"123456", 503), (b"12345", 200)):
+        head, _ = asked(guard, [{"type": "http.request", "body": body, "more_body": False}])
+        assert head["status"] == status
+
+
 async def echo(_, receive, send):
     message = await receive()
     await send(

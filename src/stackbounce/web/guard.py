@@ -5,6 +5,7 @@ reader's back, so a request has to name this machine, and must not come from els
 """
 
 import asyncio
+import contextlib
 import ipaddress
 import json
 import socket
@@ -39,6 +40,8 @@ _HEADERS = {
     "permissions-policy": "camera=(), geolocation=(), microphone=()",
     "cache-control": "no-cache",
 }
+_LINGER = 3.0  # s, for which a refused request is listened to
+_PATIENCE = 8  # times an upload, of a refused request that is still taken
 _UPLOADS = ("/api/measure", "/api/fit")
 
 
@@ -68,6 +71,7 @@ class Guard:
 
     def __init__(self, app: Any, limits: Limits) -> None:
         self._app, self._limits = app, limits
+        self._held = 0
         self._names = {"localhost", socket.gethostname().casefold()}
 
     async def __call__(self, scope: _Message, receive: _Receive, send: _Send) -> None:
@@ -79,13 +83,16 @@ class Guard:
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
         answer = _with_headers(send, scope["path"])
+        body = bytearray()
         try:
             self._check(scope, headers)
-            body = await self._body(scope, headers, receive)
+            await self._receive(body, scope, headers, receive)
+            await self._app(scope, _replayed(bytes(body), receive), answer)
         except _Refused as refused:
+            await self._let_out(receive)
             await _refuse(answer, refused)
-            return
-        await self._app(scope, _replayed(body, receive), answer)
+        finally:
+            self._held -= len(body)
 
     def _check(self, scope: _Message, headers: dict[str, str]) -> None:
         host = headers.get("host", "")
@@ -115,28 +122,44 @@ class Guard:
             return False
         return True
 
-    async def _body(self, scope: _Message, headers: dict[str, str], receive: _Receive) -> bytes:
-        """Return a request's body, if it is small enough and comes in time."""
+    async def _receive(
+        self, body: bytearray, scope: _Message, headers: dict[str, str], receive: _Receive
+    ) -> None:
+        """Receive a request's body, if it is small enough and comes in time."""
         limits = self._limits
         most = limits.upload_bytes if scope["path"] in _UPLOADS else limits.body_bytes
         length = headers.get("content-length", "0")
         if length.isdecimal() and int(length) > most:
             raise _too_large(most)
-        body = bytearray()
         try:
             async with asyncio.timeout(limits.upload_seconds):
                 while True:
                     message = await receive()
                     if message["type"] != "http.request":
                         raise _Refused(400, "the request ended before it was whole")
-                    body += message.get("body", b"")
+                    part = message.get("body", b"")
+                    body += part
+                    self._held += len(part)
                     if len(body) > most:
                         raise _too_large(most)
+                    if self._held > limits.held_bytes:
+                        raise _Refused(503, "too much is being sent at once: try again soon")
                     if not message.get("more_body", False):
-                        return bytes(body)
+                        return
         except TimeoutError:
             seconds = limits.upload_seconds
             raise _Refused(408, f"the request did not come in whole within {seconds:g} s") from None
+
+    async def _let_out(self, receive: _Receive) -> None:
+        """Take what still comes of a refused request, so that its sender listens to the answer."""
+        left = _PATIENCE * self._limits.upload_bytes
+        with contextlib.suppress(TimeoutError):
+            async with asyncio.timeout(_LINGER):
+                while left > 0:
+                    message = await receive()
+                    left -= len(message.get("body", b""))
+                    if message["type"] != "http.request" or not message.get("more_body", False):
+                        return
 
 
 def _too_large(most: int) -> _Refused:

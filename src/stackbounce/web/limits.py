@@ -27,6 +27,8 @@ class Limits:
         Of a request without a file.
     upload_bytes : int
         Of a request with a file.
+    held_bytes : int
+        Of all requests that are being received or answered, together.
     upload_seconds : float
         In s, for a request to come in whole.
     job_seconds : float
@@ -56,6 +58,7 @@ class Limits:
     varied: int = 6
     body_bytes: int = 64 * 1024
     upload_bytes: int = 16 * 1024 * 1024
+    held_bytes: int = 256 * 1024 * 1024
     upload_seconds: float = 30.0
     job_seconds: float = 20.0
     fit_seconds: float = 60.0
