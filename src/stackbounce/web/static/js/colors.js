@@ -23,17 +23,21 @@ export function isLight([red, green, blue]) {
   return 0.2126 * red + 0.7152 * green + 0.0722 * blue > 125;
 }
 
+/** From here on counts share a colour. */
+export const MANY = 10;
+
 /**
  * Return how values become colours: `{kind, low, high, color(value)}` of a range, or of whole counts
- * `{kind, counts, color(value)}`; -1 is a count without end and comes last.
+ * `{kind, counts, color(value)}`; `MANY` stands for all above it, -1 is a count without end and comes last.
  */
 export function scaleOfColors(values, whole) {
   const known = values.flat().filter((value) => value !== null);
   if (whole) {
+    const kind = (count) => Math.min(count, MANY);
     const order = (count) => (count < 0 ? Infinity : count);
-    const counts = [...new Set(known)].sort((a, b) => order(a) - order(b));
+    const counts = [...new Set(known.map(kind))].sort((a, b) => order(a) - order(b));
     const part = (count) => (counts.length > 1 ? counts.indexOf(count) / (counts.length - 1) : 0.5);
-    return { kind: "counts", counts, color: (count) => colorAt(part(count)) };
+    return { kind: "counts", counts, color: (count) => colorAt(part(kind(count))) };
   }
   let low = known.reduce((a, b) => Math.min(a, b), Infinity);
   let high = known.reduce((a, b) => Math.max(a, b), -Infinity);

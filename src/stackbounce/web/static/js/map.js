@@ -98,6 +98,7 @@ export function mount(root, store, api) {
     const { x, y } = answer.settings;
     const drop = withNumbers(answer.drop, { [x.path]: point[0], [y.path]: point[1] });
     store.set({ drop, view: "play", t: null });
+    parts.play.hidden = true;
     document.getElementById("tab-play")?.focus();
   };
 
@@ -114,14 +115,18 @@ export function mount(root, store, api) {
   };
   parts.board.addEventListener("pointermove", follow);
   parts.board.addEventListener("pointerdown", follow);
-  parts.board.addEventListener("pointerleave", () => {
+  parts.board.addEventListener("pointerleave", (event) => {
+    if (event.pointerType !== "mouse") return;
     pointed = null;
     if (answer) mark();
   });
   parts.board.addEventListener("click", (event) => {
     follow(event);
-    play();
+    // A finger hides what it points at: it looks first, and plays by the button.
+    if (event.pointerType === "touch") parts.play.hidden = !pointed;
+    else play();
   });
+  parts.play.addEventListener("click", play);
   parts.board.addEventListener("keydown", (event) => {
     const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
     if (!answer || (!way && !["Enter", "Home", "Escape"].includes(event.key))) return;
@@ -132,6 +137,7 @@ export function mount(root, store, api) {
     else pointed = pointed.map((part, i) => within(part + way[i] * STEP * (event.shiftKey ? 10 : 1)));
     mark();
     write(parts.live, pointed ? told(pointed) : "");
+    parts.play.hidden = !pointed;
   });
   parts.again.addEventListener("click", refresh);
   new ResizeObserver(draw).observe(parts.board);
@@ -162,12 +168,13 @@ function build() {
   );
   const title = h("h2", { class: "map-title" });
   const readout = h("p", { class: "map-readout" });
+  const play = h("button", { type: "button", class: "map-play", text: "Play this drop", hidden: true });
   const live = h("p", { class: "quiet", "aria-live": "polite" });
   const message = h("p", { class: "map-message", role: "status" });
   const again = h("button", { type: "button", text: "Try again", hidden: true });
   const summary = h("p", { class: "note", id: "map-summary" });
   const keys = h("p", { class: "quiet", id: "map-keys", text: KEYS });
   const box = h("div", { class: "map-box" }, board, h("div", { class: "map-over" }, message, again));
-  const figure = h("section", { class: "map-figure", "aria-label": "Map" }, title, readout, box, keys, live);
-  return { figure, field, marks, board, title, readout, live, message, again, summary };
+  const figure = h("section", { class: "map-figure", "aria-label": "Map" }, title, readout, play, box, keys, live);
+  return { figure, field, marks, board, title, readout, play, live, message, again, summary };
 }

@@ -1,6 +1,6 @@
 /** Draws a map on a canvas: the field, its lines of equal value, the sides, the colours' key. */
 
-import { colorAt, css, isLight } from "./colors.js";
+import { MANY, colorAt, css, isLight } from "./colors.js";
 import { contour, labelPlace } from "./contours.js";
 import { sideOf, ticks } from "./map_axes.js";
 import { clean, format, pretty, shownUnit } from "./units.js";
@@ -174,7 +174,7 @@ function drawKey(ctx, { left, width }, scale, unit) {
       ctx.fillStyle = css(scale.color(count));
       ctx.fillRect(x, top, wide - 1, height);
       ctx.fillStyle = text;
-      ctx.fillText(count < 0 ? "∞" : String(count), x + wide / 2, top + height + 5);
+      ctx.fillText(count < 0 ? "∞" : `${count}${count === MANY ? "+" : ""}`, x + wide / 2, top + height + 5);
     });
     return;
   }

@@ -1,6 +1,7 @@
 /** Asks for a map: first a coarse one, then a fine one; the newest question wins. */
 
 import { firstSide, isSide } from "./map_axes.js";
+import { RATIOS } from "./map_words.js";
 
 const COARSE = [24, 18];
 const FINE = [120, 90]; // springs are solved in closed form
@@ -48,11 +49,24 @@ export function mapper(api, tell) {
 
 /** Return the settings of a map, with what is not wanted, or does not fit the drop, chosen. */
 function complete(wanted, paths, shows, drop) {
-  const known = (side) => isSide(side) && paths.some(({ path }) => path === side.path);
-  const x = known(wanted?.x) ? wanted.x : firstSide(paths[0]);
-  const other = paths.find(({ path }) => path !== x.path && (path === "stiffness_ratio" || !path.endsWith("_ratio")));
-  const y = known(wanted?.y) ? wanted.y : firstSide(other ?? paths[0]);
-  const best = `rebound_ratio.${drop.balls.length - 1}`;
-  const show = shows.some((one) => one.show === wanted?.show) ? wanted.show : best;
+  const known = (side) => (isSide(side) && paths.some(({ path }) => path === side.path) ? side : null);
+  const best = (other) => {
+    const free = paths.filter(({ path }) => !depends(path, other?.path));
+    const first = FIRST.map((kind) => free.find(({ path }) => path.startsWith(kind))).find(Boolean);
+    return firstSide(first ?? free[0] ?? paths[0]);
+  };
+  const x = known(wanted?.x) ?? best(known(wanted?.y));
+  const y = known(wanted?.y) ?? best(x);
+  const last = `rebound_ratio.${drop.balls.length - 1}`;
+  const show = shows.some((one) => one.show === wanted?.show) ? wanted.show : last;
   return { x, y, show };
+}
+
+/** Which numbers are mapped first. */
+const FIRST = ["mass_ratio", "stiffness_ratio", "contacts", "balls"];
+
+/** Return whether two numbers are the same, or one is set by the other. */
+function depends(path, other) {
+  if (other === undefined) return false;
+  return path === other || RATIOS[path]?.[0] === other || RATIOS[other]?.[0] === path;
 }

@@ -49,7 +49,7 @@ export function summary(answer) {
 }
 
 /** The numbers that follow from a ratio: which one is set, and which other one it refers to. */
-const RATIOS = {
+export const RATIOS = {
   mass_ratio: ["balls.0.mass", "balls.1.mass"],
   stiffness_ratio: ["contacts.0.stiffness", "contacts.1.stiffness"],
 };
