@@ -25,6 +25,12 @@ const EXAMPLES = {
 export function fitForm(store, api, fitted) {
   const vary = h("fieldset", { class: "fit-vary" });
   const rows = h("ul", { class: "fit-rows" });
+  const alone = h(
+    "div",
+    { class: "fit-alone", hidden: true },
+    h("p", { text: "The file is of one ball alone; the drop is a stack." }),
+    h("button", { type: "button", text: "Drop the lowest ball alone", onclick: () => store.set({ drop: lowest(store.get().drop) }) }),
+  );
   const status = h("p", { class: "note", role: "status" });
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
   const button = h("button", { type: "submit", class: "primary", text: "Fit" });
@@ -38,6 +44,7 @@ export function fitForm(store, api, fitted) {
       "fieldset",
       {},
       h("legend", { text: "What was measured" }),
+      alone,
       rows,
       h("button", { type: "button", text: "Add a number", onclick: () => addRow().querySelector("select").focus() }),
     ),
@@ -84,9 +91,10 @@ export function fitForm(store, api, fitted) {
   const offer = (next) => {
     record = next;
     rows.replaceChildren();
-    for (const [name, value] of Object.entries(next?.measured ?? {})) {
-      addRow(name, value, name.startsWith("force."));
-    }
+    const told = Object.entries(next?.measured ?? {});
+    const single = told.length === 1 && told[0][0] === "rebound_ratios.0" && store.get().drop.balls.length > 1;
+    alone.hidden = !single;
+    if (!single) for (const [name, value] of told) addRow(name, value, name.startsWith("force."));
     if (!rows.hasChildNodes()) addRow();
     outcome.replaceChildren();
     undo.hidden = true;
@@ -160,6 +168,13 @@ export function fitForm(store, api, fitted) {
     return form;
   };
   return { element, offer, follow };
+}
+
+/** Return a drop without the balls on top. */
+function lowest(drop) {
+  const next = { ...drop, balls: drop.balls.slice(0, 1), contacts: drop.contacts.slice(0, 1), gaps: [] };
+  if (drop.velocities) next.velocities = drop.velocities.slice(0, 1);
+  return next;
 }
 
 /** What makes the choices of a form other ones. */

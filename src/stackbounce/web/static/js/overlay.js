@@ -3,7 +3,7 @@
 import { h } from "./dom.js";
 import { bestShift, laid, lines, matched, shifted } from "./record.js";
 import { recordPlot } from "./record_plot.js";
-import { contactName } from "./words.js";
+import { capital, contactName } from "./words.js";
 
 const GRAVITY = 9.80665;
 const LONGEST = 10; // s of a track that are simulated
@@ -91,7 +91,7 @@ export class Overlay {
       move,
       align: () => move(this.best(), true),
     });
-    this.notes.replaceChildren(...put.notes.map((text) => h("p", { text })));
+    this.notes.replaceChildren(...put.notes.map((text) => h("p", { text: capital(text) })));
     if (settled && result) {
       this.store.set({ overlays: put.curves.map((one) => ({ ...one, label: `measured ${one.label}` })) });
     }

@@ -69,7 +69,8 @@ function scales({ curves, simulated, window }, whole) {
   const [begin, end] = whole || !simulated ? ends(curves) : window;
   const { unit, size } = shownUnit("s", end - begin > 0.3);
   const [low, high] = span([...curves, ...(simulated ?? [])], { begin, end });
-  return { begin, end, low, high, time: size, timeUnit: unit, value: shownUnit(curves[0].unit, high - low > 0.3) };
+  const own = curves[0].unit === "1" ? "" : curves[0].unit;
+  return { begin, end, low, high, time: size, timeUnit: unit, value: shownUnit(own, high - low > 0.3) };
 }
 
 /** Return when the first of curves begins and the last ends. */
@@ -91,7 +92,7 @@ function options(host, content, whole) {
   const scale = scales(content, whole);
   const color = ({ index }) => colorOf(colors, index);
   const axis = { stroke: colors.muted, font: "11px system-ui, sans-serif", grid: { stroke: colors.line, width: 1 }, ticks: { show: false } };
-  const label = (size, unit) => (_, ticks) => ticks.map((tick, i) => `${format(tick / size, 4)}${i === ticks.length - 1 ? ` ${unit}` : ""}`);
+  const label = (size, unit) => (_, ticks) => ticks.map((tick, i) => `${format(tick / size, 4)}${unit && i === ticks.length - 1 ? ` ${unit}` : ""}`);
   return {
     width: host.clientWidth,
     height: host.clientHeight,
