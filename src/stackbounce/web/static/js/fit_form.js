@@ -170,9 +170,12 @@ export function fitForm(store, api, fitted) {
   return { element, offer, follow };
 }
 
-/** Return a drop without the balls on top. */
+/** Return a drop without the balls on top; a spring gets a damping, as a ball alone is measured for its loss. */
 function lowest(drop) {
-  const next = { ...drop, balls: drop.balls.slice(0, 1), contacts: drop.contacts.slice(0, 1), gaps: [] };
+  const [{ law, stiffness }] = drop.contacts;
+  const lossy = { law: "Dashpot", stiffness, damping: Number((0.2 * Math.sqrt(stiffness * drop.balls[0].mass)).toPrecision(2)) };
+  const contacts = law === "Spring" ? [lossy] : drop.contacts.slice(0, 1);
+  const next = { ...drop, balls: drop.balls.slice(0, 1), contacts, gaps: [] };
   if (drop.velocities) next.velocities = drop.velocities.slice(0, 1);
   return next;
 }

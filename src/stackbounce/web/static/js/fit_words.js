@@ -8,11 +8,12 @@ import { capital } from "./words.js";
 /** Return what is shown of an answer of api/fit; `labels` are what its numbers are called. */
 export function told(answer, labels) {
   const { values, residuals } = answer;
+  const notes = [...new Set(answer.notes)].map((note) => capital(note.replace(/[a-z_]+(\.\w+)+/g, (path) => labels[path] ?? path)));
   return [
     table("Found", ["Number", "Value"], values.map(({ path, value, error, unit }) => [labels[path] ?? capital(path), measured(value, error, unit)])),
     h("p", { text: quality(answer) }),
     residuals.length ? table("Measured and fitted", ["Quantity", "Measured", "Fitted", "Apart, in errors"], residuals.map((one) => compared(one, labels))) : null,
-    answer.notes.length ? h("ul", { class: "notes" }, answer.notes.map((note) => h("li", { text: note }))) : null,
+    notes.length ? h("ul", { class: "notes" }, notes.map((note) => h("li", { text: note }))) : null,
   ].filter(Boolean);
 }
 
@@ -35,6 +36,7 @@ export function table(caption, heads, rows) {
 
 /** Return in words how well the drop describes what was measured. */
 function quality({ chi_squared: squared, degrees_of_freedom: freedom, probability }) {
+  if (freedom < 1 && squared > 1) return "The drop does not come to what was measured, whatever varies here.";
   if (freedom < 1) return "As many numbers were varied as measured: nothing is left to check the fit by.";
   const ratio = squared / freedom;
   const told = `Chi squared is ${format(squared, 3)} for ${freedom} ${freedom === 1 ? "degree" : "degrees"} of freedom`;
