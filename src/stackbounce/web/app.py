@@ -181,6 +181,7 @@ def _add_records(app: FastAPI, workers: Workers, limits: Limits) -> None:
         options: Annotated[str, Form()] = "{}",
     ) -> Response:
         """Fit a drop to what was measured: numbers with errors, or the forces of a file."""
+        asked = schema.read_drop(_parsed("drop", drop))
         paths = _parsed("vary", vary)
         if not isinstance(paths, list) or not all(isinstance(path, str) for path in paths):
             raise InvalidValue(f"vary must be a list of paths, got {shown(vary)}")
@@ -196,7 +197,6 @@ def _add_records(app: FastAPI, workers: Workers, limits: Limits) -> None:
             )
         content = b"" if file is None else await file.read()
         name = "" if file is None else _name(file)
-        asked = schema.read_drop(_parsed("drop", drop))
         job = (records.fitted, asked, paths, told, name, content, _object("options", options))
         return _json(await workers.run(*job, seconds=limits.fit_seconds))
 

@@ -21,7 +21,7 @@ def chromium():
     return found
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")  # while it runs, its event loop is in the way of other tests' own
 def browser():
     path = chromium()
     with sync_playwright() as playwright:

@@ -63,6 +63,7 @@ def test_surfaces_meet_where_they_press(visit):
 
 def test_playing_follows_the_clock_at_sixty_frames_with_no_request(visit):
     page = visit.open()
+    page.wait_for_load_state("networkidle")
     before = len(visit.requests)
     seen = page.evaluate(
         f"""() => new Promise((done) => {{

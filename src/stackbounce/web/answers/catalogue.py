@@ -54,12 +54,13 @@ def catalogue(limits: Limits) -> str:
 def _law(kind: type[ContactLaw]) -> dict[str, Any]:
     """Return a law's name, formula and numbers, and its docstring's first line and source."""
     text = inspect.getdoc(kind) or ""
-    source = re.search(r"Source: (.*?)\.?(?:\n\n|\Z)", text, re.DOTALL)
+    _, _, rest = text.partition("Source: ")
+    source = re.split(r"\n\n|(?<=[\d)])\.\s+(?=[A-Z])", rest)[0]  # a sentence ends after a number
     return {
         "law": kind.__name__,
         "says": text.partition("\n")[0],
         "formula": FORMULAS[kind],
-        "source": " ".join(source[1].split()) if source else "",
+        "source": " ".join(source.split()).removesuffix("."),
         "fields": [_field(kind, one) for one in dataclasses.fields(kind) if _is_number(kind, one)],
     }
 
