@@ -16,22 +16,24 @@ export function mapForm(set) {
     if (now === shown) return;
     shown = now;
     const focused = document.activeElement?.dataset?.key;
-    const side = (name) => (next) => set({ ...settings, [name]: next });
+    let latest = settings; // a second choice may come before the first one is answered
+    const change = (patch) => set((latest = { ...latest, ...patch }));
+    const side = (name, title) => sideForm(name, title, () => latest[name], paths, (next) => change({ [name]: next }));
     element.replaceChildren(
       choice({
         label: "Colour shows",
         key: "map-show",
         groups: [["", shows.map(({ show, label }) => [show, capital(label)])]],
         value: settings.show,
-        set: (show) => set({ ...settings, show }),
+        set: (show) => change({ show }),
       }),
-      sideForm("x", "Across", settings.x, paths, side("x")),
-      sideForm("y", "Up", settings.y, paths, side("y")),
+      side("x", "Across"),
+      side("y", "Up"),
       h("button", {
         type: "button",
         text: "Swap sides",
         "data-key": "map-swap",
-        onclick: () => set({ ...settings, x: settings.y, y: settings.x }),
+        onclick: () => change({ x: latest.y, y: latest.x }),
       }),
     );
     if (focused?.startsWith("map-")) element.querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus();
@@ -39,12 +41,13 @@ export function mapForm(set) {
   return { element, update };
 }
 
-function sideForm(name, title, side, paths, set) {
+function sideForm(name, title, current, paths, set) {
+  const side = current();
   const error = h("p", { class: "field-error", id: `map-${name}-error`, role: "alert", hidden: true });
   const { unit } = paths.find(({ path }) => path === side.path);
   const shown = shownUnit(unit);
   const change = (patch) => {
-    const next = { ...side, ...patch };
+    const next = { ...current(), ...patch };
     const problem = problemOf(next);
     error.hidden = !problem;
     write(error, problem ?? "");
