@@ -3,8 +3,9 @@
 import { h, write } from "./dom.js";
 import { choice } from "./fields.js";
 import { firstSide, isSide } from "./map_axes.js";
-import { capital } from "./words.js";
+import { depends } from "./map_words.js";
 import { clean, format, pretty, read, shownUnit } from "./units.js";
+import { capital } from "./words.js";
 
 /** Return `{element, update({settings, paths, shows})}`; `set` hears the new settings. */
 export function mapForm(set) {
@@ -18,7 +19,9 @@ export function mapForm(set) {
     const focused = document.activeElement?.dataset?.key;
     let latest = settings; // a second choice may come before the first one is answered
     const change = (patch) => set((latest = { ...latest, ...patch }));
-    const side = (name, title) => sideForm(name, title, () => latest[name], paths, (next) => change({ [name]: next }));
+    const other = { x: settings.y.path, y: settings.x.path };
+    const free = (name) => paths.filter(({ path }) => !depends(path, other[name]));
+    const side = (name, title) => sideForm(name, title, () => latest[name], free(name), (next) => change({ [name]: next }));
     element.replaceChildren(
       choice({
         label: "Colour shows",

@@ -1,7 +1,7 @@
 /** Asks for a map: first a coarse one, then a fine one; the newest question wins. */
 
 import { firstSide, isSide } from "./map_axes.js";
-import { RATIOS } from "./map_words.js";
+import { depends } from "./map_words.js";
 
 const COARSE = [24, 18];
 const FINE = [120, 90]; // springs are solved in closed form
@@ -56,7 +56,7 @@ function complete(wanted, paths, shows, drop) {
     return firstSide(first ?? free[0] ?? paths[0]);
   };
   const x = known(wanted?.x) ?? best(known(wanted?.y));
-  const y = known(wanted?.y) ?? best(x);
+  const y = known(wanted?.y) && !depends(wanted.y.path, x.path) ? wanted.y : best(x);
   const last = `rebound_ratio.${drop.balls.length - 1}`;
   const show = shows.some((one) => one.show === wanted?.show) ? wanted.show : last;
   return { x, y, show };
@@ -64,9 +64,3 @@ function complete(wanted, paths, shows, drop) {
 
 /** Which numbers are mapped first. */
 const FIRST = ["mass_ratio", "stiffness_ratio", "contacts", "balls"];
-
-/** Return whether two numbers are the same, or one is set by the other. */
-function depends(path, other) {
-  if (other === undefined) return false;
-  return path === other || RATIOS[path]?.[0] === other || RATIOS[other]?.[0] === path;
-}

@@ -49,7 +49,7 @@ export function summary(answer) {
 }
 
 /** The numbers that follow from a ratio: which one is set, and which other one it refers to. */
-export const RATIOS = {
+const RATIOS = {
   mass_ratio: ["balls.0.mass", "balls.1.mass"],
   stiffness_ratio: ["contacts.0.stiffness", "contacts.1.stiffness"],
 };
@@ -64,4 +64,10 @@ export function withNumbers(drop, numbers) {
     next = withValue(next, set, clean(Number((value * reference).toPrecision(4))));
   }
   return next;
+}
+
+/** Return whether two numbers are the same, or one is set by the other. */
+export function depends(path, other) {
+  if (other === undefined) return false;
+  return path === other || RATIOS[path]?.[0] === other || RATIOS[other]?.[0] === path;
 }

@@ -39,7 +39,7 @@ export class Overlay {
   async follow() {
     if (!this.record?.series.length) return;
     const { drop } = this.store.get();
-    const { curves } = laid(this.record, drop);
+    const curves = laid(this.record, drop);
     this.asked += 1;
     const mine = this.asked;
     const result = curves.length ? await this.simulated(curves).catch(() => null) : null;
@@ -63,8 +63,9 @@ export class Overlay {
     return this.api.simulate({ ...drop, gravity: drop.gravity || GRAVITY }, Math.min(Math.max(end, 0.05), LONGEST));
   }
 
+  /** How far the clock can be shifted: as long as the impact lasts. */
   get reach() {
-    const [begin, end] = this.result.impact;
+    const [begin, end] = this.result?.impact ?? [0, 0];
     return Math.max(end - begin, 1e-3);
   }
 
@@ -87,7 +88,7 @@ export class Overlay {
       window: result ? [result.impact[0] - 0.25 * this.reach, result.impact[1] + 0.5 * this.reach] : null,
       whole: put.curves[0].what === "position",
       shift,
-      reach: this.reachOrNone(),
+      reach: this.reach,
       move,
       align: () => move(this.best(), true),
     });
@@ -95,10 +96,6 @@ export class Overlay {
     if (settled && result) {
       this.store.set({ overlays: put.curves.map((one) => ({ ...one, label: `measured ${one.label}` })) });
     }
-  }
-
-  reachOrNone() {
-    return this.result ? this.reach : 1;
   }
 
   name({ what, index, label }) {

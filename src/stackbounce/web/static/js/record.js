@@ -4,16 +4,11 @@ const GRAVITY = 9.80665;
 const TRIES = 160; // shifts of the clock that are tried
 const FALLING = 60; // points of the fall before the impact
 
-/**
- * Return the curves of an answer of the server that a drop has too, on the drop's clock, and what was
- * done to them: `{curves: [{label, what, index, unit, time, values}], notes}`.
- */
+/** Return the curves `[{label, what, index, unit, time, values}]` of a file that a drop has too, on its clock. */
 export function laid({ series, zero }, drop) {
-  const notes = [];
-  const curves = series
+  return series
     .filter(({ what, index }) => what !== "other" && index < drop.balls.length)
     .map((one) => ({ ...one, time: one.time.map((time) => time - (zero ?? 0)) }));
-  return { curves, notes };
 }
 
 /** Return curves later by a shift in s. */
