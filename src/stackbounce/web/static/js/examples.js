@@ -28,7 +28,8 @@ export const EXAMPLES = [
     file: "two-tracks.csv",
     title: "Video of two balls",
     says:
-      "The paper’s ball B2 on B1 from 1 m, as Tracker exports it. Made with dampings of 8 and 2 N s/m: 120 frames a second, points unsure by 4 mm.",
+      "The paper’s ball B2 on B1 from 1 m, as Tracker exports it. Made with dampings of 8 and 2 N s/m: " +
+      "120 frames a second, points unsure by 4 mm.",
     drop: TWO_BALLS,
   },
 ];

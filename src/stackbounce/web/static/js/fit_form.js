@@ -5,8 +5,17 @@ import { choice } from "./fields.js";
 import { told } from "./fit_words.js";
 import { ballName, capital, contactName } from "./words.js";
 
-const BY_BALL = { rebound_ratios: "rebound speed over v₀", rebound_speeds: "rebound speed", rebound_heights: "rebound height" };
-const BY_CONTACT = { durations: "contact time", first_touch: "first touch", last_release: "last release", collisions: "collisions" };
+const BY_BALL = {
+  rebound_ratios: "rebound speed over v₀",
+  rebound_speeds: "rebound speed",
+  rebound_heights: "rebound height",
+};
+const BY_CONTACT = {
+  durations: "contact time",
+  first_touch: "first touch",
+  last_release: "last release",
+  collisions: "collisions",
+};
 const EXAMPLES = {
   rebound_ratios: "1.64 ± 0.02",
   rebound_speeds: "5.8 ± 0.1 m/s",
@@ -29,7 +38,11 @@ export function fitForm(store, api, fitted) {
     "div",
     { class: "fit-alone", hidden: true },
     h("p", { text: "The file is of one ball alone; the drop is a stack." }),
-    h("button", { type: "button", text: "Drop the lowest ball alone", onclick: () => store.set({ drop: lowest(store.get().drop) }) }),
+    h("button", {
+      type: "button",
+      text: "Drop the lowest ball alone",
+      onclick: () => store.set({ drop: lowest(store.get().drop) }),
+    }),
   );
   const status = h("p", { class: "note", role: "status" });
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
@@ -83,7 +96,13 @@ export function fitForm(store, api, fitted) {
         set: (chosen) => (text.placeholder = EXAMPLES[chosen.split(".")[0]] ?? ""),
       }),
       text,
-      h("button", { type: "button", class: "icon", text: "×", "aria-label": "Leave this out", onclick: () => row.remove() }),
+      h("button", {
+        type: "button",
+        class: "icon",
+        text: "×",
+        "aria-label": "Leave this out",
+        onclick: () => row.remove(),
+      }),
     );
     rows.append(row);
     return row;
@@ -151,8 +170,8 @@ export function fitForm(store, api, fitted) {
 
   const request = (drop) => {
     const form = new FormData();
-    const told = [...rows.children].map((row) => [row.querySelector("select").value, row.querySelector("input").value.trim()]);
-    const used = told.filter(([, value]) => value !== "");
+    const typed = (row) => [row.querySelector("select").value, row.querySelector("input").value.trim()];
+    const used = [...rows.children].map(typed).filter(([, value]) => value !== "");
     if (used.length === 0) throw new Error("Type what was measured, with its error, such as 1.72 ± 0.03 m.");
     const twice = used.find(([name], i) => used.findIndex(([other]) => other === name) < i);
     if (twice) throw new Error(`Two values are of the same quantity, ${twice[0]}.`);
@@ -173,8 +192,8 @@ export function fitForm(store, api, fitted) {
 /** Return a drop without the balls on top; a spring gets a damping, as a ball alone is measured for its loss. */
 function lowest(drop) {
   const [{ law, stiffness }] = drop.contacts;
-  const lossy = { law: "Dashpot", stiffness, damping: Number((0.2 * Math.sqrt(stiffness * drop.balls[0].mass)).toPrecision(2)) };
-  const contacts = law === "Spring" ? [lossy] : drop.contacts.slice(0, 1);
+  const damping = Number((0.2 * Math.sqrt(stiffness * drop.balls[0].mass)).toPrecision(2));
+  const contacts = law === "Spring" ? [{ law: "Dashpot", stiffness, damping }] : drop.contacts.slice(0, 1);
   const next = { ...drop, balls: drop.balls.slice(0, 1), contacts, gaps: [] };
   if (drop.velocities) next.velocities = drop.velocities.slice(0, 1);
   return next;
@@ -191,7 +210,9 @@ function forces(drop) {
 
 function quantities(drop) {
   const each = (names, of) =>
-    Object.entries(names).flatMap(([name, says]) => drop.balls.map((_, i) => [`${name}.${i}`, `${capital(says)} of ${of(drop, i)}`]));
+    Object.entries(names).flatMap(([name, says]) =>
+      drop.balls.map((_, i) => [`${name}.${i}`, `${capital(says)} of ${of(drop, i)}`]),
+    );
   return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", "Kinetic energy kept"]];
 }
 

@@ -8,17 +8,21 @@ import { capital } from "./words.js";
 /** Return what is shown of an answer of api/fit; `labels` are what its numbers are called. */
 export function told(answer, labels) {
   const { values, residuals } = answer;
-  const notes = [...new Set(answer.notes)].map((note) => capital(note.replace(/[a-z_]+(\.\w+)+/g, (path) => labels[path] ?? path)));
-  return [
-    table("Found", ["Number", "Value"], values.map(({ path, value, error, unit }) => [labels[path] ?? capital(path), measured(value, error, unit)])),
-    h("p", { text: quality(answer) }),
-    residuals.length ? table("Measured and fitted", ["Quantity", "Measured", "Fitted", "Apart, in errors"], residuals.map((one) => compared(one, labels))) : null,
-    notes.length ? h("ul", { class: "notes" }, notes.map((note) => h("li", { text: note }))) : null,
-  ].filter(Boolean);
+  const named = (note) => capital(note.replace(/[a-z_]+(\.\w+)+/g, (path) => labels[path] ?? path));
+  const notes = [...new Set(answer.notes)].map(named);
+  const rows = values.map(({ path, value, error, unit }) => [labels[path] ?? capital(path), measured(value, error, unit)]);
+  const parts = [table("Found", ["Number", "Value"], rows), h("p", { text: quality(answer) })];
+  if (residuals.length) {
+    const heads = ["Quantity", "Measured", "Fitted", "Apart, in errors"];
+    parts.push(table("Measured and fitted", heads, residuals.map((one) => compared(one, labels))));
+  }
+  if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((text) => h("li", { text }))));
+  return parts;
 }
 
 function compared({ name, measured: value, error, fitted, pull, unit }, labels) {
-  return [labels[name] ?? name, measured(value, error, unit), measured(fitted, null, unit), pull === null ? "–" : fixed(pull, 1)];
+  const apart = pull === null ? "–" : fixed(pull, 1);
+  return [labels[name] ?? name, measured(value, error, unit), measured(fitted, null, unit), apart];
 }
 
 /** Return a table with a caption for who hears it. */

@@ -162,7 +162,14 @@ function build() {
   const marks = h("canvas", { class: "map-marks", "aria-hidden": "true" });
   const board = h(
     "div",
-    { class: "map-board", tabindex: "0", role: "application", "aria-roledescription": "map", "aria-describedby": "map-keys map-summary", "aria-label": "Map" },
+    {
+      class: "map-board",
+      tabindex: "0",
+      role: "application",
+      "aria-roledescription": "map",
+      "aria-label": "Map",
+      "aria-describedby": "map-keys map-summary",
+    },
     field,
     marks,
   );

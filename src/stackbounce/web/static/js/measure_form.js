@@ -38,7 +38,12 @@ export function measureForm(changed) {
       "label",
       { class: "option", title: says },
       h("span", { text: label }),
-      h("input", { type: "text", placeholder: example, spellcheck: "false", onchange: (event) => set(name)(event.target.value.trim()) }),
+      h("input", {
+        type: "text",
+        placeholder: example,
+        spellcheck: "false",
+        onchange: (event) => set(name)(event.target.value.trim()),
+      }),
     );
   const chosen = (name, label, entries) =>
     choice({ label, groups: [["", entries]], value: "", set: set(name), key: `option-${name}` });

@@ -21,12 +21,14 @@ export function foundIn({ found, notes }, store) {
     const { height, velocities, ...drop } = store.get().drop;
     store.set({ drop: { ...drop, impact_speed: Number(speed.value.toPrecision(4)) } });
   };
-  return [
-    h("h2", { text: "Found" }),
-    table("What was found", ["What", "Value"], found.map(({ name, value, error, unit }) => [capital(name), measured(value, error, unit)])),
-    notes.length ? h("ul", { class: "notes" }, notes.map((note) => h("li", { text: sentence(note) }))) : null,
-    speed ? h("button", { type: "button", text: `Drop at its impact speed, ${measured(speed.value, speed.error, "m/s")}`, onclick: take }) : null,
-  ].filter(Boolean);
+  const rows = found.map(({ name, value, error, unit }) => [capital(name), measured(value, error, unit)]);
+  const parts = [h("h2", { text: "Found" }), table("What was found", ["What", "Value"], rows)];
+  if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((note) => h("li", { text: sentence(note) }))));
+  if (speed) {
+    const text = `Drop at its impact speed, ${measured(speed.value, speed.error, "m/s")}`;
+    parts.push(h("button", { type: "button", text, onclick: take }));
+  }
+  return parts;
 }
 
 function sentence(text) {

@@ -53,8 +53,8 @@ export function matched(curves, simulated) {
     if (one.what !== "position") return one;
     const offset = mean(differences(one, line, { until: 0 }));
     if (!Number.isFinite(offset)) return one;
-    const size = `${(Math.abs(offset) * 1e3).toFixed(0)} mm`;
-    if (Math.abs(offset) > 5e-4) notes.push(`${one.label} is drawn ${size} ${offset > 0 ? "lower" : "higher"} than tracked, to lie on the simulated ball.`);
+    const moved = `${(Math.abs(offset) * 1e3).toFixed(0)} mm ${offset > 0 ? "lower" : "higher"}`;
+    if (Math.abs(offset) > 5e-4) notes.push(`${one.label} is drawn ${moved} than tracked, to lie on the simulated ball.`);
     return { ...one, values: one.values.map((value) => value - offset) };
   });
   return { curves: found, notes };

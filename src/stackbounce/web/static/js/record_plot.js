@@ -91,8 +91,14 @@ function options(host, content, whole) {
   const colors = palette();
   const scale = scales(content, whole);
   const color = ({ index }) => colorOf(colors, index);
-  const axis = { stroke: colors.muted, font: "11px system-ui, sans-serif", grid: { stroke: colors.line, width: 1 }, ticks: { show: false } };
-  const label = (size, unit) => (_, ticks) => ticks.map((tick, i) => `${format(tick / size, 4)}${unit && i === ticks.length - 1 ? ` ${unit}` : ""}`);
+  const axis = {
+    stroke: colors.muted,
+    font: "11px system-ui, sans-serif",
+    grid: { stroke: colors.line, width: 1 },
+    ticks: { show: false },
+  };
+  const label = (size, unit) => (_, ticks) =>
+    ticks.map((tick, i) => format(tick / size, 4) + (unit && i === ticks.length - 1 ? ` ${unit}` : ""));
   return {
     width: host.clientWidth,
     height: host.clientHeight,
