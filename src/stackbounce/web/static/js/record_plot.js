@@ -123,7 +123,7 @@ function options(host, content, whole) {
         pxAlign: 0,
       })),
     ],
-    hooks: simulated ? { draw: [(plot) => drawDots(plot, curves, colors)] } : {},
+    hooks: simulated ? { drawAxes: [(plot) => drawDots(plot, curves, colors)] } : {},
   };
 }
 
@@ -145,12 +145,12 @@ function span(all, { begin, end }) {
 function drawDots(plot, curves, colors) {
   const { ctx } = plot;
   const { left, top, width, height } = plot.bbox;
-  const size = 3 * devicePixelRatio;
+  const size = 4 * devicePixelRatio;
   ctx.save();
   ctx.beginPath();
   ctx.rect(left, top, width, height);
   ctx.clip();
-  ctx.globalAlpha = 0.75;
+  ctx.globalAlpha = 0.6;
   for (const { time, values } of curves) {
     ctx.fillStyle = colors.text;
     values.forEach((value, i) => {
