@@ -218,6 +218,20 @@ def test_heights_follow_the_speed_that_comes_in(server, drop, path):
     assert got["values"][0][1] == pytest.approx(speed * abs(speed) / (2 * 9.80665), rel=1e-6)
 
 
+def test_a_collapse_is_an_end_on_a_map_too(server):
+    drop = {
+        "balls": [{"mass": 0.004}, {"mass": 0.057}],
+        "contacts": [{"law": "Rigid", "restitution": 1.0}, {"law": "Rigid", "restitution": 0.1}],
+        "gaps": [0.001],
+        "impact_speed": 3.53,
+    }
+    x = {"path": "balls.0.mass", "low": 0.004, "high": 0.5, "count": 2}
+    y = {"path": "impact_speed", "low": 1.0, "high": 2.0, "count": 2}
+    got = answer(server, "map", drop=drop, x=x, y=y, show="collisions.1")
+    assert got["values"] == [[-1, 1], [-1, 1]]
+    assert got["unfinished"] == 0
+
+
 def test_what_a_map_can_have(server, drop):
     got = answer(server, "map/paths", drop=drop)
     values = {path["path"]: path["value"] for path in got["paths"]}

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.plain import as_json
+from stackbounce.result import Status
 from stackbounce.sweep import sweep
 from stackbounce.sweep.paths import number_at, numbers_of
 from stackbounce.version import __version__
@@ -35,7 +36,6 @@ _OUTCOMES = {
     "collisions": ("collisions of {contact}", ""),
 }
 _ENERGY = ("kinetic energy kept", "")
-_UNSOLVED = 3  # statuses above COLLAPSED, and TIME_REACHED, are of runs without an end
 
 
 @dataclass(frozen=True)
@@ -99,7 +99,7 @@ def drop_map(drop: Drop, x: Line, y: Line, show: str, events: int) -> str:
     label, unit = _outcome(drop, show)
     data = sweep(drop, _varied(drop, x, y), rtol=_RTOL, event_limit=events)
     data = data.transpose("y", "x", ...)
-    done = data.status.values < _UNSOLVED
+    done = data.status.values <= Status.COLLAPSED  # the others are of runs without an end
     values = np.where(done, _shown(data, show, drop), np.nan)
     sides = {name: _side(drop, line) for name, line in (("x", x), ("y", y))}
     return as_json(

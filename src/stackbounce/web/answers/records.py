@@ -207,7 +207,8 @@ def _usable(data: "xr.Dataset", found: Sequence[Any]) -> dict[str, str]:
 
 
 def _written(value: Any) -> str:
-    return f"{value.nominal_value:.6g} ± {value.std_dev:.2g}"
+    number = f"{value.nominal_value:.6g}"
+    return f"{number} ± {value.std_dev:.2g}" if value.std_dev > 0.0 else number
 
 
 def _series(data: "xr.Dataset", found: Sequence[Any]) -> list[_Series]:

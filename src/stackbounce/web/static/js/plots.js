@@ -172,8 +172,9 @@ class Panel {
 
   /** Return the range of the values, of what is laid over them, with a little air. */
   range(low, high) {
-    const { floor, ceiling, overlays } = this.panel;
-    const more = overlays.flatMap(({ values }) => values.filter((value) => value !== null));
+    const { floor, ceiling, overlays, times } = this.panel;
+    const seen = (time) => time >= times[0] && time <= times.at(-1);
+    const more = overlays.flatMap(({ time, values }) => values.filter((value, i) => value !== null && seen(time[i])));
     const bottom = more.reduce((a, b) => Math.min(a, b), Math.min(floor ?? Infinity, low ?? Infinity));
     const top = more.reduce((a, b) => Math.max(a, b), Math.max(ceiling ?? -Infinity, high ?? -Infinity));
     if (!Number.isFinite(bottom) || !Number.isFinite(top)) return [0, 1];

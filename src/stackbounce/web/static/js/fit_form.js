@@ -1,0 +1,209 @@
+/** Fitting the drop to what was measured: what may vary, what is known, what came out. */
+
+import { h, write } from "./dom.js";
+import { choice } from "./fields.js";
+import { told } from "./fit_words.js";
+import { ballName, capital, contactName } from "./words.js";
+
+const BY_BALL = { rebound_ratios: "rebound speed over v₀", rebound_speeds: "rebound speed", rebound_heights: "rebound height" };
+const BY_CONTACT = { durations: "contact time", first_touch: "first touch", last_release: "last release", collisions: "collisions" };
+const EXAMPLES = {
+  rebound_ratios: "1.64 ± 0.02",
+  rebound_speeds: "5.8 ± 0.1 m/s",
+  rebound_heights: "1.72 ± 0.03 m",
+  durations: "30.0 ± 0.2 ms",
+  first_touch: "1.2 ± 0.1 ms",
+  last_release: "34.0 ± 0.2 ms",
+  energy_retained: "0.85 ± 0.02",
+  collisions: "1",
+};
+
+/**
+ * Return `{element, offer(record), follow()}`: `offer` takes what a file gave ({measured, file, options} or
+ * null), `follow` the store's drop. `fitted` hears each answer and the drop before.
+ */
+export function fitForm(store, api, fitted) {
+  const vary = h("fieldset", { class: "fit-vary" });
+  const rows = h("ul", { class: "fit-rows" });
+  const alone = h(
+    "div",
+    { class: "fit-alone", hidden: true },
+    h("p", { text: "The file is of one ball alone; the drop is a stack." }),
+    h("button", { type: "button", text: "Drop the lowest ball alone", onclick: () => store.set({ drop: lowest(store.get().drop) }) }),
+  );
+  const status = h("p", { class: "note", role: "status" });
+  const problem = h("p", { class: "field-error", role: "alert", hidden: true });
+  const button = h("button", { type: "submit", class: "primary", text: "Fit" });
+  const undo = h("button", { type: "button", text: "Back to the drop before", hidden: true });
+  const outcome = h("div", { class: "fit-outcome" });
+  const element = h(
+    "form",
+    { class: "fit", "aria-labelledby": "fit-title", autocomplete: "off" },
+    h("h2", { id: "fit-title", text: "Fit the drop to it" }),
+    h(
+      "fieldset",
+      {},
+      h("legend", { text: "What was measured" }),
+      alone,
+      rows,
+      h("button", { type: "button", text: "Add a number", onclick: () => addRow().querySelector("select").focus() }),
+    ),
+    vary,
+    h("div", { class: "fit-buttons" }, button, undo),
+    status,
+    problem,
+    outcome,
+  );
+  let record = null;
+  let shape = "";
+  let labels = {};
+  let before = null;
+
+  const addRow = (name = null, value = "", channel = false) => {
+    const { drop } = store.get();
+    const names = channel ? forces(drop) : quantities(drop);
+    const own = name ?? names[0][0];
+    const text = h("input", {
+      type: "text",
+      class: "fit-value",
+      value,
+      readonly: channel,
+      spellcheck: "false",
+      placeholder: EXAMPLES[own.split(".")[0]],
+      "aria-label": channel ? "Channel of the file" : "Value with its error",
+    });
+    const row = h(
+      "li",
+      { class: "fit-row" },
+      choice({
+        label: "Quantity",
+        quiet: true,
+        groups: [["", names]],
+        value: own,
+        set: (chosen) => (text.placeholder = EXAMPLES[chosen.split(".")[0]] ?? ""),
+      }),
+      text,
+      h("button", { type: "button", class: "icon", text: "×", "aria-label": "Leave this out", onclick: () => row.remove() }),
+    );
+    rows.append(row);
+    return row;
+  };
+  const offer = (next) => {
+    record = next;
+    rows.replaceChildren();
+    const told = Object.entries(next?.measured ?? {});
+    const single = told.length === 1 && told[0][0] === "rebound_ratios.0" && store.get().drop.balls.length > 1;
+    alone.hidden = !single;
+    if (!single) for (const [name, value] of told) addRow(name, value, name.startsWith("force."));
+    if (!rows.hasChildNodes()) addRow();
+    outcome.replaceChildren();
+    undo.hidden = true;
+    offerVaried();
+  };
+  const offerVaried = async () => {
+    const { drop } = store.get();
+    const { paths } = await api.mapPaths(drop).catch(() => ({ paths: [] }));
+    if (drop !== store.get().drop) return;
+    const own = paths.filter(({ path }) => !path.endsWith("_ratio"));
+    const clocks = [...rows.querySelectorAll("select")].some(({ value }) => /^(force|dur|first|last)/.test(value));
+    shape = shapeOf(drop);
+    labels = { touch: "First touch on the record’s clock" };
+    for (const { path, label } of own) labels[path] = capital(label);
+    vary.replaceChildren(
+      h("legend", { text: "What may vary" }),
+      ...own.map(({ path, label }) => {
+        const box = h("input", { type: "checkbox", name: "vary", value: path, checked: isLikely(path, drop, clocks) });
+        return h("label", { class: "check" }, box, capital(label));
+      }),
+    );
+  };
+  const follow = () => {
+    if (shapeOf(store.get().drop) !== shape) offer(record);
+  };
+
+  element.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const { drop } = store.get();
+    button.disabled = true;
+    problem.hidden = true;
+    write(status, "Fitting …");
+    try {
+      const answer = await api.fit(request(drop));
+      before = drop;
+      undo.hidden = false;
+      outcome.replaceChildren(...told(answer, { ...labels, ...Object.fromEntries([...forces(drop), ...quantities(drop)]) }));
+      write(status, "Fitted: the drop is now the best one.");
+      fitted(answer);
+    } catch (error) {
+      write(status, "");
+      write(problem, error.message);
+      problem.hidden = false;
+    }
+    button.disabled = false;
+  });
+  undo.addEventListener("click", () => {
+    store.set({ drop: before });
+    undo.hidden = true;
+    outcome.replaceChildren();
+    write(status, "The drop is as it was.");
+    button.focus();
+  });
+
+  const request = (drop) => {
+    const form = new FormData();
+    const told = [...rows.children].map((row) => [row.querySelector("select").value, row.querySelector("input").value.trim()]);
+    const used = told.filter(([, value]) => value !== "");
+    if (used.length === 0) throw new Error("Type what was measured, with its error, such as 1.72 ± 0.03 m.");
+    const twice = used.find(([name], i) => used.findIndex(([other]) => other === name) < i);
+    if (twice) throw new Error(`Two values are of the same quantity, ${twice[0]}.`);
+    const chosen = [...vary.querySelectorAll("input:checked")].map(({ value }) => value);
+    if (chosen.length === 0) throw new Error("Choose at least one number that may vary.");
+    form.append("drop", JSON.stringify(drop));
+    form.append("vary", JSON.stringify(chosen));
+    form.append("measured", JSON.stringify(Object.fromEntries(used)));
+    if (record?.file) {
+      form.append("file", record.file);
+      form.append("options", JSON.stringify(record.options));
+    }
+    return form;
+  };
+  return { element, offer, follow };
+}
+
+/** Return a drop without the balls on top; a spring gets a damping, as a ball alone is measured for its loss. */
+function lowest(drop) {
+  const [{ law, stiffness }] = drop.contacts;
+  const lossy = { law: "Dashpot", stiffness, damping: Number((0.2 * Math.sqrt(stiffness * drop.balls[0].mass)).toPrecision(2)) };
+  const contacts = law === "Spring" ? [lossy] : drop.contacts.slice(0, 1);
+  const next = { ...drop, balls: drop.balls.slice(0, 1), contacts, gaps: [] };
+  if (drop.velocities) next.velocities = drop.velocities.slice(0, 1);
+  return next;
+}
+
+/** What makes the choices of a form other ones. */
+function shapeOf({ balls, contacts }) {
+  return JSON.stringify([balls.map(({ name }) => name), contacts.map(({ law }) => law)]);
+}
+
+function forces(drop) {
+  return drop.balls.map((_, i) => [`force.${i}`, `Force of ${contactName(drop, i)}`]);
+}
+
+function quantities(drop) {
+  const each = (names, of) =>
+    Object.entries(names).flatMap(([name, says]) => drop.balls.map((_, i) => [`${name}.${i}`, `${capital(says)} of ${of(drop, i)}`]));
+  return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", "Kinetic energy kept"]];
+}
+
+/** What tells a law's loss. */
+const LOSSES = ["restitution", "damping", "dissipation", "dissipative_time", "unloading_exponent"];
+
+/** Which numbers are usually unknown: losses, and with a clock stiffnesses; without one only their ratios show. */
+function isLikely(path, drop, clocks) {
+  const [part, index, field] = path.split(".");
+  if (part !== "contacts") return false;
+  const loss = (law) => LOSSES.find((name) => law[name] !== undefined);
+  if (field === loss(drop.contacts[index])) return true;
+  const lossless = !drop.contacts.some(loss);
+  return field === "stiffness" && (clocks || (lossless && Number(index) === drop.contacts.length - 1));
+}

@@ -1,0 +1,180 @@
+/** The map: how a number of the outcome depends on two numbers of the drop. */
+
+import { scaleOfColors } from "./colors.js";
+import { h, write } from "./dom.js";
+import { sideOf } from "./map_axes.js";
+import { drawMap, drawMarks, frameOf } from "./map_draw.js";
+import { mapForm } from "./map_form.js";
+import { mapper } from "./map_request.js";
+import { outcome, place, summary as inWords, withNumbers } from "./map_words.js";
+import { onRepaint, palette } from "./palette.js";
+import { capital } from "./words.js";
+
+const REST = 40; // ms without a change
+const STEP = 1 / 60; // of a side, for one press of an arrow
+const KEYS =
+  "Arrow keys move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there.";
+
+/** Build the view into `root`. */
+export function mount(root, store, api) {
+  const parts = build();
+  const form = mapForm((map) => store.set({ map }));
+  root.replaceChildren(parts.figure, h("div", { class: "map-side" }, form.element, parts.summary));
+  let chosen = null; // {settings, paths, shows}
+  let answer = null;
+  let pointed = null; // [x, y] as parts of the sides
+  let timer = 0;
+  let asked = []; // the drop and the settings that were asked for
+
+  const requests = mapper(api, (news) => {
+    if (news.settings) {
+      chosen = news;
+      form.update(news);
+    }
+    if (news.answer) {
+      answer = { ...news.answer, settings: chosen.settings, paths: chosen.paths };
+      write(parts.message, "");
+      parts.again.hidden = true;
+      draw();
+    }
+    parts.figure.classList.toggle("stale", Boolean(news.problem));
+    if (news.problem) {
+      write(parts.message, news.preparing ? `${capital(news.problem)} …` : news.problem);
+      parts.again.hidden = Boolean(news.preparing);
+    }
+  });
+  const refresh = () => {
+    const { view, drop, map } = store.get();
+    clearTimeout(timer);
+    if (view !== "map") {
+      requests.drop();
+      asked = [];
+      return;
+    }
+    timer = setTimeout(() => {
+      asked = [drop, map];
+      if (!answer) write(parts.message, "Computing …");
+      requests.ask(drop, map);
+    }, REST);
+  };
+  const draw = () => {
+    if (!answer || root.hidden) return;
+    const whole = answer.show.startsWith("collisions");
+    drawMap(parts.field, answer, answer.settings, scaleOfColors(answer.values, whole), palette());
+    write(parts.summary, inWords(answer));
+    parts.board.setAttribute("aria-label", `Map: ${answer.label}; across, ${answer.x.label}; up, ${answer.y.label}`);
+    write(parts.title, capital(answer.label));
+    mark();
+  };
+  const mark = () => {
+    const there = present();
+    drawMarks(parts.marks, inside(there) ? there : null, pointed, palette());
+    const where = inside(there) ? "The cross is the present drop." : "The present drop lies outside of this map.";
+    write(parts.readout, pointed ? told(pointed) : `${where} Choose a point to play its drop.`);
+  };
+  /** Where the present drop is, in parts of the sides. */
+  const present = () => {
+    const { settings, paths } = answer;
+    return [settings.x, settings.y].map((side) =>
+      sideOf(side).part(paths.find(({ path }) => path === side.path).value),
+    );
+  };
+  /** What the map says at parts of the sides: values, and the outcome at the nearest point. */
+  const at = ([x, y]) => {
+    const { settings, values } = answer;
+    const nearest = (part, count) => Math.round(part * (count - 1));
+    return {
+      point: [sideOf(settings.x).value(x), sideOf(settings.y).value(y)],
+      value: values[nearest(y, values.length)][nearest(x, values[0].length)],
+    };
+  };
+  const told = (spot) => {
+    const { point, value } = at(spot);
+    return `${capital(place(answer, point))}: ${outcome(answer, value)}.`;
+  };
+  const play = () => {
+    if (!answer || !pointed) return;
+    const { point } = at(pointed);
+    const { x, y } = answer.settings;
+    const drop = withNumbers(answer.drop, { [x.path]: point[0], [y.path]: point[1] });
+    store.set({ drop, view: "play", t: null });
+    parts.play.hidden = true;
+    document.getElementById("tab-play")?.focus();
+  };
+
+  const follow = (event) => {
+    if (!answer) return;
+    const box = parts.marks.getBoundingClientRect();
+    const frame = frameOf(box.width, box.height);
+    const spot = [
+      (event.clientX - box.left - frame.left) / frame.width,
+      1 - (event.clientY - box.top - frame.top) / frame.height,
+    ];
+    pointed = inside(spot) ? spot : null;
+    mark();
+  };
+  parts.board.addEventListener("pointermove", follow);
+  parts.board.addEventListener("pointerdown", follow);
+  parts.board.addEventListener("pointerleave", (event) => {
+    if (event.pointerType !== "mouse") return;
+    pointed = null;
+    if (answer) mark();
+  });
+  parts.board.addEventListener("click", (event) => {
+    follow(event);
+    // A finger hides what it points at: it looks first, and plays by the button.
+    if (event.pointerType === "touch") parts.play.hidden = !pointed;
+    else play();
+  });
+  parts.play.addEventListener("click", play);
+  parts.board.addEventListener("keydown", (event) => {
+    const way = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowDown: [0, -1], ArrowUp: [0, 1] }[event.key];
+    if (!answer || (!way && !["Enter", "Home", "Escape"].includes(event.key))) return;
+    event.preventDefault();
+    if (event.key === "Enter") return play();
+    if (event.key === "Escape") pointed = null;
+    else if (!way || !pointed) pointed = present().map(within);
+    else pointed = pointed.map((part, i) => within(part + way[i] * STEP * (event.shiftKey ? 10 : 1)));
+    mark();
+    write(parts.live, pointed ? told(pointed) : "");
+    parts.play.hidden = !pointed;
+  });
+  parts.again.addEventListener("click", refresh);
+  new ResizeObserver(draw).observe(parts.board);
+  onRepaint(draw);
+  store.subscribe((state) => {
+    if (state.view === "map" && (state.drop !== asked[0] || state.map !== asked[1])) refresh();
+    else if (state.view !== "map" && asked.length) refresh();
+  });
+  refresh();
+}
+
+function inside(spot) {
+  return spot.every((part) => part >= 0 && part <= 1);
+}
+
+function within(part) {
+  return Math.min(Math.max(part, 0), 1);
+}
+
+function build() {
+  const field = h("canvas", { class: "map-field", "aria-hidden": "true" });
+  const marks = h("canvas", { class: "map-marks", "aria-hidden": "true" });
+  const board = h(
+    "div",
+    { class: "map-board", tabindex: "0", role: "application", "aria-roledescription": "map", "aria-describedby": "map-keys map-summary", "aria-label": "Map" },
+    field,
+    marks,
+  );
+  const title = h("h2", { class: "map-title" });
+  const readout = h("p", { class: "map-readout" });
+  const play = h("button", { type: "button", class: "map-play", text: "Play this drop", hidden: true });
+  const live = h("p", { class: "quiet", "aria-live": "polite" });
+  const message = h("p", { class: "map-message", role: "status" });
+  const again = h("button", { type: "button", text: "Try again", hidden: true });
+  const summary = h("p", { class: "note", id: "map-summary" });
+  const keys = h("p", { class: "quiet", id: "map-keys", text: KEYS });
+  const box = h("div", { class: "map-box" }, board, h("div", { class: "map-over" }, message, again));
+  const figure = h("section", { class: "map-figure", "aria-label": "Map" }, title, readout, play, box, keys, live);
+  return { figure, field, marks, board, title, readout, play, live, message, again, summary };
+}

@@ -1,0 +1,72 @@
+/** Asks for a map: first a coarse one, then a fine one; the newest question wins. */
+
+import { firstSide, isSide } from "./map_axes.js";
+import { RATIOS } from "./map_words.js";
+
+const COARSE = [24, 18];
+const FINE = [120, 90]; // springs are solved in closed form
+const SLOWER = [60, 45];
+const AGAIN = 1500; // ms until the next try, while the server prepares itself
+const PREPARING = /being prepared/;
+
+/** Return how many points the last map of a drop has along its sides. */
+export function fineness(drop) {
+  return drop.contacts.every(({ law }) => ["Spring", "Rigid", "none"].includes(law)) ? FINE : SLOWER;
+}
+
+/** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, {answer} or {problem, preparing}. */
+export function mapper(api, tell) {
+  let newest = 0;
+  let ready = false;
+  const prepare = async () => {
+    ready ||= (await api.status()).ready;
+    if (!ready) throw new Error("the fast engine is being prepared, which takes a minute at the first start");
+  };
+  const ask = async (drop, wanted) => {
+    newest += 1;
+    const mine = newest;
+    try {
+      const { paths, shows } = await api.mapPaths(drop);
+      if (mine !== newest) return;
+      const settings = complete(wanted, paths, shows, drop);
+      tell({ settings, paths, shows });
+      await prepare();
+      for (const [across, up] of [COARSE, fineness(drop)]) {
+        const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
+        const answer = await api.map({ drop, x, y, show: settings.show });
+        if (mine !== newest) return;
+        tell({ answer });
+      }
+    } catch (error) {
+      if (mine !== newest) return;
+      const preparing = PREPARING.test(error.message);
+      tell({ problem: error.message, preparing });
+      if (preparing) setTimeout(() => mine === newest && ask(drop, wanted), AGAIN);
+    }
+  };
+  return { ask, drop: () => (newest += 1) };
+}
+
+/** Return the settings of a map, with what is not wanted, or does not fit the drop, chosen. */
+function complete(wanted, paths, shows, drop) {
+  const known = (side) => (isSide(side) && paths.some(({ path }) => path === side.path) ? side : null);
+  const best = (other) => {
+    const free = paths.filter(({ path }) => !depends(path, other?.path));
+    const first = FIRST.map((kind) => free.find(({ path }) => path.startsWith(kind))).find(Boolean);
+    return firstSide(first ?? free[0] ?? paths[0]);
+  };
+  const x = known(wanted?.x) ?? best(known(wanted?.y));
+  const y = known(wanted?.y) ?? best(x);
+  const last = `rebound_ratio.${drop.balls.length - 1}`;
+  const show = shows.some((one) => one.show === wanted?.show) ? wanted.show : last;
+  return { x, y, show };
+}
+
+/** Which numbers are mapped first. */
+const FIRST = ["mass_ratio", "stiffness_ratio", "contacts", "balls"];
+
+/** Return whether two numbers are the same, or one is set by the other. */
+function depends(path, other) {
+  if (other === undefined) return false;
+  return path === other || RATIOS[path]?.[0] === other || RATIOS[other]?.[0] === path;
+}

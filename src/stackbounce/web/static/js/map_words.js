@@ -1,0 +1,67 @@
+/** A map in words, and the drop that a point of it stands for. */
+
+import { gapsOf, withValue } from "./drops.js";
+import { clean, format, pretty, shownUnit } from "./units.js";
+import { count } from "./words.js";
+
+/** Return a number with its unit as people read it. */
+export function quantity(value, unit) {
+  const { unit: name, size } = shownUnit(unit, unit === "m" && Math.abs(value) >= 0.1);
+  return `${format(clean(value / size), 3)}${name ? ` ${pretty(name)}` : ""}`;
+}
+
+/** Return a label without what explains it. */
+export function brief(label) {
+  return label.replace(/, .*$/, "");
+}
+
+/** Return what an outcome is at a point, in words. */
+export function outcome({ show, unit }, value) {
+  if (value === null) return "not finished";
+  return show.startsWith("collisions") ? count(value) : quantity(value, unit);
+}
+
+/** Return a point `[x, y]` of two values in words. */
+export function place({ x, y }, point) {
+  return `${brief(x.label)} ${quantity(point[0], x.unit)}, ${brief(y.label)} ${quantity(point[1], y.unit)}`;
+}
+
+/** Return what a map shows as a whole: its ends and where they are. */
+export function summary(answer) {
+  const { values, x, y, label } = answer;
+  let [low, high] = [null, null];
+  const order = (value) => (answer.show.startsWith("collisions") && value < 0 ? Infinity : value);
+  values.forEach((line, row) =>
+    line.forEach((value, column) => {
+      if (value === null) return;
+      const one = { value, at: [x.values[column], y.values[row]] };
+      if (!low || order(value) < order(low.value)) low = one;
+      if (!high || order(value) > order(high.value)) high = one;
+    }),
+  );
+  const total = values.length * values[0].length;
+  const open = answer.unfinished ? ` ${answer.unfinished} of ${total} points, hatched, could not be finished.` : "";
+  if (!low) return `No point of this map could be finished.`;
+  const [least, most] = [outcome(answer, low.value), outcome(answer, high.value)];
+  const name = label[0].toUpperCase() + label.slice(1);
+  if (least === most) return `${name}: ${least} everywhere.${open}`;
+  return `${name}: smallest ${least} at ${place(answer, low.at)}; largest ${most} at ${place(answer, high.at)}.${open}`;
+}
+
+/** The numbers that follow from a ratio: which one is set, and which other one it refers to. */
+export const RATIOS = {
+  mass_ratio: ["balls.0.mass", "balls.1.mass"],
+  stiffness_ratio: ["contacts.0.stiffness", "contacts.1.stiffness"],
+};
+
+/** Return a drop with numbers changed, by path; ratios last, as they refer to others. */
+export function withNumbers(drop, numbers) {
+  const own = Object.entries(numbers).sort(([a], [b]) => Number(a in RATIOS) - Number(b in RATIOS));
+  let next = { ...drop, gaps: gapsOf(drop) };
+  for (const [path, value] of own) {
+    const [set, other] = RATIOS[path] ?? [path];
+    const reference = other ? other.split(".").reduce((part, key) => part[key], next) : 1;
+    next = withValue(next, set, clean(Number((value * reference).toPrecision(4))));
+  }
+  return next;
+}

@@ -1,0 +1,81 @@
+/** Bring your own: a file of measurements, what is found in it, and the drop beside it. */
+
+import { h, write } from "./dom.js";
+import { fitForm } from "./fit_form.js";
+import { fileDrop } from "./file_drop.js";
+import { foundIn, recognised } from "./measure_found.js";
+import { measureForm } from "./measure_form.js";
+import { Overlay } from "./overlay.js";
+
+/** Build the view into `root`. */
+export function mount(root, store, api) {
+  const said = h("div", { class: "recognised", role: "status" });
+  const problem = h("p", { class: "field-error", role: "alert", hidden: true });
+  const found = h("section", { class: "measure-card", "aria-label": "What was found", hidden: true });
+  const plot = h("section", { class: "measure-card", "aria-label": "The record and the drop", hidden: true });
+  const overlay = new Overlay(plot, store, api);
+  let file = null;
+  let newest = 0;
+
+  const fit = fitForm(store, api, (answer) => {
+    store.set({ drop: answer.drop, t: null });
+    if (answer.series.length) overlay.show({ series: answer.series, zero: 0 });
+  });
+  const ask = async () => {
+    newest += 1;
+    const mine = newest;
+    if (!file) return;
+    write(said, `Reading ${file.name} …`);
+    problem.hidden = true;
+    try {
+      const options = form.options();
+      const body = new FormData();
+      body.append("file", file);
+      body.append("options", JSON.stringify(options));
+      const answer = await api.measure(body);
+      if (mine !== newest) return;
+      said.replaceChildren(...recognised(answer));
+      found.replaceChildren(...foundIn(answer, store));
+      found.hidden = false;
+      if (answer.doubt) unsaid.open = true;
+      overlay.show(answer);
+      fit.offer({ measured: answer.measured, file, options });
+    } catch (error) {
+      if (mine !== newest) return;
+      write(said, "");
+      write(problem, error.message);
+      problem.hidden = false;
+      unsaid.open = true;
+      found.hidden = true;
+      overlay.clear();
+      fit.offer(null);
+    }
+  };
+  const form = measureForm(ask);
+  const drop = fileDrop(root, (given, known) => {
+    file = given;
+    if (known) store.set({ drop: known, until: null });
+    ask();
+  });
+  const unsaid = h(
+    "details",
+    { class: "measure-card", open: matchMedia("(min-width: 900px)").matches },
+    h("summary", {}, h("h2", { text: "What the file does not say" })),
+    form.element,
+  );
+  root.replaceChildren(
+    h(
+      "div",
+      { class: "measure-in" },
+      h("section", { class: "measure-card", "aria-labelledby": "measure-title" }, drop, said, problem),
+      found,
+      unsaid,
+    ),
+    h("div", { class: "measure-out" }, plot, h("section", { class: "measure-card" }, fit.element)),
+  );
+  fit.offer(null);
+  store.subscribe((state, before) => {
+    if (state.drop !== before.drop) fit.follow();
+    if (state.result !== before.result || state.drop !== before.drop) overlay.follow();
+  });
+}

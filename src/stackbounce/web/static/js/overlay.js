@@ -1,0 +1,109 @@
+/** A record beside the simulated drop: keeps both, the shift between their clocks, and the plots in step. */
+
+import { h } from "./dom.js";
+import { bestShift, laid, lines, matched, shifted } from "./record.js";
+import { recordPlot } from "./record_plot.js";
+import { capital, contactName } from "./words.js";
+
+const GRAVITY = 9.80665;
+const LONGEST = 10; // s of a track that are simulated
+
+/** Draws into `card`, and hands the store's `overlays` to the play view. */
+export class Overlay {
+  constructor(card, store, api) {
+    [this.card, this.store, this.api] = [card, store, api];
+    this.plot = recordPlot();
+    this.notes = h("div", { class: "note" });
+    card.append(this.plot.element, this.notes);
+    this.record = null;
+    this.asked = 0;
+  }
+
+  /** Take a record `{series, zero}`, and look where it lies best. */
+  show(record) {
+    this.record = record;
+    this.shift = 0;
+    this.fresh = true;
+    this.store.set({ overlays: [] });
+    this.card.hidden = record.series.length === 0;
+    if (!this.card.hidden) this.follow();
+  }
+
+  clear() {
+    this.record = null;
+    this.card.hidden = true;
+    this.store.set({ overlays: [] });
+  }
+
+  /** Draw the record beside what is now simulated. */
+  async follow() {
+    if (!this.record?.series.length) return;
+    const { drop } = this.store.get();
+    const { curves } = laid(this.record, drop);
+    this.asked += 1;
+    const mine = this.asked;
+    const result = curves.length ? await this.simulated(curves).catch(() => null) : null;
+    if (mine !== this.asked || !this.record) return;
+    this.result = result;
+    this.curves = result ? curves : this.record.series;
+    this.lines = result ? lines(result, curves) : null;
+    if (result && this.fresh && curves[0].what === "position") this.shift = this.best();
+    this.fresh = false;
+    this.draw(true);
+  }
+
+  /** A force is of the impact, which the page has; a track is of the whole drop, with gravity. */
+  async simulated(curves) {
+    const { drop, result, until } = this.store.get();
+    if (curves[0].what === "force") {
+      const now = result && until === null ? result : await this.api.simulate(drop);
+      return now.frames.force.length ? now : null;
+    }
+    const end = Math.max(...curves.map(({ time }) => time.at(-1)));
+    return this.api.simulate({ ...drop, gravity: drop.gravity || GRAVITY }, Math.min(Math.max(end, 0.05), LONGEST));
+  }
+
+  get reach() {
+    const [begin, end] = this.result.impact;
+    return Math.max(end - begin, 1e-3);
+  }
+
+  best() {
+    return bestShift(this.curves, this.lines, this.reach, 0.5 * (this.result.impact[0] + this.result.impact[1]));
+  }
+
+  draw(settled) {
+    const { result, shift } = this;
+    const put = result ? matched(shifted(this.curves, shift), this.lines) : { curves: this.curves, notes: [] };
+    const move = (next, done) => {
+      this.shift = next;
+      this.draw(done);
+    };
+    this.plot.show({
+      record: this.record,
+      curves: put.curves,
+      simulated: this.lines,
+      names: put.curves.map((one) => this.name(one)),
+      window: result ? [result.impact[0] - 0.25 * this.reach, result.impact[1] + 0.5 * this.reach] : null,
+      whole: put.curves[0].what === "position",
+      shift,
+      reach: this.reachOrNone(),
+      move,
+      align: () => move(this.best(), true),
+    });
+    this.notes.replaceChildren(...put.notes.map((text) => h("p", { text: capital(text) })));
+    if (settled && result) {
+      this.store.set({ overlays: put.curves.map((one) => ({ ...one, label: `measured ${one.label}` })) });
+    }
+  }
+
+  reachOrNone() {
+    return this.result ? this.reach : 1;
+  }
+
+  name({ what, index, label }) {
+    const { drop } = this.store.get();
+    if (!this.result) return label;
+    return what === "force" ? contactName(drop, index) : label;
+  }
+}
