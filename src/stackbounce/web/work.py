@@ -110,16 +110,32 @@ class Workers:
             self._under_way -= 1
 
 
+_LOADING = 10.0  # s, that a process may take to load what another one has compiled
+
 _prepared = threading.Event()
+_elsewhere: list[Any] = []  # the event that tells that some process has compiled the kernels
 
 
-def prepared() -> bool:
-    """Tell, in a process that computes, whether the compiled kernels are at hand."""
+def prepared(*, wait: bool = False) -> bool:
+    """Tell, in a process that computes, whether the compiled kernels are at hand.
+
+    Parameters
+    ----------
+    wait : bool, optional
+        For them to be loaded, if another process has compiled them already.
+
+    Returns
+    -------
+    bool
+    """
+    if wait and any(event.is_set() for event in _elsewhere):
+        _prepared.wait(_LOADING)
     return _prepared.is_set()
 
 
 def _begin(one_at_a_time: Any, ready: Any) -> None:
     """Begin a process: load the kernels while the first jobs run as plain Python."""
+    _elsewhere.append(ready)
     threading.Thread(target=_prepare, args=(one_at_a_time, ready), daemon=True).start()
 
 

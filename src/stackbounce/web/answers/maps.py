@@ -83,7 +83,7 @@ def drop_map(drop: Drop, x: Line, y: Line, show: str, events: int) -> str:
     InvalidValue
         If there is no such number, or a value makes no drop.
     """
-    if not prepared():
+    if not prepared(wait=True):
         raise InvalidValue(
             "the fast engine is being prepared, which takes a minute at the first start: "
             "try again soon"

@@ -129,13 +129,16 @@ function check(text, checked, set) {
   return h("label", { class: "check" }, box, text);
 }
 
+let before = 0; // m/s², gravity during the impact, when a whole drop was asked for
+
 /** Return the patch that shows falls, bounces and flights: long enough for the highest ball to come down. */
 function whole({ drop, result }) {
   const fastest = Math.max(1, ...(result?.rebound_speeds ?? []).filter(Number.isFinite));
   const until = Math.min(Math.ceil((2.4 * fastest) / GRAVITY), 8);
+  before = drop.gravity;
   return { until, slow: LIFE, t: null, drop: { ...drop, gravity: GRAVITY } };
 }
 
 function alone({ drop }) {
-  return { until: null, slow: FIRST.slow, t: null, drop: { ...drop, gravity: 0 } };
+  return { until: null, slow: FIRST.slow, t: null, drop: { ...drop, gravity: before } };
 }
