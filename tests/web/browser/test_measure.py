@@ -1,78 +1,90 @@
-"""Bring your own: a file on the page, what was found in it, and a fit in place."""
+"""Bring your own, in Chromium: a file is read, laid over the drop, and the drop fitted to it."""
 
-import re
-from pathlib import Path
-
+import numpy as np
 import pytest
 
 from stackbounce.web import LIMITS
 
-EXAMPLES = Path(__file__).parents[3] / "src" / "stackbounce" / "web" / "static" / "examples"
-
 
 def opened(visit):
     page = visit.open("#view=measure")
-    page.get_by_role("button", name="Fit", exact=True).wait_for()
+    page.locator(".fit-vary input").first.wait_for()
     return page
 
 
-def found(page):
-    return page.locator('#measure section[aria-label="What was found"] table').first
+def tried(page, title):
+    page.get_by_role("button", name=title).click()
+    page.locator(".recognised b").wait_for()
 
 
-def test_a_force_is_recognised_laid_over_and_fitted(visit):
-    page = opened(visit)
-    page.locator("#measure input[type=file]").set_input_files(EXAMPLES / "floor-force.csv")
-    found(page).locator("tr").nth(5).wait_for()
-    page.wait_for_function("() => window.stackbounce.store.get().overlays.length > 0")
-    page.get_by_label("Stiffness of floor and basketball").check()
-    page.get_by_label("Stiffness of basketball and tennis").check()
+def fitted(page):
     page.get_by_role("button", name="Fit", exact=True).click()
     page.locator(".fit-outcome table").first.wait_for()
+
+
+def apart(visit):
+    """Return how far the record is from the simulated force, in N, on the mean."""
+    (overlay,) = visit.state("overlays")
+    frames = visit.state("result.frames")
+    force = np.interp(overlay["time"], frames["time"], frames["force"][0])
+    return np.abs(np.array(overlay["values"]) - force).mean()
+
+
+def test_a_force_record_is_laid_over_the_drop_and_fitted(visit):
+    page = opened(visit)
+    tried(page, "Force on the floor")
+    found = page.locator(".measure-in table").inner_text()
+    assert "30.00 ± 0.06 ms" in found
+    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    before = apart(visit)
+    fitted(page)
     visit.ready()
-    fitted = [contact["stiffness"] for contact in visit.state("drop.contacts")]
-    assert fitted == pytest.approx([2700.0, 1350.0], rel=0.03)  # with which the example was made
+    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    stiffness = [visit.state(f"drop.contacts[{i}].stiffness") for i in (0, 1)]
+    assert stiffness[0] == pytest.approx(2700.0, abs=3 * 2.2)  # errors as the fit tells them
+    assert stiffness[1] == pytest.approx(1350.0, abs=3 * 7.0)
+    assert before > 1.0
+    assert apart(visit) < 0.5  # N, what its noise is
+    page.evaluate("() => scrollTo(0, 0)")
     visit.picture("measure")
-    page.get_by_role("tab", name="Play").click()
-    labels = page.locator(".plot .legend").nth(1).inner_text()
-    assert "force" in labels.lower()
-    page.get_by_role("tab", name="Measure").click()
     page.get_by_role("button", name="Back to the drop before").click()
-    assert visit.state("drop.contacts[0].stiffness") == 2500.0
+    assert visit.state("drop.contacts[0].stiffness") == 2500
 
 
-def test_a_track_gives_rebound_ratios(visit):
+def test_the_record_can_be_shifted_by_hand(visit):
     page = opened(visit)
-    page.get_by_role("button", name="Video of two balls").click()
-    found(page).wait_for()
-    values = page.locator(".fit-value").evaluate_all("(all) => all.map((one) => one.value)")
-    assert len(values) == 2
-    assert all(re.fullmatch(r"-?[\d.]+ ± [\d.]+", value) for value in values)
-    page.wait_for_function("() => window.stackbounce.store.get().overlays.length === 2")
-    assert {one["what"] for one in visit.state("overlays")} == {"position"}
+    tried(page, "Force on the floor")
+    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    first = visit.state("overlays[0].time[0]")
+    slider = page.locator("#record-shift")
+    for _ in range(5):
+        slider.press("ArrowRight")
+    assert visit.state("overlays[0].time[0]") > first + 1e-4
+    assert page.locator(".record-moved").inner_text().startswith("+")
 
 
-def test_a_file_can_be_dropped_on_the_page(visit):
+def test_a_track_shows_how_much_is_lost(visit):
     page = opened(visit)
-    text = (EXAMPLES / "floor-force.csv").read_text()
-    page.evaluate(
-        """(text) => {
-             const data = new DataTransfer();
-             data.items.add(new File([text], "mine.csv", { type: "text/csv" }));
-             const target = document.querySelector("#measure");
-             for (const type of ["dragenter", "dragover", "drop"]) {
-               target.dispatchEvent(new DragEvent(type, { bubbles: true, cancelable: true,
-                                                          dataTransfer: data }));
-             } }""",
-        text,
-    )
-    page.locator(".recognised").filter(has_text="mine.csv").wait_for()
+    tried(page, "Video of two balls")
+    fitted(page)
+    damping = [visit.state(f"drop.contacts[{i}].damping") for i in (0, 1)]
+    assert damping == pytest.approx([8.0, 2.0], abs=0.5)
+
+
+def test_a_typed_height_is_fitted(visit):
+    page = opened(visit)
+    page.locator(".fit-row select").select_option("rebound_heights.1")
+    page.locator(".fit-value").fill("1.72 ± 0.03 m")
+    fitted(page)
+    visit.ready()
+    assert visit.state("result.rebound_heights[1]") == pytest.approx(1.72, abs=1e-3)
 
 
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        (b"", "is empty"),
+        (b"", "mine.csv is empty"),
+        (b"Dear Sir or Madam,\n", "mine.csv: "),
         (b"%PDF-1.7 and so on", "it is a PDF document"),
         (b"x" * (LIMITS.upload_bytes + 1), "larger than 16 MiB"),
     ],
@@ -85,16 +97,6 @@ def test_a_file_that_is_none_is_told(visit, content, message):
     visit.complaints.clear()  # Chromium logs the refusal, which is the point here
 
 
-def test_typed_numbers_are_fitted_without_a_file(visit):
-    page = opened(visit)
-    page.locator(".fit-row select").select_option("rebound_ratios.1")
-    page.locator(".fit-value").fill("1.64 ± 0.02")
-    page.get_by_role("button", name="Fit", exact=True).click()
-    page.locator(".fit-outcome table").first.wait_for()
-    visit.ready()
-    assert visit.state("result.rebound_ratios")[1] == pytest.approx(1.64, abs=0.005)
-
-
 def test_a_fit_that_cannot_be_is_told(visit):
     page = opened(visit)
     page.locator(".fit-value").fill("about 2")
@@ -103,13 +105,24 @@ def test_a_fit_that_cannot_be_is_told(visit):
     visit.complaints.clear()  # Chromium logs the answer 422, which is the point here
 
 
-def test_a_phone_shows_it_all(visits):
-    visit = visits(viewport={"width": 360, "height": 780}, has_touch=True, is_mobile=True)
+def test_a_dropped_file_is_read(visit):
     page = opened(visit)
-    force = page.get_by_role("button", name="Force on the floor")
-    if not force.is_visible():
-        page.get_by_text("Or try an example").click()
-    force.click()
-    found(page).wait_for()
-    assert page.evaluate("() => document.documentElement.scrollWidth") <= 360
+    page.evaluate(
+        """(text) => { const data = new DataTransfer();
+             data.items.add(new File([text], 'heights.csv'));
+             const event = new DragEvent('drop', { dataTransfer: data, bubbles: true });
+             document.querySelector('.measure-out').dispatchEvent(event); }""",
+        "Height (m)\n1.00\n0.62\n0.39\n0.24\n",
+    )
+    page.locator(".recognised b").wait_for()
+    assert "heights.csv holds a table" in page.locator(".recognised").inner_text()
+    assert "The file is of one ball alone" in page.locator(".fit").inner_text()
+
+
+def test_a_phone_needs_no_scrolling_sideways(visits):
+    visit = visits(viewport={"width": 360, "height": 780}, color_scheme="dark")
+    page = opened(visit)
+    tried(page, "Force on the floor")
+    fitted(page)
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
     visit.picture("measure-phone", full_page=True)
