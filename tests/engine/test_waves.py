@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from stackbounce.engine.waves import cosine, half_turns, sinc
+from stackbounce.engine.waves import cosine, half_turns, nudged, sinc
 
 ROUNDING = 5e-16  # of numbers up to 1, with the standard library's own
 
@@ -29,3 +29,14 @@ def test_half_turns():
         assert abs(angle) <= 0.5 * math.pi * (1.0 + 1e-15)
         assert abs(sign * cosine(angle * angle) - math.cos(x)) <= ROUNDING
         assert abs(sign * (angle * sinc(angle * angle)) - math.sin(x)) <= ROUNDING
+
+
+@pytest.mark.parametrize("omega", [0.0, 0.3, 1.0, 16.0])
+def test_nudged(omega):
+    for angle in np.linspace(-0.01, 0.01, 201).tolist():
+        d = angle / max(omega, 1.0)
+        y, z = nudged(omega, d, 0.6, -0.8)
+        travel = math.sin(omega * d) / omega if omega else d
+        assert abs(y - (0.6 * math.cos(omega * d) - 0.8 * travel)) <= ROUNDING
+        rate = -0.8 * math.cos(omega * d) - 0.6 * omega * math.sin(omega * d)
+        assert abs(z - rate) <= ROUNDING * max(omega, 1.0)
