@@ -14,7 +14,7 @@ from rich.console import Console
 from benchmarks.random_drops import random
 from stackbounce.engine import codes
 from stackbounce.engine.kernel import compiled
-from stackbounce.engine.two_springs import SCRATCH, two_springs
+from stackbounce.engine.two_springs import scratch, two_springs
 
 _LIMIT = 10**6
 
@@ -26,11 +26,10 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     pairs = [np.empty((count, 2)) for _ in range(3)]
     collisions, status = np.empty((count, 2), np.int64), np.empty(count, np.int64)
     out = pairs[0], collisions, *pairs[1:], status
-    scratch = np.zeros(SCRATCH)
-    solve = compiled(two_springs)
+    solve, room = compiled(two_springs), scratch()
 
     def call() -> None:
-        solve(*given, _LIMIT, *out, scratch)
+        solve(*given, _LIMIT, *out, room)
 
     return call, status
 

@@ -7,7 +7,7 @@ import stackbounce as sb
 from reference import make_data, springs
 from stackbounce.engine import codes
 from stackbounce.engine.kernel import compiled
-from stackbounce.engine.two_springs import SCRATCH, two_springs
+from stackbounce.engine.two_springs import SCRATCH, scratch, two_springs
 
 SPEED = 1e-12
 TIME = 1e-11
@@ -25,8 +25,8 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
         "status": np.empty(n, np.int64),
     }
     run = two_springs if plain else compiled(two_springs)
-    scratch = [0.0] * SCRATCH if plain else np.zeros(SCRATCH)
-    run(mass, stiffness, gap, speed, event_limit, *(out[name] for name in NAMES), scratch)
+    room = [0.0] * SCRATCH if plain else scratch()
+    run(mass, stiffness, gap, speed, event_limit, *(out[name] for name in NAMES), room)
     ratio = out["velocity"] / np.asarray(speed)[:, None]
     out["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
     return out
@@ -258,3 +258,8 @@ def test_event_limit():
     out = solve(*drops, event_limit=5)
     events = 2 * full["collisions"].sum(axis=1)
     assert (out["status"] == np.where(events > 5, codes.EVENT_LIMIT, codes.FINISHED)).all()
+
+
+def test_scratch_begins_on_a_cache_line():
+    assert all(room.ctypes.data % 64 == 0 for room in (scratch(), scratch(), scratch()))
+    assert scratch().shape == (SCRATCH,)

@@ -21,6 +21,6 @@ simultaneous  the event loop of a stack with finite contacts
 many          many drops one after the other in the arrays of one stack
 two_springs   two balls on springs without gravity: many drops, fast
 lanes         one look at each of many such drops, in lock step
-waves         cosine and (sin x)/x without branches
+waves         cosine, (sin x)/x and short steps of a wave, without branches
 ============= =====================================================================
 """

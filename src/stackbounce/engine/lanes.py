@@ -2,8 +2,8 @@
 
 Every drop has a lane in one flat array: slot ``N`` of lane i is ``x[N + i]``. All lanes take a look
 at the same time, and what a look does is written without branches, in loops so short that a
-compiler makes vectors of them and a processor works on several rounds at once. Lanes never see each
-other.
+compiler makes vectors of them and a processor, which looks some 200 instructions ahead, works on
+several rounds at once. Lanes never see each other.
 
 In units of the lower ball's mass m1, of 1/omega = sqrt(m1/k1) and of the impact speed, with
 mu = m2/m1 and kappa = k2/k1, and in the coordinates w0 = q0, w1 = sqrt(mu) q1, eqs 5 and 6 read
@@ -30,41 +30,47 @@ import math
 
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.waves import cosine, half_turns, sinc
+from stackbounce.engine.waves import cosine, half_turns, nudged, sinc
 
-LANES = 16
+LANES = 32  # a power of two
 
-# The slots of a drop. Its state: positions, velocities, time, and which contacts press (1 or 0).
-W0, W1, U0, U1, TIME, FLOOR, BALLS = (k * LANES for k in range(7))
-# Its story: how it ended, looks, events, intervals of each contact, the balls' first touch, last
-# releases. Which row it is, and whether its last look was in vain (1 or 0).
-STATUS, LOOKS, EVENTS, N0, N1, FIRST, LAST0, LAST1, ROW = (k * LANES for k in range(7, 16))
-VAIN = 16 * LANES
-# 1/sqrt(mu); with both contacts pressed c, s, a, b, what the balls' contact sees of the modes, 1/a
-# and 1/b; the same for the balls only, where b is 0.
-SLIM, C2, S2, A2, B2, V2, X2, OVER_A2, OVER_B2 = (k * LANES for k in range(17, 26))
-C1, S1, A1, V1, OVER_A1 = (k * LANES for k in range(26, 31))
-DROP = 31  # so many
+# The slots of a drop. What every drop begins with of its own: position and velocity of the upper
+# ball, whether the balls' contact presses (1 or 0), how it has ended, which row it is; 1/sqrt(mu);
+# with both contacts pressed c, s, a, b, what the balls' contact sees of the modes, 1/a and 1/b; the
+# same for the balls only, where b is 0; its units of time and speed.
+W1, U1, BALLS, STATUS, ROW = (k * LANES for k in range(5))
+SLIM, C2, S2, A2, B2, V2, X2, OVER_A2, OVER_B2 = (k * LANES for k in range(5, 14))
+C1, S1, A1, V1, OVER_A1, UNIT, V0 = (k * LANES for k in range(14, 21))
+OWN = 21  # so many
+# What all begin with alike: the lower ball, time, whether the floor's contact presses. Looks,
+# intervals of each contact, the balls' first touch, last releases, and whether the last look was in
+# vain (1 or 0).
+W0, U0, TIME, FLOOR = (k * LANES for k in range(21, 25))
+LOOKS, N0, N1, FIRST, LAST0, LAST1, VAIN = (k * LANES for k in range(25, 32))
 
 # The slots of a look: the rotation of the present regime, how far a series is used, and how far one
 # of the slower mode only. Of the contact that may end the look: what it sees of the modes, a bound
 # of its third derivative over 2, whether (1 or 0) it is the floor's, whether an event is expected,
-# how long after the time that is safe, and how much longer the other contact is safe. Any doubt,
-# and which contact has changed.
-C, S, REACH, LONG = (k * LANES for k in range(31, 35))
-SEES_A, SEES_B, BEND, LOWER, EXPECTED, PAST, SPARE, DOUBT = (k * LANES for k in range(35, 43))
-FLOOR_TURNS, BALLS_TURN = 43 * LANES, 44 * LANES
+# how long after the time that is safe, how much longer the other contact is safe, and its distance
+# from the event somewhere, with the first derivative and half of the second. Any doubt, whether the
+# event is landed on, and which contact has changed.
+C, S, REACH, LONG = (k * LANES for k in range(32, 36))
+SEES_A, SEES_B, BEND, LOWER, EXPECTED, PAST, SPARE = (k * LANES for k in range(36, 43))
+F, G, H, DOUBT, LANDS, FLOOR_TURNS, BALLS_TURN = (k * LANES for k in range(43, 50))
 # Double slots, of mode a in the first half and of mode b in the second: frequency, one over it or
-# 0, position, velocity, and the step.
-OMEGA, OVER, Y, Z, STEP = (k * LANES for k in range(45, 55, 2))
+# 0, position, velocity, the step, and a short one to the event; the step's angle less half turns,
+# their sign, cosine and (sin x)/x.
+OMEGA, OVER, Y, Z, STEP, D = (k * LANES for k in range(50, 62, 2))
+ANGLE, SIGN, COS, SINC = (k * LANES for k in range(62, 70, 2))
 # Double slots, of the floor's contact and of the balls': how far it is from an event (a compression
 # or a gap) as a series, how far that is used, bounds of the third derivative over 2 and of the
 # sixth over 6!, the shares of the modes in distance and rate, what it sees of the modes, and how
-# long nothing happens.
-P0, P1, P2, P3, P4, P5, VALID, THIRD, TAIL = (k * LANES for k in range(55, 73, 2))
-GA, GB, HA, HB, FA, FB, SAFE = (k * LANES for k in range(73, 87, 2))
+# long nothing happens. Of the first three rows the first half is then the contact's that may end
+# the look.
+P0, P1, P2, P3, P4, P5, VALID, THIRD, TAIL = (k * LANES for k in range(70, 88, 2))
+GA, GB, HA, HB, FA, FB, SAFE = (k * LANES for k in range(88, 102, 2))
 OTHER = LANES  # the second half of a double slot
-SLOTS = 87
+SLOTS = 102
 
 WIDEST = 2.5  # rad: how far series of order 5 are used
 _FAST = 64.0  # rad: how far the faster mode goes in one look
@@ -83,8 +89,12 @@ def look(x: Floats, event_limit: float) -> None:
     _differentiate(x, 0)
     _differentiate(x, OTHER)
     _watch(x)
+    _choose(x)
+    _follow(x)
     _aim(x)
     _swing(x)
+    _approach(x)
+    _follow(x)
     _land(x)
     _happen(x, event_limit)
 
@@ -190,45 +200,58 @@ def _watch(x: Floats) -> None:
 
 
 @kernel
-def _aim(x: Floats) -> None:
-    """Find each lane's step: to where its first event is expected, or as far as there is none."""
+def _choose(x: Floats) -> None:
+    """Take the contact that is not safe for as long as the other one, at the end of that time."""
     for i in range(LANES):
         one, other = x[SAFE + i], x[SAFE + OTHER + i]
         lower = 1.0 if one <= other else 0.0
         upper = 1.0 - lower
-        p0, p1 = lower * x[P0 + i], lower * x[P1 + i]
-        p2, p3 = lower * x[P2 + i], lower * x[P3 + i]
-        p4, p5 = lower * x[P4 + i], lower * x[P5 + i]
-        p0, p1 = p0 + upper * x[P0 + OTHER + i], p1 + upper * x[P1 + OTHER + i]
-        p2, p3 = p2 + upper * x[P2 + OTHER + i], p3 + upper * x[P3 + OTHER + i]
-        p4, p5 = p4 + upper * x[P4 + OTHER + i], p5 + upper * x[P5 + OTHER + i]
+        x[LOWER + i], x[D + i], x[SPARE + i] = lower, min(one, other), max(one, other)
+        x[P0 + i] = lower * x[P0 + i] + upper * x[P0 + OTHER + i]
+        x[P1 + i] = lower * x[P1 + i] + upper * x[P1 + OTHER + i]
+        x[P2 + i] = lower * x[P2 + i] + upper * x[P2 + OTHER + i]
+        x[P3 + i] = lower * x[P3 + i] + upper * x[P3 + OTHER + i]
+        x[P4 + i] = lower * x[P4 + i] + upper * x[P4 + OTHER + i]
+        x[P5 + i] = lower * x[P5 + i] + upper * x[P5 + OTHER + i]
+        x[VALID + i] = lower * x[VALID + i] + upper * x[VALID + OTHER + i]
+        x[BEND + i] = lower * x[THIRD + i] + upper * x[THIRD + OTHER + i]
         x[SEES_A + i] = lower * x[FA + i] + upper * x[FA + OTHER + i]
         x[SEES_B + i] = lower * x[FB + i] + upper * x[FB + OTHER + i]
-        x[BEND + i] = lower * x[THIRD + i] + upper * x[THIRD + OTHER + i]
-        reach, short, vain = (
-            lower * x[VALID + i] + upper * x[VALID + OTHER + i],
-            x[REACH + i],
-            x[VAIN + i],
-        )
-        safe, limit = min(one, other), max(one, other)
-        f = p0 + safe * (p1 + safe * (p2 + safe * (p3 + safe * (p4 + safe * p5))))
-        g = p1 + safe * (2.0 * p2 + safe * (3.0 * p3 + safe * (4.0 * p4 + safe * (5.0 * p5))))
-        h = p2 + safe * (3.0 * p3 + safe * (6.0 * p4 + safe * (10.0 * p5)))
+
+
+@kernel
+def _follow(x: Floats) -> None:
+    """Follow that contact's series as far as the short step goes."""
+    for i in range(LANES):
+        p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
+        d = x[D + i]
+        x[F + i] = p0 + d * (p1 + d * (p2 + d * (p3 + d * (p4 + d * p5))))
+        x[G + i] = p1 + d * (2.0 * p2 + d * (3.0 * p3 + d * (4.0 * p4 + d * (5.0 * p5))))
+        x[H + i] = p2 + d * (3.0 * p3 + d * (6.0 * p4 + d * (10.0 * p5)))
+
+
+@kernel
+def _aim(x: Floats) -> None:
+    """Find each lane's step: to where its first event is expected, or as far as there is none."""
+    for i in range(LANES):
+        f, g, h = x[F + i], x[G + i], x[H + i]
+        safe, limit, p0, reach = x[D + i], x[SPARE + i], x[P0 + i], x[VALID + i]
         d = _halley(f, g, h)
         t = safe + d
-        expected = 1.0 - vain if g < -_SLOW and (d >= 0.0 or p0 <= _CLOSE) else 0.0
+        expected = 1.0 if g < -_SLOW and (d >= 0.0 or p0 <= _CLOSE) else 0.0
         expected = expected if t <= limit and t <= reach and abs(d) <= 0.1 * reach else 0.0
-        expected = expected if reach <= short else 0.0
-        step = t if expected > 0.0 else safe
+        expected = expected if reach <= x[REACH + i] else 0.0
+        expected = expected * (1.0 - x[VAIN + i])
+        step = safe + expected * d
         x[STEP + i], x[STEP + OTHER + i] = step, step
-        x[LOWER + i], x[EXPECTED + i], x[PAST + i], x[SPARE + i] = lower, expected, d, limit - t
-        x[DOUBT + i] = 1.0 if expected <= 0.0 and step <= 0.0 else 0.0
+        x[EXPECTED + i], x[PAST + i], x[SPARE + i] = expected, d, limit - t
+        x[DOUBT + i] = 1.0 - expected if step <= 0.0 else 0.0
 
 
 @kernel
 def _halley(f: float, g: float, h: float) -> float:
     """Return Halley's step, to second order, to where f + g d + h d^2 falls through 0."""
-    inverse = 1.0 / (g if g < 0.0 else -1.0)
+    inverse = 1.0 / (g if g < -_SLOW else -1.0)
     d = -f * inverse
     return d * (1.0 - d * h * inverse)
 
@@ -237,12 +260,40 @@ def _halley(f: float, g: float, h: float) -> float:
 def _swing(x: Floats) -> None:
     """Move each mode on by a step."""
     for i in range(2 * LANES):
+        x[SIGN + i], x[ANGLE + i] = half_turns(x[OMEGA + i] * x[STEP + i])
+    for i in range(2 * LANES):
+        x[COS + i] = cosine(x[ANGLE + i] * x[ANGLE + i])
+    for i in range(2 * LANES):
+        x[SINC + i] = sinc(x[ANGLE + i] * x[ANGLE + i])
+    for i in range(2 * LANES):
         omega, over, step, y, z = x[OMEGA + i], x[OVER + i], x[STEP + i], x[Y + i], x[Z + i]
-        sign, angle = half_turns(omega * step)
-        square = angle * angle
-        cos, sin = sign * cosine(square), sign * (angle * sinc(square))
+        cos, sin = x[SIGN + i] * x[COS + i], x[SIGN + i] * (x[ANGLE + i] * x[SINC + i])
         travel = sin * over if over > 0.0 else step
         x[Y + i], x[Z + i] = y * cos + z * travel, z * cos - omega * (y * sin)
+
+
+@kernel
+def _approach(x: Floats) -> None:
+    """Find from where a lane now is a first short step to the event, if it can be landed on."""
+    for i in range(LANES):
+        a, ya, za = x[OMEGA + i], x[Y + i], x[Z + i]
+        b, yb, zb = x[OMEGA + OTHER + i], x[Y + OTHER + i], x[Z + OTHER + i]
+        sees_a, sees_b = x[SEES_A + i], x[SEES_B + i]
+        aa, bb = -a * a, -b * b
+        fa, fb, ga, gb = sees_a * ya, sees_b * yb, sees_a * za, sees_b * zb
+        x[P0 + i], x[P1 + i] = fa + fb, ga + gb
+        fa, fb, ga, gb = aa * fa, bb * fb, aa * ga, bb * gb
+        x[P2 + i], x[P3 + i] = (fa + fb) * (1.0 / 2.0), (ga + gb) * (1.0 / 6.0)
+        x[P4 + i] = (aa * fa + bb * fb) * (1.0 / 24.0)
+        x[P5 + i] = (aa * ga + bb * gb) * (1.0 / 120.0)
+    for i in range(LANES):
+        p0, p1, p2 = x[P0 + i], x[P1 + i], x[P2 + i]
+        inverse = 1.0 / (p1 if p1 <= -_SLOW else -1.0)
+        newton = -p0 * inverse
+        bent = newton * p2 * inverse
+        lands = x[EXPECTED + i] if p1 <= -_SLOW and abs(bent) <= _NEAR else 0.0
+        x[LANDS + i] = lands if x[OMEGA + i] * abs(newton) <= _NEAR else 0.0
+        x[D + i] = newton * (1.0 - bent)
 
 
 @kernel
@@ -254,49 +305,26 @@ def _land(x: Floats) -> None:
     look was in vain: the lane stays where it was, and will not look further than is safe.
     """
     for i in range(LANES):
-        a, ya, za = x[OMEGA + i], x[Y + i], x[Z + i]
-        b, yb, zb = x[OMEGA + OTHER + i], x[Y + OTHER + i], x[Z + OTHER + i]
-        sees_a, sees_b, expected = x[SEES_A + i], x[SEES_B + i], x[EXPECTED + i]
-        aa, bb = -a * a, -b * b
-        fa, fb, ga, gb = sees_a * ya, sees_b * yb, sees_a * za, sees_b * zb
-        p0, p1 = fa + fb, ga + gb
-        fa, fb, ga, gb = aa * fa, bb * fb, aa * ga, bb * gb
-        p2, p3 = (fa + fb) * (1.0 / 2.0), (ga + gb) * (1.0 / 6.0)
-        p4, p5 = (aa * fa + bb * fb) * (1.0 / 24.0), (aa * ga + bb * gb) * (1.0 / 120.0)
-        inverse = 1.0 / (p1 if p1 < 0.0 else -1.0)
-        newton = -p0 * inverse
-        bent = newton * p2 * inverse
-        d = newton * (1.0 - bent)
-        f = p0 + d * (p1 + d * (p2 + d * (p3 + d * (p4 + d * p5))))
-        g = p1 + d * (2.0 * p2 + d * (3.0 * p3 + d * (4.0 * p4 + d * (5.0 * p5))))
-        h = p2 + d * (3.0 * p3 + d * (6.0 * p4 + d * (10.0 * p5)))
+        f, g, h, d = x[F + i], x[G + i], x[H + i], x[D + i]
         d = d + _halley(f, g, h)
-        past, bend, spare = abs(x[PAST + i]) + abs(d), x[BEND + i], x[SPARE + i]
-        lands = expected if p1 <= -_SLOW and d <= spare else 0.0
-        lands = lands if a * abs(newton) <= _NEAR and abs(bent) <= _NEAR else 0.0
+        past, bend = abs(x[PAST + i]) + abs(d), x[BEND + i]
+        lands = x[LANDS + i] if d <= x[SPARE + i] else 0.0
         lands = lands if (2.0 * abs(h) + bend * past) * past <= -0.9 * g else 0.0
-        d = lands * d
-        ya, za = _nudged(aa, d, ya, za)
-        yb, zb = _nudged(bb, d, yb, zb)
-        c, s = x[C + i], x[S + i]
-        stays = expected - lands
+        x[LANDS + i], x[D + i], x[D + OTHER + i] = lands, lands * d, lands * d
+    for i in range(2 * LANES):
+        x[Y + i], x[Z + i] = nudged(x[OMEGA + i], x[D + i], x[Y + i], x[Z + i])
+    for i in range(LANES):
+        ya, za, yb, zb = x[Y + i], x[Z + i], x[Y + OTHER + i], x[Z + OTHER + i]
+        c, s, lands, lower = x[C + i], x[S + i], x[LANDS + i], x[LOWER + i]
+        stays = x[EXPECTED + i] - lands
         moves = 1.0 - stays
         x[W0 + i] = moves * (c * ya - s * yb) + stays * x[W0 + i]
         x[W1 + i] = moves * (s * ya + c * yb) + stays * x[W1 + i]
         x[U0 + i] = moves * (c * za - s * zb) + stays * x[U0 + i]
         x[U1 + i] = moves * (s * za + c * zb) + stays * x[U1 + i]
-        x[TIME + i] = x[TIME + i] + moves * (x[STEP + i] + d)
+        x[TIME + i] = x[TIME + i] + moves * (x[STEP + i] + x[D + i])
         x[VAIN + i] = stays
-        x[FLOOR_TURNS + i], x[BALLS_TURN + i] = lands * x[LOWER + i], lands * (1.0 - x[LOWER + i])
-
-
-@kernel
-def _nudged(square: float, d: float, y: float, z: float) -> tuple[float, float]:
-    """Return a mode after a time d of much less than a period; square is minus its frequency's."""
-    angle = square * d * d
-    cos = 1.0 + angle * (1.0 / 2.0 + angle * (1.0 / 24.0 + angle * (1.0 / 720.0)))
-    sinc = 1.0 + angle * (1.0 / 6.0 + angle * (1.0 / 120.0 + angle * (1.0 / 5040.0)))
-    return y * cos + z * (d * sinc), z * cos + square * (y * (d * sinc))
+        x[FLOOR_TURNS + i], x[BALLS_TURN + i] = lands * lower, lands * (1.0 - lower)
 
 
 @kernel
@@ -307,18 +335,18 @@ def _happen(x: Floats, event_limit: float) -> None:
         lower, upper = x[FLOOR_TURNS + i], x[BALLS_TURN + i]
         touch, n1, first = upper * (1.0 - balls), x[N1 + i], x[FIRST + i]
         new = touch if n1 == 0.0 else 0.0
-        x[FIRST + i], x[N1 + i] = first + new * now, n1 + touch
-        x[N0 + i] = x[N0 + i] + lower * (1.0 - floor)
+        n0, n1 = x[N0 + i] + lower * (1.0 - floor), n1 + touch
+        x[N0 + i], x[N1 + i], x[FIRST + i] = n0, n1, first + new * now
         release0, release1 = lower * floor, upper * balls
         x[LAST0 + i] = (1.0 - release0) * x[LAST0 + i] + release0 * now
         x[LAST1 + i] = (1.0 - release1) * x[LAST1 + i] + release1 * now
         floor, balls = abs(floor - lower), abs(balls - upper)
         x[FLOOR + i], x[BALLS + i] = floor, balls
-        events, looks = x[EVENTS + i] + lower + upper, x[LOOKS + i] + 1.0
-        x[EVENTS + i], x[LOOKS + i] = events, looks
+        pressed, looks = floor + balls, x[LOOKS + i] + 1.0
+        x[LOOKS + i] = looks
         u0, u1, doubt = x[U0 + i], x[U1 + i] * x[SLIM + i], x[DOUBT + i]
         parting = min(u1 - u0, u0)  # the slower one of the two contacts
-        result = EVENT_LIMIT if events >= event_limit else 0.0
+        result = EVENT_LIMIT if 2.0 * (n0 + n1) - pressed >= event_limit else 0.0
         result = ASK if doubt > 0.0 or looks >= _LOOKS else result
-        result = ASK if floor + balls == 0.0 and parting > -_SLOW else result
-        x[STATUS + i] = FINISHED if floor + balls == 0.0 and parting >= _SLOW else result
+        result = ASK if pressed == 0.0 and parting > -_SLOW else result
+        x[STATUS + i] = FINISHED if pressed == 0.0 and parting >= _SLOW else result

@@ -16,8 +16,6 @@ from stackbounce.engine.lanes import (
     BALLS,
     C1,
     C2,
-    DROP,
-    EVENTS,
     FIRST,
     FLOOR,
     LANES,
@@ -29,6 +27,7 @@ from stackbounce.engine.lanes import (
     OVER_A1,
     OVER_A2,
     OVER_B2,
+    OWN,
     ROW,
     S1,
     S2,
@@ -38,6 +37,8 @@ from stackbounce.engine.lanes import (
     TIME,
     U0,
     U1,
+    UNIT,
+    V0,
     V1,
     V2,
     VAIN,
@@ -47,14 +48,27 @@ from stackbounce.engine.lanes import (
     look,
 )
 
-# The drops that wait: the slots of a drop, and what was given.
+# The drops that wait: what each begins with of its own, and what was given.
 NEXT = SLOTS * LANES
-MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(31, 37))
-SCRATCH = NEXT + 37 * LANES
+MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(OWN, OWN + 6))
+SCRATCH = NEXT + (OWN + 6) * LANES
 
+_LINE = 8  # numbers in a cache line
 _RATIO = 256.0  # of masses and of stiffnesses, at most, and at least one over it
 _GAP = 1e3  # in v0/omega, at most
 _OMEGA = 1e100  # in 1/s, at most, and at least one over it
+
+
+def scratch() -> Any:
+    """Return an array for `two_springs` to work in.
+
+    It begins on a cache line: a vector that lies on two of them takes longer.
+    """
+    import numpy as np
+
+    room = np.zeros(SCRATCH + _LINE)
+    start = -(room.ctypes.data // room.itemsize) % _LINE
+    return room[start : start + SCRATCH]
 
 
 @kernel
@@ -91,7 +105,7 @@ def two_springs(
         Gets FINISHED; EVENT_LIMIT; INVALID for input that is out of range; or ASK where the general
         engine must be asked, and what else is said of that drop is not to be used.
     x : array (SCRATCH,)
-        Scratch space.
+        Scratch space, from `scratch`.
     """
     rows = len(gap)
     left, waiting, row = rows, 0, 0
@@ -100,8 +114,9 @@ def two_springs(
     while left > 0:
         for i in range(LANES):
             while x[STATUS + i] != 0.0:
-                if x[ROW + i] >= 0.0:
-                    _leave(velocity, collisions, first_touch, last_release, status, x, i)
+                done = int(x[ROW + i])
+                if done >= 0:
+                    _leave(velocity, collisions, first_touch, last_release, status, x, i, done)
                     left -= 1
                 if waiting == 0 and row < rows:
                     waiting = min(LANES, rows - row)
@@ -112,10 +127,19 @@ def two_springs(
                     x[STATUS + i], x[ROW + i] = 0.0, -1.0
                     break
                 waiting -= 1
-                for k in range(DROP):
-                    x[k * LANES + i] = x[NEXT + k * LANES + waiting]
+                _begin(x, i, waiting)
         look(x, event_limit)
-    _to_si(mass, stiffness, speed, velocity, first_touch, last_release, status)
+
+
+@kernel
+def _begin(x: Floats, i: int, waiting: int) -> None:
+    """Begin in lane i, at t = 0, with a drop that waits."""
+    i, waiting = i & (LANES - 1), waiting & (LANES - 1)  # as they are; so a compiler sees it
+    for k in range(OWN):
+        x[k * LANES + i] = x[NEXT + k * LANES + waiting]
+    x[W0 + i], x[U0 + i], x[TIME + i], x[FLOOR + i] = 0.0, -1.0, 0.0, 1.0
+    x[LOOKS + i], x[VAIN + i], x[N0 + i], x[N1 + i] = 0.0, 0.0, 1.0, x[BALLS + i]
+    x[FIRST + i], x[LAST0 + i], x[LAST1 + i] = 0.0, 0.0, 0.0
 
 
 @kernel
@@ -133,7 +157,7 @@ def _line_up(
 
 @kernel
 def _enter(x: Floats, count: int) -> None:
-    """Make ready the drops that wait: their modes in each regime, and all of them at t = 0."""
+    """Make ready the drops that wait: how they begin, and their modes in each regime."""
     for i in range(count):
         m1, m2, k1, k2 = x[MASS1 + i], x[MASS2 + i], x[STIFFNESS1 + i], x[STIFFNESS2 + i]
         gap, speed = x[GAP + i], x[SPEED + i]
@@ -146,7 +170,7 @@ def _enter(x: Floats, count: int) -> None:
         fair = mu > 1.0 / _RATIO and mu < _RATIO and kappa > 1.0 / _RATIO and kappa < _RATIO
         fair = fair and omega > 1.0 / _OMEGA and omega < _OMEGA and distance < _GAP
         mu, kappa = mu if fair else 1.0, kappa if fair else 1.0
-        distance = distance if fair else 0.0
+        distance, omega = distance if fair else 0.0, omega if fair else 1.0
         x[NEXT + STATUS + i] = (0.0 if fair else ASK) if valid else INVALID
         root = math.sqrt(mu)
         # both: K = ((1 + kappa, corner), (corner, kappa/mu)) (eqs 5 and 6)
@@ -174,13 +198,9 @@ def _enter(x: Floats, count: int) -> None:
         x[NEXT + A1 + i], x[NEXT + OVER_A1 + i] = a, 1.0 / a
         x[NEXT + V1 + i] = -single * unit * inverse
         x[NEXT + SLIM + i] = slim
-        x[NEXT + W0 + i], x[NEXT + W1 + i] = 0.0, distance * root
-        x[NEXT + U0 + i], x[NEXT + U1 + i] = -1.0, -root
-        together = 1.0 if distance == 0.0 else 0.0
-        x[NEXT + TIME + i], x[NEXT + FLOOR + i], x[NEXT + BALLS + i] = 0.0, 1.0, together
-        x[NEXT + LOOKS + i], x[NEXT + EVENTS + i], x[NEXT + VAIN + i] = 0.0, 1.0 + together, 0.0
-        x[NEXT + N0 + i], x[NEXT + N1 + i] = 1.0, together
-        x[NEXT + FIRST + i], x[NEXT + LAST0 + i], x[NEXT + LAST1 + i] = 0.0, 0.0, 0.0
+        x[NEXT + W1 + i], x[NEXT + U1 + i] = distance * root, -root
+        x[NEXT + BALLS + i] = 1.0 if distance == 0.0 else 0.0
+        x[NEXT + UNIT + i], x[NEXT + V0 + i] = 1.0 / omega, speed
 
 
 @kernel
@@ -192,39 +212,17 @@ def _leave(
     status: Any,
     x: Floats,
     i: int,
+    r: int,
 ) -> None:
-    """Write down how the drop in lane i has ended, in its own units."""
-    r = int(x[ROW + i])
-    status[r] = int(x[STATUS + i])
-    velocity[r, 0], velocity[r, 1] = x[U0 + i], x[U1 + i]
-    collisions[r, 0], collisions[r, 1] = int(x[N0 + i]), int(x[N1 + i])
-    first_touch[r, 1] = x[FIRST + i] if x[N1 + i] > 0.0 else math.nan
+    """Write down how the drop in lane i, of row r, has ended; what is not known is nan."""
+    code = int(x[STATUS + i])
+    known = code in (FINISHED, EVENT_LIMIT)
+    v0, unit = x[V0 + i] if known else math.nan, x[UNIT + i] if known else math.nan
     last0, last1 = x[LAST0 + i], x[LAST1 + i]
-    last_release[r, 0] = last0 if last0 > 0.0 else math.nan
-    last_release[r, 1] = last1 if last1 > 0.0 else math.nan
-
-
-@kernel
-def _to_si(
-    mass: Any,
-    stiffness: Any,
-    speed: Any,
-    velocity: Any,
-    first_touch: Any,
-    last_release: Any,
-    status: Any,
-) -> None:
-    """Turn the results of all drops into SI units; what is not known becomes nan."""
-    for r in range(len(speed)):
-        if status[r] != FINISHED and status[r] != EVENT_LIMIT:
-            velocity[r, 0] = velocity[r, 1] = math.nan
-            first_touch[r, 0] = first_touch[r, 1] = math.nan
-            last_release[r, 0] = last_release[r, 1] = math.nan
-            continue
-        m1, v0 = float(mass[r, 0]), float(speed[r])
-        mu, unit = float(mass[r, 1]) / m1, math.sqrt(m1 / float(stiffness[r, 0]))
-        u0, u1 = float(velocity[r, 0]), float(velocity[r, 1])
-        velocity[r, 0], velocity[r, 1] = v0 * u0, v0 * (u1 / math.sqrt(mu))
-        first_touch[r, 0], first_touch[r, 1] = 0.0, unit * first_touch[r, 1]
-        last_release[r, 0] = unit * last_release[r, 0]
-        last_release[r, 1] = unit * last_release[r, 1]
+    status[r] = code
+    velocity[r, 0], velocity[r, 1] = v0 * x[U0 + i], v0 * (x[U1 + i] * x[SLIM + i])
+    collisions[r, 0], collisions[r, 1] = int(x[N0 + i]), int(x[N1 + i])
+    first_touch[r, 0] = unit * 0.0
+    first_touch[r, 1] = unit * (x[FIRST + i] if x[N1 + i] > 0.0 else math.nan)
+    last_release[r, 0] = unit * (last0 if last0 > 0.0 else math.nan)
+    last_release[r, 1] = unit * (last1 if last1 > 0.0 else math.nan)

@@ -20,7 +20,7 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
-from stackbounce.engine.two_springs import SCRATCH, two_springs
+from stackbounce.engine.two_springs import SCRATCH, scratch, two_springs
 from stackbounce.model import Drop
 from stackbounce.simulate import Options, contact_numbers
 from stackbounce.sweep.paths import Number
@@ -67,11 +67,11 @@ def ready(function: Callable[..., Any]) -> Callable[..., Any]:
 def _run_two_springs(drops: Drops, out: Outcomes, options: Options, few: bool) -> None:
     """Run drops by the engine for two springs, and those it is not sure of by the general one."""
     go: Any = two_springs if few else ready(two_springs)
-    scratch: Any = [0.0] * SCRATCH if few else np.zeros(SCRATCH)
+    room: Any = [0.0] * SCRATCH if few else scratch()
     speed, gap = -drops.velocity[:, 0], np.ascontiguousarray(drops.gap[:, 1])
     given = (drops.mass, drops.stiffness, gap, speed, _UNLIMITED)
     times = out.first_touch, out.last_release
-    go(*given, out.velocity, out.collisions, *times, out.status, scratch)
+    go(*given, out.velocity, out.collisions, *times, out.status, room)
     asked = np.flatnonzero(out.status == codes.ASK)
     if len(asked):
         some = Drops._make(array[asked] for array in drops)
