@@ -49,14 +49,6 @@ def test_words_at_the_crosshair_are_those_of_the_drop_there(visit):
     assert visit.state("drop.balls[0].mass") == pytest.approx(0.150, rel=1e-3)
 
 
-def test_a_click_plays_the_drop_of_that_point(visit):
-    page = opened(visit)
-    page.locator(".map-board").click(position=spot(page, 0.5, 0.25))
-    assert visit.state("view") == "play"
-    assert visit.state("drop.balls[0].mass") == pytest.approx(0.057 * 10.0**0.5, rel=0.02)
-    assert visit.state("drop.contacts[0].stiffness") == pytest.approx(1e3 * 10.0**-0.25, rel=0.02)
-
-
 def test_a_finger_looks_first_and_plays_by_the_button(visits):
     visit = visits(**PHONE)
     page = opened(visit)
@@ -86,27 +78,6 @@ def test_brighter_is_more(visit):
     ratios = [ratio(10.0 ** (3 * x - 1), 10.0 ** (3 * y - 1)) for x, y in parts]
     assert sorted(ratios, reverse=True) == ratios
     assert sorted(lights, reverse=True) == lights
-
-
-def test_sides_and_what_is_shown_are_in_the_address(visit):
-    page = opened(visit)
-    page.locator("[data-key=map-x]").select_option("gaps.0")
-    page.locator("[data-key=map-show]").select_option("rebound_height.1")
-    page.wait_for_function("() => /rebound_height/.test(location.hash)")
-    link = page.evaluate("() => location.hash")
-    page.goto("about:blank")
-    page.goto(f"{visit.address}{link}")
-    page.wait_for_function("() => /height/.test(document.querySelector('.map-title')?.textContent)")
-    assert page.locator("[data-key=map-x]").input_value() == "gaps.0"
-    assert page.locator("[data-key=map-x-high]").input_value() == "10"
-    assert "mm" in page.locator(".map-form").inner_text()
-
-
-def test_an_end_that_makes_no_side_is_told_where_it_stands(visit):
-    page = opened(visit)
-    page.locator("[data-key=map-x-low]").fill("-1")
-    page.locator("[data-key=map-x-low]").press("Tab")
-    assert page.locator("#map-x-error").inner_text() == "Even ratios need ends above 0."
 
 
 def test_the_newest_drop_wins(visit):

@@ -20,11 +20,6 @@ def fitted(page):
     page.locator(".fit-outcome table").first.wait_for()
 
 
-def given(page, name, text):
-    file = {"name": name, "mimeType": "text/plain", "buffer": text.encode()}
-    page.locator("#measure input[type=file]").set_input_files(file)
-
-
 def apart(visit):
     """Return how far the record is from the simulated force, in N, on the mean."""
     (overlay,) = visit.state("overlays")
@@ -73,25 +68,6 @@ def test_a_track_shows_how_much_is_lost(visit):
     assert damping == pytest.approx([8.0, 2.0], abs=0.5)
 
 
-def test_a_typed_height_is_fitted(visit):
-    page = opened(visit)
-    page.locator(".fit-row select").select_option("rebound_heights.1")
-    page.locator(".fit-value").fill("1.72 ± 0.03 m")
-    fitted(page)
-    visit.ready()
-    assert visit.state("result.rebound_heights[1]") == pytest.approx(1.72, abs=1e-3)
-
-
-def test_what_is_not_understood_is_told_in_the_servers_words(visit):
-    page = opened(visit)
-    given(page, "letter.txt", "Dear Sir or Madam,\n")
-    message = page.locator("#measure .measure-in .field-error:visible")
-    message.wait_for()
-    assert message.inner_text().startswith("letter.txt: ")
-    assert all("422" in complaint for complaint in visit.complaints)
-    visit.complaints.clear()  # the browser's own line on the refusal
-
-
 def test_a_dropped_file_is_read(visit):
     page = opened(visit)
     page.evaluate(
@@ -104,11 +80,3 @@ def test_a_dropped_file_is_read(visit):
     page.locator(".recognised b").wait_for()
     assert "heights.csv holds a table" in page.locator(".recognised").inner_text()
     assert "The file is of one ball alone" in page.locator(".fit").inner_text()
-
-
-def test_a_phone_needs_no_scrolling_sideways(visits):
-    visit = visits(viewport={"width": 360, "height": 780}, color_scheme="dark")
-    page = opened(visit)
-    tried(page, "Force on the floor")
-    fitted(page)
-    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
