@@ -7,8 +7,6 @@ what is compiled is never older than its sources.
 import math
 from typing import Any
 
-import numpy as np
-
 from stackbounce.engine import codes
 from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TIME_REACHED
 from stackbounce.engine.contacts import stored_energy
@@ -65,14 +63,15 @@ def load(stack: Any, drops: Any, row: int) -> float:
 
 
 @kernel
-def run(stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, out: Any) -> None:
+def run(
+    stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, turns: Any, out: Any
+) -> None:
     """Run one drop of finite contacts and write into ``out`` what is found."""
     size = len(stack.mass)
     clear(room)
     unit = load(stack, drops, row)
     start(stack)
     first, reference = energy_at(stack, 0.0)
-    turns = np.zeros(2 * size)
     status, fault = RUNNING, 0
     while status == RUNNING:
         stack.counter[0] = 0
@@ -223,7 +222,7 @@ def last_faults(stack: Any, drops: Any, row: int, loose: float, out: Any) -> int
 
 @kernel
 def run_rigid(
-    stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, out: Any
+    stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, turns: Any, out: Any
 ) -> None:
     """Run one drop of rigid balls and write into ``out`` what is found."""
     clear(room)
@@ -238,7 +237,6 @@ def run_rigid(
     )
     begin_collisions(stack)
     first, reference = rigid_energy(stack, drops, row, 0.0)
-    turns = np.zeros(2 * len(stack.mass))
     fault, status = 0, RUNNING
     while status == RUNNING:
         stack.counter[0] = 0
@@ -275,14 +273,18 @@ def rigid_energy(stack: Any, drops: Any, row: int, time: float) -> Any:
 
 
 @kernel
-def run_all(stack: Any, room: Any, drops: Any, samples: Any, log: Any, out: Any) -> None:
+def run_all(
+    stack: Any, room: Any, drops: Any, samples: Any, log: Any, turns: Any, out: Any
+) -> None:
     """Run all drops of a batch."""
     for row in range(len(out)):
-        run(stack, room, drops, row, samples, log, out[row])
+        run(stack, room, drops, row, samples, log, turns[row], out[row])
 
 
 @kernel
-def run_all_rigid(stack: Any, room: Any, drops: Any, samples: Any, log: Any, out: Any) -> None:
+def run_all_rigid(
+    stack: Any, room: Any, drops: Any, samples: Any, log: Any, turns: Any, out: Any
+) -> None:
     """Run all drops of a batch of rigid stacks."""
     for row in range(len(out)):
-        run_rigid(stack, room, drops, row, samples, log, out[row])
+        run_rigid(stack, room, drops, row, samples, log, turns[row], out[row])

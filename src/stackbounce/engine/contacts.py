@@ -7,7 +7,8 @@ Because c^p has no power series at c = 0, a power law is continued by its chord 
 below a compression that holds a negligible part of a typical contact's work, and for no longer than
 the chord has changed no ball's velocity by more than one step may leave out: two balls that are
 pressed together slowly need a shorter chord than two that collide. Two balls alone that collide
-need none where c^p has a series in the root of time; see `motion`.
+need none where c^p has a series in the root of time, see `motion`; and no contact needs one that
+opens before the series it moves by is to end.
 """
 
 import math

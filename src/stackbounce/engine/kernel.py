@@ -22,6 +22,11 @@ Rows: TypeAlias = Sequence[Floats]  # a list of lists, or an array of rows
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 _MARK = "__stackbounce_kernel__"
+_OPTIONS: dict[str, Any] = {  # no references are counted, for kernels allocate nothing
+    "error_model": "numpy",
+    "nogil": True,
+    "_nrt": False,
+}
 
 
 def kernel(function: Function) -> Function:
@@ -49,7 +54,7 @@ def compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     clone.__qualname__ = function.__qualname__
     clone.__module__ = function.__module__
     with caching() as cached:
-        result: Callable[..., Any] = njit(cache=cached, error_model="numpy", nogil=True)(clone)
+        result: Callable[..., Any] = njit(cache=cached, **_OPTIONS)(clone)
     return result
 
 

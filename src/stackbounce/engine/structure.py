@@ -2,10 +2,13 @@
 
 Behind the pointer lies a table with the address and the shape of each array. What a kernel takes
 out of it is an array that nobody owns: numba's own structures count a reference each time they are
-asked for an array, which took longer than the arithmetic did.
+asked for an array, which took longer than the arithmetic did. Nor does an index of such an array
+count from its end if it is negative, as no kernel's is: to ask took a tenth of the time.
 """
 
 import functools
+import math
+import operator
 from typing import Any
 
 import numba.extending
@@ -18,7 +21,7 @@ from numba.extending import typeof_impl
 
 _extending: Any = numba.extending
 _arrays: Any = numba.np.arrayobj
-_COLUMNS = 3  # of the table: an array's address, its rows and its columns
+_COLUMNS = 2  # of the table: an array's address and its rows
 _WORD = 8  # bytes of any number
 
 
@@ -27,7 +30,7 @@ class Structure:
 
     def __init__(self, stack: Any) -> None:
         self.stack = stack
-        rows = [(a.ctypes.data, a.shape[0], a.size // max(1, a.shape[0])) for a in stack]
+        rows = [(a.ctypes.data, a.shape[0]) for a in stack]
         self.table = np.array(rows, dtype=np.int64)
         self.address = self.table.ctypes.data
 
@@ -35,23 +38,50 @@ class Structure:
     def kind(self) -> "StructureType":
         """Its numba type, for which numba asks at each call of a kernel."""
         named = zip(self.stack._fields, self.stack, strict=True)
-        kinds = tuple((field, array.dtype.name, array.ndim) for field, array in named)
+        kinds = tuple((field, array.dtype.name, array.shape[1:]) for field, array in named)
         return StructureType(type(self.stack).__name__, kinds)
 
 
 class StructureType(types.Type):
-    """The numba type of a Structure, by the names of its arrays and how many axes each has."""
+    """The numba type of a Structure, by the names of its arrays and the columns of their rows."""
 
-    def __init__(self, name: str, kinds: tuple[tuple[str, str, int], ...]) -> None:
+    def __init__(self, name: str, kinds: tuple[tuple[str, str, tuple[int, ...]], ...]) -> None:
         self.kinds = kinds
         super().__init__(name=f"{name}Structure")
 
     def array(self, name: str) -> Any:
         """Return the numba type of an array, or nothing where there is none of that name."""
-        for field, kind, axes in self.kinds:
+        for field, kind, columns in self.kinds:
             if field == name:
-                return types.Array(getattr(types, kind), axes, "C")
+                return Numbers(getattr(types, kind), 1 + len(columns))
         return None
+
+
+class Numbers(types.Array):
+    """The numba type of an array whose indices are never negative."""
+
+    def __init__(self, dtype: Any, ndim: int) -> None:
+        name = f"Numbers({dtype}, {ndim}d)"
+        super().__init__(dtype, ndim, "C", name=name)
+
+    def copy(self, ndim: int, **_: Any) -> "Numbers":  # type: ignore[override]
+        """Return the type of a row."""
+        return Numbers(self.dtype, ndim)
+
+
+def _unsigned(sig: Any) -> Any:
+    """Return the signature of taking or setting an item with an index that has no sign."""
+    return sig.replace(args=(sig.args[0], types.uintp, *sig.args[2:]))
+
+
+def _get(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    """Take an item, or a row."""
+    return _arrays.getitem_arraynd_intp(context, builder, _unsigned(sig), args)
+
+
+def _set(context: Any, builder: Any, sig: Any, args: Any) -> Any:
+    """Set an item."""
+    return _arrays.setitem_array(context, builder, _unsigned(sig), args)
 
 
 @typeof_impl.register(Structure)
@@ -78,18 +108,23 @@ class _Attributes(AttributeTemplate):
 def _array(context: Any, builder: Any, kind: StructureType, pointer: Any, name: str) -> Any:
     """Build the array of a name from its row of the table."""
     word, made = ir.IntType(8 * _WORD), kind.array(name)
-    start = _COLUMNS * [field for field, _, _ in kind.kinds].index(name)
+    row = [field for field, _, _ in kind.kinds].index(name)
     table = builder.bitcast(pointer, word.as_pointer())
-    address, *shape = (
-        builder.load(builder.gep(table, [word(start + column)])) for column in range(1 + made.ndim)
+    address, length = (
+        builder.load(builder.gep(table, [word(_COLUMNS * row + column)])) for column in (0, 1)
     )
-    strides = [word(_WORD)] if made.ndim == 1 else [builder.mul(shape[1], word(_WORD)), word(_WORD)]
+    columns = kind.kinds[row][2]
+    shape = [length, *map(word, columns)]
+    strides = [word(_WORD * math.prod(columns[axis:])) for axis in range(made.ndim)]
     array = _arrays.make_array(made)(context, builder)
     data = builder.inttoptr(address, array.data.type)
     _arrays.populate_array(array, data, shape, strides, _WORD, None)
     return array._getvalue()
 
 
+_extending.register_model(Numbers)(_extending.models.ArrayModel)
+_extending.lower_builtin(operator.getitem, Numbers, types.Integer)(_get)
+_extending.lower_builtin(operator.setitem, Numbers, types.Integer, types.Any)(_set)
 _extending.register_model(StructureType)(_extending.models.OpaqueModel)
 _extending.unbox(StructureType)(_unbox)
 _extending.lower_getattr_generic(StructureType)(_array)

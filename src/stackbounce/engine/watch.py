@@ -113,6 +113,10 @@ def look(stack: Stack, i: int, time: float) -> None:
     if damped or plain or phase == RELEASING:
         level, kind = _lower_level(stack, i)
         wait, reached = _wait(stack, a, order, power, tail, 0.0, 1.0, level, band, horizon)
+        if kind == FAINT and reached:  # a series that gets here may get to the very end
+            other, there = _wait(stack, a, order, power, tail, 0.0, 1.0, 0.0, band, horizon)
+            if there and other < horizon:
+                wait, kind = other, RELEASE
     level, upper_kind = _upper_level(stack, i, plain)
     if level < math.inf:
         left = min(wait, horizon)
