@@ -126,3 +126,17 @@ def test_a_phone_needs_no_scrolling_sideways(visits):
     fitted(page)
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
     visit.picture("measure-phone", full_page=True)
+
+
+def test_a_record_can_be_taken_away(visit):
+    page = opened(visit)
+    tried(page, "Video of two balls")
+    page.wait_for_function("() => window.stackbounce.store.get().overlays.length === 2")
+    page.get_by_role("tab", name="Play").click()
+    assert "of the whole drop" in page.locator(".options").inner_text()
+    page.get_by_role("tab", name="Measure").click()
+    page.get_by_role("button", name="Take the record away").click()
+    assert visit.state("overlays") == []
+    assert not page.locator('section[aria-label="What was found"]').is_visible()
+    page.get_by_role("tab", name="Play").click()
+    assert "of the whole drop" not in page.locator(".options").inner_text()

@@ -85,7 +85,7 @@ def drop_map(drop: Drop, x: Line, y: Line, show: str, events: int) -> str:
     """
     if not prepared(wait=True):
         raise InvalidValue(
-            "the fast engine is being prepared, which takes a minute at the first start: "
+            "the fast engine is being prepared, which takes a minute or two at the first start: "
             "try again soon"
         )
     if x.path == y.path:

@@ -20,7 +20,7 @@ export function mapper(api, tell) {
   let ready = false;
   const prepare = async () => {
     ready ||= (await api.status()).ready;
-    if (!ready) throw new Error("the fast engine is being prepared, which takes a minute at the first start");
+    if (!ready) throw new Error("the fast engine is being prepared, which takes a minute or two at the first start");
   };
   const ask = async (drop, wanted) => {
     newest += 1;

@@ -34,7 +34,7 @@ export function mount(root, store, api) {
       body.append("options", JSON.stringify(options));
       const answer = await api.measure(body);
       if (mine !== newest) return;
-      said.replaceChildren(...recognised(answer));
+      said.replaceChildren(...recognised(answer), away);
       found.replaceChildren(...foundIn(answer, store));
       found.hidden = false;
       if (answer.doubt) unsaid.open = true;
@@ -51,6 +51,20 @@ export function mount(root, store, api) {
       fit.offer(null);
     }
   };
+  const away = h("button", {
+    type: "button",
+    class: "small",
+    text: "Take the record away",
+    onclick: () => {
+      newest += 1;
+      file = null;
+      write(said, "");
+      found.hidden = true;
+      overlay.clear();
+      fit.offer(null);
+      drop.querySelector("button")?.focus();
+    },
+  });
   const form = measureForm(ask);
   const drop = fileDrop(root, (given, known) => {
     file = given;

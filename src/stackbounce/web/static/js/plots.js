@@ -162,7 +162,7 @@ class Panel {
           pxAlign: 0,
         })),
       ],
-      hooks: { draw: [(plot) => this.drawMore(plot)] },
+      hooks: { drawAxes: [(plot) => this.drawDots(plot)], draw: [(plot) => this.drawStems(plot)] },
     };
   }
 
@@ -182,33 +182,46 @@ class Panel {
     return [bottom === floor ? floor : bottom - air, top + air];
   }
 
-  /** Draw what is no line of the simulation: impulses as stems, measurements as dots. */
-  drawMore(plot) {
-    const { ctx } = plot;
-    const { left, top, width, height } = plot.bbox;
-    ctx.save();
-    ctx.beginPath();
-    ctx.rect(left, top, width, height);
-    ctx.clip();
-    for (const { index, time, impulse } of this.panel.stems ?? []) {
-      ctx.strokeStyle = colorOf(this.colors, index);
-      ctx.lineWidth = 3 * devicePixelRatio;
-      ctx.beginPath();
-      ctx.moveTo(plot.valToPos(time, "x", true), plot.valToPos(0, "y", true));
-      ctx.lineTo(plot.valToPos(time, "x", true), plot.valToPos(impulse, "y", true));
-      ctx.stroke();
-    }
-    const size = 3 * devicePixelRatio;
-    for (const { index, time, values } of this.panel.overlays) {
-      ctx.fillStyle = this.color({ index: index ?? null });
-      values.forEach((value, i) => {
-        if (value === null) return;
-        const x = plot.valToPos(time[i], "x", true);
-        ctx.fillRect(x - size / 2, plot.valToPos(value, "y", true) - size / 2, size, size);
-      });
-    }
-    ctx.restore();
+  /** Draw impulses as stems: a rigid collision has no line. */
+  drawStems(plot) {
+    clipped(plot, (ctx) => {
+      for (const { index, time, impulse } of this.panel.stems ?? []) {
+        ctx.strokeStyle = colorOf(this.colors, index);
+        ctx.lineWidth = 3 * devicePixelRatio;
+        ctx.beginPath();
+        ctx.moveTo(plot.valToPos(time, "x", true), plot.valToPos(0, "y", true));
+        ctx.lineTo(plot.valToPos(time, "x", true), plot.valToPos(impulse, "y", true));
+        ctx.stroke();
+      }
+    });
   }
+
+  /** Draw measurements as dots, below the simulated lines. */
+  drawDots(plot) {
+    const size = 2 * devicePixelRatio;
+    clipped(plot, (ctx) => {
+      for (const { index, time, values } of this.panel.overlays) {
+        ctx.fillStyle = this.color({ index: index ?? null });
+        values.forEach((value, i) => {
+          if (value === null) return;
+          const x = plot.valToPos(time[i], "x", true);
+          ctx.fillRect(x - size / 2, plot.valToPos(value, "y", true) - size / 2, size, size);
+        });
+      }
+    });
+  }
+}
+
+/** Draw inside of a plot's axes only. */
+function clipped(plot, paint) {
+  const { ctx } = plot;
+  const { left, top, width, height } = plot.bbox;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(left, top, width, height);
+  ctx.clip();
+  paint(ctx);
+  ctx.restore();
 }
 
 /** Let the cursor be dragged on a plot. */

@@ -85,7 +85,7 @@ export function mountTransport(root, store, clock) {
   addEventListener("pointerup", () => !clock.playing && keep(store, clock));
   addEventListener("keyup", () => !clock.playing && keep(store, clock));
   store.subscribe((state, before) => {
-    const changed = ["until", "ghosts", "slow", "magnify"].filter((name) => state[name] !== before[name]);
+    const changed = ["until", "ghosts", "slow", "magnify", "overlays"].filter((name) => state[name] !== before[name]);
     if (changed.length === 0 && Boolean(state.result?.separate) === Boolean(before.result?.separate)) return;
     clock.rate = 1 / state.slow;
     showOptions();
@@ -100,7 +100,7 @@ function keep(store, clock) {
 }
 
 function choices(store) {
-  const { slow, magnify, ghosts, until, result } = store.get();
+  const { slow, magnify, ghosts, until, result, overlays } = store.get();
   const numbers = (list, own) => [...new Set(own === null ? list : [...list, own])].sort((a, b) => a - b);
   const speeds = numbers(SLOW, slow).map((one) => [one, one === 1 ? "real time" : `${one}× slower`]);
   const sizes = numbers(MAGNIFY, magnify).map((one) => [one, `×${one}`]);
@@ -118,6 +118,9 @@ function choices(store) {
     );
   }
   boxes.push(check("Whole drop", until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
+  if (until === null && overlays.some(({ what }) => what === "position")) {
+    boxes.push(h("p", { class: "note", text: "The measured track is of the whole drop: show that to see it." }));
+  }
   if (!result || result.separate) {
     boxes.push(check("Textbook’s balls", ghosts, (on) => store.set({ ghosts: on })));
   }
