@@ -16,8 +16,6 @@ SEEDS = range(400)
 FEW = chosen(
     CASES,
     "sound, noise and hum",
-    "sound, restitution that falls with speed",
-    "sound, 8 bits at 8 kHz",
 )
 
 

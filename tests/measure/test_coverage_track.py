@@ -15,8 +15,6 @@ SEEDS = range(400)  # of 200 chance alone would put one quantity in fifty outsid
 FEW = chosen(
     CASES,
     "track, 60 frames per second",
-    "track, errors that go together",
-    "track, two balls",
 )
 
 

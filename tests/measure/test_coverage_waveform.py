@@ -16,8 +16,6 @@ SEEDS, FEWER = range(220), range(100)
 FEW = chosen(
     CASES,
     "any law, 30 samples",
-    "any law, 8 bits",
-    "exponent 1.25, 0.1 % noise",
     "hysteretic of restitution 0.9",
     "told: dashpot",
     "told: viscoelastic",
