@@ -89,9 +89,10 @@ def test_a_typed_height_is_fitted(visit):
         (b"x" * (LIMITS.upload_bytes + 1), "larger than 16 MiB"),
     ],
 )
-def test_a_file_that_is_none_is_told(visit, content, message):
+def test_a_file_that_is_none_is_told(visit, tmp_path, content, message):
     page = opened(visit)
-    file = {"name": "mine.csv", "mimeType": "text/csv", "buffer": content}
+    file = tmp_path / "mine.csv"
+    file.write_bytes(content)
     page.locator("#measure input[type=file]").set_input_files(file)
     page.locator("#measure .field-error").filter(has_text=message).wait_for()
     visit.complaints.clear()  # Chromium logs the refusal, which is the point here
