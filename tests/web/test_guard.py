@@ -3,13 +3,16 @@
 import asyncio
 import dataclasses
 import os
+import signal
 import socket
+import threading
 import time
 
 import pytest
+import uvicorn
 
 from stackbounce.errors import InvalidValue
-from stackbounce.web import LIMITS
+from stackbounce.web import LIMITS, patience, work
 from stackbounce.web.guard import Guard
 from stackbounce.web.work import Busy, TooLong, Workers
 
@@ -19,6 +22,12 @@ FOREIGN = [
     ({"host": "evil.example:8050"}, 400),
     ({"host": ""}, 400),
     ({"host": "[::1"}, 400),
+    ({"host": "evil.example@localhost"}, 400),
+    ({"host": "localhost/evil.example"}, 400),
+    ({"host": "localhost:8050, evil.example"}, 400),
+    ({"origin": "http://["}, 403),
+    ({"origin": "https://127.0.0.1"}, 403),
+    ({"sec-fetch-site": "Cross-Site"}, 403),
     ({"origin": "http://evil.example"}, 403),
     ({"origin": "null"}, 403),
     ({"origin": "http://127.0.0.1:1"}, 403),
@@ -180,6 +189,65 @@ def test_a_job_that_takes_too_long_is_ended_and_others_go_on(workers):
         return await workers.run(sleeps, 0.0, seconds=60.0)
 
     assert asyncio.run(run()) == "slept"
+
+
+def here():
+    return os.getpid()
+
+
+def test_processes_that_were_ended_while_idle_are_made_anew(workers):
+    async def run():
+        first = await workers.run(here, seconds=60.0)
+        os.kill(first, signal.SIGKILL)
+        for _ in range(100):  # the pool sees it a moment later
+            try:
+                second = await workers.run(here, seconds=60.0)
+            except TooLong:
+                continue
+            if second != first:
+                return first, second
+        return first, first
+
+    first, second = asyncio.run(run())
+    assert second != first
+
+
+def test_the_process_that_compiles_may_be_ended(monkeypatch):
+    monkeypatch.setattr(work, "_COMPILING", 0.1)
+    held, ready = threading.Lock(), threading.Event()
+    held.acquire()  # by a process that is no more
+    work._prepare(held, ready)
+    assert ready.is_set()
+    assert held.locked()
+
+
+def test_silent_connections_are_closed():
+    async def run():
+        protocol = patience.patient_protocol(0.2)
+        config = uvicorn.Config(echo, http=protocol, log_level="error", lifespan="off")
+        config.load()
+        server = uvicorn.Server(config)
+        with socket.socket() as listening:
+            listening.bind(("127.0.0.1", 0))
+            listening.listen()
+            serving = asyncio.create_task(server.serve([listening]))
+            address = listening.getsockname()
+            silent = await asyncio.open_connection(*address)
+            begun = await asyncio.open_connection(*address)
+            begun[1].write(b"GET / HTT")
+            asks = await asyncio.open_connection(*address)
+            asks[1].write(b"POST / HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\n\r\nab")
+            closed = [await asyncio.wait_for(reader.read(), 5.0) for reader, _ in (silent, begun)]
+            answer = await asyncio.wait_for(asks[0].readuntil(b"ab"), 5.0)
+            for _, writer in (silent, begun, asks):
+                writer.close()
+            server.should_exit = True
+            await serving
+        return closed, answer
+
+    closed, answer = asyncio.run(run())
+    assert closed == [b"", b""]
+    assert answer.startswith(b"HTTP/1.1 200")
 
 
 def test_too_many_at_once_are_sent_away(workers):

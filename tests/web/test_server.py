@@ -3,7 +3,9 @@
 import csv
 import io
 import json
+import struct
 import xml.etree.ElementTree as ET
+from importlib.resources import files
 
 import numpy as np
 import pytest
@@ -282,6 +284,12 @@ def test_a_tower_is_at_most_so_high(server, drop):
     assert response.json()["detail"] == "balls must be at most 6 in the explorer, got 12"
 
 
+def test_a_map_of_all_numbers_is_none(server, drop):
+    wide = {"path": "balls.0.mass", "low": -1.7e308, "high": 1.7e308, "count": 3}
+    response = post(server, "map", drop=drop, x=wide, y=SIDES["y"])
+    assert "low and high must be nearer to each other" in response.json()["detail"]
+
+
 def test_a_run_without_end_says_so(server, drop):
     drop["contacts"] = [{"law": "Spring", "stiffness": 1e6}] * 2
     until = LIMITS.duration
@@ -316,6 +324,16 @@ def test_exports(server, drop):
     assert export("png").startswith(b"\x89PNG")
     assert ET.fromstring(export("svg")).tag.endswith("svg")
     assert export("svg") == export("svg")
+
+
+@pytest.mark.parametrize("name", [r"$\frac{$", "5 $ and $", "a\x00b\x1b", "\ufffe", "<&>"])
+@pytest.mark.parametrize("kind", ["svg", "png"])
+def test_any_name_can_be_drawn(server, drop, kind, name):
+    drop["balls"][0]["name"] = name
+    response = post(server, f"export/{kind}", drop=drop)
+    assert response.status_code == 200
+    if kind == "svg":
+        assert ET.fromstring(response.content).tag.endswith("svg")
 
 
 def test_the_lines_of_python_reproduce_the_drop(server, drop, tmp_path, monkeypatch, capsys):
@@ -378,6 +396,12 @@ def test_typed_numbers_are_fitted(server, drop):
     assert found["residuals"][0]["name"] == "rebound_ratios.1"
 
 
+WAV = (
+    b"RIFF\xa4\x9c\x00\x00WAVEfmt \x10\x00\x00\x00\x01\x00\x01\x00"
+    + struct.pack("<IIHH4sI", 1, 2, 2, 16, b"data", 40_000)
+    + np.random.default_rng(1).integers(-9000, 9000, 20_000).astype("<i2").tobytes()
+)
+TRACK = (files("stackbounce.web") / "static" / "examples" / "two-tracks.csv").read_bytes()
 FORCE = b"Time (s),Force (N)\n" + b"".join(b"%d,0.1\n" % i for i in range(40))
 
 
@@ -388,6 +412,13 @@ FORCE = b"Time (s),Force (N)\n" + b"".join(b"%d,0.1\n" % i for i in range(40))
         (b"\x00" * 100, {}, "a.csv"),
         (b"PK\x03\x04nonsense", {}, "a.csv"),
         (b"%PDF-1.7", {}, "it is a PDF document"),
+        (
+            b"time (s),force (N)\n" + b"".join(b"%de-320,%d\n" % (i, i % 7) for i in range(60)),
+            {},
+            "",
+        ),
+        (WAV, {}, "a.csv"),
+        (TRACK, {"options": '{"gravity": 1e-320}'}, "a.csv"),
         (FORCE, {"options": "3"}, "options must be an object in JSON, got '3'"),
         (FORCE, {"options": "["}, "options must be JSON, got '['"),
         (FORCE, {"options": '{"path": "/etc/passwd"}'}, "'path' is no option"),
@@ -410,6 +441,8 @@ def test_a_file_that_is_none(server, content, asked, message):
         ({"drop": "{"}, "drop must be JSON, got '{'"),
         ({"measured": '{"force.0": "force"}'}, "force.0 needs a file with a force over time"),
         ({"measured": '{"rebound_ratios.0": 1}'}, "measured must have texts such as '1.64 ± 0.02'"),
+        ({"measured": '{"collisions.0": "%s"}' % ("9" * 5000)}, "collisions.0"),
+        ({"measured": '{"\\ud800": "1"}'}, "?"),
         ({"measured": "{}"}, "measured must name what was measured, such as"),
     ],
 )

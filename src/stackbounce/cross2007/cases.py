@@ -61,9 +61,14 @@ def _sized(drop: Drop, name: str) -> Drop:
     sizes = _BALLS.get(name)
     if sizes is None:
         return drop
+    twins = len(set(sizes)) < len(sizes)
     balls = [
-        replace(ball, name=known, diameter=PAPER[f"{known}.diameter"].value)
-        for ball, known in zip(drop.balls, sizes, strict=True)
+        replace(
+            ball,
+            name=f"{known} {where}" if twins else known,
+            diameter=PAPER[f"{known}.diameter"].value,
+        )
+        for ball, known, where in zip(drop.balls, sizes, ("below", "above"), strict=True)
     ]
     return replace(drop, balls=balls)
 
@@ -120,13 +125,13 @@ _GROUPS: dict[str, tuple[_Made, ...]] = {
         (
             "textbook",
             "The textbook: a lower ball 1000 times as heavy",
-            "Nothing lost, the upper ball leaves at nearly 3 times its speed.",
+            "Nothing lost, the upper ball leaves at 3 times its speed, for 9 times the height.",
             _textbook("models.lossless", 1000.0),
         ),
         (
             "separate",
             "Basketball and tennis ball, nothing lost",
-            "The masses of section III: the upper ball leaves at 1.9 times its speed.",
+            "The textbook's 1.9 times the speed; Figure 9 has balls that stay in contact.",
             _textbook("models.lossless"),
         ),
         (
@@ -184,7 +189,7 @@ _GROUPS: dict[str, tuple[_Made, ...]] = {
         (
             "figure-9-other",
             "The fit that the text rejects",
-            "Other springs give the same speeds, and another duration.",
+            "Other springs throw the tennis ball up nearly as fast, the basketball slower.",
             stacks.other_fit,
         ),
         (
@@ -228,13 +233,13 @@ _GROUPS: dict[str, tuple[_Made, ...]] = {
         (
             "B1-on-B1",
             "B1 on B1, 12 ms on the floor",
-            "Two equal balls, apart enough for the measured duration.",
+            "Two nearly equal balls, apart enough for the measured duration.",
             stacks.late_twins,
         ),
         (
             "B1-on-B1-parted",
             "B1 on B1, meeting as the lower one leaves the floor",
-            "Entirely separate collisions: the balls exchange their speeds.",
+            "Entirely separate collisions: the balls all but exchange their speeds.",
             stacks.parted_twins,
         ),
     ),

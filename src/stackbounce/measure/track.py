@@ -23,6 +23,7 @@ __all__ = ["Track", "Tracks", "track"]
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
 _LEAST_TILT = math.radians(0.5)
 _CORRELATED = 0.2
+_NOTICED = 1.0  # error of a speed, beyond which it is said to be off
 
 
 @dataclass(frozen=True)
@@ -116,7 +117,8 @@ class Tracks:
                 bounce = f" of bounce {k}" if len(ball.impact_times) > 1 else ""
                 rows.append(Row(f"{of}impact speed{bounce}", ball.impact_speeds[k], "m/s"))
                 rows.append(Row(f"{of}rebound speed{bounce}", ball.rebound_speeds[k], "m/s"))
-                rows.append(Row(f"{of}restitution{bounce}", ball.restitutions[k]))
+                if k > 0 or not self.rebound_ratios:  # what struck another ball, too, has none
+                    rows.append(Row(f"{of}restitution{bounce}", ball.restitutions[k]))
                 after = bounce.replace(" of", " after")
                 rows.append(Row(f"{of}apex height{after}", ball.apex_heights[k], "m"))
                 rows.append(Row(f"{of}time{bounce}", ball.impact_times[k], "s"))
@@ -280,6 +282,23 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
     return fitted
 
 
+def _stays(
+    name: str, times: NDArray[np.float64], fit: Flights, bounce: int, impact: Any, fall: Any
+) -> tuple[str, ...]:
+    """Return a note where a ball is on the floor for so long that its speeds are not those there."""
+    before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
+    lasts = max(after - before - 1, 0) * float(np.median(np.diff(times)))  # at least
+    excess = 0.5 * fall.nominal_value * lasts
+    if excess < _NOTICED * impact.std_dev:
+        return ()
+    note = (
+        f"{name} is on the floor for {1e3 * lasts:.0f} ms or more: its speeds, where the flights "
+        f"before and after meet, are too high by {excess:.2g} m/s or more, beyond their errors, and "
+        "so are its heights; tell the floor's level (--floor, floor=) for those at the touch"
+    )
+    return (note,)
+
+
 def _track(
     name: str,
     times: NDArray[np.float64],
@@ -325,7 +344,10 @@ def _track(
         heights,
         fit,
         tuple(bounces),
-        _notes(name, times, fit, bounces, moments[0], impacts[0] / fall),
+        (
+            *_notes(name, times, fit, bounces, moments[0], impacts[0] / fall),
+            *(_stays(name, times, fit, bounces[0], impacts[0], fall) if floor is None else ()),
+        ),
     )
 
 

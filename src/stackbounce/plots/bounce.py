@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType
-from stackbounce.plots.style import STYLE, color_of
+from stackbounce.plots.style import STYLE, color_of, written
 from stackbounce.plots.window import impact_window, positions
 from stackbounce.result import Result
 
@@ -79,7 +79,7 @@ def _draw_positions(axes: "Axes", result: Result, times: NDArray[np.float64]) ->
     ends = []
     for b, (ball, path) in enumerate(zip(drop.balls, positions(result, times), strict=True)):
         axes.plot(1e3 * times, 1e3 * path, color=color_of(b))
-        ends.append((1e3 * float(path[-1]), b, f"{ball.name or f'ball {b}'}"))
+        ends.append((1e3 * float(path[-1]), b, written(ball.name or f"ball {b}")))
     _label_ends(axes, 1e3 * times[-1], ends, result.rebound_ratios)
     axes.set_ylabel("position (mm)")
     axes.axhline(0.0, color="#808080", linewidth=0.8)
@@ -149,7 +149,7 @@ def _count(collisions: int) -> str:
 
 def _between(result: Result, contact: int) -> str:
     """Return the words for a contact, such as ``floor and basketball``."""
-    names = [ball.name or f"ball {b}" for b, ball in enumerate(result.drop.balls)]
+    names = [written(ball.name or f"ball {b}") for b, ball in enumerate(result.drop.balls)]
     lower = "floor" if contact == 0 else names[contact - 1]
     return f"{lower} and {names[contact]}"
 

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-__all__ = ["COLORS", "STYLE", "color_of"]
+__all__ = ["COLORS", "STYLE", "color_of", "written"]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """Okabe and Ito's: told apart by everybody."""
@@ -31,3 +31,14 @@ def color_of(index: int) -> str:
     '#0072B2'
     """
     return COLORS[index % len(COLORS)]
+
+
+def written(name: str) -> str:
+    r"""Return a name as matplotlib writes it out: no formula, no character that a file cannot have.
+
+    Examples
+    --------
+    >>> print(written("5 $ ball"))
+    5 \$ ball
+    """
+    return "".join(c if c.isprintable() else "?" for c in name).replace("$", r"\$")

@@ -238,7 +238,8 @@ def _add_errors(app: FastAPI) -> None:
 
     def problem(status: int, detail: str) -> JSONResponse:
         headers = {"retry-after": "5"} if status == 503 else None
-        return JSONResponse({"detail": detail}, status, headers)
+        text = detail.encode("utf-8", "replace").decode()  # a lone surrogate cannot be sent
+        return JSONResponse({"detail": text}, status, headers)
 
     @app.exception_handler(RequestValidationError)
     async def invalid(_: Request, error: RequestValidationError) -> Response:

@@ -8,10 +8,10 @@ import asyncio
 import contextlib
 import ipaddress
 import json
+import re
 import socket
 from collections.abc import Awaitable, Callable, MutableMapping
 from typing import Any
-from urllib.parse import urlsplit
 
 from stackbounce.web.limits import Limits
 
@@ -40,6 +40,7 @@ _HEADERS = {
     "permissions-policy": "camera=(), geolocation=(), microphone=()",
     "cache-control": "no-cache",
 }
+_HOST = re.compile(r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::\d{1,5})?", re.ASCII)
 _LINGER = 3.0  # s, for which a refused request is listened to
 _PATIENCE = 8  # times an upload, of a refused request that is still taken
 _UPLOADS = ("/api/measure", "/api/fit")
@@ -101,19 +102,19 @@ class Guard:
                 400, f"this server answers to its own address only, not to {host[:60]!r}"
             )
         origin = headers.get("origin")
-        if origin is not None and urlsplit(origin).netloc != host:
+        if origin is not None and origin.casefold() != f"http://{host.casefold()}":
             raise _Refused(403, "pages of other sites cannot use this server")
-        site, mode = headers.get("sec-fetch-site"), headers.get("sec-fetch-mode")
+        site, mode = headers.get("sec-fetch-site", "").casefold(), headers.get("sec-fetch-mode")
         followed = mode == "navigate" and scope["method"] == "GET"  # a link may lead here
         if site in ("cross-site", "same-site") and not followed:
             raise _Refused(403, "pages of other sites cannot use this server")
 
     def _is_here(self, host: str) -> bool:
         """Tell whether a name is this machine's: any other may have been made to lead here."""
-        try:
-            name = urlsplit(f"//{host}").hostname or ""
-        except ValueError:
+        found = _HOST.fullmatch(host)
+        if found is None:
             return False
+        name = found[1].strip("[]").casefold()
         if name in self._names:
             return True
         try:

@@ -23,8 +23,9 @@ _WAIT = """<!doctype html>
 <link rel="stylesheet" href="/style.css">
 </head>
 <body>
-<main role="status"><h1>The paper is being recomputed</h1>
-<p>{words}</p></main>
+<main class="waiting" role="status"><h1>The paper is being recomputed</h1>
+<p>{words}</p>
+<p><a href="/">Back to the explorer</a></p></main>
 </body>
 </html>
 """

@@ -57,11 +57,13 @@ def serve(
     import uvicorn
 
     from stackbounce.web.app import create_app
+    from stackbounce.web.patience import patient_protocol
 
     with contextlib.closing(_listening(host, port)) as listening:
         address = f"http://{_shown(host)}:{listening.getsockname()[1]}/"
         config = uvicorn.Config(
             create_app(limits),
+            http=patient_protocol(),
             log_level="warning",
             limit_concurrency=limits.connections,
             timeout_keep_alive=30,

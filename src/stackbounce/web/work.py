@@ -39,17 +39,21 @@ class Workers:
     """
 
     def __init__(self, limits: Limits) -> None:
+        self._context = multiprocessing.get_context("spawn")  # a fork would copy the threads
+        self._limits = limits
+        self._ready = self._context.Event()
+        self._under_way = 0
+        self._stopped = False
+        self._pool = self._processes()
+
+    def _processes(self) -> Any:
         from pebble import ProcessPool
 
-        context = multiprocessing.get_context("spawn")  # a fork would copy the server's threads
-        self._limits = limits
-        self._ready = context.Event()
-        self._under_way = 0
-        self._pool = ProcessPool(
-            limits.workers,
+        return ProcessPool(
+            self._limits.workers,
             initializer=_begin,
-            initargs=(context.Lock(), self._ready),
-            context=context,
+            initargs=(self._context.Lock(), self._ready),
+            context=self._context,
         )
 
     @property
@@ -64,8 +68,16 @@ class Workers:
 
     def stop(self) -> None:
         """End the processes, whatever they do."""
-        self._pool.stop()  # type: ignore[no-untyped-call]
+        self._stopped = True
+        self._pool.stop()
         self._pool.join(timeout=5.0)
+
+    def _submit(self, job: Callable[..., Any], seconds: float, *arguments: Any) -> Any:
+        """Hand a job to the processes; to new ones, if these have been ended from outside."""
+        if not self._pool.active and not self._stopped:
+            self._pool.stop()
+            self._pool = self._processes()
+        return self._pool.submit(job, seconds, *arguments)
 
     async def run(self, job: Callable[..., Any], *arguments: Any, seconds: float) -> Any:
         """Return what a job returns, or raise what it raises.
@@ -86,6 +98,8 @@ class Workers:
         TooLong
             If it was ended.
         """
+        from concurrent.futures.process import BrokenProcessPool
+
         from pebble import ProcessExpired
 
         if self._under_way >= self._limits.waiting:
@@ -95,8 +109,8 @@ class Workers:
             )
         self._under_way += 1
         try:
-            return await asyncio.wrap_future(self._pool.submit(job, seconds, *arguments))
-        except ProcessExpired:
+            return await asyncio.wrap_future(self._submit(job, seconds, *arguments))
+        except (ProcessExpired, BrokenProcessPool):
             raise TooLong(
                 "the process that computed this ended, perhaps for want of memory: "
                 "ask for fewer balls, points or numbers at once"
@@ -111,6 +125,8 @@ class Workers:
 
 
 _LOADING = 10.0  # s, that a process may take to load what another one has compiled
+
+_COMPILING = 180.0  # s, after which the process that compiles is taken for ended
 
 _prepared = threading.Event()
 _elsewhere: list[Any] = []  # the event that tells that some process has compiled the kernels
@@ -142,7 +158,12 @@ def _begin(one_at_a_time: Any, ready: Any) -> None:
 def _prepare(one_at_a_time: Any, ready: Any) -> None:
     from stackbounce.web.answers.warm import warm
 
-    with one_at_a_time:  # the first process compiles, the others find it in numba's cache
+    # The first process compiles, others find it in numba's cache; if it was ended, the next does.
+    first = one_at_a_time.acquire(timeout=_COMPILING)
+    try:
         warm()
+    finally:
+        if first:
+            one_at_a_time.release()
     _prepared.set()
     ready.set()

@@ -55,7 +55,9 @@ def _law(kind: type[ContactLaw]) -> dict[str, Any]:
     """Return a law's name, formula and numbers, and its docstring's first line and source."""
     text = inspect.getdoc(kind) or ""
     _, _, rest = text.partition("Source: ")
-    source = re.split(r"\n\n|(?<=[\dV)])\.\s+(?=[A-Z])", rest)[0]  # a sentence ends after a number
+    source = re.split(r"\n\n|(?<=[\d)])\.\s+(?=[A-Z])|(?<=section V)\.\s", rest)[
+        0
+    ]  # a sentence ends after a number
     return {
         "law": kind.__name__,
         "says": text.partition("\n")[0],

@@ -35,7 +35,7 @@ _OUTCOMES = {
     "rebound_height": ("rebound height of {ball}", "m"),
     "collisions": ("collisions of {contact}", ""),
 }
-_ENERGY = ("kinetic energy kept", "")
+_ENERGY = ("kinetic energy retained", "")
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,13 @@ class Line:
         if self.low == self.high:
             raise InvalidValue(f"high must differ from low, got {self.high:g} twice")
         spread = np.geomspace if self.log else np.linspace
-        return np.asarray(spread(self.low, self.high, self.count))
+        with np.errstate(all="ignore"):
+            values = np.asarray(spread(self.low, self.high, self.count))
+        if not np.isfinite(values).all():
+            raise InvalidValue(
+                f"low and high must be nearer to each other, got {self.low:g} and {self.high:g}"
+            )
+        return values
 
 
 def drop_map(drop: Drop, x: Line, y: Line, show: str, events: int) -> str:

@@ -126,7 +126,7 @@ def fitted(
         data[what] = value
         if what.startswith("force."):
             data[what] = _record(drop, what, value, name, content, options)
-        elif re.fullmatch(r"collisions\.\d+", what) and value.strip().isdecimal():
+        elif re.fullmatch(r"collisions\.\d+", what) and re.fullmatch(r"\s*[0-9]{1,9}\s*", value):
             data[what] = int(value)
     done = fit(drop, data, list(vary))
     return as_json(
@@ -159,6 +159,8 @@ def _analysed(name: str, content: bytes, options: Mapping[str, Any]) -> tuple[An
         return data, analyse(data, **known_of_it, **words)
     except StackbounceError as error:
         raise type(error)(f"{name}: {error}") from error
+    except (ArithmeticError, IndexError, ValueError) as error:
+        raise InvalidValue(f"{name}: its numbers cannot be analysed ({error})") from error
 
 
 def _of(keys: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:

@@ -5,6 +5,7 @@ import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withVal
 import { choice, numberField } from "./fields.js";
 import { asMeasured, changeLaw } from "./laws.js";
 import { FIRST } from "./store.js";
+import { capital } from "./words.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
 
 const INCIDENCE = [
@@ -53,8 +54,8 @@ export function mountControls(root, store, api, catalogue) {
   const measured = (contact, values) =>
     attempt(async () => {
       const { drop } = store.get();
-      const changed = await asMeasured(api, drop, contact, values);
-      change(withValue(drop, `contacts.${contact}`, changed), placed(contact, "As measured."));
+      const { contact: changed, note } = await asMeasured(api, drop, contact, values);
+      change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
   const tools = { catalogue, set, change, choose, relaw, measured, drop: () => store.get().drop };
 
@@ -182,7 +183,7 @@ function incidence(box, drop, until, { set, change, drop: current }) {
 function showError(fields, general, error) {
   const detail = error && !error.offline ? error.detail : null;
   const named = detail && fields.filter(({ path }) => mentions(detail, path)).sort((a, b) => b.path.length - a.path.length)[0];
-  for (const field of fields) field.fail(field === named ? detail : null);
+  for (const field of fields) field.fail(field === named ? capital(detail.slice(field.path.length).trim()) : null);
   general.hidden = !detail || Boolean(named);
   write(general, general.hidden ? "" : detail);
 }

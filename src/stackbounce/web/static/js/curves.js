@@ -35,7 +35,7 @@ function positions({ drop, frames }, whole) {
     index,
     values: scaled(values, factor),
   }));
-  return { what: "position", title: "Position", unit: whole ? "m" : "mm", factor, lines };
+  return { what: "position", title: "Position", unit: whole ? "m from the touch" : "mm from the touch", factor, lines };
 }
 
 function forces({ drop, frames }) {

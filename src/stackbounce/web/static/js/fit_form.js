@@ -16,6 +16,7 @@ const BY_CONTACT = {
   last_release: "last release",
   collisions: "collisions",
 };
+const UNLIKELY = 1e-3; // chance of a true model to be as far from what was measured
 const EXAMPLES = {
   rebound_ratios: "1.64 ± 0.02",
   rebound_speeds: "5.8 ± 0.1 m/s",
@@ -117,6 +118,8 @@ export function fitForm(store, api, fitted) {
     if (!rows.hasChildNodes()) addRow();
     outcome.replaceChildren();
     undo.hidden = true;
+    problem.hidden = true;
+    write(status, "");
     offerVaried();
   };
   const offerVaried = async () => {
@@ -151,7 +154,7 @@ export function fitForm(store, api, fitted) {
       before = drop;
       undo.hidden = false;
       outcome.replaceChildren(...told(answer, { ...labels, ...Object.fromEntries([...forces(drop), ...quantities(drop)]) }));
-      write(status, "Fitted: the drop is now the best one.");
+      write(status, verdict(answer));
       fitted(answer);
     } catch (error) {
       write(status, "");
@@ -189,6 +192,12 @@ export function fitForm(store, api, fitted) {
   return { element, offer, follow };
 }
 
+/** Return how well the drop describes what was measured, which it has been fitted to. */
+function verdict({ probability }) {
+  if (probability === null || probability > UNLIKELY) return "Fitted: the drop is now the best one.";
+  return "Fitted, but not well: the drop is now the nearest one, and it does not describe what was measured.";
+}
+
 /** Return a drop without the balls on top; a spring gets a damping, as a ball alone is measured for its loss. */
 function lowest(drop) {
   const [{ law, stiffness }] = drop.contacts;
@@ -213,7 +222,7 @@ function quantities(drop) {
     Object.entries(names).flatMap(([name, says]) =>
       drop.balls.map((_, i) => [`${name}.${i}`, `${capital(says)} of ${of(drop, i)}`]),
     );
-  return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", "Kinetic energy kept"]];
+  return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", "Kinetic energy retained"]];
 }
 
 /** What tells a law's loss. */

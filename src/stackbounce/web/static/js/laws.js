@@ -4,6 +4,7 @@ import { contactMass, speedOf, withValue } from "./drops.js";
 import { clean } from "./units.js";
 
 const LOSSLESS = ["Spring", "Hertz", "PowerLaw"];
+const LOSSY = "Hysteretic"; // the paper's own way to lose energy
 const BALL = { law: "Rigid", restitution: 0.8 }; // what a contact is made like that has no law before
 
 /**
@@ -51,11 +52,12 @@ function tidied(contact) {
   return Object.fromEntries(entries.map(([name, value]) => [name, typeof value === "number" ? clean(value) : value]));
 }
 
-/** Return the contact of the law it has that shows a measured restitution and contact time. */
+/** Return `{contact, note}`: a contact with a measured restitution and contact time, of its own law if that can lose. */
 export async function asMeasured(api, drop, place, { restitution, contactTime }) {
-  const { law, exponent } = drop.contacts[place];
+  const { law: own, exponent } = drop.contacts[place];
+  const law = restitution < 1 && LOSSLESS.includes(own) ? LOSSY : own;
   const request = { law, mass: contactMass(drop, place), impact_speed: speedOf(drop), restitution };
   if (law !== "Rigid") request.contact_time = contactTime;
   if (exponent !== undefined) request.exponent = exponent;
-  return tidied((await api.law(request)).contact);
+  return { contact: tidied((await api.law(request)).contact), note: law === own ? "As measured." : `As measured; ${own} loses no energy, so it is ${law} now.` };
 }

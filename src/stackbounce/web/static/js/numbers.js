@@ -3,7 +3,7 @@
 import { h, write } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
 import { fixed, format } from "./units.js";
-import { ballName, capital, contactName, count, height, highest, percent, setUp, shortContact, told } from "./words.js";
+import { ballName, capital, contactName, count, height, highest, percent, setUp, shortContact, shortly, told } from "./words.js";
 
 const SETTLED = 700; // ms without a new result before it is said
 
@@ -13,7 +13,8 @@ export function mountNumbers({ root, table, live }, store) {
   const show = () => {
     const { result, until } = store.get();
     if (!result) return;
-    root.replaceChildren(ballTable(result, until), facts(result, until));
+    const sentence = h("p", { class: "told", "aria-hidden": "true", text: shortly(result, until) });
+    root.replaceChildren(sentence, ballTable(result, until), facts(result, until));
     table.replaceChildren(intervalTable(result));
     clearTimeout(timer);
     timer = setTimeout(() => write(live, told(result, until)), SETTLED);
@@ -47,7 +48,7 @@ function ballTable(result, until) {
   const all = [...own, ...(theirs ?? [])];
   const when = until === null ? "After the impact" : `Within ${format(until)} s`;
   const groups = [h("td"), h("th", { scope: "colgroup", colspan: own.length, text: when })];
-  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: "Textbook" }));
+  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: "Textbook: separate collisions" }));
   const rows = drop.balls.map((_, ball) => row(ballName(drop, ball), ball, ...all.map(({ cell }) => cell(ball))));
   return h(
     "table",
@@ -72,7 +73,7 @@ function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratio
 function wholeColumns({ drop, frames }, positions) {
   const fallen = speedOf(drop) ** 2 / 2 / (drop.gravity || GRAVITY);
   const tops = positions.map((path) => highest(frames.time, path));
-  return [{ name: ["highest", wide(" (× drop)")], cell: (ball) => [height(tops[ball]), times(tops[ball], fallen)] }];
+  return [{ name: ["highest so far", wide(" (× drop)")], cell: (ball) => [height(tops[ball]), times(tops[ball], fallen)] }];
 }
 
 /** Return how many times the height of the drop a ball comes up, to stand behind the height. */
@@ -96,7 +97,7 @@ function facts(result, until) {
   const list = h("dl", { class: "facts" }, pair("Impact speed", `${format(result.reference_speed, 3)} m/s`));
   if (until === null) {
     const theirs = separate ? percent(separate.energy_retained) : undefined;
-    list.append(pair("Energy kept", percent(result.energy_retained), theirs));
+    list.append(pair("Energy retained", percent(result.energy_retained), theirs));
   }
   const met = drop.contacts
     .map((_, contact) => contact)

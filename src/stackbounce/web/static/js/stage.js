@@ -21,7 +21,7 @@ export function mountStage(root, store, clock) {
   const balls = s("g", { class: "balls" });
   svg.append(shading(), ruler, ground, balls, ghosts, time, scale);
   root.append(svg);
-  const nothing = h("p", { class: "stage-empty note", text: "No drop yet." });
+  const nothing = h("p", { class: "stage-empty note", text: "Computing the first drop …" });
   root.append(nothing);
   let scene = null;
 

@@ -3,6 +3,7 @@
 import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
 import { h } from "./dom.js";
 import { choice, numberField } from "./fields.js";
+import { format } from "./units.js";
 import { ballName, contactName } from "./words.js";
 
 const OWN = "";
@@ -49,7 +50,7 @@ function ballCard(drop, ball, tools, field) {
       text,
       onclick: () => tools.change(act(tools.drop())),
     });
-  const entries = tools.catalogue.balls.map((one) => [one.name, one.name]);
+  const entries = tools.catalogue.balls.map((one) => [one.name, `${one.name}, ${format(one.mass * 1e3)} g`]);
   const known = tools.catalogue.balls.some((one) => one.name === drop.balls[ball].name);
   const choose = choice({
     label: `Ball ${ball}`,

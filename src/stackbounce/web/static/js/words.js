@@ -66,7 +66,20 @@ export function told(result, until) {
   const expected = result.status === "FINISHED" || (until !== null && result.status === "TIME_REACHED");
   const end = expected ? "" : ` ${capital(result.advice)}.`;
   if (until !== null) return `Within ${format(until)} seconds, ${balls.join("; ")}.${end}`;
-  return `After the impact, ${balls.join("; ")}. Kinetic energy kept: ${percent(result.energy_retained)}.${end}`;
+  return `After the impact, ${balls.join("; ")}. Kinetic energy retained: ${percent(result.energy_retained)}.${end}`;
+}
+
+/** Return the upper ball's part of a result, and the textbook's, in a sentence. */
+export function shortly(result, until) {
+  const { drop, separate } = result;
+  const top = drop.balls.length - 1;
+  const name = capital(ballName(drop, top));
+  if (until !== null || result.rebound_ratios[top] === null) return `${name} ${until === null ? leaving(result, top) : rising(result, top)}.`;
+  const own = `${name} ${leaving(result, top)}`;
+  if (!separate) return `${own}: these are the textbook’s separate collisions.`;
+  if (separate.error || separate.rebound_ratios[top] === null) return `${own}.`;
+  const theirs = separate.rebound_ratios[top];
+  return `${own}; by the textbook, one collision after the other, it would be ${format(theirs, 3)} times.`;
 }
 
 function leaving(result, ball) {
