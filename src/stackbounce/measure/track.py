@@ -13,6 +13,7 @@ from stackbounce.measure.flights import Flights
 from stackbounce.measure.paths import Columns, Upward, columns, flights_of, tilt_of, upward
 from stackbounce.measure.table import Row
 from stackbounce.measure.timebase import TimeBase, check_time_base
+from stackbounce.measure.track_notes import notes_of, stays_long
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
@@ -22,8 +23,6 @@ __all__ = ["Track", "Tracks", "track"]
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
 _LEAST_TILT = math.radians(0.5)
-_CORRELATED = 0.2
-_NOTICED = 1.0  # error of a speed, beyond which it is said to be off
 
 
 @dataclass(frozen=True)
@@ -282,23 +281,6 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
     return fitted
 
 
-def _stays(
-    name: str, times: NDArray[np.float64], fit: Flights, bounce: int, impact: Any, fall: Any
-) -> tuple[str, ...]:
-    """Return a note where a ball is on the floor for so long that its speeds are not those there."""
-    before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
-    lasts = max(after - before - 1, 0) * float(np.median(np.diff(times)))  # at least
-    excess = 0.5 * fall.nominal_value * lasts
-    if excess < _NOTICED * impact.std_dev:
-        return ()
-    note = (
-        f"{name} is on the floor for {1e3 * lasts:.0f} ms or more: its speeds, where the flights "
-        f"before and after meet, are too high by {excess:.2g} m/s or more, beyond their errors, and "
-        "so are its heights; tell the floor's level (--floor, floor=) for those at the touch"
-    )
-    return (note,)
-
-
 def _track(
     name: str,
     times: NDArray[np.float64],
@@ -345,8 +327,8 @@ def _track(
         fit,
         tuple(bounces),
         (
-            *_notes(name, times, fit, bounces, moments[0], impacts[0] / fall),
-            *(_stays(name, times, fit, bounces[0], impacts[0], fall) if floor is None else ()),
+            *notes_of(name, times, fit, bounces, moments[0], impacts[0] / fall),
+            *(stays_long(name, times, fit, bounces[0], impacts[0], fall) if floor is None else ()),
         ),
     )
 
@@ -365,38 +347,6 @@ def _at_level(speed: Any, above: Any, fall: Any) -> Any:
             "the tracked point is while the ball touches the floor, along the upward axis)"
         )
     return square**0.5
-
-
-def _notes(
-    name: str,
-    times: NDArray[np.float64],
-    fit: Flights,
-    bounces: list[int],
-    impact: Any,
-    fallen: Any,
-) -> tuple[str, ...]:
-    """Return what should be known of a ball's track; `fallen` is its time of fall from rest."""
-    notes = []
-    first = fit.flights[bounces[0]]
-    late = float(times[first.first] - (impact - fallen).nominal_value)
-    if late > 0.2 * fallen.nominal_value:
-        notes.append(
-            f"{name}: its track begins {late:.2g} s after the fall did; the drop height is that of "
-            "a fall from rest with the same impact speed."
-        )
-    elif late < -0.1 * fallen.nominal_value:
-        notes.append(
-            f"{name}: it goes up before it falls; the drop height is that of its highest point."
-        )
-    least = min(last - start for start, last in fit.flights)
-    if least < 5:
-        notes.append(f"{name}: a flight has only {least} points; a higher frame rate would help.")
-    if fit.correlation > _CORRELATED:
-        notes.append(
-            f"{name}: the errors of neighbouring points go together (correlation "
-            f"{fit.correlation:.2g}), as when a mark drifts on the ball; the errors allow for it."
-        )
-    return tuple(notes)
 
 
 def _common_gravity(balls: list[Track]) -> Any:

@@ -130,7 +130,7 @@ def test_a_wrong_number_is_told_at_its_field_and_the_last_result_stays(visit):
     field.press("Enter")
     error = page.locator("#field-balls-1-mass-error")
     error.wait_for(state="visible")
-    assert "must be a positive number" in error.inner_text()
+    assert error.inner_text().startswith("Must be a positive number")
     assert field.get_attribute("aria-invalid") == "true"
     assert page.locator("#numbers").inner_text() == before
     field.fill("57 g")
@@ -231,7 +231,7 @@ def test_a_link_with_a_wrong_number_says_so_at_its_field(visit):
     page.goto(f"{visit.address}#balls.0.mass=NaN&contacts.0.law=Rigid&impact_speed=1")
     error = page.locator("#field-balls-0-mass-error")
     error.wait_for(state="visible")
-    assert "balls.0.mass must be" in error.inner_text() or "must be a mass" in error.inner_text()
+    assert error.inner_text().startswith("Must be a mass")
     visit.complaints.clear()  # Chromium logs the answer 422, which is the point here
 
 
