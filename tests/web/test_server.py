@@ -250,7 +250,7 @@ WRONG = [
     ("simulate", {"until": -1}, "until: input should be greater than 0, got -1"),
     ("simulate", {"till": 1}, "till: extra inputs are not permitted"),
     ("law", {"law": "Spring"}, "mass: field required"),
-    ("law", {"law": "Sprung", "mass": 1}, "law: input should be 'Rigid', 'Spring'"),
+    ("law", {"law": "Sprung", "mass": 1}, "did you mean Spring? Known: Rigid, Spring"),
     ("stack", {"balls": ["B7"]}, "ball must be one of the catalogue, got 'B7'; known"),
     ("map", {"x": SIDES["x"], "y": SIDES["x"]}, "x and y must be two numbers, got mass_ratio"),
     (

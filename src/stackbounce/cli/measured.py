@@ -33,19 +33,6 @@ __all__ = [
     "typed",
 ]
 
-_UNITS = {
-    "mass": "kg",
-    "diameter": "m",
-    "height": "m",
-    "speed": "m/s",
-    "contact_time": "s",
-    "restitution": "",
-    "height_error": "m",
-    "floor": "m",
-    "time_constant": "s",
-    "gravity": "m/s**2",
-}
-_PLAIN = ("height_error", "floor", "time_constant", "gravity")  # have no error of their own
 _NOTE = "note"  # a row that is a sentence
 
 
@@ -71,12 +58,10 @@ class Measured:
 
 def numbers(**texts: str | None) -> dict[str, Any]:
     """Return the options that are quantities and given, in SI units, with errors where told."""
-    from stackbounce.measure.uncertain import quantity_with_error
+    from stackbounce.measure.told import told_number
 
     return {
-        name: (quantity if name in _PLAIN else quantity_with_error)(
-            text, _UNITS[name], f"--{name.replace('_', '-')}"
-        )
+        name: told_number(name, text, f"--{name.replace('_', '-')}")
         for name, text in texts.items()
         if text is not None
     }

@@ -7,6 +7,7 @@ sound         recording -> knocks
 bounces       times of knocks -> restitutions
 few_bounces   one knock or two -> what they tell all the same
 track         positions -> flights, speeds, heights
+track_notes   what should be known of a track
 heights       bounce heights -> restitutions
 press/        press curve -> stiffness, exponent, loss
 stiffness     contact time -> stiffness, or the constants of any law
@@ -14,6 +15,7 @@ accelerometer acceleration of what falls -> flights, restitutions
 floor_gap     force on the floor with and without the upper ball -> gap
 sensor_gap    forces on the floor and between the balls -> gap
 analysis      which of these a file needs
+told          what a file does not say: numbers of ball and drop, with units
 assembly      what was found -> a law, a ball to drop
 synthetic/    from the simulator to noisy records
 ============= ========================================================================

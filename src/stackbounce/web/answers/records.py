@@ -11,8 +11,8 @@ from stackbounce.errors import InvalidValue, StackbounceError, nearest, shown
 from stackbounce.fit import Fit, fit
 from stackbounce.measure import analyse
 from stackbounce.measure.reading import read_content
+from stackbounce.measure.told import NUMBERS, told_number
 from stackbounce.measure.track import Tracks
-from stackbounce.measure.uncertain import quantity_with_error
 from stackbounce.measure.waveform import Waveform
 from stackbounce.model import Drop
 from stackbounce.model.laws import law_named
@@ -32,19 +32,6 @@ _Series = dict[str, Any]
 
 _SHOWN = 4000  # points of a curve that a page draws, at most
 _READING = ("holds", "table", "run", "names", "units", "decimal")
-_NUMBERS = {  # of the drop or the ball, with their units; those without an error of their own
-    "mass": "kg",
-    "diameter": "m",
-    "height": "m",
-    "speed": "m/s",
-    "contact_time": "s",
-    "restitution": "",
-    "height_error": "m",
-    "floor": "m",
-    "time_constant": "s",
-    "gravity": "m/s**2",
-}
-_PLAIN = ("height_error", "floor", "time_constant", "gravity")
 _WORDS = ("measured_to", "repeated", "law", "exponent")
 _AFTER = 1.5  # of a simulated impact that is kept of a record
 
@@ -146,12 +133,12 @@ def fitted(
 
 def _analysed(name: str, content: bytes, options: Mapping[str, Any]) -> tuple[Any, Any]:
     for key in options:
-        known = (*_READING, *_NUMBERS, *_WORDS)
+        known = (*_READING, *NUMBERS, *_WORDS)
         if key not in known:
             raise InvalidValue(f"{shown(key)} is no option; {nearest(key, known)}")
     given = {key: value for key, value in options.items() if value not in (None, "")}
     data = read_content(name, content, **_of(_READING, given))
-    known_of_it = {key: _number(key, given[key]) for key in _NUMBERS if key in given}
+    known_of_it = {key: told_number(key, given[key], key) for key in NUMBERS if key in given}
     words = _of(_WORDS, given)
     if "law" in words:
         words["law"] = law_named(words["law"])
@@ -165,14 +152,6 @@ def _analysed(name: str, content: bytes, options: Mapping[str, Any]) -> tuple[An
 
 def _of(keys: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
     return {key: options[key] for key in keys if key in options}
-
-
-def _number(key: str, value: object) -> Any:
-    from stackbounce.units import quantity
-
-    if key in _PLAIN or not isinstance(value, str):
-        return quantity(value, _NUMBERS[key], key)
-    return quantity_with_error(value, _NUMBERS[key], key)
 
 
 def _row(row: Any) -> dict[str, Any]:
