@@ -51,7 +51,8 @@ function ballCard(drop, ball, tools, field) {
       onclick: () => tools.change(act(tools.drop())),
     });
   const entries = tools.catalogue.balls.map((one) => [one.name, `${one.name}, ${format(one.mass * 1e3)} g`]);
-  const known = tools.catalogue.balls.some((one) => one.name === drop.balls[ball].name);
+  const { mass } = drop.balls[ball];
+  const known = tools.catalogue.balls.some((one) => one.name === drop.balls[ball].name && one.mass === mass);
   const choose = choice({
     label: `Ball ${ball}`,
     quiet: true,
