@@ -4,14 +4,14 @@ import functools
 import re
 from dataclasses import dataclass
 from decimal import Decimal
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
 
 from stackbounce.errors import InvalidType, UnitError, finite, shown
 
 if TYPE_CHECKING:
     import pint
 
-__all__ = ["Unit", "factor", "in_si", "quantity"]
+__all__ = ["Unit", "factor", "in_si", "quantity", "unit_of"]
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
@@ -63,6 +63,19 @@ class Unit:
     """
 
     symbol: str = ""
+
+
+def unit_of(hint: Any) -> Unit | None:
+    """Return the unit that a type hint carries, however deep, or None.
+
+    Examples
+    --------
+    >>> unit_of(Annotated[float, Unit("kg")] | None)
+    Unit(symbol='kg')
+    """
+    if get_origin(hint) is Annotated:
+        return next((note for note in hint.__metadata__ if isinstance(note, Unit)), None)
+    return next((unit for unit in map(unit_of, get_args(hint)) if unit is not None), None)
 
 
 def quantity(value: object, unit: str, name: str = "value") -> float:

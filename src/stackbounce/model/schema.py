@@ -7,12 +7,12 @@ what a value may be is checked where it always is, in the dataclasses. Reading o
 import functools
 from collections.abc import Iterable, Mapping
 from dataclasses import MISSING, fields
-from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
+from typing import Any, TypeVar, get_type_hints
 
 from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, between, nearest, shown
 from stackbounce.model.ball import Ball
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, Hysteretic, law_named
-from stackbounce.units import Unit, quantity
+from stackbounce.units import Unit, quantity, unit_of
 
 __all__ = ["NO_FLOOR", "read_ball", "read_law", "read_mapping", "write_law", "write_mapping"]
 
@@ -133,13 +133,7 @@ def _quantity(value: object, unit: Unit, path: str) -> float:
 
 @functools.cache
 def _units(kind: type) -> dict[str, Unit | None]:
-    return {key: _unit(hint) for key, hint in get_type_hints(kind, include_extras=True).items()}
-
-
-def _unit(hint: Any) -> Unit | None:
-    if get_origin(hint) is Annotated:
-        return next((note for note in hint.__metadata__ if isinstance(note, Unit)), None)
-    return next((unit for unit in map(_unit, get_args(hint)) if unit is not None), None)
+    return {key: unit_of(hint) for key, hint in get_type_hints(kind, include_extras=True).items()}
 
 
 def _made(kind: type[_T], values: dict[str, Any], path: str) -> _T:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType
 from stackbounce.plots.style import STYLE, color_of, written
-from stackbounce.plots.window import impact_window, positions
+from stackbounce.plots.window import impact_window, moments
 from stackbounce.result import Result
 
 if TYPE_CHECKING:
@@ -61,11 +61,12 @@ def bounce(result: Result) -> "Figure":
         figure = Figure(figsize=(7.2, 5.6))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = np.linspace(*impact_window(result), _SAMPLES)
-        _draw_positions(above, result, times)
+        sample = moments(result, times)
+        _draw_positions(above, result, times, sample.position.values)
         if result.drop.rigid:
             _draw_impulses(below, result)
         else:
-            _draw_forces(below, result, times)
+            _draw_forces(below, result, times, sample.force.values)
         floor = result.drop.contacts[0] is not None
         below.set_xlabel("time" + floor * " since the lowest ball touched the floor" + " (ms)")
         below.set_xlim(1e3 * times[0], 1e3 * times[-1])
@@ -73,11 +74,13 @@ def bounce(result: Result) -> "Figure":
     return figure
 
 
-def _draw_positions(axes: "Axes", result: Result, times: NDArray[np.float64]) -> None:
+def _draw_positions(
+    axes: "Axes", result: Result, times: NDArray[np.float64], paths: NDArray[np.float64]
+) -> None:
     """Draw the path of each ball, straight before the first touch."""
     drop = result.drop
     ends = []
-    for b, (ball, path) in enumerate(zip(drop.balls, positions(result, times), strict=True)):
+    for b, (ball, path) in enumerate(zip(drop.balls, paths, strict=True)):
         axes.plot(1e3 * times, 1e3 * path, color=color_of(b))
         ends.append((1e3 * float(path[-1]), b, written(ball.name or f"ball {b}")))
     _label_ends(axes, 1e3 * times[-1], ends, result.rebound_ratios)
@@ -109,9 +112,10 @@ def _label_ends(
         )
 
 
-def _draw_forces(axes: "Axes", result: Result, times: NDArray[np.float64]) -> None:
+def _draw_forces(
+    axes: "Axes", result: Result, times: NDArray[np.float64], forces: NDArray[np.float64]
+) -> None:
     """Draw the force at each contact."""
-    forces = result.sample(np.maximum(times, 0.0)).force.values * (times >= 0.0)
     for i, force in enumerate(forces):
         if result.drop.contacts[i] is None:
             continue

@@ -6,7 +6,7 @@ What pydantic adds is the description for machines, and the bounds of one reques
 
 from collections.abc import Callable
 from dataclasses import MISSING, fields
-from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, get_type_hints
 
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
@@ -14,7 +14,7 @@ from pydantic_core import CoreSchema, core_schema
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.model import LAWS, Ball, ContactLaw, Drop
 from stackbounce.model.schema import NO_FLOOR, read_law
-from stackbounce.units import Unit
+from stackbounce.units import unit_of
 from stackbounce.web.limits import LIMITS
 
 __all__ = [
@@ -104,18 +104,12 @@ def _described(kind: type, law: str | None = None) -> _Json:
 
 
 def _described_field(hint: Any) -> _Json:
-    unit = _unit(hint)
+    unit = unit_of(hint)
     if unit is None:
         return {"type": "string"}
     said = f"in {unit.symbol}, or a text with a unit" if unit.symbol else "a pure number"
     number: _Json = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": said}
     return _list(number, 0) if "Sequence" in str(hint) else number
-
-
-def _unit(hint: Any) -> Unit | None:
-    if get_origin(hint) is Annotated:
-        return next((note for note in hint.__metadata__ if isinstance(note, Unit)), None)
-    return next((unit for unit in map(_unit, get_args(hint)) if unit is not None), None)
 
 
 def _list(items: _Json, least: int) -> _Json:

@@ -1,6 +1,7 @@
 """What there is to choose from: balls, contact laws, the paper's cases."""
 
 import dataclasses
+import functools
 import inspect
 import re
 from typing import Any, get_type_hints
@@ -33,6 +34,7 @@ _FIELDS: dict[str, tuple[float, float, float, str]] = {
 }
 
 
+@functools.cache
 def catalogue(limits: Limits) -> str:
     """Return, as JSON, what there is to choose from, and the bounds of one request."""
     presets = [

@@ -9,7 +9,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue
 from stackbounce.model import Drop
 from stackbounce.plots import bounce
-from stackbounce.plots.window import impact_window, positions
+from stackbounce.plots.window import impact_window, moments
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import ran
 
@@ -92,14 +92,13 @@ def _table(drop: Drop, until: float | None, events: int) -> str:
     result = ran(drop, until, events)
     begin, end = impact_window(result)
     times = np.linspace(begin, end, _SAMPLES)
-    sample = result.sample(np.maximum(times, 0.0))
-    early = np.minimum(times, 0.0)
+    sample = moments(result, times)
     columns: dict[str, Any] = {"time (s)": times}
-    for b, path in enumerate(positions(result, times)):
+    for b, path in enumerate(sample.position.values):
         columns[f"position {b} (m)"] = path
-    for b, velocity in enumerate(sample.velocity.values - drop.gravity * early):
+    for b, velocity in enumerate(sample.velocity.values):
         columns[f"velocity {b} (m/s)"] = velocity
-    for i, force in enumerate(sample.force.values * (times >= 0.0)):
+    for i, force in enumerate(sample.force.values):
         columns[f"force {i} (N)"] = force
     columns["energy (J)"] = sample.energy.values
     stream = io.StringIO()

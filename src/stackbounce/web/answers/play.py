@@ -11,7 +11,7 @@ from stackbounce.calibrate import separate
 from stackbounce.errors import StackbounceError
 from stackbounce.model import STANDARD_GRAVITY, Drop, Rigid
 from stackbounce.plain import as_json
-from stackbounce.plots.window import impact_window, positions
+from stackbounce.plots.window import impact_window, moments
 from stackbounce.result import Result
 from stackbounce.simulate import simulate
 from stackbounce.version import __version__
@@ -100,28 +100,17 @@ def _stopped(result: Result) -> bool:
 
 
 def _frames(result: Result, times: _Times) -> dict[str, Any]:
-    sample = result.sample(np.maximum(times, 0.0))
-    early = np.minimum(times, 0.0)
-    gravity = result.drop.gravity
-    place = positions(result, times)
-    velocity = sample.velocity.values - gravity * early
-    fallen = place - sample.position.values
-    compression = sample.compression.values - np.diff(fallen, axis=0, prepend=0.0)
+    sample = moments(result, times)
     mass = np.array([ball.mass for ball in result.drop.balls])[:, None]
-    kinetic = 0.5 * mass * velocity**2
-    potential = np.sum(mass * gravity * place, axis=0)
+    kinetic = 0.5 * mass * sample.velocity.values**2
+    potential = np.sum(mass * result.drop.gravity * sample.position.values, axis=0)
     total = sample.energy.values  # the same on the way down
     stored = np.maximum(total - np.sum(kinetic, axis=0) - potential, 0.0)
     energy = {"kinetic": kinetic, "stored": stored, "potential": potential, "total": total}
-    frames = {
-        "position": place,
-        "velocity": velocity,
-        "force": sample.force.values * (times >= 0.0),
-        "compression": compression,
-    }
+    names = ("position", "velocity", "force", "compression")
     return {
         "time": times,
-        **{name: _short(values) for name, values in frames.items()},
+        **{name: _short(sample[name].values) for name in names},
         "energy": {name: _short(values) for name, values in energy.items()},
     }
 
@@ -142,7 +131,7 @@ def _separate(drop: Drop, until: float | None, times: _Times, events: int) -> di
             textbook = dataclasses.replace(textbook, gravity=drop.gravity)
         result = ran(textbook, until, events)
         reached = result.end_time if _stopped(result) else math.inf
-        place = positions(result, np.minimum(times, reached))
+        place = moments(result, np.minimum(times, reached)).position.values
     except StackbounceError as error:
         return {"error": str(error)}
     laws = textbook.contacts

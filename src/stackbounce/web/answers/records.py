@@ -109,10 +109,14 @@ def fitted(
         If it cannot be fitted.
     """
     data: dict[str, Any] = {}
+    record = None
     for what, value in told.items():
         data[what] = value
         if what.startswith("force."):
-            data[what] = _record(drop, what, value, name, content, options)
+            if not content:
+                raise InvalidValue(f"{what} needs a file with a force over time")
+            record = record or _analysed(name, content, options)
+            data[what] = _channel(drop, what, value, name, *record)
         elif re.fullmatch(r"collisions\.\d+", what) and re.fullmatch(r"\s*[0-9]{1,9}\s*", value):
             data[what] = int(value)
     done = fit(drop, data, list(vary))
@@ -238,13 +242,10 @@ def _is_force(name: str) -> bool:
     return name.split("_", maxsplit=1)[0] in ("force", "voltage")
 
 
-def _record(
-    drop: Drop, what: str, which: str, name: str, content: bytes, options: Mapping[str, Any]
+def _channel(
+    drop: Drop, what: str, which: str, name: str, data: "xr.Dataset", found: Sequence[Any]
 ) -> "xr.DataArray":
     """Return the channel of a file that is the force of a contact, cut to one impact."""
-    if not content:
-        raise InvalidValue(f"{what} needs a file with a force over time")
-    data, found = _analysed(name, content, options)
     own = _channels(data)
     wave = next((one for one in found if isinstance(one, Waveform)), None)
     if wave is None or not own:
