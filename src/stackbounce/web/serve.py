@@ -1,6 +1,7 @@
 """Run the explorer: find a port, start the server, open the browser."""
 
 import contextlib
+import errno
 import signal
 import socket
 import threading
@@ -98,13 +99,12 @@ def _listening(host: str, port: int | None) -> socket.socket:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         try:
             listening.bind((host, number))
-        except socket.gaierror:
-            listening.close()
-            raise InvalidValue(
-                f"--host must be an address of this machine, such as {HOST}, got {host}"
-            ) from None
         except OSError as error:
             listening.close()
+            if isinstance(error, socket.gaierror) or error.errno == errno.EADDRNOTAVAIL:
+                raise InvalidValue(
+                    f"--host must be an address of this machine, such as {HOST}, got {host}"
+                ) from None
             problem = error
             continue
         return listening
