@@ -134,6 +134,22 @@ def test_all_requests_together_are_bounded():
         assert head["status"] == status
 
 
+async def pages(_, __, send):
+    headers = [(b"content-security-policy", b"own")]
+    await send({"type": "http.response.start", "status": 200, "headers": headers})
+    await send({"type": "http.response.body", "body": b""})
+
+
+@pytest.mark.parametrize(("path", "kept"), [("/paper/index.html", True), ("/", False)])
+def test_a_page_of_the_paper_tells_its_own_scripts(path, kept):
+    head, _ = asked(
+        Guard(pages, LIMITS), [{"type": "http.request", "body": b"", "more_body": False}], path
+    )
+    policies = [value for name, value in head["headers"] if name == b"content-security-policy"]
+    assert len(policies) == 1
+    assert (policies[0] == b"own") is kept
+
+
 async def echo(_, receive, send):
     message = await receive()
     await send(

@@ -1,6 +1,8 @@
 """`stackbounce app`: where it listens, what it says, how it ends."""
 
 import asyncio
+import base64
+import hashlib
 import json
 import os
 import signal
@@ -113,7 +115,7 @@ class Stub:
         assert seconds == LIMITS.paper_seconds
         if self.error:
             raise self.error
-        Path(folder, "index.html").write_text("<h1>The paper</h1>")
+        Path(folder, "index.html").write_text("<h1>The paper</h1><script>let a = 1;</script>")
 
 
 def pages(stub, folder, names):
@@ -142,7 +144,10 @@ def test_pages_of_the_paper(tmp_path):
     assert b"is being recomputed" in waiting.body
     assert waiting.headers["refresh"] == "2"
     assert lead.headers["location"] == "/paper/index.html"
-    assert page.path == folder / "index.html"
+    assert b"The paper" in page.body
+    digest = base64.b64encode(hashlib.sha256(b"let a = 1;").digest()).decode()
+    policy = page.headers["content-security-policy"]
+    assert policy.endswith(f"; script-src 'sha256-{digest}'")  # its own script, and no other
     assert [other.status_code for other in others] == [404] * 4
 
 

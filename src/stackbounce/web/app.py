@@ -9,7 +9,7 @@ from typing import Annotated, Any
 
 from fastapi import FastAPI, File, Form, Request, UploadFile
 from fastapi.exceptions import RequestValidationError
-from fastapi.responses import JSONResponse, Response
+from fastapi.responses import FileResponse, JSONResponse, Response
 from fastapi.staticfiles import StaticFiles
 
 from stackbounce.errors import InvalidValue, StackbounceError, shown
@@ -229,6 +229,10 @@ def _add_pages(app: FastAPI) -> None:
     async def paper_page(request: Request, name: str = "") -> Response:
         papers: Papers = request.app.state.papers
         return await papers.page(name)
+
+    @app.get("/favicon.ico", include_in_schema=False)
+    async def icon() -> Response:
+        return FileResponse(_STATIC / "icon.svg")
 
     app.mount("/", StaticFiles(directory=_STATIC, html=True), name="static")
 

@@ -15,7 +15,7 @@ from typing import Any
 
 from stackbounce.web.limits import Limits
 
-__all__ = ["Guard"]
+__all__ = ["PAPER", "Guard"]
 
 _Message = MutableMapping[str, Any]
 _Receive = Callable[[], Awaitable[_Message]]
@@ -26,10 +26,12 @@ _PAGE = (
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
     "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-_PAPER = (  # one file with all its style and pictures inside, and no script
+PAPER = (
     "default-src 'none'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
+"""What a page of the paper may load: it is one file with all its style and pictures inside."""
+
 _HEADERS = {
     "x-content-type-options": "nosniff",
     "x-frame-options": "DENY",
@@ -41,6 +43,7 @@ _HEADERS = {
     "cache-control": "no-cache",
 }
 _HOST = re.compile(r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::\d{1,5})?", re.ASCII)
+_POLICY = b"content-security-policy"
 _LINGER = 3.0  # s, for which a refused request is listened to
 _PATIENCE = 8  # times an upload, of a refused request that is still taken
 _UPLOADS = ("/api/measure", "/api/fit")
@@ -182,7 +185,7 @@ def _replayed(body: bytes, receive: _Receive) -> _Receive:
 
 def _with_headers(send: _Send, path: str) -> _Send:
     """Return what sends an answer with the headers that all answers have."""
-    policy = _PAPER if path.startswith("/paper") else _PAGE
+    policy = PAPER if path.startswith("/paper") else _PAGE
     own = [
         (name.encode(), value.encode())
         for name, value in (_HEADERS | {"content-security-policy": policy}).items()
@@ -191,8 +194,10 @@ def _with_headers(send: _Send, path: str) -> _Send:
 
     async def answer(message: _Message) -> None:
         if message["type"] == "http.response.start":
-            given = [(name, value) for name, value in message["headers"] if name not in names]
-            message = {**message, "headers": given + own}
+            paper = path.startswith("/paper")  # which tells its own scripts, if it has any
+            kept = {_POLICY} if paper and _POLICY in dict(message["headers"]) else set()
+            given = [one for one in message["headers"] if one[0] not in names - kept]
+            message = {**message, "headers": given + [one for one in own if one[0] not in kept]}
         await send(message)
 
     return answer
