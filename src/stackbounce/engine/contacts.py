@@ -45,6 +45,15 @@ _BEYOND = 1.0 + 1e-6  # times the old peak: a steepest curve would be 3 times th
 
 
 @kernel
+def raised(x: float, p: float) -> float:
+    """Return x^p, of a sphere's contact (Hertz) by a root, which takes less time than a power."""
+    if p == 1.5:
+        return x * math.sqrt(x)
+    power: float = x**p
+    return power
+
+
+@kernel
 def force(stack: Stack, i: int, compression: float, rate: float) -> float:
     """Return the force of contact i on the curve that it follows."""
     if stack.phase[i] < COMPRESSING:
@@ -54,8 +63,7 @@ def force(stack: Stack, i: int, compression: float, rate: float) -> float:
         pressing = stack.rate[i] * compression
     else:
         ratio = max(0.0, compression / stack.curve_unit[i])
-        power: float = ratio**exponent
-        pressing = stack.curve_force[i] * power
+        pressing = stack.curve_force[i] * raised(ratio, exponent)
     if stack.law[i] == DAMPED:
         gain = stack.gain_constant[i] + stack.gain_slope[i] * compression
         return pressing * max(0.0, gain + stack.gain_rate[i] * rate)

@@ -15,7 +15,7 @@ from stackbounce.engine.modes import (
 from stackbounce.engine.queue import schedule
 from stackbounce.engine.series import ORDER, TERMS, integral, shift, value
 from stackbounce.engine.stack import MODES, WIDTH, Stack
-from stackbounce.engine.taylor import ENTERED, expand, is_linear, record_crests
+from stackbounce.engine.taylor import ENTERED, expand, is_linear, power_needed, record_crests
 
 _KNOWN = 100.0  # times the tolerance of a step: what a story of many steps makes of it
 _ENTERS = 1e-6  # of the reference speed: a faster contact needs no chord where it begins
@@ -233,14 +233,16 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
     last = stack.last[ball]
     s = time - stack.anchor[first]
     low, high = pressing_range(stack, ball)
-    if stack.modal[first] == 0:
-        record_crests(stack, low, high, series_time(stack, first, s))
+    moves, x, order = stack.modal[first] == 0, s, stack.order[first]
+    if moves:
+        x = series_time(stack, first, s)
+        record_crests(stack, low, high, x)
     fastest = 0.0
     for b in range(first, last + 1):
         open_below = b == first and low > first
         open_above = b == last and b + 1 < len(stack.mass)
         before = stack.velocity[b]
-        if open_below or open_above or stack.modal[first] == 1:
+        if open_below or open_above or not moves:
             travel, change = ball_shift(stack, b, s)
             stack.velocity[b] += change
             if open_below:
@@ -248,11 +250,10 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
             if open_above:
                 stack.compression[b + 1] += travel
         else:
-            x = series_time(stack, first, s)
-            stack.velocity[b] = value(stack.velocity_series[b], stack.order[first], x)
+            stack.velocity[b] = value(stack.velocity_series[b], order, x)
         fastest = max(fastest, abs(before), abs(stack.velocity[b]))
     noise = 64.0 * EPSILON * fastest
-    if stack.modal[first] == 0 and (stack.order[first] < ORDER or stack.root[first] == 2):
+    if moves and (order < ORDER or stack.root[first] == 2):
         known = min(_KNOWN * stack.number[2], _SLOWEST)
         noise = max(noise, known * stack.number[1])
     for b in range(first, last + 1):
@@ -262,7 +263,11 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
             impulse = contact_impulse(stack, i, s)
             stack.impulse[i] += impulse
             stack.faint_impulse[i] += impulse
-        stack.compression[i] = pressed(stack, i, s)
+        if moves:
+            c = stack.compression_series[i]
+            stack.compression[i] = value(c, order + stack.root[first], x)
+        else:
+            stack.compression[i] = pressed(stack, i, s)
     stack.anchor[first] = time
 
 
@@ -282,13 +287,11 @@ def _enter(stack: Stack, low: int, high: int) -> int:
     Returns in which root of time the motion has a power series.
     """
     for i in range(low, high):
-        exponent = stack.curve_exponent[i]
-        twice = 2.0 * exponent
-        smooth = exponent == 0.0 or exponent == 1.0
-        if smooth or stack.compression[i] != 0.0 or twice != math.floor(twice):
+        twice = 2.0 * power_needed(stack, i)
+        if stack.compression[i] != 0.0 or twice != math.floor(twice):
             continue
         rate = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
-        if twice < ENTERED and rate > _ENTERS * stack.number[1]:
+        if 2.0 <= twice < ENTERED and rate > _ENTERS * stack.number[1]:
             stack.faint[i] = 0
             return 2
     return 1

@@ -37,6 +37,18 @@ def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
 
 
 @kernel
+def lower_bound(a: Floats, low: int, n: int, limit: float) -> float:
+    """Return what a[low] + a[low + 1] s + ... + a[n] s^(n - low) is never below up to a limit.
+
+    See `safe_step`.
+    """
+    slope = 0.0
+    for k in range(n, low, -1):
+        slope = a[k] + min(0.0, slope * limit)
+    return a[low] + min(0.0, slope * limit)
+
+
+@kernel
 def fall(
     a: Floats, n: int, sign: float, level: float, band: float, limit: float
 ) -> tuple[float, bool]:

@@ -143,11 +143,14 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         _look_again(stack, i, time)
         stack.clock[0] = time
         return
+    if kind == RELEASE and stack.phase[i] == SLACK:
+        _let_go(stack, i, compression, log)
+        _look_again(stack, i, time)
+        return
     bottom = stack.first[max(i - 1, 0)]
     top = stack.last[i]
-    was_slack = stack.phase[i] == SLACK
     logical = time
-    if kind == TOUCH or (kind == RELEASE and not was_slack):
+    if kind in (TOUCH, RELEASE):
         logical = _crossing(stack, i, time)
     if kind == TOUCH and may_enter(stack) and logical >= stack.anchor[stack.first[i]]:
         time, compression = logical, 0.0 if logical < time else compression
@@ -159,8 +162,6 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         logical = stack.start[i]
         stack.compression[i] = _at_touch(stack, i, compression, time)
     elif kind == RELEASE:
-        if was_slack:
-            logical = stack.clip_time[i]
         stack.phase[i] = OPEN
         stack.released[i] = logical
         stack.counter[4] -= 1
@@ -170,7 +171,7 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     else:
         change_curve(stack, i, kind)
     form_clusters(stack, bottom, top, time)
-    changed = kind in (TOUCH, CLIPPED, RESUMED) or (kind == RELEASE and not was_slack)
+    changed = kind in (TOUCH, RELEASE, CLIPPED, RESUMED)
     for j in range(bottom, min(top + 2, len(stack.mass))):
         if stack.phase[j] == OPEN and changed:
             _note_push(stack, j, logical)
@@ -180,8 +181,19 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
         schedule(stack.due, stack.heap, stack.place, i, -math.inf)
     if kind in (TOUCH, RELEASE):
         _write(stack, i, kind, logical, log)
-        if was_slack:
-            _write_clip(stack, i, log)
+
+
+@kernel
+def _let_go(stack: Stack, i: int, compression: float, log: Floats) -> None:
+    """Open slack contact i, whose interval was over when it was clipped: no motion changes."""
+    stack.phase[i] = OPEN
+    stack.released[i] = stack.clip_time[i]
+    stack.counter[4] -= 1
+    stack.compression[i] -= max(0.0, compression)
+    _write(stack, i, RELEASE, stack.clip_time[i], log)
+    at = (stack.counter[0] - 1) * LOG_COLUMNS
+    log[at + LOWER_VELOCITY] = stack.clip_lower[i]
+    log[at + UPPER_VELOCITY] = stack.clip_upper[i]
 
 
 @kernel
@@ -265,7 +277,7 @@ def _renew(stack: Stack, ball: int, time: float) -> None:
 
 @kernel
 def _write(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
-    """Append an event of contact i to the log; both its balls are anchored at this moment."""
+    """Append an event of contact i to the log, with its balls' velocities at their anchors."""
     at = stack.counter[0] * LOG_COLUMNS
     stack.counter[0] += 1
     log[at + TIME] = time
@@ -277,14 +289,6 @@ def _write(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     log[at + PEAK_FORCE] = stack.peak_force[i]
     log[at + PEAK_COMPRESSION] = stack.peak_compression[i]
     log[at + IMPULSE] = stack.impulse[i]
-
-
-@kernel
-def _write_clip(stack: Stack, i: int, log: Floats) -> None:
-    """Give the log's last entry the velocities of the moment when contact i was clipped."""
-    at = (stack.counter[0] - 1) * LOG_COLUMNS
-    log[at + LOWER_VELOCITY] = stack.clip_lower[i]
-    log[at + UPPER_VELOCITY] = stack.clip_upper[i]
 
 
 @kernel

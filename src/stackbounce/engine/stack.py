@@ -88,9 +88,9 @@ class Stack(NamedTuple):
     compression_series: Rows
     force_series: Rows
     velocity_series: Rows
-    power_series: Rows
-    elastic_series: Rows
+    power_series: Rows  # of (c/curve_unit)^power ...
     gain_series: Rows
+    power: Floats  # ... 0 where the force needs none
     # scratch space and counters
     scratch: Floats
     watched: Floats

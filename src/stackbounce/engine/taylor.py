@@ -15,7 +15,7 @@ tolerance is then round-off and no choice of the user.
 import math
 
 from stackbounce.engine.codes import DAMPED, POWER
-from stackbounce.engine.contacts import force, stored_energy
+from stackbounce.engine.contacts import force, raised, stored_energy
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.series import ORDER, ROOT_ORDER, value
 from stackbounce.engine.stack import Stack
@@ -47,6 +47,11 @@ def expand(stack: Stack, low: int, high: int) -> float:
     for i in range(low, high):
         stack.compression_series[i][0] = stack.compression[i]
         stack.compression_series[i][1] = 0.0  # stays so in a series in the root of time
+        stack.power[i] = power_needed(stack, i) if stack.faint[i] == 0 else 0.0
+        ratio = stack.compression[i] / stack.curve_unit[i]
+        begin = ratio > 0.0 and stack.power[i] > 0.0
+        stack.power_series[i][0] = raised(ratio, stack.power[i]) if begin else 0.0
+        stack.power_series[i][1] = 0.0  # as above
         if not is_linear(stack, i) and stack.curve_exponent[i] != 0.0:
             exact = False
     order = ORDER if exact else stack.setting[0]
@@ -58,13 +63,13 @@ def expand(stack: Stack, low: int, high: int) -> float:
         stack.velocity_series[b][1] = 0.0
         stack.order[b] = order
         stack.speed[b] = speed
-    _find_terms(stack, low, high, order, root)
+    if root == 1 and low == 0 and high == 2:
+        _find_terms(stack, 0, 2, order, 1)  # as below, but compiled for these numbers
+    else:
+        _find_terms(stack, low, high, order, root)
     step = 0.0
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[1])
-    for i in range(low, high):
-        if stack.compression[i] > 0.0 and stack.faint[i] == 0 and stack.curve_exponent[i] > 0.0:
-            step = min(step, _steep_step(stack, i, order, root))
     allowed = speed * (_EXACT if exact else stack.number[2])
     if not exact and allowed > _ROUGH * _fastest(stack, low, high):
         own_speed = _own_speed(stack, low, high)
@@ -78,7 +83,23 @@ def expand(stack: Stack, low: int, high: int) -> float:
         if size * x > before:  # else this term is as small as the last one
             x = min(x, (allowed / size) ** (1.0 / k))
         before = size
-    return min(step, x if root == 1 else x * x)
+    step = min(step, x if root == 1 else x * x)
+    for i in range(low, high):
+        if stack.power[i] > 0.0 and stack.compression[i] > 0.0:
+            step = _steep_step(stack, i, order, root, step)
+    return step
+
+
+@kernel
+def power_needed(stack: Stack, i: int) -> float:
+    """Return the power p of its compression that contact i's curve needs a series of, 0 for none.
+
+    Where a gain is b c + d c' one does for both: c^q (b c + d c') = b c^p + d/p (c^p)', p = q + 1.
+    """
+    p = stack.curve_exponent[i]
+    if p == 0.0 or p == 1.0:
+        return 0.0
+    return p + 1.0 if stack.law[i] == DAMPED and stack.gain_constant[i] == 0.0 else p
 
 
 @kernel
@@ -86,55 +107,57 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
     """Find the series of a cluster, whose first terms are known, up to an order.
 
     With x = t^(1/root), a series of terms a_k x^k is the rate of one of root a_k/(k + root)
-    x^(k + root). One function on purpose, with each array fetched once: as several it would take
-    twice as long.
+    x^(k + root). Of each power of a compression c all terms are found that c is known to. One
+    function on purpose, with each array fetched once: as several it would take twice as long.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
-    powers, elastics, gains = stack.power_series, stack.elastic_series, stack.gain_series
-    law, faint, exponents = stack.law, stack.faint, stack.curve_exponent
-    curve_force, curve_unit, slope = stack.curve_force, stack.curve_unit, stack.rate
+    powers, gains, power = stack.power_series, stack.gain_series, stack.power
+    law, curve_force, curve_unit = stack.law, stack.curve_force, stack.curve_unit
+    slope, exponent = stack.rate, stack.curve_exponent
     gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
     gain_rate, mass = stack.gain_rate, stack.mass
     for k in range(order + 1):
-        share = root / (k + root)
+        n = k + root
+        share = root / n
         for i in range(low, high):
-            c, f = c_all[i], f_all[i]
+            c, u, p = c_all[i], powers[i], power[i]
             rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
-            c[k + root] = share * rate
-            damped, exponent = law[i] == DAMPED, exponents[i]
-            elastic = 0.0
-            if faint[i] == 1 or exponent == 1.0:
-                elastic = slope[i] * c[k]
-            elif exponent > 0.0:
-                # u = (c/unit)^p, term by term, from c u' = p c' u
-                u = powers[i]
-                if c[0] == 0.0:
-                    elastic = _entering_term(c, curve_unit[i], exponent, k, u)
-                elif k == 0:
-                    elastic = u[0] = (c[0] / curve_unit[i]) ** exponent
+            c[n] = share * rate
+            if p > 0.0:
+                # u = (c/unit)^p, term by term, from c u' = p c' u; c begins with x^a, u with x^b
+                a = 2 if root == 2 and c[0] == 0.0 else 0
+                b = int(a * p)
+                m = n - b
+                if m > 0:
+                    part, total, weight = 1.0 / (m * c[a]), 0.0, p * m
+                    for j in range(1, m):
+                        weight -= p + 1.0
+                        total += weight * (c[a + m - j] * u[b + j])
+                    u[n] = part * (total + p * m * (c[a + m] * u[b]))
                 else:
-                    part, total, weight = 1.0 / (k * c[0]), 0.0, exponent * k
-                    for j in range(k):
-                        total += weight * (c[k - j] * u[j])
-                        weight -= exponent + 1.0
-                    elastic = u[k] = part * total
-                elastic *= curve_force[i]
-            if damped:
-                gain = gains[i]
-                gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
-                if k == 0:
-                    gain[0] += gain_constant[i]
-                if exponent == 0.0:
-                    f[k] = curve_force[i] * gain[k]
-                    continue
-                e = elastics[i]
-                e[k] = elastic
-                total = 0.0
-                for j in range(k + 1):
-                    total += e[j] * gain[k - j]
-                f[k] = total
+                    u[n] = raised(c[a] / curve_unit[i], p) if m == 0 else 0.0
+            if law[i] != DAMPED:
+                f_all[i][k] = curve_force[i] * u[k] if p > 0.0 else slope[i] * c[k]
+                continue
+            gain = gains[i]
+            gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
+            if k == 0:
+                gain[0] += gain_constant[i]
+            if exponent[i] == 0.0:
+                f_all[i][k] = curve_force[i] * gain[k]
+            elif p > exponent[i]:  # see `power_needed`
+                pull = gain_slope[i] * u[k] + gain_rate[i] / (share * p) * u[n]
+                f_all[i][k] = curve_force[i] * curve_unit[i] * pull
             else:
-                f[k] = elastic
+                total = 0.0
+                if p > 0.0:
+                    for j in range(1, k + 1):
+                        total += u[j] * gain[k - j]
+                    f_all[i][k] = curve_force[i] * (total + u[0] * gain[k])
+                else:
+                    for j in range(1, k + 1):
+                        total += c[j] * gain[k - j]
+                    f_all[i][k] = slope[i] * (total + c[0] * gain[k])
         for b in range(max(low - 1, 0), high):
             net = 0.0
             if b >= low:
@@ -145,50 +168,28 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
             change = mobility * net
             if k == 0:
                 change -= share * stack.number[0]
-            v_all[b][k + root] = change
+            v_all[b][n] = change
 
 
 @kernel
-def _entering_term(c: Floats, unit: float, exponent: float, k: int, u: Floats) -> float:
-    """Return term k of (c/unit)^exponent where the first term of c is the square of time's root.
-
-    In ``u`` are the terms from the first that is not 0.
-    """
-    n = k - int(2.0 * exponent)
-    if n < 0:
-        return 0.0
-    if n == 0:
-        u[0] = (c[2] / unit) ** exponent
-    else:
-        total = 0.0
-        for j in range(n):
-            total += (exponent * (n - j) - j) * (c[n - j + 2] * u[j])
-        u[n] = total / (n * c[2])
-    return u[n]
-
-
-@kernel
-def _steep_step(stack: Stack, i: int, order: int, root: int) -> float:
-    """Return the time in which a power of contact i's compression may change by e^(order/2).
+def _steep_step(stack: Stack, i: int, order: int, root: int, step: float) -> float:
+    """Shorten a step to the time in which a power of a compression may change by e^(order/2).
 
     A steeper force grows from nothing to everything past the terms that a series ends with. Nor
     may the compression change by much more than itself: where it is 0 the power has no series. One
     that rises may go further, as far as the last term of its power is small.
     """
-    exponent = stack.curve_exponent[i]
-    if exponent == 1.0:
-        return math.inf
     compression, c = stack.compression[i], stack.compression_series[i]
-    furthest = 0.5 * order / root / exponent * compression
+    furthest = 0.5 * order / root / stack.curve_exponent[i] * compression
     reach = min(furthest, _BEYOND * compression)
     near = _time_to_rise(abs(c[1]), abs(c[2]), reach)
-    if c[1] <= 0.0 or root == 2:
-        return near
+    if near >= step or c[1] <= 0.0 or root == 2:
+        return min(near, step)
     far = min(_time_to_rise(c[1], c[2], furthest), _time_to_rise(-c[1], -c[2], reach))
     first, last = stack.power_series[i][0], abs(stack.power_series[i][order])
     if far > near and last > 0.0:
         far = min(far, (_CLEAR * stack.number[2] * first / last) ** (1.0 / order))
-    return max(near, far)
+    return min(max(near, far), step)
 
 
 @kernel

@@ -53,9 +53,10 @@ from stackbounce.engine.motion import (
     contact_impulse,
     meet_anchors,
     root_at,
+    series_time,
 )
 from stackbounce.engine.queue import schedule
-from stackbounce.engine.series import fall, parabola_root, safe_step, shift
+from stackbounce.engine.series import fall, lower_bound, parabola_root, safe_step, shift
 from stackbounce.engine.stack import Stack
 
 _NOTHING = 1000.0 * EPSILON**2  # round-off of a motion that is itself round-off
@@ -72,6 +73,10 @@ def look(stack: Stack, i: int, time: float) -> None:
         return
     if phase < COMPRESSING:
         meet_anchors(stack, i)
+    elif _stays(stack, i, time):
+        stack.event[i] = LOOK
+        schedule(stack.due, stack.heap, stack.place, i, math.inf)
+        return
     a = stack.watched
     root = root_at(stack, i)
     order, power, tail, noise, rate_noise = compression_series(stack, i, time, root, a)
@@ -110,13 +115,23 @@ def look(stack: Stack, i: int, time: float) -> None:
         return
     damped = stack.law[i] == DAMPED
     plain = stack.law[i] == POWER and stack.modal[stack.first[i]] == 0
+    if damped:
+        noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
+        speed = stack.speed[i] + rate
+        rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * second
+        wait, reached = _gain_wait(stack, i, order, power, tail, noise, rate_noise, root, horizon)
+        kind = RESUMED if phase == SLACK else CLIPPED
     if damped or plain or phase == RELEASING:
-        level, kind = _lower_level(stack, i)
-        wait, reached = _wait(stack, a, order, power, tail, 0.0, 1.0, level, band, horizon)
-        if kind == FAINT and reached:  # a series that gets here may get to the very end
-            other, there = _wait(stack, a, order, power, tail, 0.0, 1.0, 0.0, band, horizon)
-            if there and other < horizon:
-                wait, kind = other, RELEASE
+        left = min(wait, horizon)
+        other, there = _wait(stack, a, order, power, tail, 0.0, 1.0, 0.0, band, left)
+        if other < left or (there and other <= left < horizon):
+            wait, reached, kind = other, there, RELEASE
+        level = _faint_level(stack, i)
+        if level > 0.0 and (wait >= horizon or not reached):  # else the series gets to the very end
+            left = min(wait, horizon)
+            other, there = _wait(stack, a, order, power, tail, 0.0, 1.0, level, band, left)
+            if other < left:
+                wait, reached, kind = other, there, FAINT
     level, upper_kind = _upper_level(stack, i, plain)
     if level < math.inf:
         left = min(wait, horizon)
@@ -127,37 +142,46 @@ def look(stack: Stack, i: int, time: float) -> None:
         other, there = _chord_wait(stack, i, time, order, power, tail, min(wait, horizon))
         if other < wait:
             wait, reached, kind = other, there, PRESSED
-    if damped:
-        noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
-        speed = stack.speed[i] + rate
-        rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * second
-        left = min(wait, horizon)
-        other, there = _gain_wait(stack, i, order, power, tail, noise, rate_noise, root, left)
-        turn_kind = RESUMED if phase == SLACK else CLIPPED
-    elif not plain and (phase == COMPRESSING or stack.law[i] == LOSSY):
+    if not (damped or plain) and (phase == COMPRESSING or stack.law[i] == LOSSY):
         for k in range(order - root + 1):
             a[k] = (k + root) * a[k + root] / root
         sign, left = 1.0 if phase == COMPRESSING else -1.0, min(wait, horizon)
         other, there = _wait(
             stack, a, order - root, power - 1, power * tail, 0.0, sign, 0.0, rate_band, left
         )
-        turn_kind = PEAK if phase == COMPRESSING else DIP
-    else:
-        other, there, turn_kind = math.inf, False, LOOK
-    if other < wait:
-        wait, reached, kind = other, there, turn_kind
+        if other < wait:
+            wait, reached, kind = other, there, PEAK if phase == COMPRESSING else DIP
     _note(stack, i, time, wait, reached, kind, horizon)
 
 
 @kernel
-def _lower_level(stack: Stack, i: int) -> tuple[float, int]:
-    """Return the compression below which contact i changes, and how it does."""
+def _stays(stack: Stack, i: int, time: float) -> bool:
+    """Tell whether a bound is enough to see that contact i keeps its curve while its series lasts.
+
+    That is the rule along an interval; whatever is near its end takes a closer look.
+    """
+    first, law = stack.first[i], stack.law[i]
+    if stack.modal[first] == 1 or stack.anchor[first] != time or stack.faint[i] == 1:
+        return False
+    if law not in (POWER, DAMPED) or stack.phase[i] != COMPRESSING:
+        return False
+    horizon = series_time(stack, first, stack.due[len(stack.mass) + first] - time)
+    order, c = stack.order[first], stack.compression_series[i]
+    begins = stack.root[first] if c[0] == 0.0 else 0  # with that power of the series' argument
+    if lower_bound(c, begins, order + stack.root[first], horizon) <= _faint_level(stack, i):
+        return False
+    return law == POWER or lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0
+
+
+@kernel
+def _faint_level(stack: Stack, i: int) -> float:
+    """Return the compression below which contact i takes the chord of its curve, 0 for none."""
     smooth = stack.curve_exponent[i] == 0.0 or stack.curve_exponent[i] == 1.0
     if smooth or stack.faint[i] == 1 or stack.phase[i] == SLACK:
-        return 0.0, RELEASE
+        return 0.0
     if root_at(stack, i) == 2 and stack.phase[i] == COMPRESSING:
-        return 0.0, RELEASE
-    return _FAINT_EXIT * stack.faint_below[i], FAINT
+        return 0.0
+    return _FAINT_EXIT * stack.faint_below[i]
 
 
 @kernel
