@@ -291,7 +291,7 @@ def _enter(stack: Stack, low: int, high: int) -> int:
         if stack.compression[i] != 0.0 or twice != math.floor(twice):
             continue
         rate = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
-        if 2.0 <= twice < ENTERED and rate > _ENTERS * stack.number[1]:
+        if 0.0 < twice < ENTERED and rate > _ENTERS * stack.number[1]:
             stack.faint[i] = 0
             return 2
     return 1

@@ -2,14 +2,14 @@
 
 Inside a phase of every contact the motion is analytic, so its own Taylor series is integrator,
 dense output and event search in one. Order by order: forces from compressions and their rates,
-accelerations from forces, velocities and compressions from accelerations. Where a contact begins
-at a speed and its exponent is a multiple of 1/2, c^p has a series in the root of time instead, and
-so has all the motion up to the next step. The step is the time for which the last two terms of
-every velocity (five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14,
-99, 2005), in which no power grows beyond what these terms could tell, and no compression falls by
-much more than itself, or rises by more than the last term of its power allows. Where all contacts
-are springs and dashpots the series is that of the matrix exponential, whatever its eigenvalues; the
-tolerance is then round-off and no choice of the user.
+accelerations from forces, velocities and compressions from accelerations. Where a contact begins at
+a speed and p is a multiple of 1/2, c^p has a series in the root of time instead, and so has all the
+motion up to the next step. The step is the time for which the last two terms of every velocity
+(five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14, 99, 2005), in
+which no power grows beyond what these terms could tell, and no compression falls by much more than
+itself, or rises by more than the last term of its power allows. Where all contacts are springs and
+dashpots the series is that of the matrix exponential, whatever its eigenvalues; the tolerance is
+then round-off and no choice of the user.
 """
 
 import math
@@ -119,6 +119,8 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
     for k in range(order + 1):
         n = k + root
         share = root / n
+        falling = share * stack.number[0] if k == 0 else 0.0
+        below = 0.0
         for i in range(low, high):
             c, u, p = c_all[i], powers[i], power[i]
             rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
@@ -133,42 +135,36 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
                     for j in range(1, m):
                         weight -= p + 1.0
                         total += weight * (c[a + m - j] * u[b + j])
-                    u[n] = part * (total + p * m * (c[a + m] * u[b]))
+                    u[n] = part * total + part * (p * m * u[b]) * c[a + m]
                 else:
                     u[n] = raised(c[a] / curve_unit[i], p) if m == 0 else 0.0
             if law[i] != DAMPED:
-                f_all[i][k] = curve_force[i] * u[k] if p > 0.0 else slope[i] * c[k]
-                continue
-            gain = gains[i]
-            gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
-            if k == 0:
-                gain[0] += gain_constant[i]
-            if exponent[i] == 0.0:
-                f_all[i][k] = curve_force[i] * gain[k]
-            elif p > exponent[i]:  # see `power_needed`
-                pull = gain_slope[i] * u[k] + gain_rate[i] / (share * p) * u[n]
-                f_all[i][k] = curve_force[i] * curve_unit[i] * pull
+                force = curve_force[i] * u[k] if p > 0.0 else slope[i] * c[k]
             else:
-                total = 0.0
-                if p > 0.0:
+                gain = gains[i]
+                gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
+                if k == 0:
+                    gain[0] += gain_constant[i]
+                if exponent[i] == 0.0:
+                    force = curve_force[i] * gain[k]
+                elif p > exponent[i]:  # see `power_needed`
+                    pull = gain_slope[i] * u[k] + gain_rate[i] / (share * p) * u[n]
+                    force = curve_force[i] * curve_unit[i] * pull
+                elif p > 0.0:
+                    total = 0.0
                     for j in range(1, k + 1):
                         total += u[j] * gain[k - j]
-                    f_all[i][k] = curve_force[i] * (total + u[0] * gain[k])
+                    force = curve_force[i] * (total + u[0] * gain[k])
                 else:
+                    total = 0.0
                     for j in range(1, k + 1):
                         total += c[j] * gain[k - j]
-                    f_all[i][k] = slope[i] * (total + c[0] * gain[k])
-        for b in range(max(low - 1, 0), high):
-            net = 0.0
-            if b >= low:
-                net += f_all[b][k]
-            if b + 1 < high:
-                net -= f_all[b + 1][k]
-            mobility = share / mass[b]
-            change = mobility * net
-            if k == 0:
-                change -= share * stack.number[0]
-            v_all[b][n] = change
+                    force = slope[i] * (total + c[0] * gain[k])
+            f_all[i][k] = force
+            if i > 0:
+                v_all[i - 1][n] = share / mass[i - 1] * (below - force) - falling
+            below = force
+        v_all[high - 1][n] = share / mass[high - 1] * below - falling
 
 
 @kernel
