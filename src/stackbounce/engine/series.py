@@ -40,12 +40,12 @@ def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
 def lower_bound(a: Floats, low: int, n: int, limit: float) -> float:
     """Return what a[low] + a[low + 1] s + ... + a[n] s^(n - low) is never below up to a limit.
 
-    See `safe_step`.
+    See `safe_step`. It is nan where a term is: this order of arguments hands it on.
     """
     slope = 0.0
     for k in range(n, low, -1):
-        slope = a[k] + min(0.0, slope * limit)
-    return a[low] + min(0.0, slope * limit)
+        slope = a[k] + min(slope * limit, 0.0)
+    return a[low] + min(slope * limit, 0.0)
 
 
 @kernel

@@ -168,9 +168,10 @@ def _stays(stack: Stack, i: int, time: float) -> bool:
     horizon = series_time(stack, first, stack.due[len(stack.mass) + first] - time)
     order, c = stack.order[first], stack.compression_series[i]
     begins = stack.root[first] if c[0] == 0.0 else 0  # with that power of the series' argument
-    if lower_bound(c, begins, order + stack.root[first], horizon) <= _faint_level(stack, i):
+    least = lower_bound(c, begins, order + stack.root[first], horizon)
+    if law == DAMPED and not lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0:
         return False
-    return law == POWER or lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0
+    return least > _faint_level(stack, i)
 
 
 @kernel
