@@ -242,6 +242,11 @@ def _note_push(stack: Stack, i: int, time: float) -> None:
 @kernel
 def _crossing(stack: Stack, i: int, time: float) -> float:
     """Return when the compression of contact i, just past zero at a time, was zero."""
+    earliest = stack.clock[0]
+    if root_at(stack, i) == 2:  # there is no such root before the anchors
+        earliest = max(earliest, stack.anchor[stack.first[i]])
+        if i > 0:
+            earliest = max(earliest, stack.anchor[stack.first[i - 1]])
     crossing = time
     for _ in range(_NEWTON):
         compression = compression_at(stack, i, crossing)
@@ -249,8 +254,8 @@ def _crossing(stack: Stack, i: int, time: float) -> float:
         if compression * rate <= 0.0:
             break
         crossing -= compression / rate
-        if crossing < stack.clock[0]:
-            return stack.clock[0]
+        if crossing < earliest:
+            return earliest
     return crossing
 
 
