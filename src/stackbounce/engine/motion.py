@@ -282,7 +282,7 @@ def may_enter(stack: Stack) -> bool:
 
 @kernel
 def _enter(stack: Stack, low: int, high: int) -> int:
-    """Let a contact that begins at a speed follow its curve at once, where its exponent allows it.
+    """Let a contact that begins at a speed follow its curve at once, where its power allows it.
 
     Returns in which root of time the motion has a power series.
     """

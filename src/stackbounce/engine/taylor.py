@@ -23,7 +23,7 @@ from stackbounce.engine.stack import Stack
 _EXACT = 1e-16  # of its own speed: what a linear cluster's series leaves out per step
 _ROUGH = 1e-3  # of its own speed: what any other, however slow, leaves out at most ...
 _SLOW = 1e-13  # ... though not less than this part of the reference speed
-ENTERED = 8.0  # twice the exponent: from there on a series in the root of time gains nothing
+ENTERED = 8.0  # twice the power: from there on a series in the root of time gains nothing
 _BEYOND = 1.25  # times a compression: by how much it may change in a step, and open at its end
 _CLEAR = 50.0  # times the tolerance of a step: how small a power's last term has to be for more
 _HALVINGS = 26  # of such a part: a crest is flat
