@@ -5,9 +5,9 @@ from functools import cache, partial
 from typing import Any
 
 import stackbounce as sb
-from stackbounce.measure.accelerometer import accelerometer
-from stackbounce.measure.synthetic.accelerometer import accelerometer as record_of
-from stackbounce.measure.synthetic.falls import Falls, falls
+from stackbounce.measure.kinds.acceleration.analysis import accelerometer
+from stackbounce.synthetic.accelerometer import accelerometer as record_of
+from stackbounce.synthetic.falls import Falls, falls
 
 __all__ = ["CASES"]
 

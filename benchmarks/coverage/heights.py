@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.heights import heights
+from stackbounce.measure.kinds.heights.analysis import heights
 
 __all__ = ["CASES"]
 

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 
 from benchmarks.coverage.shares import Trial
-from stackbounce.measure.bounces import bounces
-from stackbounce.measure.sound import knocks
-from stackbounce.measure.synthetic.falls import Falls, falls
-from stackbounce.measure.synthetic.sound import sound
+from stackbounce.measure.kinds.bounces.analysis import bounces
+from stackbounce.measure.kinds.sound.analysis import knocks
+from stackbounce.synthetic.falls import Falls, falls
+from stackbounce.synthetic.sound import sound
 
 __all__ = ["CASES"]
 

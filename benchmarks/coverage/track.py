@@ -3,12 +3,12 @@
 from collections.abc import Callable
 from typing import Any
 
-from stackbounce.calibrate import calibrate
-from stackbounce.measure.synthetic.falls import Falls, falls
-from stackbounce.measure.synthetic.track import track as tracked
-from stackbounce.measure.track import track
+from stackbounce.calibration import calibrate
+from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.model import Ball, Drop, HuntCrossley, Rigid
-from stackbounce.simulate import simulate
+from stackbounce.run.driver import simulate
+from stackbounce.synthetic.falls import Falls, falls
+from stackbounce.synthetic.track import track as tracked
 
 __all__ = ["CASES"]
 

@@ -12,8 +12,9 @@ from typing import Any
 import numpy as np
 
 import stackbounce as sb
-from stackbounce.measure.synthetic.waveform import waveform as record_of
-from stackbounce.measure.waveform import delay, gap_from_delay, waveform
+from stackbounce.measure.kinds.gap.delay import delay, gap_from_delay
+from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.synthetic.waveform import waveform as record_of
 
 MASS, SPEED, TIME = 0.101, 1.98, 4.3e-3  # the paper's ball B1
 _EXPONENTS = (1.0, 1.125, 1.25, 1.375, 1.5)  # from a linear spring to Hertz's law

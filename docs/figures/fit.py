@@ -5,8 +5,8 @@ from shown import DOCS, show
 import stackbounce as sb
 from stackbounce import plots
 from stackbounce.cross2007.datasets import dataset
-from stackbounce.fit import read_drops
-from stackbounce.fit.files import force_record
+from stackbounce.fitting import read_drops
+from stackbounce.fitting.files import force_record
 
 BASKETBALL, TENNIS = sb.Ball(0.150, name="basketball"), sb.Ball(0.057, name="tennis")
 

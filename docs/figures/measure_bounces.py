@@ -3,14 +3,17 @@
 from shown import show
 
 import stackbounce as sb
-from stackbounce.measure.bounces import bounces
-from stackbounce.measure.heights import heights
-from stackbounce.measure.sound import knocks
-from stackbounce.measure.synthetic.falls import falls
-from stackbounce.measure.synthetic.sound import sound as recorded
-from stackbounce.measure.synthetic.track import track as tracked
-from stackbounce.measure.track import track
-from stackbounce.plots import measured_bounces, measured_heights, measured_sound, measured_track
+from stackbounce.measure.kinds.bounces.analysis import bounces
+from stackbounce.measure.kinds.heights.analysis import heights
+from stackbounce.measure.kinds.sound.analysis import knocks
+from stackbounce.measure.kinds.track.analysis import track
+from stackbounce.plots.measurements.bounces import draw as draw_bounces
+from stackbounce.plots.measurements.heights import draw as draw_heights
+from stackbounce.plots.measurements.sound import draw as draw_sound
+from stackbounce.plots.measurements.track import draw as draw_track
+from stackbounce.synthetic.falls import falls
+from stackbounce.synthetic.sound import sound as recorded
+from stackbounce.synthetic.track import track as tracked
 
 FALL = falls(0.6, lambda speed: 0.86 - 0.025 * speed, bounces=14)
 STACK = sb.Drop(
@@ -28,25 +31,25 @@ def _recording():
 def sound():
     """A recording with hum and echoes, and its knocks."""
     data = _recording()
-    show(measured_sound.draw, data, knocks(data))
+    show(draw_sound, data, knocks(data))
 
 
 def restitution():
     """Restitution of each bounce of that recording against impact speed."""
     found = knocks(_recording())
-    show(measured_bounces.draw, found, bounces(found))
+    show(draw_bounces, found, bounces(found))
 
 
 def ruler():
     """Heights that were read with a ruler."""
     found = heights(1.0, [0.62, 0.39, 0.25], height_error=0.005)
-    show(measured_heights.draw, None, found)
+    show(draw_heights, None, found)
 
 
 def one_ball():
     """The track of one ball at 60 frames per second."""
     data = tracked(falls(1.0, 0.8), frame_rate=60.0, noise=0.002)
-    show(measured_track.draw, data, track(data))
+    show(draw_track, data, track(data))
 
 
 def two_balls():
@@ -58,4 +61,4 @@ def two_balls():
         noise=0.002,
         names=["basketball", "tennis ball"],
     )
-    show(measured_track.draw, data, track(data))
+    show(draw_track, data, track(data))

@@ -3,11 +3,11 @@
 from shown import show
 
 import stackbounce as sb
-from stackbounce.measure.floor_gap import floor_gap
-from stackbounce.measure.synthetic.waveform import waveform as record_of
-from stackbounce.measure.waveform import waveform
-from stackbounce.plots import measured_gap
-from stackbounce.plots.measured_waveform import draw
+from stackbounce.measure.kinds.gap.floor_gap import floor_gap
+from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.plots.measurements.gap import draw as draw_gap
+from stackbounce.plots.measurements.waveform import draw
+from stackbounce.synthetic.waveform import waveform as record_of
 
 FLOOR, BETWEEN = sb.Hysteretic(56e3, restitution=0.78), sb.Spring(16e3)
 PAIR = sb.Drop([sb.Ball(0.101), sb.Ball(0.0248)], [FLOOR, BETWEEN], gaps=[0.001], height=0.2)
@@ -37,7 +37,7 @@ def by_the_floor():
     alone = sb.Drop(PAIR.balls[:1], [FLOOR], height=0.2)
     lower = record_of(alone, offset=0.1, seed=2, **SCOPE)
     found = floor_gap(RECORD, lower, impact_speed=PAIR.reference_speed, restitution=0.78)
-    show(measured_gap.draw, RECORD, found)
+    show(draw_gap, RECORD, found)
 
 
 def collisions():

@@ -1,15 +1,13 @@
 """What happens when a stack of balls hits the floor: predicted, measured, fitted, explained."""
 
-import sys
 from importlib import import_module
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from stackbounce.calibrate import calibrate, contact_time, restitution, separate
-    from stackbounce.design import best_masses, highest, transition
+    from stackbounce.calibration import calibrate, contact_time, restitution, separate
     from stackbounce.errors import StackbounceError
-    from stackbounce.fit import Fit, Model, Range, compare, fit, standard_models
+    from stackbounce.fitting import Fit, Model, Range, compare, fit, standard_models
+    from stackbounce.gaps_and_masses import best_masses, highest, transition
     from stackbounce.measure import read
     from stackbounce.model import (
         Ball,
@@ -24,9 +22,9 @@ if TYPE_CHECKING:
         Viscoelastic,
         series,
     )
-    from stackbounce.result import Result, Status
-    from stackbounce.simulate import simulate
-    from stackbounce.sweep import sweep
+    from stackbounce.run.driver import simulate
+    from stackbounce.run.result import Result, Status
+    from stackbounce.sweeps import sweep
     from stackbounce.version import __version__
 
 __all__ = [
@@ -65,31 +63,19 @@ __all__ = [
 
 # Each name is imported when it is first used, so that nothing waits for what it does not need.
 _ROOMS = {
-    "calibrate": ("calibrate", "contact_time", "restitution", "separate"),
-    "design": ("best_masses", "highest", "transition"),
+    "calibration": ("calibrate", "contact_time", "restitution", "separate"),
     "errors": ("StackbounceError",),
-    "fit": ("Fit", "Model", "Range", "compare", "fit", "standard_models"),
+    "fitting": ("Fit", "Model", "Range", "compare", "fit", "standard_models"),
+    "gaps_and_masses": ("best_masses", "highest", "transition"),
     "measure": ("read",),
-    "result": ("Result", "Status"),
-    "simulate": ("simulate",),
-    "sweep": ("sweep",),
+    "run.driver": ("simulate",),
+    "run.result": ("Result", "Status"),
+    "sweeps": ("sweep",),
     "version": ("__version__",),
 }
 _HOMES = dict.fromkeys(__all__, "model") | {
     name: room for room, names in _ROOMS.items() for name in names
 }
-
-
-class _Front(ModuleType):
-    """The package, of which `calibrate`, `fit`, `simulate` and `sweep` are functions.
-
-    Python sets each submodule as an attribute of its package once it is imported: those of the
-    same names would hide them.
-    """
-
-    def __setattr__(self, name: str, value: Any) -> None:
-        if not (name in _HOMES and isinstance(value, ModuleType)):
-            super().__setattr__(name, value)
 
 
 def __getattr__(name: str) -> Any:
@@ -106,6 +92,3 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
-
-
-sys.modules[__name__].__class__ = _Front

@@ -3,7 +3,7 @@
 import numpy as np
 
 import stackbounce as sb
-from stackbounce.fit.question import read_problem
+from stackbounce.fitting.question import read_problem
 
 
 def test_every_sample_of_a_record_has_a_force():

@@ -4,7 +4,7 @@ from random import Random
 
 import pytest
 
-from stackbounce.engine.queue import clear, schedule
+from stackbounce.engine.event_queue import clear, schedule
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 10, 33])

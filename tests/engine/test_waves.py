@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from stackbounce.engine.waves import cosine, half_turns, nudged, sinc
+from stackbounce.engine.trigonometry import cosine, half_turns, nudged, sinc
 
 ROUNDING = 5e-16  # of numbers up to 1, with the standard library's own
 

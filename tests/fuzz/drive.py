@@ -8,11 +8,11 @@ import math
 from typing import Any
 
 from stackbounce.engine import codes
+from stackbounce.engine.batch import clear
 from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TIME_REACHED
 from stackbounce.engine.contacts import stored_energy
 from stackbounce.engine.flight import compression_after
 from stackbounce.engine.kernel import kernel
-from stackbounce.engine.many import clear
 from stackbounce.engine.motion import compression_at, velocity_at
 from stackbounce.engine.prepare import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity

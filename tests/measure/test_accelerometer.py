@@ -9,9 +9,9 @@ import stackbounce as sb
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import accelerometer, analyse
-from stackbounce.measure.synthetic.accelerometer import accelerometer as record_of
-from stackbounce.measure.synthetic.falls import falls
 from stackbounce.plots import measured
+from stackbounce.synthetic.accelerometer import accelerometer as record_of
+from stackbounce.synthetic.falls import falls
 
 G = 9.80665
 

@@ -1,12 +1,6 @@
 """Error bars hold the truth as often as they claim: an accelerometer that bounced."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
-
 from benchmarks.coverage.accelerometer import CASES
 from benchmarks.coverage.shares import shares
 

@@ -1,16 +1,10 @@
 """Error bars hold the truth as often as they claim: gaps by the force on the floor."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-from coverage_cases import chosen
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
-
 from benchmarks.coverage.floor_gap import CASES
 from benchmarks.coverage.shares import shares
+
+from coverage_cases import chosen
 
 SEEDS = range(210)
 FEW = chosen(

@@ -1,11 +1,6 @@
 """Error bars cover the truth as often as they claim: heights."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.coverage.heights import CASES
 from benchmarks.coverage.shares import covered
 

@@ -1,15 +1,11 @@
 """Error bars cover the truth as often as they claim."""
 
-import sys
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
+from benchmarks.coverage.press import CASES
 
 from coverage_cases import chosen
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
-from benchmarks.coverage.press import CASES
 
 SEEDS = 200
 FEW = chosen(

@@ -1,16 +1,10 @@
 """Error bars of what is heard hold the truth as often as they claim."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-from coverage_cases import chosen
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
-
 from benchmarks.coverage.shares import shares
 from benchmarks.coverage.sound import CASES
+
+from coverage_cases import chosen
 
 SEEDS = range(400)
 FEW = chosen(

@@ -1,12 +1,8 @@
 """Error bars cover the truth as often as they claim."""
 
-import sys
 from collections import defaultdict
-from pathlib import Path
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.coverage.stiffness import CASES
 
 SEEDS = 200

@@ -1,15 +1,10 @@
 """Error bars of what is found in tracks hold the truth as often as they claim."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-from coverage_cases import chosen
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
 from benchmarks.coverage.shares import shares
 from benchmarks.coverage.track import CASES
+
+from coverage_cases import chosen
 
 SEEDS = range(400)  # of 200 chance alone would put one quantity in fifty outside
 FEW = chosen(

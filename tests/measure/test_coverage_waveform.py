@@ -1,16 +1,10 @@
 """Error bars of what is read off force records hold the truth as often as they claim."""
 
-import sys
-from pathlib import Path
-
 import pytest
-
-from coverage_cases import chosen
-
-sys.path.insert(0, str(Path(__file__).parents[2]))
-
 from benchmarks.coverage.shares import shares
 from benchmarks.coverage.waveform import CASES, TOLD
+
+from coverage_cases import chosen
 
 SEEDS, FEWER = range(220), range(100)
 FEW = chosen(

@@ -7,8 +7,8 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.synthetic.waveform import waveform as record_of
-from stackbounce.measure.waveform import drooped, undrooped, waveform
+from stackbounce.measure.kinds.waveform import drooped, undrooped, waveform
+from stackbounce.synthetic.waveform import waveform as record_of
 
 ONE = sb.simulate(sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0))
 TIME = float(ONE.intervals["end"][0])

@@ -9,8 +9,8 @@ import stackbounce as sb
 from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse, floor_gap, sensor_gap
-from stackbounce.measure.synthetic.waveform import waveform as record_of
 from stackbounce.plots import measured
+from stackbounce.synthetic.waveform import waveform as record_of
 
 SPEED = 1.98
 BALLS = (sb.Ball(0.101), sb.Ball(0.0248))  # the paper's B1 and B2

@@ -10,8 +10,8 @@ from uncertainties import ufloat
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
-from stackbounce.measure.synthetic.press import press_record
-from stackbounce.plots.measured_press import draw
+from stackbounce.plots.measurements.press import draw
+from stackbounce.synthetic.press import press_record
 
 BALL = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
 USUAL = {"peak": 5e-3, "slack": 1e-3, "noise": 0.1, "seed": 1}

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.measure.bounces import bounces
-from stackbounce.measure.sound import knocks
-from stackbounce.measure.synthetic.falls import falls
-from stackbounce.measure.synthetic.sound import sound
-from stackbounce.plots import measured_bounces, measured_sound
+from stackbounce.measure.kinds.bounces.analysis import bounces
+from stackbounce.measure.kinds.sound.analysis import knocks
+from stackbounce.plots.measurements.bounces import draw as draw_bounces
+from stackbounce.plots.measurements.sound import draw as draw_sound
+from stackbounce.synthetic.falls import falls
+from stackbounce.synthetic.sound import sound
 
 FALL = falls(0.5, 0.8, bounces=10)
 
@@ -151,14 +152,14 @@ def test_ten_minutes_take_seconds():
 def test_pictures():
     data = sound(falls(0.5, 0.8, bounces=6), echo=(0.05, 0.4), seed=1)
     found = knocks(data)
-    figure = measured_sound.draw(data, found)
+    figure = draw_sound(data, found)
     assert [axes.get_ylabel() for axes in figure.axes] == ["sound (full scale 1)", "flight (ms)"]
     labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     assert labels[0] == "6 knocks"
     assert "left out" in labels[1]
-    figure = measured_bounces.draw(found, bounces(found))
+    figure = draw_bounces(found, bounces(found))
     assert figure.axes[0].get_xlabel() == "impact speed (m/s)"
-    assert measured_bounces.draw(None, bounces([0.0, 1.0, 1.8]))
+    assert draw_bounces(None, bounces([0.0, 1.0, 1.8]))
 
 
 def test_a_law_bounces_as_it_is_calibrated():

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from stackbounce.measure.bounces import bounces
-from stackbounce.measure.loudness import rounding
-from stackbounce.measure.sound import knocks
-from stackbounce.measure.synthetic.falls import falls
-from stackbounce.measure.synthetic.sound import sound
+from stackbounce.measure.kinds.bounces.analysis import bounces
+from stackbounce.measure.kinds.sound.analysis import knocks
+from stackbounce.measure.kinds.sound.loudness import rounding
+from stackbounce.synthetic.falls import falls
+from stackbounce.synthetic.sound import sound
 
 FALL = falls(0.5, 0.8, bounces=9)
 BEFORE = 0.5

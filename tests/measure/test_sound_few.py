@@ -10,10 +10,10 @@ import stackbounce as sb
 from stackbounce.cli import app
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse
-from stackbounce.measure.bounces import Bounces, bounces
-from stackbounce.measure.few_bounces import FewBounces
-from stackbounce.measure.synthetic.falls import falls
-from stackbounce.measure.synthetic.sound import sound
+from stackbounce.measure.kinds.bounces.analysis import Bounces, bounces
+from stackbounce.measure.kinds.sound.few_bounces import FewBounces
+from stackbounce.synthetic.falls import falls
+from stackbounce.synthetic.sound import sound
 
 TWO = falls(0.5, 0.8, bounces=2)
 

@@ -8,10 +8,10 @@ import xarray as xr
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.measure.synthetic.falls import falls
-from stackbounce.measure.synthetic.track import track as tracked
-from stackbounce.measure.track import track
-from stackbounce.plots import measured_track
+from stackbounce.measure.kinds.track.analysis import track
+from stackbounce.plots.measurements.track import draw as draw_track
+from stackbounce.synthetic.falls import falls
+from stackbounce.synthetic.track import track as tracked
 
 FALL = falls(1.0, 0.8)
 STACK = sb.Drop(
@@ -201,11 +201,11 @@ def test_noise_is_no_bounce():
 
 def test_pictures():
     data = tracked(FALL, seed=1)
-    figure = measured_track.draw(data, track(data))
+    figure = draw_track(data, track(data))
     assert [axes.get_ylabel() for axes in figure.axes] == ["height (m)", "residual (mm)"]
     assert "gravity of the flights 9.8" in figure.axes[0].get_title(loc="left")
     two = tracked(sb.simulate(STACK, until=0.2), frame_rate=240.0, read_as=60.0, seed=1)
-    assert "factor of 4" in measured_track.draw(two, track(two)).axes[0].get_title(loc="left")
+    assert "factor of 4" in draw_track(two, track(two)).axes[0].get_title(loc="left")
 
 
 def test_what_cannot_be_tracked():

@@ -9,9 +9,9 @@ from uncertainties import ufloat
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.measure.synthetic.waveform import waveform as record_of
-from stackbounce.measure.waveform import waveform
-from stackbounce.plots.measured_waveform import draw
+from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.plots.measurements.waveform import draw
+from stackbounce.synthetic.waveform import waveform as record_of
 
 ONE = sb.simulate(sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0))
 TIME = float(ONE.intervals["end"][0])

@@ -12,9 +12,9 @@ import pytest
 import uvicorn
 
 from stackbounce.errors import InvalidValue
-from stackbounce.web import LIMITS, patience, work
+from stackbounce.web import LIMITS, timeouts, worker_pool
 from stackbounce.web.guard import Guard
-from stackbounce.web.work import Busy, TooLong, Workers
+from stackbounce.web.worker_pool import Busy, TooLong, Workers
 
 FOREIGN = [
     ({"host": "evil.example"}, 400),
@@ -229,17 +229,17 @@ def test_processes_that_were_ended_while_idle_are_made_anew(workers):
 
 
 def test_the_process_that_compiles_may_be_ended(monkeypatch):
-    monkeypatch.setattr(work, "_COMPILING", 0.1)
+    monkeypatch.setattr(worker_pool, "_COMPILING", 0.1)
     held, ready = threading.Lock(), threading.Event()
     held.acquire()  # by a process that is no more
-    work._prepare(held, ready)
+    worker_pool._prepare(held, ready)
     assert ready.is_set()
     assert held.locked()
 
 
 def test_silent_connections_are_closed():
     async def run():
-        protocol = patience.patient_protocol(0.2)
+        protocol = timeouts.patient_protocol(0.2)
         config = uvicorn.Config(echo, http=protocol, log_level="error", lifespan="off")
         config.load()
         server = uvicorn.Server(config)

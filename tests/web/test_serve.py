@@ -16,7 +16,7 @@ import httpx
 import pytest
 
 from stackbounce.cli import main
-from stackbounce.web import LIMITS, papers
+from stackbounce.web import LIMITS, paper_pages
 from stackbounce.web.serve import PORT
 
 APP = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--workers", "1"]
@@ -111,7 +111,7 @@ class Stub:
         self.error = error
 
     async def run(self, job, folder, seconds):
-        assert job is papers.paper.write_paper
+        assert job is paper_pages.paper.write_paper
         assert seconds == LIMITS.paper_seconds
         if self.error:
             raise self.error
@@ -119,7 +119,7 @@ class Stub:
 
 
 def pages(stub, folder, names):
-    made = papers.Papers(stub, folder, LIMITS.paper_seconds)
+    made = paper_pages.Papers(stub, folder, LIMITS.paper_seconds)
 
     async def ask():
         answers = []
@@ -153,7 +153,7 @@ def test_pages_of_the_paper(tmp_path):
 
 def test_a_paper_that_failed_says_so_and_is_tried_again(tmp_path):
     first, second, third = pages(
-        Stub(papers.StackbounceError("no room <left>")), tmp_path, [""] * 3
+        Stub(paper_pages.StackbounceError("no room <left>")), tmp_path, [""] * 3
     )
     assert b"is being recomputed" in first.body
     assert b"It failed: no room &lt;left&gt;" in second.body

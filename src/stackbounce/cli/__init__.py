@@ -69,7 +69,7 @@ def simulate(
     """Drop a stack of balls and tell how each one bounces."""
     from stackbounce import plots
     from stackbounce import simulate as run
-    from stackbounce.calibrate import separate
+    from stackbounce.calibration import separate
     from stackbounce.cli import machine, output, scenario, show
     from stackbounce.units import quantity
 

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Any
 
 from stackbounce.cli.output import new_table
 from stackbounce.cli.show import number
-from stackbounce.fit import Comparison, Question, compare, standard_models
-from stackbounce.fit.quantities import QUANTITIES
+from stackbounce.fitting import Comparison, Question, compare, standard_models
+from stackbounce.fitting.quantities import QUANTITIES
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -8,12 +8,12 @@ import numpy as np
 
 from stackbounce.cli.scenario import Scenario, is_file
 from stackbounce.cli.show import add_columns, incidence, label, new_table, number
-from stackbounce.design.masses import geometric_masses, with_masses
 from stackbounce.errors import InvalidValue, positive, shown
+from stackbounce.gaps_and_masses.masses import geometric_masses, with_masses
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.model.laws import law_named
-from stackbounce.result import Status
-from stackbounce.simulate import simulate
+from stackbounce.run.driver import simulate
+from stackbounce.run.result import Status
 from stackbounce.units import quantity
 from stackbounce.version import __version__
 

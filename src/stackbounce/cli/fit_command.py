@@ -10,7 +10,7 @@ from stackbounce.cli.output import check_picture, console, draw
 from stackbounce.errors import InvalidValue
 
 if TYPE_CHECKING:
-    from stackbounce.fit import Question
+    from stackbounce.fitting import Question
 
 __all__ = ["EPILOG", "fit"]
 

@@ -12,10 +12,10 @@ from stackbounce.cli.output import check_scenario, new_table, progress_bar, writ
 from stackbounce.cli.show import number
 from stackbounce.cross2007.datasets import PREFIX, dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
-from stackbounce.fit import Fit, Interval, Posterior, Question, read_drops, read_question
-from stackbounce.fit.files import typed
+from stackbounce.fitting import Fit, Interval, Posterior, Question, read_drops, read_question
+from stackbounce.fitting.files import typed
 from stackbounce.plots.scales import handy, rounded
-from stackbounce.sweep.paths import numbers_of
+from stackbounce.run.paths import numbers_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

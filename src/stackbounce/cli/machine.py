@@ -1,9 +1,9 @@
 """Output for machines: JSON with the API's names, in SI units; null for what is not finite."""
 
 from stackbounce.cli.scenario import Scenario
+from stackbounce.json_values import as_json
 from stackbounce.model.catalogue import BALLS, PAIRS
-from stackbounce.plain import as_json
-from stackbounce.result import Result
+from stackbounce.run.result import Result
 from stackbounce.version import __version__
 
 __all__ = ["catalogue", "simulation", "text"]

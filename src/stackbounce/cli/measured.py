@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
 
-    from stackbounce.measure.stiffness import LawConstants
+    from stackbounce.measure.law_constants import LawConstants
     from stackbounce.model.laws import ContactLaw
 
 __all__ = [
@@ -58,7 +58,7 @@ class Measured:
 
 def numbers(**texts: str | None) -> dict[str, Any]:
     """Return the options that are quantities and given, in SI units, with errors where told."""
-    from stackbounce.measure.told import told_number
+    from stackbounce.measure.told_numbers import told_number
 
     return {
         name: told_number(name, text, f"--{name.replace('_', '-')}")
@@ -80,7 +80,7 @@ def pairs(texts: Sequence[str] | None, option: str, right: str) -> dict[Any, str
 
 def points(text: str) -> tuple[str, ...]:
     """Return the points that the drop's height and the bounces' were measured to."""
-    from stackbounce.measure.heights import places
+    from stackbounce.measure.kinds.heights.analysis import places
 
     words = tuple(word.strip() for word in text.split(","))
     if len(words) > 2:
@@ -133,7 +133,7 @@ def typed(
 ) -> list[Measured]:
     """Return what the numbers on the command line tell: ``--heights``, then what is known of it."""
     from stackbounce.measure import heights
-    from stackbounce.measure.known import known_contact
+    from stackbounce.measure.kinds.contact.analysis import known_contact
 
     done = []
     if lengths is not None:
@@ -155,7 +155,7 @@ def _typed(source: str, holds: str, found: Any) -> Measured:
 
 def _lengths(text: str) -> list[Any]:
     """Return lengths between commas or semicolons; a unit at the end is that of all."""
-    from stackbounce.measure.uncertain import quantity_with_error
+    from stackbounce.measure.uncertain_numbers import quantity_with_error
 
     words = [word.strip() for word in re.split(r"[,;]", text)]
     unit = re.sub(r"^[-+.\deE±/ ()]+", "", words[-1])
@@ -229,7 +229,7 @@ def tell(console: "Console", done: Sequence[Measured], law: "LawConstants | None
 
 def _law_rows(law: "LawConstants") -> list[Any]:
     """Return the law's constants, and what they were made of."""
-    from stackbounce.measure.table import Row
+    from stackbounce.measure.rows import Row
 
     units = {"mass": "kg", "contact_time": "s", "impact_speed": "m/s"}
     made_of = law.given.items()

@@ -181,7 +181,7 @@ def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
 
 
 def _between(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
-    from stackbounce.calibrate import between
+    from stackbounce.calibration import between
 
     found = []
     for (one, lower), (other, upper) in itertools.pairwise(zip(names, laws, strict=True)):

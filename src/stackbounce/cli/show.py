@@ -23,7 +23,7 @@ from stackbounce.model.laws import (
     Spring,
     Viscoelastic,
 )
-from stackbounce.result import Result, Status
+from stackbounce.run.result import Result, Status
 
 if TYPE_CHECKING:
     from stackbounce.cross2007 import Audit

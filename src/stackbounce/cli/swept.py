@@ -12,9 +12,9 @@ import numpy as np
 from stackbounce.cli.output import progress_bar
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
-from stackbounce.result import Status
-from stackbounce.sweep import grid, opened, write
-from stackbounce.sweep.blocks import blocks, sides
+from stackbounce.run.blocks import blocks, sides
+from stackbounce.run.result import Status
+from stackbounce.sweeps import grid, opened, write
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -39,7 +39,7 @@ def run(
 
 def check_picture(drop: Drop, over: Sequence[str], show: str) -> None:
     """Refuse a picture that could not be drawn, before anything is computed."""
-    from stackbounce.plots.swept import TITLES
+    from stackbounce.plots.sweep_curves import TITLES
 
     if len(over) not in (1, 2):
         raise InvalidValue(f"--plot needs one or two numbers that vary, got {len(over)}")

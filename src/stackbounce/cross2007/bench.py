@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 
 from stackbounce.cross2007.data import Data
 from stackbounce.model.drop import Drop
-from stackbounce.result import Result
-from stackbounce.simulate import simulate
+from stackbounce.run.driver import simulate
+from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

@@ -14,7 +14,7 @@ from stackbounce.cross2007.drops import (
 )
 from stackbounce.cross2007.stacks import better_fit, other_fit, stack_masses
 from stackbounce.model.drop import STANDARD_GRAVITY
-from stackbounce.result import Result
+from stackbounce.run.result import Result
 
 __all__ = ["BASKETBALL", "better_fit", "other_fit", "stack_masses"]
 

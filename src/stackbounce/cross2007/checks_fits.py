@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from stackbounce.calibrate import restitution
+from stackbounce.calibration import restitution
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.checks_tables import WITH_105

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from stackbounce.calibrate import separate
+from stackbounce.calibration import separate
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.drops import (
@@ -14,7 +14,7 @@ from stackbounce.cross2007.drops import (
     spring_pair,
 )
 from stackbounce.model.drop import Drop
-from stackbounce.result import Result
+from stackbounce.run.result import Result
 
 __all__ = ["INTRODUCTION", "MODELS"]
 

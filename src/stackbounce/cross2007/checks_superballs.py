@@ -10,7 +10,7 @@ from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.checks_tables import WITH_105
 from stackbounce.cross2007.drops import Two, rigid_pair, solved
 from stackbounce.cross2007.stacks import heavier_b1, late_pair
-from stackbounce.result import Result
+from stackbounce.run.result import Result
 
 __all__ = ["STEEL", "SUPERBALLS"]
 

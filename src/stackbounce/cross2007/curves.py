@@ -5,7 +5,7 @@ import numpy as np
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.drops import Array, after_meeting, rigid_pair, spring_pair
 from stackbounce.model.drop import Drop
-from stackbounce.result import Result
+from stackbounce.run.result import Result
 
 __all__ = ["Array", "after_collision", "forces", "rebound_by_mass", "rebound_by_stiffness"]
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
 from stackbounce.model.laws import ContactLaw, Hysteretic, Rigid, Spring
-from stackbounce.result import Result
+from stackbounce.run.result import Result
 
 __all__ = [
     "Array",

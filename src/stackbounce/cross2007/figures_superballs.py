@@ -24,7 +24,7 @@ from stackbounce.cross2007.waveforms import (
     one_panel,
     two_panels,
 )
-from stackbounce.result import Result
+from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

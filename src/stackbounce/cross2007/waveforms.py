@@ -8,7 +8,7 @@ from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.curves import Array, forces
 from stackbounce.cross2007.style import FLOOR, GREY, UPPER
 from stackbounce.model.drop import Drop
-from stackbounce.result import Result
+from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

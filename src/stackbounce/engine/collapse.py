@@ -46,7 +46,7 @@ from stackbounce.engine.flight import (
     wake,
 )
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.settle import NO_TIME
+from stackbounce.engine.settling import NO_TIME
 from stackbounce.engine.stack import RigidStack
 
 _SAME = 1e-12  # rates whose proportions agree this well are the same

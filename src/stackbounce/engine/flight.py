@@ -17,8 +17,8 @@ whenever a wait is so short against it that digits of the wait would be lost.
 import math
 
 from stackbounce.engine.codes import ABSENT, EPSILON
+from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.kernel import kernel
-from stackbounce.engine.queue import schedule
 from stackbounce.engine.stack import RigidStack
 
 _ALIKE = 8.0  # speeds up to so many times their difference give it with all its digits

@@ -4,6 +4,7 @@ import math
 
 from stackbounce.engine.codes import COMPRESSING, EPSILON
 from stackbounce.engine.contacts import catch_up
+from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.modes import (
     find_modes,
@@ -12,7 +13,6 @@ from stackbounce.engine.modes import (
     modal_position,
     start_modes,
 )
-from stackbounce.engine.queue import schedule
 from stackbounce.engine.series import ORDER, TERMS, integral, shift, value
 from stackbounce.engine.stack import MODES, WIDTH, Stack
 from stackbounce.engine.taylor import ENTERED, expand, is_linear, power_needed, record_crests

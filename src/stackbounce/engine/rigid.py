@@ -28,6 +28,7 @@ from stackbounce.engine.codes import (
     UPPER_VELOCITY,
 )
 from stackbounce.engine.collapse import find_collapse, remember
+from stackbounce.engine.event_queue import clear
 from stackbounce.engine.flight import (
     acceleration,
     bring_balls,
@@ -41,8 +42,7 @@ from stackbounce.engine.flight import (
     wake,
 )
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.queue import clear
-from stackbounce.engine.settle import earliest_other, settle
+from stackbounce.engine.settling import earliest_other, settle
 from stackbounce.engine.stack import RigidStack, Samples
 
 _ROWS = 5  # of the log, that one collision can fill

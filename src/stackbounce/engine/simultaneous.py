@@ -47,6 +47,7 @@ from stackbounce.engine.contacts import (
     stored_energy,
     turn,
 )
+from stackbounce.engine.event_queue import clear, schedule
 from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.motion import (
     advance_cluster,
@@ -60,11 +61,10 @@ from stackbounce.engine.motion import (
     series_time,
     velocity_at,
 )
-from stackbounce.engine.queue import clear, schedule
+from stackbounce.engine.next_event import look
 from stackbounce.engine.rest import is_bound, lay_down
 from stackbounce.engine.stack import Samples, Stack
 from stackbounce.engine.taylor import record_crests
-from stackbounce.engine.watch import look
 
 _COARSE = 1e-5  # of a contact's time: what the clock must tell apart
 _NOTICED = 1e-3  # of the energy of approach: what a touch may store before it is noticed

@@ -9,7 +9,7 @@ from typing import Any
 
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED, INVALID
 from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.lanes import (
+from stackbounce.engine.lockstep import (
     A1,
     A2,
     B2,

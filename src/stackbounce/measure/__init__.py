@@ -21,19 +21,20 @@ synthetic/    from the simulator to noisy records
 ============= ========================================================================
 """
 
-from stackbounce.measure.accelerometer import accelerometer
-from stackbounce.measure.analysis import analyse
+from stackbounce.measure.analyse_file import analyse
 from stackbounce.measure.assembly import one_ball, one_law
-from stackbounce.measure.bounces import bounces
-from stackbounce.measure.floor_gap import floor_gap
-from stackbounce.measure.heights import heights
-from stackbounce.measure.press import press, series_stiffness, split_series
+from stackbounce.measure.kinds.acceleration.analysis import accelerometer
+from stackbounce.measure.kinds.bounces.analysis import bounces
+from stackbounce.measure.kinds.gap.delay import gap_from_delay
+from stackbounce.measure.kinds.gap.floor_gap import floor_gap
+from stackbounce.measure.kinds.gap.sensor_gap import sensor_gap
+from stackbounce.measure.kinds.heights.analysis import heights
+from stackbounce.measure.kinds.press import press, series_stiffness, split_series
+from stackbounce.measure.kinds.sound.analysis import knocks
+from stackbounce.measure.kinds.track.analysis import track
+from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.measure.law_constants import dynamic_stiffness, law_constants
 from stackbounce.measure.reading import read
-from stackbounce.measure.sensor_gap import sensor_gap
-from stackbounce.measure.sound import knocks
-from stackbounce.measure.stiffness import dynamic_stiffness, law_constants
-from stackbounce.measure.track import track
-from stackbounce.measure.waveform import gap_from_delay, waveform
 
 __all__ = [
     "accelerometer",

@@ -4,14 +4,14 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from stackbounce.calibrate.inverse import needed_by
+from stackbounce.calibration.inverse import needed_by
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.accelerometer import Accelerometer
-from stackbounce.measure.bounces import Bounces
-from stackbounce.measure.heights import Heights
-from stackbounce.measure.stiffness import LawConstants, law_constants
-from stackbounce.measure.track import Tracks
-from stackbounce.measure.waveform.found import Waveform
+from stackbounce.measure.kinds.acceleration.analysis import Accelerometer
+from stackbounce.measure.kinds.bounces.analysis import Bounces
+from stackbounce.measure.kinds.heights.analysis import Heights
+from stackbounce.measure.kinds.track.analysis import Tracks
+from stackbounce.measure.kinds.waveform.result import Waveform
+from stackbounce.measure.law_constants import LawConstants, law_constants
 from stackbounce.model import Drop
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.model.laws import ContactLaw, law_named

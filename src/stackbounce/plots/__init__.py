@@ -1,12 +1,12 @@
 """Pictures: bounces, sweeps, designs, what a measurement, a fit or a comparison found."""
 
-from stackbounce.plots.bounce import bounce
-from stackbounce.plots.compared import compared
-from stackbounce.plots.designed import highest, transition
-from stackbounce.plots.fitted import fitted
-from stackbounce.plots.measured import measured
+from stackbounce.plots.fit_result import fitted
+from stackbounce.plots.impact import bounce
+from stackbounce.plots.measurement import measured
+from stackbounce.plots.model_comparison import compared
 from stackbounce.plots.posterior import corner
-from stackbounce.plots.swept import heatmap, lines
+from stackbounce.plots.stacks import highest, transition
+from stackbounce.plots.sweep_curves import heatmap, lines
 
 __all__ = [
     "bounce",

@@ -18,8 +18,8 @@ from stackbounce.web import schema
 from stackbounce.web.answers import catalogue, exports, maps, play, records
 from stackbounce.web.guard import Guard
 from stackbounce.web.limits import Limits
-from stackbounce.web.papers import Papers
-from stackbounce.web.work import Busy, TooLong, Workers
+from stackbounce.web.paper_pages import Papers
+from stackbounce.web.worker_pool import Busy, TooLong, Workers
 
 __all__ = ["create_app"]
 

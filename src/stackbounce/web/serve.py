@@ -58,7 +58,7 @@ def serve(
     import uvicorn
 
     from stackbounce.web.app import create_app
-    from stackbounce.web.patience import patient_protocol
+    from stackbounce.web.timeouts import patient_protocol
 
     with contextlib.closing(_listening(host, port)) as listening:
         address = f"http://{_shown(host)}:{listening.getsockname()[1]}/"

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from stackbounce.calibrate import calibrate
+from stackbounce.calibration import calibrate
 from stackbounce.cross2007.study.given import Solo
 from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
 

@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.calibrate import calibrate
+from stackbounce.calibration import calibrate
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.study import given
 from stackbounce.cross2007.study.fitting import fitted
 from stackbounce.cross2007.study.theories import ELASTIC, SHARED
-from stackbounce.fit import Model
+from stackbounce.fitting import Model
 from stackbounce.model import Ball, Drop, HuntCrossley
 
 __all__ = ["Stack", "stacks"]

@@ -8,8 +8,8 @@ from stackbounce.cross2007.study import given
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
 from stackbounce.cross2007.study.fitting import fitted
 from stackbounce.cross2007.study.theories import rigid
-from stackbounce.fit import Fit, Residual
-from stackbounce.fit.comparison import Comparison
+from stackbounce.fitting import Fit, Residual
+from stackbounce.fitting.comparison import Comparison
 from stackbounce.model import Drop
 
 __all__ = ["Compared", "compared"]
@@ -24,7 +24,7 @@ class Compared:
     Parameters
     ----------
     comparison : Comparison
-        What `stackbounce.fit.compare` would return.
+        What `stackbounce.fitting.compare` would return.
     """
 
     comparison: Comparison

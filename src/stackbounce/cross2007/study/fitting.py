@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.fit import Fit, Model
-from stackbounce.fit.problem import Problem
-from stackbounce.fit.question import read_problem
-from stackbounce.fit.search import Minimum, descend, search
+from stackbounce.fitting import Fit, Model
+from stackbounce.fitting.problem import Problem
+from stackbounce.fitting.question import read_problem
+from stackbounce.fitting.search import Minimum, descend, search
 
 __all__ = ["again", "fitted"]
 

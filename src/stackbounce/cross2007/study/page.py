@@ -14,7 +14,7 @@ from stackbounce.cross2007.study.figures_answers import decisive, energy
 from stackbounce.cross2007.study.readings import LAWS
 from stackbounce.cross2007.study.study import Study, study
 from stackbounce.cross2007.style import Picture, rendered, styled
-from stackbounce.fit import Residual
+from stackbounce.fitting import Residual
 from stackbounce.version import __version__
 
 __all__ = ["files", "page", "pictures"]

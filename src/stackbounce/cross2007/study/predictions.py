@@ -11,8 +11,8 @@ from stackbounce.cross2007.study import given
 from stackbounce.cross2007.study.catalogue import CHOSEN
 from stackbounce.cross2007.study.compared import Compared
 from stackbounce.model import Drop
-from stackbounce.simulate import simulate
-from stackbounce.sweep import sweep
+from stackbounce.run.driver import simulate
+from stackbounce.sweeps import sweep
 
 __all__ = ["Prediction", "bounces", "by_gap", "predictions"]
 

@@ -10,8 +10,8 @@ from stackbounce.cross2007.drops import peak_times
 from stackbounce.cross2007.stacks import gap_for_delay
 from stackbounce.cross2007.study.catalogue import CHOSEN
 from stackbounce.cross2007.study.compared import Compared
-from stackbounce.result import Result
-from stackbounce.simulate import simulate
+from stackbounce.run.driver import simulate
+from stackbounce.run.result import Result
 
 __all__ = ["Fact", "at_delay", "facts"]
 

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.datasets import dataset
 from stackbounce.cross2007.study import given
-from stackbounce.fit import Interval, fit
+from stackbounce.fitting import Interval, fit
 
 __all__ = ["Refit", "refits"]
 

@@ -13,10 +13,10 @@ from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, THEORIES
 from stackbounce.cross2007.study.compared import Compared
 from stackbounce.cross2007.study.fitting import again, fitted
 from stackbounce.cross2007.study.theories import Theory
-from stackbounce.fit import Fit
-from stackbounce.fit.comparison import Comparison
+from stackbounce.fitting import Fit
+from stackbounce.fitting.comparison import Comparison
 from stackbounce.model import STANDARD_GRAVITY
-from stackbounce.simulate import simulate
+from stackbounce.run.driver import simulate
 
 __all__ = ["Held", "between", "changes", "falling", "held_out", "late", "loose"]
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.study import given
 from stackbounce.cross2007.study.alone import LOSS, Numbers, numbers
-from stackbounce.fit import Model
+from stackbounce.fitting import Model
 from stackbounce.model import Drop, HuntCrossley, Hysteretic, Rigid, Viscoelastic
 
 __all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "rigid"]
@@ -84,7 +84,7 @@ class Theory:
     longer: Mapping[str, float] = field(default_factory=dict)
 
     def model(self, pairs: tuple[str, ...] = tuple(given.PAIRS)) -> Model:
-        """Return what `stackbounce.fit.compare` takes: drops, what varies, what follows."""
+        """Return what `stackbounce.fitting.compare` takes: drops, what varies, what follows."""
         vary: dict[str, Any] = {name: _BOUNDS[name] for name in self.vary}
         vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in pairs}
         middle = {name: 0.5 * sum(_BOUNDS[name]) for name in self.vary}
@@ -131,7 +131,7 @@ class Theory:
         """Return the loss between two balls, the lower one of which has the share f."""
         if self.where == OWN:
             return np.asarray(values["e_between"])
-        if self.law is Hysteretic:  # shares of the energy, as `stackbounce.calibrate.between`
+        if self.law is Hysteretic:  # shares of the energy, as `stackbounce.calibration.between`
             elastic = self.where == ELASTIC
             return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
         if self.where == ELASTIC:

@@ -6,13 +6,13 @@ import inspect
 import re
 from typing import Any, get_type_hints
 
-from stackbounce.calibrate import calibrate, contact_time, restitution
+from stackbounce.calibration import calibrate, contact_time, restitution
 from stackbounce.cross2007.cases import cases
 from stackbounce.errors import InvalidValue
+from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, ContactLaw, Drop, Rigid, law_named
 from stackbounce.model.catalogue import BALLS, stack
 from stackbounce.model.laws.table import FORMULAS
-from stackbounce.plain import as_json
 from stackbounce.version import __version__
 from stackbounce.web.limits import Limits
 

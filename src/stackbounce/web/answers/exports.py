@@ -9,7 +9,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue
 from stackbounce.model import Drop
 from stackbounce.plots import bounce
-from stackbounce.plots.window import impact_window, moments
+from stackbounce.plots.impact_window import impact_window, moments
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import ran
 

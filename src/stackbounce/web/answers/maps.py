@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, Drop
-from stackbounce.plain import as_json
-from stackbounce.result import Status
-from stackbounce.sweep import sweep
-from stackbounce.sweep.paths import number_at, numbers_of
+from stackbounce.run.paths import number_at, numbers_of
+from stackbounce.run.result import Status
+from stackbounce.sweeps import sweep
 from stackbounce.version import __version__
-from stackbounce.web.work import prepared
+from stackbounce.web.worker_pool import prepared
 
 if TYPE_CHECKING:
     import xarray as xr

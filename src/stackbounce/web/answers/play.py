@@ -7,15 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.calibrate import separate
+from stackbounce.calibration import separate
 from stackbounce.errors import StackbounceError
+from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, Drop, Rigid
-from stackbounce.plain import as_json
-from stackbounce.plots.window import impact_window, moments
-from stackbounce.result import Result
-from stackbounce.simulate import simulate
+from stackbounce.plots.impact_window import impact_window, moments
+from stackbounce.run.driver import simulate
+from stackbounce.run.result import Result
 from stackbounce.version import __version__
-from stackbounce.web.work import prepared
+from stackbounce.web.worker_pool import prepared
 
 __all__ = ["ran", "simulation"]
 

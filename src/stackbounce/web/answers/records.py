@@ -8,22 +8,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, StackbounceError, nearest, shown
-from stackbounce.fit import Fit, fit
+from stackbounce.fitting import Fit, fit
+from stackbounce.json_values import as_json
 from stackbounce.measure import analyse
+from stackbounce.measure.kinds.track.analysis import Tracks
+from stackbounce.measure.kinds.waveform import Waveform
 from stackbounce.measure.reading import read_content
-from stackbounce.measure.told import NUMBERS, told_number
-from stackbounce.measure.track import Tracks
-from stackbounce.measure.waveform import Waveform
+from stackbounce.measure.told_numbers import NUMBERS, told_number
 from stackbounce.model import Drop
 from stackbounce.model.laws import law_named
-from stackbounce.plain import as_json
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import ran
 
 if TYPE_CHECKING:
     import xarray as xr
 
-    from stackbounce.fit.residuals import Record
+    from stackbounce.fitting.residuals import Record
 
 __all__ = ["fitted", "measured"]
 

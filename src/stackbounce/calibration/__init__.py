@@ -1,0 +1,8 @@
+"""From laws to what is measured of them and back, and from a drop to its separate collisions."""
+
+from stackbounce.calibration.collision import contact_time, restitution
+from stackbounce.calibration.inverse import calibrate
+from stackbounce.calibration.pairs import between
+from stackbounce.calibration.separate_collisions import separate
+
+__all__ = ["between", "calibrate", "contact_time", "restitution", "separate"]

@@ -1,0 +1,247 @@
+"""From a law to what is measured of it: the restitution and the contact time of one ball."""
+
+import math
+from collections.abc import Callable, Mapping, Sequence, Set
+from typing import Any, TypeAlias
+
+from stackbounce.calibration import dashpot, elastic, hunt_crossley, viscoelastic
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.model.laws import (
+    LAWS,
+    ContactLaw,
+    Dashpot,
+    Hertz,
+    HuntCrossley,
+    Hysteretic,
+    PowerLaw,
+    Rigid,
+    Spring,
+    Viscoelastic,
+)
+
+__all__ = ["Mass", "contact_time", "reduced", "restitution"]
+
+Mass: TypeAlias = float | Sequence[float]
+"""In kg: of a ball on a floor, or reduced; or those of two balls, which are reduced."""
+
+
+def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None = None) -> float:
+    """Return the restitution of one contact: its relative speed after over that before.
+
+    Parameters
+    ----------
+    law : ContactLaw
+        Any contact law.
+    mass : float or (float, float), optional
+        The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
+        ``m1 m2/(m1 + m2)``); needed for `Dashpot` and `Viscoelastic`.
+    speed : float, optional
+        The speed in m/s at which the two meet; needed for `Viscoelastic` and `HuntCrossley`.
+
+    Returns
+    -------
+    float
+        From 0 to 1.
+
+    Raises
+    ------
+    InvalidType
+        If `law` is no contact law, or a number has the wrong type.
+    InvalidValue
+        If `mass` or `speed` is needed and missing, or is not positive and finite.
+
+    Notes
+    -----
+    Springs and power laws give back all that they took. `Hysteretic`: R. Cross, Am. J. Phys. 75,
+    1009 (2007), section V. `Dashpot`, with ``ζ = b/(2 sqrt(k m))``:
+    ``e = exp(-2 ζ acos(ζ)/sqrt(1 - ζ**2))`` (T. Schwager and T. Pöschel, Granular Matter 9, 465,
+    2007). `HuntCrossley`, with ``d = χ v``: ``d (1 + e) = ln((1 + d)/(1 - d e))``. `Viscoelastic`:
+    a function of ``1.5 A (k/m)**0.4 v**0.2`` alone, computed by a run.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Dashpot, Hysteretic
+    >>> restitution(Hysteretic(5.6e4, unloading_exponent=7))
+    0.5
+    >>> round(restitution(Dashpot(100.0, damping=2.0), mass=1.0), 6)  # ζ = 0.1
+    0.744079
+    """
+    m, v = _needed(law, mass, speed, _of_restitution(law), "restitution")
+    return _in_range("restitution", law, lambda: _restitution(law, m, v))
+
+
+def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None = None) -> float:
+    """Return the contact time in s of one collision, from the touch to the release.
+
+    Parameters
+    ----------
+    law : ContactLaw
+        Any contact law.
+    mass : float or (float, float), optional
+        The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
+        ``m1 m2/(m1 + m2)``); needed but for `Rigid`.
+    speed : float, optional
+        The speed in m/s at which the two meet; needed but for `Rigid`, `Spring`, `Dashpot`, and
+        exponents of 1 without `HuntCrossley`'s dissipation.
+
+    Returns
+    -------
+    float
+        0 for `Rigid`.
+
+    Raises
+    ------
+    InvalidType
+        If `law` is no contact law, or a number has the wrong type.
+    InvalidValue
+        If `mass` or `speed` is needed and missing, or is not positive and finite.
+
+    Notes
+    -----
+    With the compression C at which the contact would hold all the energy,
+    ``k C**(p+1)/(p+1) = m v**2/2``, a power law takes
+    ``C/v 2 sqrt(π) Γ(1 + 1/(p+1))/Γ(1/2 + 1/(p+1))``. `Hysteretic` takes half of that on the way
+    in, and on the way out half of that of its unloading curve at the speed e v. `Dashpot` takes
+    ``sqrt(m/k) 2 acos(ζ)/sqrt(1 - ζ**2)``, see `restitution`. `HuntCrossley` is an integral, and
+    `Viscoelastic` a run.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Hertz, Spring
+    >>> round(contact_time(Spring(22500), mass=0.057), 6)
+    0.005
+    >>> round(contact_time(Hertz(1.0), mass=1.0, speed=1.0), 6)
+    3.218065
+    """
+    m, v = _needed(law, mass, speed, _of_contact_time(law), "contact time")
+    return _in_range("contact time", law, lambda: _contact_time(law, m, v))
+
+
+def reduced(mass: object) -> float:
+    """Return the mass in kg that moves: one as it is, two reduced to ``m1 m2/(m1 + m2)``.
+
+    Raises
+    ------
+    InvalidValue
+        If a mass is not positive and finite, or there are not one or two.
+    InvalidType
+        If one has the wrong type.
+
+    Examples
+    --------
+    >>> reduced((1.0, 1.0)), reduced(0.5)
+    (0.5, 0.5)
+    """
+    given: Any = mass
+    try:
+        pair = () if isinstance(mass, str | bytes | Mapping | Set) else tuple(given)
+    except TypeError:  # one number
+        pair = ()
+    if not pair:
+        return positive("mass", mass, "kilograms")
+    if len(pair) != 2:
+        raise InvalidValue(f"mass must be a number or a pair of numbers, got {shown(mass)}")
+    low, high = sorted(positive(f"mass.{i}", pair[i], "kilograms") for i in (0, 1))
+    return low / (1.0 + low / high)
+
+
+def _of_restitution(law: object) -> tuple[str, ...]:
+    match law:
+        case Viscoelastic():
+            return ("mass", "speed")
+        case Dashpot():
+            return ("mass",)
+        case HuntCrossley():
+            return ("speed",)
+        case _:
+            return ()
+
+
+def _of_contact_time(law: object) -> tuple[str, ...]:
+    match law:
+        case Rigid():
+            return ()
+        case HuntCrossley():
+            return ("mass", "speed")
+        case _:
+            return ("mass",) if getattr(law, "exponent", 1.0) == 1.0 else ("mass", "speed")
+
+
+def _needed(
+    law: object, mass: object, speed: object, names: tuple[str, ...], what: str
+) -> tuple[float, float]:
+    """Return mass and speed, checked; 1 for what is not given and not in `names`, the needed."""
+    if not isinstance(law, tuple(LAWS.values())):
+        raise InvalidType(f"law must be a contact law, got {shown(law)}")
+    given = {"mass": mass, "speed": speed}
+    missing = [name for name in names if given[name] is None]
+    if missing:
+        raise InvalidValue(
+            f"{' and '.join(missing)} must be given, as the {what} of {type(law).__name__} "
+            "depends on it, got None"
+        )
+    return (
+        1.0 if mass is None else reduced(mass),
+        1.0 if speed is None else positive("speed", speed, "m/s"),
+    )
+
+
+def _in_range(what: str, law: object, compute: Callable[[], float]) -> float:
+    try:
+        value = compute()
+    except ArithmeticError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise InvalidValue(
+            f"law, mass and speed must give a {what} in the range of numbers, got {shown(law)}"
+        )
+    return value
+
+
+def _restitution(law: ContactLaw, mass: float, speed: float) -> float:
+    match law:
+        case Rigid() | Hysteretic():
+            return law.restitution
+        case Spring() | Hertz() | PowerLaw():
+            return 1.0
+        case Dashpot():
+            return dashpot.restitution(_damping_ratio(law, mass))
+        case Viscoelastic():
+            return viscoelastic.restitution(_squared_speed(law, mass, speed))
+        case HuntCrossley():
+            return hunt_crossley.restitution(_dissipation(law, speed))
+
+
+def _contact_time(law: ContactLaw, mass: float, speed: float) -> float:
+    if isinstance(law, Rigid):
+        return 0.0
+    unit = elastic.peak_compression(law.stiffness, law.exponent, mass, speed) / speed
+    match law:
+        case Spring() | Hertz() | PowerLaw():
+            return unit * elastic.duration(law.exponent)
+        case Dashpot():
+            return unit * dashpot.duration(_damping_ratio(law, mass))
+        case Viscoelastic():
+            return unit * viscoelastic.duration(_squared_speed(law, mass, speed))
+        case HuntCrossley():
+            return unit * hunt_crossley.duration(_dissipation(law, speed), law.exponent)
+        case Hysteretic():
+            return unit * elastic.hysteretic_duration(
+                law.exponent, law.unloading_exponent, law.restitution
+            )
+
+
+def _damping_ratio(law: Dashpot, mass: float) -> float:
+    return 0.5 * law.damping / math.sqrt(law.stiffness) / math.sqrt(mass)
+
+
+def _dissipation(law: HuntCrossley, speed: float) -> float:
+    d = law.dissipation * speed
+    if d > hunt_crossley.LARGEST:
+        raise OverflowError
+    return d
+
+
+def _squared_speed(law: Viscoelastic, mass: float, speed: float) -> float:
+    rate: float = law.stiffness**0.4 / mass**0.4 * speed**0.2
+    return 1.5 * law.dissipative_time * rate

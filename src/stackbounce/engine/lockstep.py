@@ -1,0 +1,352 @@
+"""One look at each of many drops of two balls on springs (eqs 5 and 6), in lock step.
+
+Every drop has a lane in one flat array: slot ``N`` of lane i is ``x[N + i]``. All lanes take a look
+at the same time, and what a look does is written without branches, in loops so short that a
+compiler makes vectors of them and a processor, which looks some 200 instructions ahead, works on
+several rounds at once. Lanes never see each other.
+
+In units of the lower ball's mass m1, of 1/omega = sqrt(m1/k1) and of the impact speed, with
+mu = m2/m1 and kappa = k2/k1, and in the coordinates w0 = q0, w1 = sqrt(mu) q1, eqs 5 and 6 read
+w'' = -K w, with another K in each of four regimes. A rotation by (c, s) gives two modes of the
+frequencies a and b:
+
+============ ========= ========= ==================================================================
+regime       floor     balls     modes
+============ ========= ========= ==================================================================
+both         pressed   pressed   those of eqs 5 and 6
+balls only   open      pressed   the two balls against each other, and their centre in flight
+floor only   pressed   open      the lower ball on the floor, and the upper ball in flight
+none         open      open      both balls in flight
+============ ========= ========= ==================================================================
+
+A mode y'' = -a^2 y moves as y cos(a t) + y' t sinc(a t), in flight too: there a is 0.
+
+A look goes as far as no contact can have changed its phase, or right onto the first change. Where a
+change is not clear of round-off the lane ends with the status ASK: the general engine has a rule
+for everything.
+"""
+
+import math
+
+from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED
+from stackbounce.engine.kernel import Floats, kernel
+from stackbounce.engine.trigonometry import cosine, half_turns, nudged, sinc
+
+LANES = 32  # a power of two
+
+# The slots of a drop. What every drop begins with of its own: position and velocity of the upper
+# ball, whether the balls' contact presses (1 or 0), how it has ended, which row it is; 1/sqrt(mu);
+# with both contacts pressed c, s, a, b, what the balls' contact sees of the modes, 1/a and 1/b; the
+# same for the balls only, where b is 0; its units of time and speed.
+W1, U1, BALLS, STATUS, ROW = (k * LANES for k in range(5))
+SLIM, C2, S2, A2, B2, V2, X2, OVER_A2, OVER_B2 = (k * LANES for k in range(5, 14))
+C1, S1, A1, V1, OVER_A1, UNIT, V0 = (k * LANES for k in range(14, 21))
+OWN = 21  # so many
+# What all begin with alike: the lower ball, time, whether the floor's contact presses. Looks,
+# intervals of each contact, the balls' first touch, last releases, and whether the last look was in
+# vain (1 or 0).
+W0, U0, TIME, FLOOR = (k * LANES for k in range(21, 25))
+LOOKS, N0, N1, FIRST, LAST0, LAST1, VAIN = (k * LANES for k in range(25, 32))
+
+# The slots of a look: the rotation of the present regime, how far a series is used, and how far one
+# of the slower mode only. Of the contact that may end the look: what it sees of the modes, a bound
+# of its third derivative over 2, whether (1 or 0) it is the floor's, whether an event is expected,
+# how long after the time that is safe, how much longer the other contact is safe, and its distance
+# from the event somewhere, with the first derivative and half of the second. Any doubt, whether the
+# event is landed on, and which contact has changed.
+C, S, REACH, LONG = (k * LANES for k in range(32, 36))
+SEES_A, SEES_B, BEND, LOWER, EXPECTED, PAST, SPARE = (k * LANES for k in range(36, 43))
+F, G, H, DOUBT, LANDS, FLOOR_TURNS, BALLS_TURN = (k * LANES for k in range(43, 50))
+# Double slots, of mode a in the first half and of mode b in the second: frequency, one over it or
+# 0, position, velocity, the step, and a short one to the event; the step's angle less half turns,
+# their sign, cosine and (sin x)/x.
+OMEGA, OVER, Y, Z, STEP, D = (k * LANES for k in range(50, 62, 2))
+ANGLE, SIGN, COS, SINC = (k * LANES for k in range(62, 70, 2))
+# Double slots, of the floor's contact and of the balls': how far it is from an event (a compression
+# or a gap) as a series, how far that is used, bounds of the third derivative over 2 and of the
+# sixth over 6!, the shares of the modes in distance and rate, what it sees of the modes, and how
+# long nothing happens. Of the first three rows the first half is then the contact's that may end
+# the look.
+P0, P1, P2, P3, P4, P5, VALID, THIRD, TAIL = (k * LANES for k in range(70, 88, 2))
+GA, GB, HA, HB, FA, FB, SAFE = (k * LANES for k in range(88, 102, 2))
+OTHER = LANES  # the second half of a double slot
+SLOTS = 102
+
+WIDEST = 2.5  # rad: how far series of order 5 are used
+_FAST = 64.0  # rad: how far the faster mode goes in one look
+_SLOW = 1e-5  # of the impact speed: whether anything so slow happens is left to the general engine
+_CLOSE = 1e-10  # of v0/omega: so is what comes so close to happening
+_NOISE = 1e-13  # of the impact speed: balls that move together
+_NEAR = 0.01  # rad, and as a part: what keeps the error of a landing below 1e-16
+_LOOKS = 200.0  # longer stories gather round-off
+_NEVER = 1e300
+
+
+@kernel
+def look(x: Floats, event_limit: float) -> None:
+    """Move each lane on, at most to its next event, and let that happen."""
+    _expand(x)
+    _differentiate(x, 0)
+    _differentiate(x, OTHER)
+    _watch(x)
+    _choose(x)
+    _follow(x)
+    _aim(x)
+    _swing(x)
+    _approach(x)
+    _follow(x)
+    _land(x)
+    _happen(x, event_limit)
+
+
+@kernel
+def _expand(x: Floats) -> None:
+    """Find each lane's modes (eqs 5 and 6), and what each contact sees of them.
+
+    A slot of a contact holds how far it is from its next event: a pressed one its compression, an
+    open one its gap.
+    """
+    for i in range(LANES):
+        floor, balls = x[FLOOR + i], x[BALLS + i]
+        both = floor * balls
+        only, apart = balls - both, 1.0 - balls
+        w0, w1, u0, u1, slim = x[W0 + i], x[W1 + i], x[U0 + i], x[U1 + i], x[SLIM + i]
+        # sums, as a choice between two slots would be compiled to a slow one between addresses
+        c = both * x[C2 + i] + only * x[C1 + i] + apart
+        s = both * x[S2 + i] + only * x[S1 + i]
+        a = both * x[A2 + i] + only * x[A1 + i] + (floor - both)
+        over_a = both * x[OVER_A2 + i] + only * x[OVER_A1 + i] + (floor - both)
+        b, over_b = both * x[B2 + i], both * x[OVER_B2 + i]
+        v, o = both * x[V2 + i] + only * x[V1 + i] + apart, both * x[X2 + i] - apart * slim
+        reach = WIDEST * over_a + _NEVER * (apart * (1.0 - floor))
+        long = min(_FAST * over_a, WIDEST * over_b)
+        ya, yb, za, zb = c * w0 + s * w1, c * w1 - s * w0, c * u0 + s * u1, c * u1 - s * u0
+        x[C + i], x[S + i] = c, s
+        x[OMEGA + i], x[OVER + i], x[Y + i], x[Z + i] = a, over_a, ya, za
+        x[OMEGA + OTHER + i], x[OVER + OTHER + i] = b, over_b
+        x[Y + OTHER + i], x[Z + OTHER + i] = yb, zb
+        x[REACH + i], x[LONG + i] = reach, long
+        # the floor's contact: pressed by -q0
+        sign = 1.0 - 2.0 * floor
+        fa, fb = sign * c, -sign * s
+        x[P0 + i], x[P1 + i], x[FA + i], x[FB + i] = sign * w0, sign * u0, fa, fb
+        x[GA + i], x[GB + i], x[HA + i], x[HB + i] = fa * ya, fb * yb, fa * za, fb * zb
+        # the balls' contact: pressed by q0 - q1
+        sign = 2.0 * balls - 1.0
+        fa, fb, rate = sign * v, sign * o, sign * (u0 - u1 * slim)
+        x[P0 + OTHER + i] = sign * (w0 - w1 * slim)
+        x[P1 + OTHER + i] = rate if abs(rate) > _NOISE else 0.0
+        x[FA + OTHER + i], x[FB + OTHER + i] = fa, fb
+        x[GA + OTHER + i], x[GB + OTHER + i] = fa * ya, fb * yb
+        x[HA + OTHER + i], x[HB + OTHER + i] = fa * za, fb * zb
+
+
+@kernel
+def _differentiate(x: Floats, half: int) -> None:
+    """Find for a contact the series of its distance from an event, and a bound of the rest.
+
+    The distance is at least what mode b makes of it less all that mode a, the faster one, can take
+    away. Where that is sure to stay positive for long it stands for the distance.
+    """
+    for n in range(LANES):
+        i = half + n
+        ga, gb, ha, hb, p0, p1 = x[GA + i], x[GB + i], x[HA + i], x[HB + i], x[P0 + i], x[P1 + i]
+        a, b, reach, long = x[OMEGA + n], x[OMEGA + OTHER + n], x[REACH + n], x[LONG + n]
+        # at least sqrt(u^2 + v^2), the amplitude of mode a
+        u, v = abs(ga), x[OVER + n] * abs(ha)
+        taken = max(u, v) + 0.4142136 * min(u, v)
+        ra, rb = a * (a * taken), b * (b * abs(gb) + abs(hb))
+        x[THIRD + i] = (a * ra + b * rb) * 0.5
+        slow = gb - taken + reach * min(0.0, hb - 0.5 * reach * rb)
+        slow = slow if reach < long else 0.0
+        stands = 1.0 if slow > _CLOSE else 0.0
+        keeps = 1.0 - stands
+        x[P0 + i], x[P1 + i] = keeps * p0 + stands * (gb - taken), keeps * p1 + stands * hb
+        x[VALID + i] = keeps * reach + stands * long
+        ga, ha, ra = keeps * ga, keeps * ha, keeps * ra
+        aa, bb = -a * a, -b * b
+        x[P2 + i], x[P3 + i] = (aa * ga + bb * gb) * (1.0 / 2.0), (aa * ha + bb * hb) * (1.0 / 6.0)
+        aa, bb = aa * aa, bb * bb
+        x[P4 + i] = (aa * ga + bb * gb) * (1.0 / 24.0)
+        x[P5 + i] = (aa * ha + bb * hb) * (1.0 / 120.0)
+        x[TAIL + i] = (aa * ra + bb * rb) * (1.0 / 720.0)
+
+
+@kernel
+def _watch(x: Floats) -> None:
+    """Find for each contact a time before which it surely keeps its phase.
+
+    Its distance p(t) from the event is known to order 5, with a bound of the rest. Horner's nested
+    lower bounds, as in `series.safe_step`, go down to a parabola here: p is positive before its
+    root.
+    """
+    for i in range(2 * LANES):
+        p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
+        tail, reach = x[TAIL + i], x[VALID + i]
+        # zero gap: p0 = p1 = p2 = 0, and no parabola but a short one is below a cubic
+        s = reach if p0 > _CLOSE or p1 != 0.0 else 0.5 * reach
+        h = p5 - tail * s
+        h = p4 + min(0.0, h) * s
+        h = p3 + min(0.0, h) * s
+        h = p2 + min(0.0, h) * s
+        start = p0 - _CLOSE if p0 > _CLOSE else 0.0
+        square = p1 * p1 - 4.0 * h * start
+        q = abs(p1) + math.sqrt(max(0.0, square))
+        over = 2.0 * start if p1 < 0.0 else q
+        under = (q if square >= 0.0 else 0.0) if p1 < 0.0 else -2.0 * h
+        root = over / (under if under > 0.0 else 1.0)
+        root = root if under > 0.0 else s
+        x[SAFE + i] = min(s, root)
+
+
+@kernel
+def _choose(x: Floats) -> None:
+    """Take the contact that is not safe for as long as the other one, at the end of that time."""
+    for i in range(LANES):
+        one, other = x[SAFE + i], x[SAFE + OTHER + i]
+        lower = 1.0 if one <= other else 0.0
+        upper = 1.0 - lower
+        x[LOWER + i], x[D + i], x[SPARE + i] = lower, min(one, other), max(one, other)
+        x[P0 + i] = lower * x[P0 + i] + upper * x[P0 + OTHER + i]
+        x[P1 + i] = lower * x[P1 + i] + upper * x[P1 + OTHER + i]
+        x[P2 + i] = lower * x[P2 + i] + upper * x[P2 + OTHER + i]
+        x[P3 + i] = lower * x[P3 + i] + upper * x[P3 + OTHER + i]
+        x[P4 + i] = lower * x[P4 + i] + upper * x[P4 + OTHER + i]
+        x[P5 + i] = lower * x[P5 + i] + upper * x[P5 + OTHER + i]
+        x[VALID + i] = lower * x[VALID + i] + upper * x[VALID + OTHER + i]
+        x[BEND + i] = lower * x[THIRD + i] + upper * x[THIRD + OTHER + i]
+        x[SEES_A + i] = lower * x[FA + i] + upper * x[FA + OTHER + i]
+        x[SEES_B + i] = lower * x[FB + i] + upper * x[FB + OTHER + i]
+
+
+@kernel
+def _follow(x: Floats) -> None:
+    """Follow that contact's series as far as the short step goes."""
+    for i in range(LANES):
+        p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
+        d = x[D + i]
+        x[F + i] = p0 + d * (p1 + d * (p2 + d * (p3 + d * (p4 + d * p5))))
+        x[G + i] = p1 + d * (2.0 * p2 + d * (3.0 * p3 + d * (4.0 * p4 + d * (5.0 * p5))))
+        x[H + i] = p2 + d * (3.0 * p3 + d * (6.0 * p4 + d * (10.0 * p5)))
+
+
+@kernel
+def _aim(x: Floats) -> None:
+    """Find each lane's step: to where its first event is expected, or as far as there is none."""
+    for i in range(LANES):
+        f, g, h = x[F + i], x[G + i], x[H + i]
+        safe, limit, p0, reach = x[D + i], x[SPARE + i], x[P0 + i], x[VALID + i]
+        d = _halley(f, g, h)
+        t = safe + d
+        expected = 1.0 if g < -_SLOW and (d >= 0.0 or p0 <= _CLOSE) else 0.0
+        expected = expected if t <= limit and t <= reach and abs(d) <= 0.1 * reach else 0.0
+        expected = expected if reach <= x[REACH + i] else 0.0
+        expected = expected * (1.0 - x[VAIN + i])
+        step = safe + expected * d
+        x[STEP + i], x[STEP + OTHER + i] = step, step
+        x[EXPECTED + i], x[PAST + i], x[SPARE + i] = expected, d, limit - t
+        x[DOUBT + i] = 1.0 - expected if step <= 0.0 else 0.0
+
+
+@kernel
+def _halley(f: float, g: float, h: float) -> float:
+    """Return Halley's step, to second order, to where f + g d + h d^2 falls through 0."""
+    inverse = 1.0 / (g if g < -_SLOW else -1.0)
+    d = -f * inverse
+    return d * (1.0 - d * h * inverse)
+
+
+@kernel
+def _swing(x: Floats) -> None:
+    """Move each mode on by a step."""
+    for i in range(2 * LANES):
+        x[SIGN + i], x[ANGLE + i] = half_turns(x[OMEGA + i] * x[STEP + i])
+    for i in range(2 * LANES):
+        x[COS + i] = cosine(x[ANGLE + i] * x[ANGLE + i])
+    for i in range(2 * LANES):
+        x[SINC + i] = sinc(x[ANGLE + i] * x[ANGLE + i])
+    for i in range(2 * LANES):
+        omega, over, step, y, z = x[OMEGA + i], x[OVER + i], x[STEP + i], x[Y + i], x[Z + i]
+        cos, sin = x[SIGN + i] * x[COS + i], x[SIGN + i] * (x[ANGLE + i] * x[SINC + i])
+        travel = sin * over if over > 0.0 else step
+        x[Y + i], x[Z + i] = y * cos + z * travel, z * cos - omega * (y * sin)
+
+
+@kernel
+def _approach(x: Floats) -> None:
+    """Find from where a lane now is a first short step to the event, if it can be landed on."""
+    for i in range(LANES):
+        a, ya, za = x[OMEGA + i], x[Y + i], x[Z + i]
+        b, yb, zb = x[OMEGA + OTHER + i], x[Y + OTHER + i], x[Z + OTHER + i]
+        sees_a, sees_b = x[SEES_A + i], x[SEES_B + i]
+        aa, bb = -a * a, -b * b
+        fa, fb, ga, gb = sees_a * ya, sees_b * yb, sees_a * za, sees_b * zb
+        x[P0 + i], x[P1 + i] = fa + fb, ga + gb
+        fa, fb, ga, gb = aa * fa, bb * fb, aa * ga, bb * gb
+        x[P2 + i], x[P3 + i] = (fa + fb) * (1.0 / 2.0), (ga + gb) * (1.0 / 6.0)
+        x[P4 + i] = (aa * fa + bb * fb) * (1.0 / 24.0)
+        x[P5 + i] = (aa * ga + bb * gb) * (1.0 / 120.0)
+    for i in range(LANES):
+        p0, p1, p2 = x[P0 + i], x[P1 + i], x[P2 + i]
+        inverse = 1.0 / (p1 if p1 <= -_SLOW else -1.0)
+        newton = -p0 * inverse
+        bent = newton * p2 * inverse
+        lands = x[EXPECTED + i] if p1 <= -_SLOW and abs(bent) <= _NEAR else 0.0
+        x[LANDS + i] = lands if x[OMEGA + i] * abs(newton) <= _NEAR else 0.0
+        x[D + i] = newton * (1.0 - bent)
+
+
+@kernel
+def _land(x: Floats) -> None:
+    """Move each lane that expects an event right onto it, and all back to the balls.
+
+    The root is the first event if the distance falls all the way to it from the time that was safe,
+    as its derivatives at the root tell, and if the other contact is safe until then. Otherwise the
+    look was in vain: the lane stays where it was, and will not look further than is safe.
+    """
+    for i in range(LANES):
+        f, g, h, d = x[F + i], x[G + i], x[H + i], x[D + i]
+        d = d + _halley(f, g, h)
+        past, bend = abs(x[PAST + i]) + abs(d), x[BEND + i]
+        lands = x[LANDS + i] if d <= x[SPARE + i] else 0.0
+        lands = lands if (2.0 * abs(h) + bend * past) * past <= -0.9 * g else 0.0
+        x[LANDS + i], x[D + i], x[D + OTHER + i] = lands, lands * d, lands * d
+    for i in range(2 * LANES):
+        x[Y + i], x[Z + i] = nudged(x[OMEGA + i], x[D + i], x[Y + i], x[Z + i])
+    for i in range(LANES):
+        ya, za, yb, zb = x[Y + i], x[Z + i], x[Y + OTHER + i], x[Z + OTHER + i]
+        c, s, lands, lower = x[C + i], x[S + i], x[LANDS + i], x[LOWER + i]
+        stays = x[EXPECTED + i] - lands
+        moves = 1.0 - stays
+        x[W0 + i] = moves * (c * ya - s * yb) + stays * x[W0 + i]
+        x[W1 + i] = moves * (s * ya + c * yb) + stays * x[W1 + i]
+        x[U0 + i] = moves * (c * za - s * zb) + stays * x[U0 + i]
+        x[U1 + i] = moves * (s * za + c * zb) + stays * x[U1 + i]
+        x[TIME + i] = x[TIME + i] + moves * (x[STEP + i] + x[D + i])
+        x[VAIN + i] = stays
+        x[FLOOR_TURNS + i], x[BALLS_TURN + i] = lands * lower, lands * (1.0 - lower)
+
+
+@kernel
+def _happen(x: Floats, event_limit: float) -> None:
+    """Let contacts touch and release, and tell what is over."""
+    for i in range(LANES):
+        floor, balls, now = x[FLOOR + i], x[BALLS + i], x[TIME + i]
+        lower, upper = x[FLOOR_TURNS + i], x[BALLS_TURN + i]
+        touch, n1, first = upper * (1.0 - balls), x[N1 + i], x[FIRST + i]
+        new = touch if n1 == 0.0 else 0.0
+        n0, n1 = x[N0 + i] + lower * (1.0 - floor), n1 + touch
+        x[N0 + i], x[N1 + i], x[FIRST + i] = n0, n1, first + new * now
+        release0, release1 = lower * floor, upper * balls
+        x[LAST0 + i] = (1.0 - release0) * x[LAST0 + i] + release0 * now
+        x[LAST1 + i] = (1.0 - release1) * x[LAST1 + i] + release1 * now
+        floor, balls = abs(floor - lower), abs(balls - upper)
+        x[FLOOR + i], x[BALLS + i] = floor, balls
+        pressed, looks = floor + balls, x[LOOKS + i] + 1.0
+        x[LOOKS + i] = looks
+        u0, u1, doubt = x[U0 + i], x[U1 + i] * x[SLIM + i], x[DOUBT + i]
+        parting = min(u1 - u0, u0)  # the slower one of the two contacts
+        result = EVENT_LIMIT if 2.0 * (n0 + n1) - pressed >= event_limit else 0.0
+        result = ASK if doubt > 0.0 or looks >= _LOOKS else result
+        result = ASK if pressed == 0.0 and parting > -_SLOW else result
+        x[STATUS + i] = FINISHED if pressed == 0.0 and parting >= _SLOW else result

@@ -1,0 +1,231 @@
+"""A fit from a file: a scenario with what was measured, what may vary, and what follows."""
+
+import os
+from collections.abc import Mapping
+from dataclasses import fields
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.errors import (
+    InvalidType,
+    InvalidValue,
+    ScenarioError,
+    StackbounceError,
+    nearest,
+    positive,
+    shown,
+)
+from stackbounce.fitting.parameters import Range
+from stackbounce.fitting.question import Question
+from stackbounce.model import Drop
+from stackbounce.model.toml import load_toml
+from stackbounce.units import quantity
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["force_record", "read_question", "typed"]
+
+_OWN = ("measured", "vary", "tie", "drops")
+_INCIDENCE = ("impact_speed", "height", "velocities")
+_RANGE = ("low", "high", "prior")
+_RECORD = ("file", "start", "end", "error")
+_READING = ("holds", "table", "run", "names", "units", "decimal")
+
+
+def read_question(path: str | os.PathLike[str]) -> Question:
+    """Return what a file in TOML asks of a fit.
+
+    Parameters
+    ----------
+    path : str or path-like
+        A scenario, as `stackbounce.Drop.from_toml` reads it, with three more tables, each of which
+        may be left out. ``[measured]`` has what was measured, by the names that `stackbounce.fit`
+        takes, ``"rebound_ratios.1" = "1.64 ± 0.02"``; ``"force.0"`` is a file that
+        `stackbounce.read` reads, beside this one, or a table with ``file``, ``start`` and ``end``
+        (what to cut out), ``error`` (of a sample) and options of `stackbounce.read`. ``[vary]`` has
+        what may change: ``"gaps.0" = "0 mm : 5 mm"``, ``"1.3 ± 0.9 mm"``, or a table of ``low``,
+        ``high`` and ``prior``; an empty text for bounds around the drop's own number. ``[tie]`` has
+        what follows: ``"contacts.1.stiffness" = "0.5 * contacts.0.stiffness"``. Several drops are
+        ``[[drops]]``, each with a ``name``, ``[drops.measured]`` and what sets it apart from the
+        rest of the file, which holds for all.
+
+    Returns
+    -------
+    Question
+        Its `fit` is the answer; `stackbounce.fit` takes its parts.
+
+    Raises
+    ------
+    FileError
+        If a file cannot be read.
+    ScenarioError
+        If it cannot be understood; the message begins with the file's name.
+    InvalidType
+        If `path` is no path.
+
+    Examples
+    --------
+    >>> read_question("no-such-file.toml")
+    Traceback (most recent call last):
+        ...
+    stackbounce.errors.FileError: no-such-file.toml cannot be read: No such file or directory
+    """
+    name, mapping = load_toml(path)
+    try:
+        return _question(mapping, Path(name).parent)
+    except (InvalidValue, InvalidType) as error:
+        raise ScenarioError(f"{name}: {error}") from error
+
+
+def typed(name: str, value: object, folder: Path) -> Any:
+    """Return what was measured, as files and the command line have it, as a fit takes it.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``rebound_ratios.1``, ``collisions.0`` or ``force.0``.
+    value : object
+        A text, a number or a list; of a force record the name of its file, or a table.
+    folder : Path
+        Where files are.
+
+    Returns
+    -------
+    object
+        Counts as whole numbers, force records as DataArrays, all else as it is.
+
+    Raises
+    ------
+    FileError
+        If a force record cannot be read.
+    InvalidValue
+        If there is no force in it.
+
+    Examples
+    --------
+    >>> typed("collisions.0", "3", Path()), typed("rebound_ratios.1", "1.64 ± 0.02", Path())
+    (3, '1.64 ± 0.02')
+    """
+    if name.startswith("collisions.") and isinstance(value, str) and value.strip().isdecimal():
+        return int(value)
+    return force_record(name, value, folder) if name.startswith("force.") else value
+
+
+def force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
+    """Return the force record of a file, or of a table that has one; see `read_question`."""
+    from stackbounce.measure import read
+
+    table = {"file": value} if isinstance(value, str) else value
+    if not isinstance(table, Mapping) or not isinstance(table.get("file"), str):
+        raise InvalidValue(f"{name} must be the name of a file with a force, got {shown(value)}")
+    for key in table:
+        if key not in _RECORD + _READING:
+            raise InvalidValue(f"{name}.{key}: unknown; {nearest(key, _RECORD + _READING)}")
+    path = folder / table["file"]
+    data = read(path, **{key: one for key, one in table.items() if key in _READING})
+    own = [one for one in data.data_vars if str(one).split("_")[0] in ("force", "voltage")]
+    if data.attrs["holds"] != "waveform" or not own:
+        raise InvalidValue(f"{name}: {path} holds no force over time, but a {data.attrs['holds']}")
+    record = data[own[0]].dropna("time")
+    ends = [quantity(table[k], "s", f"{name}.{k}") if k in table else None for k in _RECORD[1:3]]
+    record = record.sortby("time").sel(time=slice(*ends))
+    if "error" in table:
+        unit = record.attrs.get("units", "")
+        error = quantity(table["error"], unit, f"{name}.error")
+        record.attrs["error"] = positive(f"{name}.error", error)
+    return record
+
+
+def _question(mapping: Mapping[str, Any], folder: Path) -> Question:
+    _check(mapping, _OWN, "")
+    rest = {key: value for key, value in mapping.items() if key not in _OWN}
+    if "drops" in mapping:
+        if "measured" in mapping:
+            raise InvalidValue("measured belongs to one of the drops: write [drops.measured] there")
+        drops, data = _several(mapping["drops"], rest, folder)
+    else:
+        measured = _measured(mapping.get("measured", {}), "measured", folder)
+        drops, data = {"": Drop.from_mapping(rest)}, {"": measured}
+    data = {key: one for key, one in data.items() if one}
+    tie = _flat(_table(mapping.get("tie", {}), "tie"))
+    return Question(drops, data, _vary(mapping.get("vary", {})), tie)
+
+
+def _several(
+    given: object, rest: Mapping[str, Any], folder: Path
+) -> tuple[dict[str, Drop], dict[str, dict[str, Any]]]:
+    if not isinstance(given, list) or not given:
+        raise InvalidValue(f"drops must be tables, each under [[drops]], got {shown(given)}")
+    drops: dict[str, Drop] = {}
+    data = {}
+    for k, one in enumerate(given):
+        own = dict(_table(one, f"drops.{k}"))
+        name = own.pop("name", None)
+        if not (isinstance(name, str) and name.isidentifier()) or name in drops:
+            raise InvalidValue(
+                f"drops.{k}.name must be a name of its own in letters, digits and _, such as "
+                f"B2_on_B1, got {shown(name)}"
+            )
+        _check(own, ("measured", "name"), f"drops.{k}.")
+        data[name] = _measured(own.pop("measured", {}), f"{name}.measured", folder)
+        common = {
+            key: value
+            for key, value in rest.items()
+            if not (key in _INCIDENCE and any(other in own for other in _INCIDENCE))
+        }
+        try:
+            drops[name] = Drop.from_mapping(common | own)
+        except StackbounceError as error:
+            raise ScenarioError(f"{name}: {error}") from error
+    return drops, data
+
+
+def _check(table: Mapping[str, Any], more: tuple[str, ...], path: str) -> None:
+    known = [*(one.name for one in fields(Drop)), *more]
+    for key in table:
+        if key not in known:
+            word = key if key.isidentifier() else shown(key)
+            raise InvalidValue(f"{path}{word[:60]} is not a known key; {nearest(key, known)}")
+
+
+def _measured(given: object, path: str, folder: Path) -> dict[str, Any]:
+    table = _flat(_table(given, path), leaf=lambda one: "file" in one)
+    return {name: typed(name, value, folder) for name, value in table.items()}
+
+
+def _vary(given: object) -> dict[str, Any]:
+    if isinstance(given, list) and all(isinstance(name, str) for name in given):
+        return dict.fromkeys(given)
+    table = _flat(_table(given, "vary"), leaf=lambda one: bool(set(one) & set(_RANGE)))
+    return {name: _bounds(name, value) for name, value in table.items()}
+
+
+def _bounds(name: str, value: object) -> object:
+    """Return what a number may be; a table as a `Range`, an empty text as nothing told."""
+    if not isinstance(value, Mapping):
+        return None if value == "" else value
+    for key in value:
+        if key not in _RANGE:
+            raise InvalidValue(f"vary: {name}.{key} is not a known key; {nearest(key, _RANGE)}")
+    if ("low" in value) != ("high" in value) or not value:
+        raise InvalidValue(f"vary: {name} must have both low and high, got {shown(dict(value))}")
+    prior = value.get("prior")
+    return Range(value["low"], value["high"], prior) if "low" in value else prior
+
+
+def _table(given: object, path: str) -> Mapping[str, Any]:
+    if not isinstance(given, Mapping):
+        raise InvalidValue(f"{path} must be a table of names and values, got {shown(given)}")
+    return given
+
+
+def _flat(table: Mapping[str, Any], leaf: Any = lambda _: False, path: str = "") -> dict[str, Any]:
+    """Return a table by whole names: ``gaps.0`` without quotes is a table in a table to TOML."""
+    found: dict[str, Any] = {}
+    for key, value in table.items():
+        if isinstance(value, Mapping) and not leaf(value):
+            found |= _flat(value, leaf, f"{path}{key}.")
+        else:
+            found[path + key] = value
+    return found

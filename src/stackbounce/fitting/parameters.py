@@ -1,0 +1,279 @@
+"""The numbers that a fit varies: between which bounds, with what known of them beforehand."""
+
+import keyword
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, finite, nearest, positive, shown
+from stackbounce.fitting.formula import OWN_WORDS
+from stackbounce.measure.uncertain_numbers import quantity_with_error
+from stackbounce.model import Drop
+from stackbounce.run.paths import Number, drop_at, numbers_of
+from stackbounce.units import quantity
+
+__all__ = ["Parameter", "Range", "read_parameters"]
+
+Array: TypeAlias = NDArray[np.float64]
+
+_WIDE = 100.0  # times more or less than the drop's own number, where no bounds are told
+_MOST_GAP = 0.02  # m, or ten times the drop's own
+_LOG = 5.0  # ratio of bounds above 0 from which on even ratios are searched
+_REACH = 6.0  # standard deviations of a prior, where it comes without bounds
+
+
+@dataclass(frozen=True)
+class Range:
+    """Between which bounds a fit varies a number, and what is known of it beforehand.
+
+    Parameters
+    ----------
+    low, high : float or str
+        The bounds, in SI units or with a unit.
+    prior : str, (float, float) or UFloat, optional
+        What is known of it from elsewhere, with its error: it counts as a measurement.
+
+    Examples
+    --------
+    >>> Range("0 mm", "5 mm", prior="1.3 ± 0.9 mm").high
+    '5 mm'
+    """
+
+    low: Any
+    high: Any
+    prior: Any = None
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number that a fit varies.
+
+    Parameters
+    ----------
+    name : str
+        A path such as ``contacts.0.stiffness``, of one drop ``DROP.gaps.0``, or a name of the
+        user's that ties use.
+    low, high : float
+        Bounds in SI units.
+    prior : (float, float) or None
+        What is known beforehand: mean and standard deviation.
+    unit : str
+        The SI unit; empty for a pure number or a name of the user's.
+
+    Examples
+    --------
+    >>> Parameter("contacts.0.stiffness", 1e3, 1e6, None, "N/m").logarithmic
+    True
+    """
+
+    name: str
+    low: float
+    high: float
+    prior: tuple[float, float] | None
+    unit: str
+
+    @property
+    def logarithmic(self) -> bool:
+        """Whether even ratios are searched rather than even steps."""
+        return self.low > 0.0 and self.high > _LOG * self.low
+
+    @property
+    def span(self) -> tuple[float, float]:
+        """The bounds in the coordinate that is searched."""
+        if self.logarithmic:
+            return math.log(self.low), math.log(self.high)
+        return self.low, self.high
+
+    def value(self, x: Array) -> Array:
+        """Return the number at a coordinate that is searched, inside the bounds."""
+        inside = np.exp(x) if self.logarithmic else x
+        return np.asarray(np.clip(inside, self.low, self.high))
+
+    def slope(self, x: float) -> float:
+        """Return how the number changes with that coordinate."""
+        return math.exp(x) if self.logarithmic else 1.0
+
+    def coordinate(self, value: float) -> float:
+        """Return the coordinate of a number."""
+        return math.log(value) if self.logarithmic else value
+
+
+def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter, ...]:
+    """Return the numbers that a fit varies, checked.
+
+    Parameters
+    ----------
+    drops : mapping of str to Drop
+        By their names; the name is empty where there is only one.
+    vary : mapping or sequence of str
+        By name: a `Range`, a pair of bounds, a text with a colon between them (``"0 mm : 5 mm"``),
+        a text, pair or UFloat with an error (``"1.3 ± 0.9 mm"``), which is known beforehand, or
+        None for bounds around the drop's own number. A sequence has names alone.
+
+    Returns
+    -------
+    tuple of Parameter
+
+    Raises
+    ------
+    InvalidValue
+        If a name is no number of the drops, or bounds do not fit.
+    InvalidType
+        If something has the wrong type.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> [one.high for one in read_parameters({"": drop}, {"contacts.0.stiffness": (0.1, 10.0)})]
+    [10.0]
+    """
+    if isinstance(vary, Sequence) and not isinstance(vary, str):
+        for name in vary:
+            if not isinstance(name, str):
+                raise InvalidType(f"vary must list names, got {shown(name)}")
+        vary = dict.fromkeys(vary)
+    if not isinstance(vary, Mapping) or not vary:
+        raise InvalidType(
+            "vary must name what may change, such as {'contacts.0.stiffness': (1e3, 1e6)}, "
+            f"got {shown(vary)}"
+        )
+    found = tuple(_parameter(drops, name, given) for name, given in vary.items())
+    varied = [(key, at.path) for one in found for key, at in places(drops, one.name)]
+    for one in found:
+        if any(varied.count((key, at.path)) > 1 for key, at in places(drops, one.name)):
+            raise InvalidValue(f"{one.name} is varied twice: only once for each drop")
+    return found
+
+
+def places(drops: Mapping[str, Drop], name: str) -> list[tuple[str, Number]]:
+    """Return all drops that have a number of this name, and where it is in them."""
+    found = []
+    for key, drop in drops.items():
+        known = numbers_of(drop)
+        path = name.removeprefix(f"{key}.") if key and name not in known else name
+        if path in known:
+            found.append((key, known[path]))
+    return found
+
+
+def paths(drops: Mapping[str, Drop]) -> list[str]:
+    """Return the paths of all numbers of some drops."""
+    return list(dict.fromkeys(path for drop in drops.values() for path in numbers_of(drop)))
+
+
+def _parameter(drops: Mapping[str, Drop], name: object, given: object) -> Parameter:
+    if not isinstance(name, str):
+        raise InvalidType(f"vary must have names for keys, got {shown(name)}")
+    at = places(drops, name)
+    if not at and not (name.isidentifier() and name.isascii()):
+        raise InvalidValue(f"{name[:60]} is no number of the drop; {nearest(name, paths(drops))}")
+    if name in OWN_WORDS or keyword.iskeyword(name):
+        raise InvalidValue(f"{name} means something else in formulas: take another name")
+    unit = at[0][1].unit if at else ""
+    low, high, prior = _bounds(drops, at, name, given, unit)
+    if not low < high:
+        raise InvalidValue(
+            f"{name} must have a lower bound below the upper one, got {low:g} and {high:g}"
+        )
+    for key, number in at:
+        for value in (low, high):
+            try:
+                drop_at(drops[key], {number: value})
+            except (InvalidValue, InvalidType) as error:
+                raise InvalidValue(f"{name} cannot be varied to {value:g}: {error}") from error
+    return Parameter(name, low, high, prior, unit)
+
+
+def _bounds(
+    drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], name: str, given: Any, unit: str
+) -> tuple[float, float, tuple[float, float] | None]:
+    if isinstance(given, str) and given.count(":") == 1:
+        given = given.split(":")
+    if isinstance(given, tuple | list) and len(given) == 2:
+        given = Range(*given)
+    if isinstance(given, Range):
+        low, high = (quantity(_stripped(one), unit, name) for one in (given.low, given.high))
+        return low, high, None if given.prior is None else _known(given.prior, unit, name)
+    if given is None:
+        return *_default(drops, at, name), None
+    mean, error = _known(given, unit, name)
+    low, high = _legal(drops, at, mean, mean - _REACH * error, mean + _REACH * error)
+    return low, high, (mean, error)
+
+
+def _stripped(bound: Any) -> Any:
+    return bound.strip() if isinstance(bound, str) else bound
+
+
+def _known(given: Any, unit: str, name: str) -> tuple[float, float]:
+    value: Any = quantity_with_error(given, unit, name) if isinstance(given, str) else given
+    if hasattr(value, "nominal_value"):
+        value = (value.nominal_value, value.std_dev)
+    if not isinstance(value, tuple | list) or len(value) != 2:
+        raise InvalidValue(
+            f"{name} must be varied between two bounds, such as '1e3 : 1e6', or around what is "
+            f"known of it, such as '1.3 ± 0.9 mm', got {shown(given)}"
+        )
+    return finite(name, value[0]), positive(f"{name}'s error", value[1])
+
+
+def _default(
+    drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], name: str
+) -> tuple[float, float]:
+    """Return bounds around a drop's own number."""
+    if not at:
+        raise InvalidValue(f"{name} needs bounds, such as {name}=0.1:10")
+    key, number = at[0]
+    own = current(drops[key], number)
+    if number.part == "gaps":
+        return 0.0, max(_MOST_GAP, 10.0 * own)
+    if number.field == "restitution":
+        return 0.01, 1.0
+    if own == 0.0 or math.isnan(own):
+        raise InvalidValue(f"{name} is {own:g} in the drop and needs bounds, such as {name}=0.1:10")
+    ends = sorted((own / _WIDE, own * _WIDE))
+    return _legal(drops, at, own, *ends)
+
+
+def _legal(
+    drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], own: float, low: float, high: float
+) -> tuple[float, float]:
+    """Return bounds drawn in to where the drops can be made."""
+
+    def holds(value: float) -> bool:
+        try:
+            for key, number in at:
+                drop_at(drops[key], {number: value})
+        except (InvalidValue, InvalidType):
+            return False
+        return True
+
+    ends = []
+    for end in (low, high):
+        good, bad = own, end
+        if holds(end):
+            good = end
+        else:
+            for limit in (0.0, 1.0):  # where bounds of a drop's numbers mostly lie
+                if min(own, end) <= limit <= max(own, end) and holds(limit):
+                    good = limit
+            if good == own:
+                for _ in range(60):
+                    middle = 0.5 * (good + bad)
+                    good, bad = (middle, bad) if holds(middle) else (good, middle)
+        ends.append(good)
+    return ends[0], ends[1]
+
+
+def current(drop: Drop, number: Number) -> float:
+    """Return what a drop has for a number; nan for a diameter that is not told."""
+    if number.part == "":
+        return float(getattr(drop, number.field))
+    part = getattr(drop, number.part)[number.index]
+    value = getattr(part, number.field) if number.field else part
+    return math.nan if value is None else float(value)

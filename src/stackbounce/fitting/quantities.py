@@ -1,0 +1,115 @@
+"""What can be measured of a drop, and what the engine says of it for many drops at once."""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.engine.batch import Outcomes
+from stackbounce.errors import InvalidValue, nearest
+from stackbounce.model import STANDARD_GRAVITY, Drop
+
+__all__ = ["QUANTITIES", "Quantity", "place"]
+
+Array: TypeAlias = NDArray[np.float64]
+
+
+class Quantity(NamedTuple):
+    """A quantity: what it belongs to, its SI unit, its meaning, and how it follows.
+
+    `part` is ``ball``, ``contact`` or empty for the whole stack; `predict` takes the outcomes of
+    many drops, their impact speeds in m/s and their gravity, and returns (rows, part) numbers.
+    """
+
+    part: str
+    unit: str
+    meaning: str
+    predict: Callable[[Outcomes, Array, Array], Any]
+
+
+def _height(out: Outcomes, speed: Array, gravity: Array) -> Any:
+    velocity = out.velocity * speed[:, None]
+    pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
+    return velocity * np.abs(velocity) / (2.0 * pull[:, None])
+
+
+def _duration(out: Outcomes, speed: Array, gravity: Array) -> Any:
+    del speed, gravity
+    return out.last_release - out.first_touch
+
+
+QUANTITIES: dict[str, Quantity] = {
+    "rebound_ratios": Quantity(
+        "ball",
+        "",
+        "velocity after the impact over the impact speed",
+        lambda out, _, __: out.velocity,
+    ),
+    "rebound_speeds": Quantity(
+        "ball",
+        "m/s",
+        "velocity after the impact, up-positive",
+        lambda out, speed, _: out.velocity * speed[:, None],
+    ),
+    "rebound_heights": Quantity("ball", "m", "how far a ball rises at that speed", _height),
+    "first_touch": Quantity(
+        "contact", "s", "when the contact first closes", lambda out, _, __: out.first_touch
+    ),
+    "last_release": Quantity(
+        "contact", "s", "when the contact last opens", lambda out, _, __: out.last_release
+    ),
+    "durations": Quantity("contact", "s", "from first touch to last release", _duration),
+    "energy_retained": Quantity(
+        "", "", "kinetic energy afterwards over that before", lambda out, _, __: out.energy
+    ),
+    "collisions": Quantity(
+        "contact", "", "contact intervals: compared, not fitted", lambda out, _, __: out.collisions
+    ),
+}
+"""By name, as in `Result`; one of a ball or contact is ``rebound_ratios.1``."""
+
+
+def place(drop: Drop, name: str, path: str) -> tuple[str, int]:
+    """Return the quantity and the index of a name such as ``rebound_ratios.1``.
+
+    Parameters
+    ----------
+    drop : Drop
+        Whose balls and contacts are counted.
+    name : str
+        A quantity, with the number of its ball or contact unless it belongs to the whole stack.
+    path : str
+        What messages call it.
+
+    Returns
+    -------
+    quantity : str
+    index : int
+        0 for the whole stack.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no such quantity, ball or contact.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> place(drop, "rebound_ratios.0", "measured")
+    ('rebound_ratios', 0)
+    """
+    base, dot, index = name.partition(".")
+    if base not in QUANTITIES:
+        raise InvalidValue(
+            f"{path[:60]} is nothing that is measured; {nearest(base, [*QUANTITIES, 'force.0'])}"
+        )
+    part, last = QUANTITIES[base].part, len(drop.balls) - 1
+    if not part:
+        if dot:
+            raise InvalidValue(f"{path}: {base} is of the whole stack and takes no number")
+        return base, 0
+    if index not in map(str, range(last + 1)):
+        raise InvalidValue(f"{path[:60]} must end in the number of a {part} from 0 to {last}")
+    return base, int(index)

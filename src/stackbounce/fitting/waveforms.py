@@ -1,0 +1,169 @@
+"""Force records as data: a contact's force against time, in newtons or in an unknown unit."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.kinds.waveform import waveform as analysed
+from stackbounce.model import Drop
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from stackbounce.measure.kinds.waveform.result import Waveform as Analysed
+
+__all__ = ["Waveform", "as_waveform"]
+
+_NEAR = 0.1  # of the first contact's time: how far from where it seems to begin it may begin
+_SIGMAS = 5.0  # the same in the errors of that
+_SAMPLES = 3.0  # and in samples
+
+
+@dataclass(frozen=True, eq=False)
+class Waveform:
+    """A force record of one contact.
+
+    Parameters
+    ----------
+    name : str
+        ``force.0`` for the floor's.
+    index : int
+        Which contact.
+    times : ndarray
+        (n,) in s, ascending, of the record's own clock.
+    force : ndarray
+        (n,) in N, or in any unit where the scale is free.
+    error : float
+        One standard deviation of a sample, in the same unit.
+    scaled : bool
+        Whether a factor between the record and newtons is free.
+    begins : (float, float)
+        Between which times in s of that clock the lowest ball touches the floor.
+
+    Examples
+    --------
+    >>> record = Waveform("force.0", 0, np.arange(3.0), np.ones(3), 1.0, False, (0.0, 1.0))
+    >>> record.linear(np.zeros(3))  # all of it is baseline
+    array([0., 0., 0.])
+    """
+
+    name: str
+    index: int
+    times: NDArray[np.float64]
+    force: NDArray[np.float64]
+    error: float
+    scaled: bool
+    begins: tuple[float, float]
+
+    def linear(self, predicted: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the residuals (n,) in errors after the baseline, and a free scale, are fitted.
+
+        Both are linear, and are found exactly for any prediction; nan where that is not finite.
+        """
+        if not np.all(np.isfinite(predicted)):
+            return np.full(len(predicted), np.nan)
+        columns = [np.ones_like(predicted)]
+        target = self.force
+        if self.scaled:
+            columns.append(predicted)
+        else:
+            target = target - predicted
+        basis = np.stack(columns, axis=1)
+        best, *_ = np.linalg.lstsq(basis, target, rcond=None)
+        return np.asarray((basis @ best - target) / self.error)
+
+    def curve(self, predicted: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the predicted force with the best baseline and scale, in the record's unit."""
+        return np.asarray(self.force + self.error * self.linear(predicted))
+
+
+def as_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
+    """Return a force record, from a DataArray over time or a pair or triple of arrays.
+
+    Parameters
+    ----------
+    drop : Drop
+        What was dropped.
+    name : str
+        ``force.0`` and so on.
+    value : DataArray, or (times, force), or (times, force, error)
+        A DataArray has the dimension ``time`` in s; in units of N its scale is known, in any other
+        free. Arrays are in s and N. Without an error (attribute ``error``, or the third) it is
+        that of the quiet parts.
+    path : str
+        What messages call it.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no such contact, or the record shows none.
+    InvalidType
+        If it is something else.
+
+    Notes
+    -----
+    Baseline, drift and hum are taken off as `stackbounce.measure.waveform` does, and the touch is
+    looked for around where that finds it. What comes after the drop, such as the next bounce, has
+    to be cut off before.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> times = np.arange(-2.0, 6.0, 0.01)
+    >>> force = 4.43 * np.sin(np.clip(times, 0.0, np.pi))
+    >>> noisy = force + np.random.default_rng(1).normal(0.0, 0.05, len(times))
+    >>> as_waveform(drop, "force.0", (times, noisy), "force.0").scaled
+    False
+    """
+    index = name.partition(".")[2]
+    last = len(drop.balls) - 1
+    if index not in map(str, range(last + 1)):
+        raise InvalidValue(f"{path[:60]} must end in the number of a contact from 0 to {last}")
+    times, force, error, scaled = _arrays(value, path)
+    try:
+        found = analysed((times, force))
+    except (InvalidValue, InvalidType) as problem:
+        raise type(problem)(f"{path}: {problem}") from problem
+    if not found.contacts or found.contacts[0].start is None:
+        raise InvalidValue(
+            f"{path} must begin before a contact and show it, got {len(times)} samples"
+        )
+    sigma = found.noise if error is None else positive(f"{path}'s error", error)
+    if not sigma > 0.0:
+        raise InvalidValue(f"{path} must come with the error of a sample: its own scatter is 0")
+    begins = _begins(found, int(index))
+    return Waveform(name, int(index), found.times, found.force, sigma, scaled, begins)
+
+
+def _begins(found: "Analysed", index: int) -> tuple[float, float]:
+    """Return between which times the lowest ball touches the floor."""
+    contact = found.contacts[0]
+    assert contact.start is not None
+    start, error = contact.start.nominal_value, contact.start.std_dev
+    end = found.times[-1] if contact.end is None else contact.end.nominal_value
+    near = max(_SIGMAS * error, _NEAR * (end - start), _SAMPLES * found.step)
+    earliest = start - near if index == 0 else float(found.times[0])
+    return earliest, start + near
+
+
+def _arrays(value: Any, path: str) -> tuple[Any, Any, Any, bool]:
+    if hasattr(value, "dims"):
+        array: xr.DataArray = value
+        if array.dims != ("time",):
+            raise InvalidValue(f"{path} must have the dimension time alone, got {array.dims}")
+        stamps = np.asarray(array["time"].values, dtype=float)
+        samples = np.asarray(array.values, dtype=float)
+        return stamps, samples, array.attrs.get("error"), array.attrs.get("units", "") != "N"
+    try:
+        times, force, error = value if len(value) == 3 else (*value, None)
+        stamps, samples = np.asarray(times, dtype=float), np.asarray(force, dtype=float)
+    except (TypeError, ValueError) as problem:
+        raise InvalidType(
+            f"{path} must be a DataArray over time, or times, forces and their error, "
+            f"got {shown(value)}"
+        ) from problem
+    return stamps, samples, error, False

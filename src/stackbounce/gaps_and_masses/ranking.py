@@ -1,0 +1,267 @@
+"""The stacks that can be made of some balls, the one that throws its top ball highest first."""
+
+import functools
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.calibration import between, calibrate
+from stackbounce.errors import (
+    InvalidType,
+    InvalidValue,
+    StackbounceError,
+    non_negative,
+    positive,
+    shown,
+    whole,
+)
+from stackbounce.gaps_and_masses.batch import solved
+from stackbounce.gaps_and_masses.separation_limit import with_gap
+from stackbounce.model import (
+    STANDARD_GRAVITY,
+    Ball,
+    ContactLaw,
+    Drop,
+    Hertz,
+    Hysteretic,
+    PowerLaw,
+    Rigid,
+    Spring,
+)
+from stackbounce.model.catalogue import BALLS, catalogue_ball
+from stackbounce.version import __version__
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["Candidate", "candidates", "highest", "stacked"]
+
+_GAPS = (0.0, 0.001, 0.005)
+_HEIGHT = 1.0  # m
+_MOST = 100_000  # drops
+_LOSSLESS = (Spring, Hertz, PowerLaw)
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A ball that a stack can have: its contact is that with a hard floor.
+
+    Examples
+    --------
+    >>> Candidate("B1", Ball(0.101), Spring(54000.0)).contact
+    Spring(stiffness=54000.0)
+    """
+
+    name: str
+    ball: Ball
+    contact: ContactLaw
+
+
+def highest(
+    balls: Sequence[str | Drop] | None = None,
+    count: int = 3,
+    *,
+    gaps: Sequence[float] = _GAPS,
+    repeat: bool = False,
+    law: type[ContactLaw] = Hysteretic,
+    impact_speed: float | None = None,
+) -> "xr.Dataset":
+    """Return all stacks of some balls, the one that throws its top ball highest first.
+
+    Parameters
+    ----------
+    balls : sequence of str or Drop, optional
+        The balls there are: names of the catalogue, or drops of one ball each onto its floor, such
+        as `Drop.from_toml` reads and `stackbounce measure --save` writes, of which ball and contact
+        count. By default the whole catalogue. A ball given twice can be used twice.
+    count : int, optional
+        How many balls a stack has, 2 or more.
+    gaps : sequence of float, optional
+        In m, 0 or above: each stack is dropped with each of them between all neighbours. The order
+        is that at the first one.
+    repeat : bool, optional
+        Whether each ball can be used any number of times.
+    law : type, optional
+        The class of the catalogue's contacts, with the contact time and, unless it is lossless,
+        the restitution of each ball on the floor.
+    impact_speed : float, optional
+        In m/s, above 0; by default that after a fall from 1 m.
+
+    Returns
+    -------
+    xarray.Dataset
+        With the dimensions `stack`, in order, and `gap`, in m: `balls` (stack, ball), their names,
+        the lowest first; `place` (stack, gap) in the order at each
+        gap, from 1; `rebound_ratio` (stack, gap, ball);
+        `height_ratio` (stack, gap), to which the top ball goes over the height of the drop;
+        `energy_share` (stack, gap), the top ball's kinetic energy over that of all balls before;
+        `energy_retained` and `status` (stack, gap); `collisions` (stack, gap, contact). The
+        attribute `best` is the first stack, with the first gap, as a scenario file.
+
+    Raises
+    ------
+    InvalidValue
+        If there are too few balls or too many stacks, two balls make no contact of one law, or a
+        number is out of its range.
+    InvalidType
+        If something has the wrong type.
+
+    Notes
+    -----
+    Two balls press on each other by both their contacts in series, as in `calibrate.between`. The
+    springs that the paper fitted to three of the catalogue's pairs do not count, since other pairs
+    have none. The gap matters, and is seldom known: mind how the places change with it.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> ds = sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0, 0.005])
+    >>> ds.balls.values[:3].tolist()
+    [['B2', 'B3'], ['B1', 'B2'], ['B1', 'B3']]
+    >>> ds.place.values[:3].tolist()
+    [[1, 2], [2, 3], [3, 1]]
+    """
+    if impact_speed is None:
+        impact_speed = math.sqrt(2.0 * STANDARD_GRAVITY * _HEIGHT)
+    chosen = candidates(balls, law, impact_speed)
+    widths = _checked_gaps(gaps)
+    stacks = _stacks(chosen, count, repeat, len(widths))
+    drops = [stacked(stack, impact_speed) for stack in stacks]
+    ds = solved(drops, widths).assign_coords(gap=("gap", widths, {"units": "m"}))
+    ds = _ranked(stacks, ds)
+    best = with_gap(drops[int(ds["stack"][0])], None, widths[0])
+    attrs = {"stackbounce": __version__, "impact_speed": impact_speed, "best": best.to_toml()}
+    return ds.drop_vars("stack").assign_attrs(attrs)
+
+
+def candidates(
+    balls: Sequence[str | Drop] | None, law: type[ContactLaw], impact_speed: float
+) -> list[Candidate]:
+    """Return the balls there are, each with its contact with the floor; see `highest`.
+
+    Examples
+    --------
+    >>> [one.name for one in candidates(["b1", "b3"], Spring, 1.0)]
+    ['B1', 'B3']
+    """
+    positive("impact_speed", impact_speed, "m/s")
+    if law is Rigid:
+        raise InvalidValue(
+            "law must be one with a stiffness, such as Spring, got Rigid: what two rigid balls "
+            "lose in a collision does not follow from their bounces on a floor"
+        )
+    if balls is None:
+        balls = [str(entry.ball.name) for entry in BALLS]
+    if isinstance(balls, str | Drop):
+        raise InvalidType(f"balls must be a list, got {shown(balls)}")
+    return [_candidate(one, i, law, impact_speed) for i, one in enumerate(balls)]
+
+
+def _candidate(one: object, i: int, law: type[ContactLaw], impact_speed: float) -> Candidate:
+    if isinstance(one, Drop):
+        contact = one.contacts[0]
+        if len(one.balls) != 1 or contact is None or isinstance(contact, Rigid):
+            raise InvalidValue(
+                f"balls.{i} must be a drop of one ball on a floor of finite stiffness, got "
+                f"{len(one.balls)} on {shown(contact)}"
+            )
+        return Candidate(one.balls[0].name or f"ball {i}", one.balls[0], contact)
+    if not isinstance(one, str):
+        raise InvalidType(f"balls.{i} must be a name of the catalogue or a Drop, got {shown(one)}")
+    entry = catalogue_ball(one)
+    mass = entry.ball.mass
+    measured: dict[str, Any] = {
+        "mass": mass,
+        "contact_time": entry.contact_time or math.pi * math.sqrt(mass / entry.stiffness),
+        "impact_speed": impact_speed,
+    }
+    if law not in _LOSSLESS:
+        measured["restitution"] = entry.restitution
+    return Candidate(str(entry.ball.name), entry.ball, calibrate(law, **measured))
+
+
+def stacked(stack: Sequence[Candidate], impact_speed: float) -> Drop:
+    """Return the drop of some balls on top of each other, the lowest first, without gaps.
+
+    Raises
+    ------
+    InvalidValue
+        If two neighbours make no contact of one law.
+
+    Examples
+    --------
+    >>> stacked(candidates(["B1", "B2"], Spring, 1.0), 1.0).balls[1].name
+    'B2'
+    """
+    contacts = [stack[0].contact]
+    for lower, upper in itertools.pairwise(stack):
+        try:
+            contacts.append(_pressed(lower.contact, upper.contact))
+        except StackbounceError as error:
+            raise InvalidValue(f"{lower.name} and {upper.name}: {error}") from error
+    return Drop([one.ball for one in stack], contacts, impact_speed=impact_speed)
+
+
+_pressed = functools.lru_cache(between)
+
+
+def _checked_gaps(gaps: Any) -> list[float]:
+    try:
+        found = [non_negative(f"gaps.{i}", gap, "metres") for i, gap in enumerate(gaps)]
+    except TypeError as error:
+        if isinstance(error, InvalidType):
+            raise
+        raise InvalidType(f"gaps must be a list of numbers, got {shown(gaps)}") from None
+    if not found or len(set(found)) < len(found):
+        raise InvalidValue(f"gaps must be different ones, at least one, got {shown(gaps)}")
+    return found
+
+
+def _stacks(
+    balls: Sequence[Candidate], count: object, repeat: bool, gaps: int
+) -> list[tuple[Candidate, ...]]:
+    """Return all stacks of so many balls, equal ones once."""
+    high = whole("count", count, 2, math.inf if repeat else len(balls))
+    many = len(balls) ** high if repeat else math.perm(len(balls), high)
+    if many * gaps > _MOST:
+        raise InvalidValue(
+            f"stacks must be at most {_MOST} drops, got {many} of {len(balls)} balls, {high} high, "
+            f"at {gaps} gaps: take fewer balls or gaps, or lower stacks"
+        )
+    chosen: Any = itertools.product(balls, repeat=high)
+    if not repeat:
+        chosen = itertools.permutations(balls, high)
+    return list(dict.fromkeys(chosen))
+
+
+def _ranked(stacks: Sequence[tuple[Candidate, ...]], ds: "xr.Dataset") -> "xr.Dataset":
+    """Return what came of the stacks in order, and what follows from it."""
+    top = ds.rebound_ratio.isel(ball=-1)
+    mass = np.array([[one.ball.mass for one in stack] for stack in stacks])
+    share = top**2 * (mass[:, -1] / mass.sum(axis=1))[:, None]
+    order = np.argsort(-top.values, axis=0, kind="stable")  # nan, of the unfinished, last
+    ds["balls"] = ("stack", "ball"), [[one.name for one in stack] for stack in stacks]
+    ds["place"] = top.dims, np.argsort(order, axis=0, kind="stable") + 1
+    ds["height_ratio"] = top.clip(min=0.0) ** 2
+    ds["energy_share"] = share
+    ds = ds[list(_MEANINGS)].isel(stack=order[:, 0])
+    for name, meaning in _MEANINGS.items():
+        ds[name].attrs = {"units": "1", "long_name": meaning} | ds[name].attrs
+    ds.attrs = {}  # the sweep's, of one of them
+    return ds
+
+
+_MEANINGS = {
+    "balls": "the balls of the stack, the lowest first",
+    "place": "place in the order of the top ball's rebound ratio",
+    "rebound_ratio": "velocity after the impact over the impact speed v0",
+    "height_ratio": "height to which the top ball goes over that of the drop",
+    "energy_share": "the top ball's kinetic energy over that of all balls before",
+    "energy_retained": "kinetic energy at the end over the one that came in",
+    "collisions": "contact intervals",
+    "status": "how the run ended",
+}

@@ -1,0 +1,138 @@
+"""From which gap on the collisions of a stack are separate."""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue
+from stackbounce.model import ContactLaw, Dashpot, Drop, Viscoelastic
+from stackbounce.run.driver import simulate
+from stackbounce.run.result import Status
+
+__all__ = ["distance", "separate_from", "with_gap"]
+
+_TRIES, _WIDER = 10, 4.0  # up to 250 000 times the distance fallen during the touching impact
+_STEADY = 1e-6  # relative; durations that do not depend on the gap differ by less
+_SAME_PACE = 1e-9  # over 1/v0; collisions that keep their distance in time have the same pace
+_NEGLIGIBLE = 1e-9  # of the largest impulse: touches of balls that are at rest but for round-off
+
+
+def with_gap(drop: Drop, only: int | None, gap: float) -> Drop:
+    """Return a drop with one other gap, or all gaps the same.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Ball, Spring
+    >>> drop = Drop([Ball(1.0)] * 3, [Spring(1.0)] * 3, [0.1, 0.2], impact_speed=1.0)
+    >>> with_gap(drop, 1, 0.5).gaps, with_gap(drop, None, 0.5).gaps
+    ((0.1, 0.5), (0.5, 0.5))
+    """
+    gaps = [gap if only in (None, i) else own for i, own in enumerate(drop.gaps)]
+    return dataclasses.replace(drop, gaps=gaps)
+
+
+def distance(drop: Drop, only: int | None, rtol: float) -> float:
+    """Return how far in m the stack would fall while it bounces with touching balls.
+
+    Raises
+    ------
+    InvalidValue
+        If no contact ever closes.
+    """
+    last = simulate(with_gap(drop, only, 0.0), rtol=rtol).last_release
+    if np.isnan(last).all():
+        raise InvalidValue(
+            "drop must have contacts that close, got balls that neither meet a floor nor each other"
+        )
+    return float(drop.reference_speed * np.nanmax(last))
+
+
+def separate_from(drop: Drop, only: int | None, length: float, rtol: float) -> float:
+    """Return the gap in m from which on the outcome does not depend on it.
+
+    Parameters
+    ----------
+    drop : Drop
+        On finite contacts, without gravity.
+    only : int or None
+        The gap that grows; None for all of them, with the same value.
+    length : float
+        In m, from `distance`: where the search begins.
+    rtol : float
+        As in `simulate`.
+
+    Returns
+    -------
+    float
+        inf if there is none, or none below 250 000 times that length.
+
+    Notes
+    -----
+    Once the gap is wide enough the impact falls apart into events: collisions, or several of them
+    together where other gaps are narrow. A wider gap makes the flights between the events longer
+    and changes nothing else, so that each contact interval begins at ``a + b g`` and lasts as long
+    as before. Two runs tell all a and b. This holds down to the gap at which an event begins just
+    when another one, at the same ball, ends: the largest of these gaps is the one returned.
+    Contacts whose force would pull before their compression is gone end when it is.
+    """
+    gap = length
+    for _ in range(_TRIES):
+        narrow, wide = (_intervals(with_gap(drop, only, g), rtol) for g in (gap, 2.0 * gap))
+        if narrow is not None and wide is not None and _alike(narrow, wide):
+            found = _latest_end(drop, narrow, wide, gap)
+            if found <= gap:
+                return found
+        gap *= _WIDER
+    return math.inf
+
+
+def _intervals(drop: Drop, rtol: float) -> NDArray[Any] | None:
+    """Return the contact intervals that count, contact by contact; None if there is no end."""
+    result = simulate(drop, rtol=rtol)
+    if result.status is not Status.FINISHED:
+        return None
+    rows = result.intervals
+    rows = rows[rows["impulse"] > _NEGLIGIBLE * rows["impulse"].max(initial=0.0)]
+    ordered: NDArray[Any] = rows[np.lexsort((rows["start"], rows["contact"]))]
+    return ordered
+
+
+def _alike(one: NDArray[Any], other: NDArray[Any]) -> bool:
+    """Tell whether two runs have the same collisions, each of the same duration."""
+    if not np.array_equal(one["contact"], other["contact"]):
+        return False
+    last, again = (rows["end"] - rows["start"] for rows in (one, other))
+    return np.allclose(last, again, rtol=_STEADY, atol=0.0)
+
+
+def _latest_end(drop: Drop, narrow: NDArray[Any], wide: NDArray[Any], gap: float) -> float:
+    """Return the largest gap at which an event begins when another at the same ball ends."""
+    linger = np.array([_linger(law) for law in drop.contacts])
+    contact, start = narrow["contact"], narrow["start"]
+    end = narrow["end"] + linger[contact]
+    pace = (wide["start"] - start) / gap
+    faster = pace[None, :] - pace[:, None]
+    near = np.abs(contact[:, None] - contact[None, :]) <= 1
+    later = near & (faster > _SAME_PACE / drop.reference_speed)
+    if not later.any():
+        return 0.0
+    first, second = np.nonzero(later)
+    meets = gap + (end[first] - start[second]) / faster[first, second]
+    return max(0.0, float(meets.max()))
+
+
+def _linger(law: ContactLaw | None) -> float:
+    """Return for how many s two balls that fly apart are still compressed without a force.
+
+    The force ends at ``c = -b ċ/k`` and ``c = -1.5 A ċ``, with a constant ċ from then on.
+    """
+    match law:
+        case Dashpot():
+            return law.damping / law.stiffness
+        case Viscoelastic():
+            return 1.5 * law.dissipative_time
+        case _:
+            return 0.0

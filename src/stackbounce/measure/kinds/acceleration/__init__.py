@@ -1,0 +1,1 @@
+"""Accelerations of what falls and bounces: flights, restitutions, drop height."""

@@ -1,0 +1,306 @@
+"""An accelerometer that fell and bounced -> flights, restitution of each bounce, drop height."""
+
+import math
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.rows import Row
+from stackbounce.model.drop import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["Accelerometer", "accelerometer"]
+
+_HALF = 0.5  # of gravity: below it, it flies
+_SHORTEST = 0.06  # s: a flight of 4 mm
+_FEWEST = 4  # samples of a flight
+_TOLD = 6  # samples of a contact whose duration can be told
+_LONGEST = 0.12  # s: a contact; longer ones are hands, or a rest
+_EQUAL = 3  # samples that have exactly the largest value are cut off
+_AXES = ("acceleration_x", "acceleration_y", "acceleration_z")
+
+
+@dataclass(frozen=True, eq=False)
+class Accelerometer:
+    """What an accelerometer tells that fell and bounced; made by `accelerometer`.
+
+    Attributes
+    ----------
+    fall : ufloat or None
+        From the release to the first touch, in s; None where the record does not hold it.
+    flights : tuple of ufloat
+        Between neighbouring bounces, in s.
+    drop_height : ufloat or None
+        Of a fall from rest, in m.
+    apex_heights : tuple of ufloat
+        Of the flights, in m.
+    impact_speeds : tuple of ufloat
+        Of the bounces that have a restitution, in m/s.
+    restitutions : tuple of ufloat
+        Of each bounce between two flights, or the fall and a flight. Neighbours share a flight.
+    mean : ufloat or None
+        The restitution that all of them together have.
+    contact_times : tuple of (ufloat or None)
+        Of the bounces, in s; None where the sampling is too coarse.
+    peaks : tuple of float
+        The largest acceleration in each bounce, in m/s².
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    times, values : ndarray
+        (n,) of the record: s, and the size of the acceleration in m/s², about 0 in flight.
+    spans : tuple of (float, float)
+        Of the fall and the flights, in s.
+    """
+
+    fall: "UFloat | None"
+    flights: "tuple[UFloat, ...]"
+    drop_height: "UFloat | None"
+    apex_heights: "tuple[UFloat, ...]"
+    impact_speeds: "tuple[UFloat, ...]"
+    restitutions: "tuple[UFloat, ...]"
+    mean: "UFloat | None"
+    contact_times: "tuple[UFloat | None, ...]"
+    peaks: tuple[float, ...]
+    notes: tuple[str, ...]
+    times: NDArray[np.float64] = field(repr=False)
+    values: NDArray[np.float64] = field(repr=False)
+    spans: tuple[tuple[float, float], ...] = field(repr=False)
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = [] if self.mean is None else [Row("restitution, mean", self.mean)]
+        if self.drop_height is not None and self.fall is not None:
+            rows.append(Row("drop height", self.drop_height, "m"))
+            rows.append(Row("time of fall", self.fall, "s"))
+        for k, (speed, kept) in enumerate(zip(self.impact_speeds, self.restitutions, strict=True)):
+            rows.append(Row(f"impact speed of bounce {k}", speed, "m/s"))
+            rows.append(Row(f"restitution of bounce {k}", kept))
+        for k, (time, height) in enumerate(zip(self.flights, self.apex_heights, strict=True)):
+            rows.append(Row(f"time of flight {k}", time, "s"))
+            rows.append(Row(f"height of flight {k}", height, "m"))
+        for k, lasting in enumerate(self.contact_times):
+            if lasting is not None:
+                rows.append(Row(f"contact time of bounce {k}", lasting, "s"))
+        rows += [
+            Row(f"largest acceleration in bounce {k}", a, "m/s^2") for k, a in enumerate(self.peaks)
+        ]
+        rows.extend(Row("note", note) for note in self.notes)
+        return rows
+
+    def parts(self) -> dict[str, object]:
+        """Return the floor's contact and the drop height, as in a drop's TOML."""
+        parts: dict[str, object] = {}
+        if self.mean is not None and self.mean.nominal_value <= 1.0:
+            parts["contact"] = {"law": "Rigid", "restitution": float(self.mean.nominal_value)}
+        if self.drop_height is not None:
+            parts["height"] = float(self.drop_height.nominal_value)
+        return parts
+
+
+def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerometer:
+    """Return what an accelerometer tells of its fall and its bounces.
+
+    In free flight an accelerometer shows nothing, in a hand or at rest gravity, and in a bounce a
+    short and high pulse. So flights are found, and their times are all it takes: ``g t`` is the
+    impact speed after a fall of t, ``g T/2`` that at both ends of a flight of T.
+
+    Parameters
+    ----------
+    data : Dataset or (times, values)
+        As `stackbounce.read` gives it, or times in s and sizes of the acceleration in m/s², with
+        gravity in it.
+    gravity : float, optional
+        In m/s², above 0.
+
+    Returns
+    -------
+    Accelerometer
+
+    Raises
+    ------
+    InvalidValue
+        If nothing flies and bounces in it, or a number is out of its range.
+    InvalidType
+        If `data` holds no acceleration.
+
+    Notes
+    -----
+    A flight begins and ends between two samples, anywhere between them: that is the error. Where a
+    pulse has fewer than six samples its duration, and whether its peak is true, cannot be told. A
+    sensor that averages over a time makes pulses longer, and flights shorter, by about as much. The
+    longest series of flights with short pulses between them is taken; its first flight is a
+    fall from rest if it was held or lay still before. Air and spin are left out.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> times = np.arange(0.0, 1.5, 0.0025)
+    >>> values = np.where((times > 0.3) & (times < 1.3), 0.0, 9.81)
+    >>> values[(times > 0.7) & (times < 0.705)] = 120.0  # after a fall of 0.4 s
+    >>> found = accelerometer((times, values))
+    >>> print(f"{found.drop_height:.1uS} m, e = {found.mean:.1uS}")
+    0.775(4) m, e = 0.748(2)
+    """
+    g = positive("gravity", gravity, "m/s^2")
+    times, values, notes = _sizes(data, g)
+    series = _series(_flying(times, values, g))
+    if not series:
+        raise InvalidValue(
+            "data must hold a free fall and a bounce, flights of 0.06 s or more with a short pulse "
+            f"between them, got none: the least acceleration is {float(values.min()):.3g} m/s^2 "
+            "(in flight it should be about 0)"
+        )
+    starts = [_edge(times, one.first) for one in series]
+    ends = [_edge(times, one.last + 1) for one in series]
+    lasting = [end - start for start, end in zip(starts, ends, strict=True)]
+    held = _held(times, values, series[0].first, g)
+    fall, flights = (lasting[0], lasting[1:]) if held else (None, lasting)
+    speeds = [g * one / 2.0 for one in flights]
+    before = [g * fall, *speeds[:-1]] if fall is not None else speeds[:-1]
+    after = speeds if fall is not None else speeds[1:]
+    kept = [out / into for into, out in zip(before, after, strict=True)]
+    pulses = list(pairwise(series))
+    counts = [other.first - one.last - 1 for one, other in pulses]
+    tops = [values[one.last + 1 : other.first] for one, other in pulses]
+    notes += _notes(times, counts, kept, held)
+    return Accelerometer(
+        fall=fall,
+        flights=tuple(flights),
+        drop_height=None if fall is None else g * fall**2 / 2.0,
+        apex_heights=tuple(g * one**2 / 8.0 for one in flights),
+        impact_speeds=tuple(before),
+        restitutions=tuple(kept),
+        mean=(after[-1] / before[0]) ** (1.0 / len(kept)) if kept else None,
+        contact_times=tuple(
+            starts[k + 1] - ends[k] if count >= _TOLD else None for k, count in enumerate(counts)
+        ),
+        peaks=tuple(float(top.max()) for top in tops),
+        notes=tuple(notes),
+        times=times,
+        values=values,
+        spans=tuple((float(times[one.first]), float(times[one.last])) for one in series),
+    )
+
+
+class _Flight(NamedTuple):
+    """The first and the last sample of a flight, and when these are, in s."""
+
+    first: int
+    last: int
+    start: float
+    end: float
+
+
+def _sizes(data: Any, gravity: float) -> tuple[NDArray[np.float64], NDArray[np.float64], list[str]]:
+    """Return times and the size of the acceleration, gravity in it, and what is odd."""
+    notes: list[str] = []
+    if not hasattr(data, "data_vars"):
+        try:
+            times, values = np.array([*data], dtype=np.float64)
+        except (TypeError, ValueError):
+            raise InvalidType(
+                f"data must be a Dataset from read, or times and values, got {shown(data)}"
+            ) from None
+    else:
+        names = [str(name) for name in data.data_vars if str(name).startswith("acceleration")]
+        if not names:
+            raise InvalidType(
+                "data must hold an acceleration over time, got "
+                f"{', '.join(map(str, data.data_vars)) or 'nothing'}"
+            )
+        times = np.asarray(data["time"], dtype=np.float64)
+        if all(axis in names for axis in _AXES):
+            values = np.sqrt(sum(np.asarray(data[axis], dtype=np.float64) ** 2 for axis in _AXES))
+        else:
+            values = np.abs(np.asarray(data[names[-1]], dtype=np.float64))
+            if names[-1] != "acceleration_absolute":
+                notes.append("only one axis is there: flights are where it shows nothing")
+        axes = [np.abs(np.asarray(data[name], dtype=np.float64)) for name in names]
+        if any(int((one == np.nanmax(one)).sum()) >= _EQUAL for one in axes if one.size):
+            notes.append("the sensor's range ended in a pulse: peaks are higher than they look")
+        if "without g" in data.attrs.get("format", ""):
+            values = np.abs(values - gravity)
+            notes.append(
+                "gravity was taken off by the phone, which guesses where down is and does so badly "
+                "in flight: record the acceleration with g"
+            )
+    known = np.isfinite(times) & np.isfinite(values)
+    if known.sum() < 2 * _FEWEST or (np.diff(times[known]) <= 0.0).any():
+        raise InvalidValue(
+            f"data must hold {2 * _FEWEST} samples or more at ascending times, got "
+            f"{int(known.sum())} samples"
+        )
+    return times[known], values[known], notes
+
+
+def _flying(
+    times: NDArray[np.float64], values: NDArray[np.float64], gravity: float
+) -> list[_Flight]:
+    """Return the stretches in which it flies; the record's first and last sample are in none."""
+    low = np.concatenate([[0], (values < _HALF * gravity).astype(int), [0]])
+    firsts, lasts = np.flatnonzero(np.diff(low) == 1), np.flatnonzero(np.diff(low) == -1) - 1
+    return [
+        _Flight(int(a), int(b), float(times[a]), float(times[b]))
+        for a, b in zip(firsts, lasts, strict=True)
+        if a > 0
+        and b < len(times) - 1
+        and b - a + 1 >= _FEWEST
+        and times[b] - times[a] >= _SHORTEST
+    ]
+
+
+def _series(flights: list[_Flight]) -> list[_Flight]:
+    """Return the longest series of flights that bounces part, two or more."""
+    best: list[_Flight] = []
+    own: list[_Flight] = []
+    for one in flights:
+        own = [*own, one] if own and one.start - own[-1].end < _LONGEST else [one]
+        best = own if len(own) > len(best) else best
+    return best if len(best) > 1 else []
+
+
+def _edge(times: NDArray[np.float64], k: int) -> Any:
+    """Return when something happened between samples k - 1 and k, anywhere between them."""
+    from uncertainties import ufloat
+
+    step = float(times[k] - times[k - 1])
+    return ufloat(0.5 * float(times[k] + times[k - 1]), step / math.sqrt(12.0))
+
+
+def _held(
+    times: NDArray[np.float64], values: NDArray[np.float64], first: int, gravity: float
+) -> bool:
+    """Tell whether it was held or lay still before a flight: long, and near gravity."""
+    before = (times > times[first] - _LONGEST) & (times < times[first])
+    known = times[first] - times[0] >= _LONGEST
+    return bool(known and 0.5 * gravity < np.median(values[before]) < 1.5 * gravity)
+
+
+def _notes(
+    times: NDArray[np.float64],
+    counts: list[int],
+    kept: list[Any],
+    held: bool,
+) -> list[str]:
+    step = float(np.median(np.diff(times)))
+    notes = []
+    if min(counts) < _TOLD:
+        notes.append(
+            f"it was sampled every {1e3 * step:.2g} ms: contact times and peaks of bounces with "
+            f"fewer than {_TOLD} samples, {min(counts)} here, cannot be told from it"
+        )
+    if held:
+        notes.append("the drop height supposes a fall from rest: a hand that follows adds to it")
+    else:
+        notes.append("what came before the first flight is not in the record: no drop height")
+    if any(one.nominal_value > 1.0 + 2.0 * one.std_dev for one in kept):
+        notes.append(
+            "a restitution above 1: a bounce fell between two samples before it, or it was thrown"
+        )
+    return notes

@@ -1,0 +1,1 @@
+"""Times of successive bounces: restitutions, and how they fall with speed."""

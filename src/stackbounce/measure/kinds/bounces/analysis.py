@@ -1,0 +1,352 @@
+"""Times of successive bounces -> restitution of each, and how it falls with speed."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
+from stackbounce.measure.kinds.bounces.restitution_law import RestitutionLaw, laws_of, straight
+from stackbounce.measure.kinds.sound.analysis import Knocks
+from stackbounce.measure.kinds.sound.sequence import missed_between
+from stackbounce.measure.rows import Row
+from stackbounce.measure.statistics.regression import widening
+from stackbounce.model.drop import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["Bounces", "bounces"]
+
+
+@dataclass(frozen=True)
+class Bounces:
+    """What the times of bounces tell.
+
+    Attributes
+    ----------
+    times : tuple of ufloat
+        Of the bounces, in s.
+    flights : tuple of (ufloat or None)
+        Time in the air between neighbouring bounces, in s; None where a bounce is missing.
+    numbers : tuple of int
+        Which bounces have a restitution; the first one is 0.
+    impact_speeds : tuple of ufloat
+        Of these bounces, in m/s.
+    restitutions : tuple of ufloat
+        Of these bounces. Neighbours share a flight: their errors go together.
+    mean : ufloat
+        Their mean, each counted by its error, as if there were one restitution.
+    laws : tuple of RestitutionLaw
+        Its fall with speed, linear and as a power law; empty for fewer than three restitutions.
+    drop_height : ufloat or float or None
+        In m: as given, or inferred.
+    inferred : bool
+        Whether the drop height is inferred from the mean energy kept, as phyphox does.
+    scatter : float
+        By how much restitutions differ from bounce to bounce beyond the errors of their times.
+    gravity : float
+        In m/s**2.
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    """
+
+    times: "tuple[UFloat, ...]"
+    flights: "tuple[UFloat | None, ...]"
+    numbers: tuple[int, ...]
+    impact_speeds: "tuple[UFloat, ...]"
+    restitutions: "tuple[UFloat, ...]"
+    mean: "UFloat"
+    laws: tuple[RestitutionLaw, ...]
+    drop_height: "UFloat | float | None"
+    inferred: bool
+    scatter: float
+    gravity: float
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = [Row("restitution, mean", self.mean)]
+        for law in self.laws:
+            at, unit = ("0", "s/m") if law.form == "linear" else ("1 m/s", "")
+            name = "its fall per m/s" if law.form == "linear" else "exponent of its fall"
+            rows.append(Row(f"restitution at {at} ({law.form})", law.coefficient))
+            rows.append(Row(f"{name} ({law.form})", law.slope, unit))
+        if self.drop_height is not None:
+            how = "inferred from the mean energy kept" if self.inferred else "given"
+            rows.append(Row(f"drop height, {how}", self.drop_height, "m"))
+        for number, speed, kept in zip(
+            self.numbers, self.impact_speeds, self.restitutions, strict=True
+        ):
+            rows.append(Row(f"impact speed of bounce {number}", speed, "m/s"))
+            rows.append(Row(f"restitution of bounce {number}", kept))
+        if self.scatter:
+            rows.append(Row("scatter of restitution from bounce to bounce", self.scatter))
+        rows.extend(Row("note", note) for note in self.notes)
+        return rows
+
+    def parts(self) -> dict[str, object]:
+        """Return the floor's contact and, if it is known, the drop height, as in a drop's TOML."""
+        kept = min(float(self.mean.nominal_value), 1.0)
+        parts: dict[str, object] = {"contact": {"law": "Rigid", "restitution": kept}}
+        if self.drop_height is not None:
+            parts["height"] = _nominal(self.drop_height)
+        return parts
+
+
+def bounces(
+    times: Any,
+    *,
+    drop_height: "float | UFloat | None" = None,
+    gravity: float = STANDARD_GRAVITY,
+    time_error: float | None = None,
+    contact_time: float = 0.0,
+) -> Bounces:
+    """Return the restitution of each bounce from the times of bounces.
+
+    A flight of time T ends at the speed with which it began, ``g T/2``, so that the restitution of
+    a bounce is the ratio of the flight after it to the one before it.
+
+    Parameters
+    ----------
+    times : Knocks or Dataset or sequence
+        What `knocks` found, a Dataset with `knock_time` (phyphox), or at least three times in s,
+        ascending; with errors where they are `ufloat`. Two are enough with a drop height.
+    drop_height : float or ufloat, optional
+        In m, of the ball's lowest point, above 0; with it the first bounce has a restitution too.
+    gravity : float, optional
+        In m/s**2, above 0.
+    time_error : float, optional
+        The error in s of each time, where they have none. Without any the errors follow the scatter
+        of the restitutions about a straight line.
+    contact_time : float, optional
+        Of one bounce in s, taken off each interval to get the flight; the time of a bounce is the
+        beginning of its contact.
+
+    Returns
+    -------
+    Bounces
+
+    Raises
+    ------
+    InvalidValue
+        If there are too few times, they do not ascend, or a number is out of its range.
+    InvalidType
+        If `times` holds no numbers.
+
+    Notes
+    -----
+    Air is left out. The slope is fitted by generalised least squares to errors that go together;
+    error bars that were estimated from few bounces are widened by Student's t.
+
+    Examples
+    --------
+    >>> found = bounces([0.0, 0.8, 1.44, 1.952], time_error=1e-3)
+    >>> [f"{kept:.1uS}" for kept in found.restitutions]
+    ['0.800(3)', '0.800(3)']
+    >>> f"{found.drop_height:.2f}", found.inferred
+    ('1.23+/-0.01', True)
+    """
+    from uncertainties import UFloat
+
+    gravity = positive("gravity", gravity, "m/s^2")
+    contact_time = non_negative("contact_time", contact_time, "seconds")
+    notes: list[str] = []
+    height = _height(drop_height)
+    moments, missed = _moments(times, time_error, 3 if height is None else 2, notes)
+    flights = _flights(moments, missed, contact_time)
+    numbers, speeds, kept = _restitutions(flights, missed, height, gravity)
+    if not kept:
+        raise InvalidValue(
+            "times must hold two neighbouring flights, got none without a missing bounce between"
+        )
+    known = isinstance(moments[0], UFloat)
+    if not known:
+        moments, flights, numbers, speeds, kept = _with_errors_from_scatter(
+            moments, missed, contact_time, height, gravity, notes
+        )
+    if any(one.nominal_value > 1.0 + 2.0 * one.std_dev for one in kept):
+        notes.append(
+            "A restitution above 1: a bounce was missed before it, or it was not left to itself."
+        )
+    # Errors that follow from the scatter hold it already.
+    mean, laws, scatter = laws_of(speeds, kept) if known else laws_of(speeds, kept, most=0.0)
+    if scatter:
+        notes.append(
+            f"Restitution differs by {scatter:.2g} from bounce to bounce, more than the errors of "
+            "the times: an uneven floor or a spinning ball; the mean and the fits allow for it."
+        )
+    inferred = height is None
+    if height is None and flights[0] is not None:
+        height = gravity * flights[0] ** 2 / 8.0 / _energy_kept(kept)
+        notes.append(
+            "The drop height is inferred from the mean energy kept; give drop_height if it is "
+            "known: the first bounce, the fastest, usually keeps less."
+        )
+    return Bounces(
+        tuple(moments),
+        tuple(flights),
+        tuple(numbers),
+        tuple(speeds),
+        tuple(kept),
+        mean,
+        laws,
+        height,
+        inferred and height is not None,
+        scatter,
+        gravity,
+        tuple(notes),
+    )
+
+
+def _moments(
+    times: Any, error: float | None, least: int, notes: list[str]
+) -> tuple[list[Any], list[int]]:
+    """Return times, as ufloats if their errors are known, and the bounces missing after each."""
+    from uncertainties import UFloat, ufloat
+
+    if isinstance(times, Knocks):
+        notes.extend(times.notes)
+        values: list[Any] = list(times.times)
+        missed: list[int] | None = list(times.missed)
+    else:
+        values, missed = _plain(times), None
+    if error is not None:
+        error = positive("time_error", error, "seconds")
+    plain = np.array([_nominal(one) for one in values])
+    if len(plain) < least:
+        many = "three bounces" if least == 3 else "two bounces where the drop height is known"
+        raise InvalidValue(f"times must hold at least {many}, got {len(plain)}")
+    if not np.isfinite(plain).all():
+        raise InvalidValue("times must be finite numbers of seconds, got one that is not")
+    moments: list[Any] = [float(one) for one in plain]
+    if all(isinstance(one, UFloat) and one.std_dev > 0.0 for one in values):
+        moments = values
+    elif error is not None:
+        moments = [ufloat(one, error) for one in moments]
+    steps = np.diff(plain)
+    if (steps <= 0.0).any():
+        k = int(np.argmax(steps <= 0.0))
+        raise InvalidValue(
+            f"times must ascend, got {plain[k + 1]:g} s after {plain[k]:g} s (time {k + 1})"
+        )
+    if missed is None:
+        missed = missed_between(steps)
+        notes.extend(
+            f"A bounce seems to be missing between {plain[k]:.4g} s and {plain[k + 1]:.4g} s: "
+            "its flights are left out."
+            for k in np.flatnonzero(missed)
+        )
+    return moments, missed
+
+
+def _plain(times: Any) -> list[Any]:
+    """Return times out of a Dataset or a sequence."""
+    column = getattr(times, "data_vars", {}).get("knock_time") if _is_dataset(times) else None
+    if _is_dataset(times):
+        if column is None:
+            raise InvalidType(
+                "times must hold a variable knock_time, got a Dataset with "
+                f"{', '.join(map(str, times.data_vars)) or 'none'}"
+            )
+        known = np.asarray(column, dtype=np.float64).ravel()
+        known = known[np.isfinite(known)]
+        while len(known) > 1 and known[-1] == 0.0:
+            known = known[:-1]  # what phyphox writes for knocks that did not come
+        return list(known)
+    if isinstance(times, str | bytes):
+        raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}")
+    try:
+        values = list(times)
+        for one in values:
+            _nominal(one)
+    except (TypeError, ValueError):
+        raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}") from None
+    return values
+
+
+def _is_dataset(data: Any) -> bool:
+    return hasattr(data, "data_vars")
+
+
+def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float) -> list[Any]:
+    flights: list[Any] = []
+    for k, lost in enumerate(missed):
+        flight = moments[k + 1] - moments[k] - contact_time
+        if _nominal(flight) <= 0.0:
+            raise InvalidValue(
+                f"contact_time must be shorter than every interval, got {contact_time:g} s and an "
+                f"interval of {_nominal(flight) + contact_time:g} s"
+            )
+        flights.append(None if lost else flight)
+    return flights
+
+
+def _height(height: "float | UFloat | None") -> Any:
+    if height is None:
+        return None
+    positive("drop_height", getattr(height, "nominal_value", height), "metres")
+    return height
+
+
+def _nominal(number: Any) -> float:
+    return float(getattr(number, "nominal_value", number))
+
+
+def _restitutions(
+    flights: Sequence[Any], missed: Sequence[int], height: Any, gravity: float
+) -> tuple[list[int], list[Any], list[Any]]:
+    """Return numbers, impact speeds and restitutions of the bounces between known flights."""
+    numbers: list[int] = []
+    speeds: list[Any] = []
+    kept: list[Any] = []
+    if height is not None and flights[0] is not None:
+        speed = (2.0 * gravity * height) ** 0.5
+        numbers, speeds, kept = [0], [speed], [0.5 * gravity * flights[0] / speed]
+    for k in range(len(flights) - 1):
+        before, after = flights[k], flights[k + 1]
+        if before is not None and after is not None:
+            numbers.append(k + 1 + sum(missed[: k + 1]))
+            speeds.append(0.5 * gravity * before)
+            kept.append(after / before)
+    return numbers, speeds, kept
+
+
+def _with_errors_from_scatter(
+    moments: Sequence[Any],
+    missed: Sequence[int],
+    contact_time: float,
+    height: Any,
+    gravity: float,
+    notes: list[str],
+) -> tuple[list[Any], list[Any], list[int], list[Any], list[Any]]:
+    """Return everything anew with the one error of all times that the restitutions scatter by."""
+    from uncertainties import ufloat
+
+    def again(error: float) -> tuple[list[Any], list[Any], list[int], list[Any], list[Any]]:
+        timed = [ufloat(one, error) for one in moments]
+        flights = _flights(timed, missed, contact_time)
+        return timed, flights, *_restitutions(flights, missed, height, gravity)
+
+    small = 1e-6  # s; errors are proportional to it
+    *_, speeds, kept = again(small)
+    if len(kept) < 2:
+        notes.append("One restitution and no errors of its times: its error cannot be told.")
+        return again(float("nan"))
+    fit, _ = straight(speeds, kept, 1 if len(kept) > 2 else 0, 0.0)
+    error = small * np.sqrt(fit.chi_squared / fit.freedom) * widening(fit.freedom)
+    notes.append(
+        "The times have no errors: those of the restitutions follow from their scatter about a "
+        f"{'straight line' if len(kept) > 2 else 'constant'} ({1e3 * error:.2g} ms for each time)."
+    )
+    return again(max(float(error), 1e-12))
+
+
+def _energy_kept(kept: Sequence[Any]) -> Any:
+    """Return the mean of e² with what single bounces differ by as a part of its error."""
+    from uncertainties import ufloat
+
+    squares = [one**2 for one in kept]
+    spread = float(np.std([one.nominal_value for one in squares], ddof=1)) if kept[1:] else 0.0
+    return sum(squares) / len(squares) + (ufloat(0.0, spread) if spread > 0.0 else 0.0)

@@ -1,0 +1,105 @@
+"""How restitution falls with speed: two laws, fitted to values whose errors go together."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.statistics.regression import Fit, scattered
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["RestitutionLaw", "laws_of", "straight"]
+
+_MOST = 0.3  # by which restitutions may scatter from bounce to bounce
+
+
+@dataclass(frozen=True)
+class RestitutionLaw:
+    """How restitution falls with speed: ``e = coefficient - slope v`` or ``coefficient v**-slope``.
+
+    Attributes
+    ----------
+    form : {"linear", "power law"}
+        Which of the two.
+    coefficient : ufloat
+        The restitution at no speed (linear), or at 1 m/s (power law).
+    slope : ufloat
+        In s/m (linear), or the exponent (power law); above 0 where the restitution falls. The
+        errors of the two go together, as `uncertainties` knows.
+    chi_squared : float
+        Of the fit, with `freedom` degrees of freedom.
+    freedom : int
+        Bounces less 2.
+    """
+
+    form: Literal["linear", "power law"]
+    coefficient: "UFloat"
+    slope: "UFloat"
+    chi_squared: float
+    freedom: int
+
+    @property
+    def covariance(self) -> NDArray[np.float64]:
+        """Covariance of coefficient and slope, (2, 2)."""
+        from uncertainties import covariance_matrix
+
+        return np.array(covariance_matrix([self.coefficient, self.slope]))
+
+    def at(self, speed: "float | UFloat") -> "UFloat":
+        """Return the restitution at an impact speed in m/s."""
+        if self.form == "linear":
+            return self.coefficient - self.slope * speed
+        return self.coefficient * speed ** (-self.slope)
+
+
+def straight(
+    speeds: Sequence[Any], kept: Sequence[Any], degree: int, most: float, power: bool = False
+) -> tuple[Fit, float]:
+    """Return the fit of a polynomial in the speed, or of logarithms, and the scatter about it.
+
+    The speeds have errors too, which go together with the restitutions': the covariance is that of
+    the residuals. `most` is the largest scatter that single bounces may have, 0 for none.
+    """
+    from uncertainties import covariance_matrix, umath
+
+    x = [umath.log(speed) for speed in speeds] if power else list(speeds)
+    y = [umath.log(one) for one in kept] if power else list(kept)
+    design = np.vander(
+        [float(getattr(one, "nominal_value", one)) for one in x], degree + 1, increasing=True
+    )
+    values = np.array([one.nominal_value for one in y])
+    slope = 0.0
+    if degree:
+        rough = np.array(covariance_matrix(y))
+        slope = float(scattered(design, values, rough, most)[0].values[1])
+    residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
+    return scattered(design, values, np.array(covariance_matrix(residuals)), most)
+
+
+def laws_of(
+    speeds: Sequence[Any], kept: Sequence[Any], most: float = _MOST
+) -> "tuple[UFloat, tuple[RestitutionLaw, ...], float]":
+    """Return the mean restitution, its two laws, and the scatter about the linear one."""
+    from uncertainties import correlated_values, umath
+
+    if any(np.isnan(one.std_dev) for one in kept):
+        return sum(kept) / len(kept), (), 0.0
+    laws: list[RestitutionLaw] = []
+    scatter = 0.0
+    if len(kept) > 2:
+        for form, power in (("linear", False), ("power law", True)):
+            fit, more = straight(speeds, kept, 1, most, power)
+            first, second = correlated_values(fit.values, fit.covariance)
+            if not power:
+                scatter = more
+            coefficient = umath.exp(first) if power else first
+            laws.append(
+                RestitutionLaw(form, coefficient, -second, fit.chi_squared, fit.freedom)  # type: ignore[arg-type]
+            )
+    fit, _ = straight(speeds, kept, 0, most)
+    (mean,) = correlated_values(fit.values, fit.covariance)
+    return mean, tuple(laws), scatter

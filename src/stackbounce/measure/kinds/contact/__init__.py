@@ -1,0 +1,1 @@
+"""A contact time and a restitution that are known."""

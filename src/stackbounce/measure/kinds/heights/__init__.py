@@ -1,0 +1,1 @@
+"""Heights of successive bounces: restitutions."""

@@ -1,0 +1,307 @@
+"""Heights of successive bounces -> restitution of each, wherever on the ball they were read."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.rows import Row
+from stackbounce.measure.statistics.regression import widening
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["Heights", "Place", "above_bottom", "heights", "lowest_point", "places"]
+
+Place: TypeAlias = Literal["bottom", "centre", "top"]
+"""The point of the ball that a height was read at."""
+
+_UP = {"bottom": 0.0, "centre": 0.5, "top": 1.0}  # diameters above the lowest point
+
+
+@dataclass(frozen=True)
+class Heights:
+    """What bounce heights tell.
+
+    Attributes
+    ----------
+    drop_height : ufloat
+        Of the ball's lowest point above the floor, in m.
+    bounce_heights : tuple of ufloat
+        Of its lowest point, in m.
+    restitutions : tuple of ufloat
+        Of each bounce. Neighbours share a height: their errors go together.
+    mean : ufloat
+        The restitution that all of them together have, from the drop to the last height.
+    repeated : bool
+        Whether the heights are one bounce measured again and again.
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    """
+
+    drop_height: "UFloat"
+    bounce_heights: "tuple[UFloat, ...]"
+    restitutions: "tuple[UFloat, ...]"
+    mean: "UFloat"
+    repeated: bool
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = [Row("restitution", self.mean), Row("drop height", self.drop_height, "m")]
+        numbered = enumerate(zip(self.bounce_heights, self.restitutions, strict=True))
+        for k, (height, kept) in numbered:
+            rows.append(Row(f"height {'' if self.repeated else 'after bounce '}{k}", height, "m"))
+            rows.append(Row(f"restitution {'' if self.repeated else 'of bounce '}{k}", kept))
+        rows.extend(Row("note", note) for note in self.notes)
+        return rows
+
+    def parts(self) -> dict[str, object]:
+        """Return the floor's contact and the drop height, as in a drop's TOML."""
+        parts: dict[str, object] = {"height": float(self.drop_height.nominal_value)}
+        if self.mean.nominal_value <= 1.0:
+            kept = float(self.mean.nominal_value)
+            parts["contact"] = {"law": "Rigid", "restitution": kept}
+        return parts
+
+
+def heights(
+    drop_height: "float | UFloat",
+    bounce_heights: "float | UFloat | Sequence[float | UFloat]",
+    *,
+    diameter: "float | UFloat | None" = None,
+    measured_to: Place | tuple[Place, Place] = "bottom",
+    height_error: float | None = None,
+    repeated: bool = False,
+) -> Heights:
+    """Return the restitution of each bounce from the heights between bounces.
+
+    A ball that falls from a height h0 and rises to h1 has the restitution ``sqrt(h1/h0)``. Both
+    are heights of the same point of the ball above where that point is while the ball touches the
+    floor; so a height read at the centre counts from half a diameter above the floor, and one read
+    at the top from a whole one.
+
+    Parameters
+    ----------
+    drop_height : float or ufloat
+        Above the floor, in m.
+    bounce_heights : float or ufloat or sequence of them
+        Above the floor, in m, after the first bounce, the second one and so on.
+    diameter : float or ufloat, optional
+        Of the ball, in m; needed where something was not measured to its bottom.
+    measured_to : {"bottom", "centre", "top"} or a pair of them
+        Where on the ball the heights were read; a pair has the drop's first and then the bounces'.
+    height_error : float, optional
+        The error in m of each height that has none of its own; without it the errors are unknown
+        (NaN).
+    repeated : bool, optional
+        Whether `bounce_heights` are the first bounce's, from drop after drop, rather than
+        successive ones.
+
+    Returns
+    -------
+    Heights
+
+    Raises
+    ------
+    InvalidValue
+        If a height is not above 0 once it is counted from where the ball touches, or the diameter
+        is missing.
+    InvalidType
+        If something has the wrong type.
+
+    Examples
+    --------
+    >>> found = heights(1.0, [0.64, 0.41], height_error=0.005)
+    >>> [f"{kept:.1uS}" for kept in found.restitutions]
+    ['0.800(4)', '0.800(6)']
+
+    A drop measured to the bottom of a ball of 65 mm and a rebound measured to its top:
+
+    >>> found = heights(
+    ...     1.0, 0.64, diameter=0.065, measured_to=("bottom", "top"), height_error=0.005
+    ... )
+    >>> print(f"{found.mean:.1uS}")
+    0.758(4)
+    """
+    points = places(measured_to)
+    error = math.nan
+    if height_error is not None:
+        error = positive("height_error", height_error, "metres")
+    size = _size(diameter, points)
+    listed = _listed(bounce_heights)
+    start = _counted("drop_height", _number("drop_height", drop_height, error), points[0], size)
+    counted = [
+        _counted(name, _number(name, one, error), points[1], size)
+        for name, one in ((f"bounce_heights.{k}", one) for k, one in enumerate(listed))
+    ]
+    notes = _notes(start, counted, repeated)
+    before = [start] * len(counted) if repeated else [start, *counted[:-1]]
+    kept = [(after / first) ** 0.5 for first, after in zip(before, counted, strict=True)]
+    mean = _mean(start, counted, repeated)
+    return Heights(start, tuple(counted), tuple(kept), mean, bool(repeated), tuple(notes))
+
+
+def above_bottom(measured_to: str, diameter: "float | UFloat | None" = None) -> Any:
+    """Return how far the bottom, centre or top of a ball lies above its lowest point.
+
+    Parameters
+    ----------
+    measured_to : {"bottom", "centre", "top"}
+        Which point of the ball.
+    diameter : float or ufloat, optional
+        In m; needed but for the bottom.
+
+    Returns
+    -------
+    float or ufloat
+        In m.
+
+    Raises
+    ------
+    InvalidValue
+        If the diameter is missing or not above 0.
+
+    Examples
+    --------
+    >>> above_bottom("centre", 0.066)
+    0.033
+    """
+    return _UP[measured_to] * _size(diameter, (measured_to, measured_to))
+
+
+def lowest_point(
+    name: str, height: Any, measured_to: str, diameter: "float | UFloat | None" = None
+) -> Any:
+    """Return the height of a ball's lowest point from that of its bottom, centre or top.
+
+    Parameters
+    ----------
+    name : str
+        What the height is called; messages begin with it.
+    height : float or ufloat
+        Above the floor, in m.
+    measured_to, diameter : optional
+        As in `above_bottom`.
+
+    Returns
+    -------
+    float or ufloat
+        In m, above 0.
+
+    Raises
+    ------
+    InvalidValue
+        If that is not above 0, or the diameter is missing.
+
+    Examples
+    --------
+    >>> lowest_point("height", 1.0, "top", 0.065)
+    0.935
+    """
+    size = _size(diameter, (measured_to, measured_to))
+    return _counted(name, _number(name, height, 0.0), measured_to, size)
+
+
+def places(measured_to: object) -> tuple[str, str]:
+    """Return the points that the drop's height and the bounces' were measured to.
+
+    Raises
+    ------
+    InvalidType, InvalidValue
+        If it is neither one of the three nor a pair of them.
+
+    Examples
+    --------
+    >>> places("centre"), places(("bottom", "top"))
+    (('centre', 'centre'), ('bottom', 'top'))
+    """
+    pair = (measured_to, measured_to) if isinstance(measured_to, str) else measured_to
+    if not (isinstance(pair, tuple | list) and len(pair) == 2):
+        raise InvalidType(
+            f"measured_to must be bottom, centre or top, or a pair, got {shown(measured_to)}"
+        )
+    for place in pair:
+        if place not in _UP:
+            raise InvalidValue(f"measured_to must be bottom, centre or top, got {shown(place)}")
+    return str(pair[0]), str(pair[1])
+
+
+def _listed(values: Any) -> list[Any]:
+    if isinstance(values, str | bytes):
+        raise InvalidType(f"bounce_heights must be numbers of metres, got {shown(values)}")
+    try:
+        listed = list(values)
+    except TypeError:
+        listed = [values]
+    if not listed:
+        raise InvalidValue("bounce_heights must hold at least one height, got none")
+    return listed
+
+
+def _number(name: str, value: Any, error: float) -> Any:
+    from uncertainties import UFloat, ufloat
+
+    if isinstance(value, UFloat):
+        positive(name, value.nominal_value, "metres")
+        return value
+    number = positive(name, value, "metres")
+    return number if error == 0.0 else ufloat(number, error)
+
+
+def _size(diameter: Any, places: tuple[str, str]) -> Any:
+    if diameter is None:
+        away = [place for place in places if _UP[place]]
+        if away:
+            raise InvalidValue(
+                f"diameter must be given where a height was measured to the {away[0]}, got None"
+            )
+        return 0.0
+    return _number("diameter", diameter, 0.0)  # a number is taken to be exact
+
+
+def _counted(name: str, height: Any, place: str, size: Any) -> Any:
+    """Return a height of the ball's lowest point."""
+    counted = height - _UP[place] * size
+    least, got = (getattr(one, "nominal_value", one) for one in (_UP[place] * size, height))
+    if got <= least:
+        raise InvalidValue(
+            f"{name} must be more than the height of the ball's {place} on the floor "
+            f"({least:g} m), got {got:g} m"
+        )
+    return counted
+
+
+def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
+    """Return the restitution of all bounces together."""
+    from uncertainties import ufloat
+
+    if not repeated:
+        return (counted[-1] / start) ** (0.5 / len(counted))
+    mean = sum(counted) / len(counted)
+    if len(counted) > 1:
+        # What single heights scatter by holds all of their own reading errors already.
+        values = np.array([one.nominal_value for one in counted])
+        error = float(values.std(ddof=1)) / math.sqrt(len(values)) * widening(len(values) - 1)
+        mean = ufloat(values.mean(), error) if error else mean
+    return (mean / start) ** 0.5
+
+
+def _notes(start: Any, counted: list[Any], repeated: bool) -> list[str]:
+    notes = []
+    if any(math.isnan(one.std_dev) for one in [start, *counted]):
+        notes.append(
+            "A height has no error, so that the restitutions' are unknown: give height_error."
+        )
+    before = [start] * len(counted) if repeated else [start, *counted[:-1]]
+    for k, (first, after) in enumerate(zip(before, counted, strict=True)):
+        if after.nominal_value > first.nominal_value:
+            notes.append(
+                f"Height {k} ({after.nominal_value:g} m) is above the one that the ball fell from "
+                f"({first.nominal_value:g} m): it gained energy, as a stack's upper ball does; "
+                "no restitution of one contact is above 1."
+            )
+    return notes

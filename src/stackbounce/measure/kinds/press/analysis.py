@@ -1,0 +1,127 @@
+"""The analysis of a press curve, from the record to what was found."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.errors import InvalidValue, non_negative, shown, whole
+from stackbounce.measure.kinds.press.branches import Cycle, Record, cycles, record_of
+from stackbounce.measure.kinds.press.notes import sentences
+from stackbounce.measure.kinds.press.numbers import result_of, unloading_only
+from stackbounce.measure.kinds.press.result import Press
+from stackbounce.measure.uncertain_numbers import measured
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["press"]
+
+
+def press(
+    data: "xr.Dataset | Any",
+    *,
+    compliance: Any = 0.0,
+    sign: int | None = None,
+    cycle: int | None = None,
+) -> Press:
+    """Return what a curve of force against compression tells: stiffness, exponent, energy loss.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or (compression, force)
+        `compression` in m and `force` in N, in the order in which they were recorded: slack or not,
+        loading, a hold or not, unloading or not, once or several times. Points without a number are
+        left out.
+    compliance : float or UFloat, optional
+        How much the machine itself gives way, in m/N, which is taken off the compression.
+    sign : {1, -1}, optional
+        Of the force that presses. By default that of the larger forces.
+    cycle : int, optional
+        Which cycle, from 0; negative from the last. By default the last one that has a loading and
+        an unloading, as a ball is softer at first.
+
+    Returns
+    -------
+    Press
+
+    Raises
+    ------
+    InvalidType
+        If `data` is nothing of the kind.
+    InvalidValue
+        If there are fewer than 6 points, nothing changes, the force does not rise beyond its noise,
+        or there is no such cycle.
+
+    Notes
+    -----
+    The loading is fitted by ``F = k c**p``, where c counts from a contact that is fitted too. The
+    zero of the force is the mean of the slack, or a straight line in time where there is slack
+    before and after; without slack it is taken as recorded. The unloading is fitted by
+    ``F = P (c/C)**n`` from the peak C on; `Hysteretic` has this form. The works are sums over the
+    points themselves, and so is the loss. Then ``e² = 1 - loss`` and ``n = (p + 1)/e² - 1``
+    (R. Cross, Am. J. Phys. 75, 1009, 2007, section V).
+
+    The errors follow from the residuals, which are seldom independent from point to point: a drift,
+    a filter, or a law that does not quite fit makes them smooth, and errors that take them for
+    independent are far too small. Here the residuals are white noise and noise with a memory, both
+    of open size, and all numbers' errors and correlations follow from that.
+
+    A press is slow: a ball may lose more or less in a bounce than in a press, and is stiffer.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.synthetic.press import press_record
+    >>> law = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
+    >>> data = press_record(law, peak=5e-3, slack=1e-3, noise=0.1, seed=1)
+    >>> found = press(data)
+    >>> print(f"exponent {found.exponent:.1uS}, restitution {found.restitution:.1uS}")
+    exponent 1.298(3), restitution 0.7798(6)
+    >>> found.parts()["contact"]["law"]
+    'Hysteretic'
+    """
+    if sign not in (None, 1, -1):
+        raise InvalidValue(f"sign must be 1, -1 or None, got {shown(sign)}")
+    soft = measured("compliance", compliance, "m/N", non_negative)
+    at = float(soft.nominal_value)
+    one = _press(record_of(data, at, sign), cycle)
+    if soft.std_dev == 0.0:
+        return one
+    moved = _press(record_of(data, at + float(soft.std_dev), sign), one.cycle)
+    return _with_compliance(one, moved, (soft - at) / soft.std_dev)
+
+
+def _press(record: Record, cycle: int | None) -> Press:
+    found = cycles(record)
+    chosen = _chosen(found, cycle)
+    if not len(found[chosen].loading):
+        return unloading_only(record, found[chosen], chosen, len(found))
+    all_of_them = {
+        i: result_of(record, one, i, len(found)) for i, one in enumerate(found) if len(one.loading)
+    }
+    own = all_of_them.pop(chosen)
+    own = replace(own, others=tuple(all_of_them.values()))
+    return replace(own, notes=(*record.notes, *sentences(own, len(found[chosen].held))))
+
+
+def _chosen(found: list[Cycle], cycle: int | None) -> int:
+    """Return the place of the cycle that is asked for."""
+    if cycle is not None:
+        place = whole("cycle", cycle, -len(found), len(found) - 1)
+        if not len(found[place].loading) and not len(found[place].unloading):
+            raise InvalidValue(f"cycle must be one with enough points, got {cycle}")
+        return place % len(found)
+    # both branches before a loading alone, that before an unloading alone, the last of each
+    worth = [2 * bool(len(one.loading)) + bool(len(one.unloading)) for one in found]
+    if max(worth) > 0:
+        return len(worth) - 1 - worth[::-1].index(max(worth))
+    raise InvalidValue("a press curve must have a loading or an unloading of 6 points, got none")
+
+
+def _with_compliance(one: Press, moved: Press, unit: Any) -> Press:
+    """Return what was found with the error of the machine's compliance in it."""
+    changes: dict[str, Any] = {}
+    for name in Press.__dataclass_fields__:
+        value, other = getattr(one, name), getattr(moved, name)
+        if hasattr(value, "std_dev") and other is not None:
+            changes[name] = value + (other.nominal_value - value.nominal_value) * unit
+    return replace(one, **changes)

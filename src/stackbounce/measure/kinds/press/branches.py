@@ -1,0 +1,239 @@
+"""A press record, sorted: its sign, its cycles, their loading and unloading."""
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.measure.statistics.ar_noise import spread
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["Cycle", "Record", "cycles", "record_of"]
+
+Array = NDArray[np.float64]
+
+LEAST = 6  # points of a branch, below which nothing is fitted
+_DEEP = 0.15  # of the range: reversals that are less are part of their branch
+_HELD = 1e-3  # of the range, within which the compression is held
+_TOUCHES = 5.0  # standard errors by which a force must rise
+
+
+@dataclass(frozen=True)
+class Record:
+    """Compression and force, both growing as the ball is pressed.
+
+    Parameters
+    ----------
+    compression, force : ndarray
+        (N,) in m and N, in the order in which they were recorded, without gaps.
+    jitter, hiss : float
+        Noise of the compression in m and of the force in N from point to point, not less than what
+        the steps of their digits make.
+    step : float
+        Step of the force's digits in N, 0 if none is seen.
+    notes : tuple of str
+        What was done to it.
+    """
+
+    compression: Array
+    force: Array
+    jitter: float
+    hiss: float
+    step: float
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """Which points of a record are one loading and the unloading after it.
+
+    Parameters
+    ----------
+    loading, unloading : ndarray of int
+        Their places in the record; either may be empty, not both.
+    held : ndarray of int
+        Where the press stood still at the peak.
+    peak, peak_error : float
+        The compression in m at which it turned, and its standard error.
+    sampled : bool
+        Whether the peak is the last point of the loading, and shares its error.
+    """
+
+    loading: NDArray[np.intp]
+    unloading: NDArray[np.intp]
+    held: NDArray[np.intp]
+    peak: float
+    peak_error: float
+    sampled: bool = False
+
+
+def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> Record:
+    """Return a press curve's record; see `press`.
+
+    Raises
+    ------
+    InvalidType
+        If `data` is neither a Dataset with `compression` and `force` nor a pair of arrays.
+    InvalidValue
+        If there are too few points, or the force does not rise with the compression.
+    """
+    compression, force = _columns(data)
+    if compression.shape != force.shape or compression.ndim != 1:
+        raise InvalidValue(
+            "compression and force must be two columns of one length, "
+            f"got shapes {compression.shape} and {force.shape}"
+        )
+    notes = []
+    good = np.isfinite(compression) & np.isfinite(force)
+    if not good.all():
+        notes.append(f"{int((~good).sum())} points without a number were left out.")
+    compression, force = compression[good], force[good]
+    if len(force) < LEAST:
+        raise InvalidValue(
+            f"a press curve must have at least {LEAST} points with numbers, got {len(force)}"
+        )
+    if np.ptp(compression) == 0.0 or np.ptp(force) == 0.0:
+        constant = "compression" if np.ptp(compression) == 0.0 else "force"
+        raise InvalidValue(f"{constant} must change in a press curve, got one value throughout")
+    compression, force, turned = _oriented(compression, force, sign)
+    notes += turned
+    if compliance:
+        compression = compression - compliance * force
+        notes.append(f"The machine's own {compliance:.3g} m/N was taken off the compression.")
+    jitter = max(spread(compression), _digit(compression) / np.sqrt(12.0))
+    step = _digit(force)
+    hiss = max(spread(force), step / np.sqrt(12.0))
+    return Record(compression, force, jitter, hiss, step, tuple(notes))
+
+
+def cycles(record: Record) -> list[Cycle]:
+    """Return the cycles of a record, in order; the first may lack its loading, the last its end."""
+    from scipy.signal import find_peaks
+
+    path = record.compression
+    low, high = float(path.min()), float(path.max())
+    deep = max(_DEEP * (high - low), 8.0 * record.jitter)
+    padded = np.concatenate([[low - 1.0], path, [low - 1.0]])
+    padded[[0, -1]] -= 10.0 * (high - low)  # so that an end can be a peak
+    peaks = find_peaks(padded, prominence=min(deep, 0.9 * (high - low)))[0] - 1
+    if not len(peaks):  # a plateau over the whole of it
+        peaks = np.array([int(path.argmax())])
+    valleys = [int(a + path[a : b + 1].argmin()) for a, b in pairwise(peaks)]
+    starts = [0, *valleys]
+    ends = [*valleys, len(path) - 1]
+    return [
+        _cycle(record, start, int(peak), end)
+        for start, peak, end in zip(starts, peaks, ends, strict=True)
+    ]
+
+
+def _columns(data: Any) -> tuple[Array, Array]:
+    """Return compression and force of a Dataset, or of a pair of arrays."""
+    try:
+        pair = (data["compression"], data["force"]) if hasattr(data, "attrs") else tuple(data)
+        compression, force = (np.asarray(getattr(one, "values", one), float) for one in pair)
+    except (KeyError, TypeError, ValueError):
+        held = ", ".join(map(str, getattr(data, "data_vars", ()))) or shown(data)
+        raise InvalidType(
+            "data must be a Dataset with compression (m) and force (N), or a pair of arrays of "
+            f"them, got {held}"
+        ) from None
+    return compression, force
+
+
+def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array, Array, list[str]]:
+    """Return both columns so that they grow as the ball is pressed, and what was turned."""
+    notes = []
+    if sign is None:
+        quiet = float(np.median(np.sort(np.abs(force))[: max(1, len(force) // 10)]))
+        sign = 1 if force.max() - quiet >= -force.min() - quiet else -1
+    if sign < 0:
+        force = -force
+        notes.append("The force was taken with the other sign, so that pressing is positive.")
+    slope, error = _trend(compression, force)
+    if abs(slope) < _TOUCHES * error:
+        raise InvalidValue(
+            "force must rise with the compression beyond its noise, "
+            f"got a slope of ({slope:.3g} ± {error:.2g}) N/m"
+        )
+    if slope < 0.0:
+        compression = -compression
+        notes.append("The compression was taken with the other sign: the force fell as it grew.")
+    return compression, force, notes
+
+
+def _trend(x: Array, y: Array) -> tuple[float, float]:
+    """Return the slope of a straight line and its error, for points that are independent."""
+    dx, dy = x - x.mean(), y - y.mean()
+    slope = float(dx @ dy / (dx @ dx))
+    rest = dy - slope * dx
+    return slope, float(np.sqrt(rest @ rest / (len(x) - 2) / (dx @ dx)))
+
+
+def _digit(values: Array) -> float:
+    """Return the step between neighbouring values if they repeat, as a converter's do; else 0."""
+    some = values[: 4096 if len(values) > 4096 else None]
+    unique = np.unique(some)
+    if len(unique) < 2 or len(unique) > 0.8 * len(some):
+        return 0.0
+    return float(np.median(np.sort(np.diff(unique))[: max(1, len(unique) // 2)]))
+
+
+def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
+    """Return a cycle around a peak, between the valleys (or ends) before and after it."""
+    path = record.compression
+    reach = max(_HELD * float(np.ptp(path)), 4.0 * record.jitter)
+    near = np.flatnonzero(path[start : end + 1] >= path[peak] - reach) + start
+    first, last = int(near[0]), int(near[-1])
+    step = float(np.median(np.abs(np.diff(path[start : end + 1]))))
+    ramp = 2.0 * reach / step + 3.0 if step > 0.0 else 3.0  # points that a turn has anyway
+    still = last - first + 1 > 2.0 * ramp and last - first + 1 >= LEAST
+    if still:
+        top = np.sort(path[first : last + 1])
+        middle = float(np.median(top))
+        error = record.jitter / np.sqrt(len(top))
+        held = np.arange(first, last + 1)
+        return _branches(start, first, last, end, held, middle, error)
+    level, error = _turn(record, start, peak, end)
+    whole = _branches(start, peak, peak + 1, end, np.empty(0, np.intp), level, error)
+    return replace(whole, sampled=level == path[peak])
+
+
+def _branches(
+    start: int, first: int, last: int, end: int, held: NDArray[np.intp], peak: float, error: float
+) -> Cycle:
+    loading, unloading = np.arange(start, first + 1), np.arange(last, end + 1)
+    if len(loading) < LEAST:
+        loading = loading[:0]
+    if len(unloading) < LEAST:
+        unloading = unloading[:0]
+    return Cycle(loading, unloading, held, peak, error)
+
+
+def _turn(record: Record, start: int, peak: int, end: int) -> tuple[float, float]:
+    """Return where the compression turned: the point itself, or lines through its neighbours."""
+    path = record.compression
+    sides = [(start, peak), (peak, end)]
+    steps = [abs(path[b] - path[a]) / (b - a) for a, b in sides if b - a >= 2]
+    step = float(max(steps, default=0.0))
+    if step == 0.0 or record.jitter < 0.5 * step:
+        return float(path[peak]), record.jitter
+    reach = int(np.clip(8.0 * record.jitter / step, 4, 400))
+    lines = []
+    for low, high in sides:
+        a, b = max(low, peak - reach), min(high, peak + reach)
+        if b - a >= 3:
+            lines.append(np.polyfit(np.arange(a, b + 1) - peak, path[a : b + 1], 1))
+    error = record.jitter / np.sqrt(max(1.0, reach / 4.0))  # of a line at its end
+    if len(lines) == 2 and lines[0][0] > lines[1][0]:
+        at = (lines[1][1] - lines[0][1]) / (lines[0][0] - lines[1][0])
+        if abs(at) <= reach:
+            return float(lines[0][0] * at + lines[0][1]), float(error / np.sqrt(2.0))
+    if len(lines) == 1:
+        return float(lines[0][1]), float(error)
+    return float(path[max(0, peak - 2) : peak + 3].mean()), record.jitter / 2.0

@@ -1,0 +1,198 @@
+"""What a press curve tells."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue, positive
+from stackbounce.measure.rows import Row
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["Curve", "Press"]
+
+Array = NDArray[np.float64]
+
+_AGREES = 2.0  # standard errors
+
+
+@dataclass(frozen=True)
+class Curve:
+    """The points of one branch and the curve through them.
+
+    Parameters
+    ----------
+    compression : ndarray
+        (N,) from the contact on, in m; negative in the slack.
+    force : ndarray
+        (N,) in N, its zero taken off.
+    fit : ndarray
+        (N,) in N, the power law; empty where there is none.
+    misfit : float
+        The part of force less fit that is smooth along the curve, so no noise: its root mean square
+        over the peak force.
+    noise : float
+        The other part, root mean square in N.
+    fits : bool
+        Whether the smooth part is small (below 1 % of the peak force) or lost in the noise.
+    """
+
+    compression: Array
+    force: Array
+    fit: Array
+    misfit: float
+    noise: float
+    fits: bool
+
+
+@dataclass(frozen=True)
+class Press:
+    """What the analysis of a press curve found; see `press`. What cannot be known is None.
+
+    Parameters
+    ----------
+    stiffness : UFloat or None
+        k of ``F = k c**p``, in N/m**p.
+    exponent : UFloat or None
+        p of the loading.
+    linear_stiffness : UFloat or None
+        Of the straight line through the contact that fits the loading best, in N/m.
+    tangent_stiffness : UFloat or None
+        p F/c at the peak, in N/m.
+    secant_stiffness : UFloat or None
+        Force over compression at the peak, in N/m.
+    peak_compression : UFloat
+        From contact to peak, in m.
+    peak_force : UFloat
+        In N.
+    work_in, work_out : UFloat or None
+        In J, from contact to peak and back.
+    loss : UFloat or None
+        ``1 - work_out/work_in``.
+    restitution : UFloat or None
+        ``sqrt(work_out/work_in)``.
+    unloading_exponent : UFloat or None
+        n of the unloading ``F ∝ c**n``, as fitted.
+    energy_exponent : UFloat or None
+        n as it follows from the works, ``(p + 1) work_in/work_out - 1``.
+    contact : UFloat
+        Where on the record's scale of compression the contact begins, in m.
+    zero : UFloat
+        What the force sensor showed with nothing pressed, in N; exactly 0 where the record has no
+        such part and was taken as it is.
+    relaxed : UFloat or None
+        By how much the force dropped at the turn, in N.
+    loading, unloading : Curve or None
+        Points and fits.
+    record : tuple of ndarray
+        (compression, force) of all points, on the scales of the curves.
+    cycle, cycles : int
+        Which cycle this is, from 0, and how many the record has.
+    others : tuple of Press
+        The other cycles that have a loading.
+    notes : tuple of str
+        What is worth knowing, a sentence each.
+    """
+
+    stiffness: "UFloat | None"
+    exponent: "UFloat | None"
+    linear_stiffness: "UFloat | None"
+    tangent_stiffness: "UFloat | None"
+    secant_stiffness: "UFloat | None"
+    peak_compression: "UFloat"
+    peak_force: "UFloat"
+    work_in: "UFloat | None"
+    work_out: "UFloat | None"
+    loss: "UFloat | None"
+    restitution: "UFloat | None"
+    unloading_exponent: "UFloat | None"
+    energy_exponent: "UFloat | None"
+    contact: "UFloat"
+    zero: "UFloat"
+    relaxed: "UFloat | None"
+    loading: Curve | None
+    unloading: Curve | None
+    record: tuple[Array, Array]
+    cycle: int
+    cycles: int
+    others: "tuple[Press, ...]"
+    notes: tuple[str, ...]
+
+    @property
+    def linear(self) -> bool:
+        """Whether the exponent is 1 within two standard errors."""
+        p: Any = self.exponent
+        return p is not None and abs(p.nominal_value - 1.0) <= _AGREES * p.std_dev
+
+    @property
+    def lossless(self) -> bool | None:
+        """Whether no loss is seen: less than two standard errors of it. None without unloading."""
+        loss: Any = self.loss
+        return None if loss is None else bool(loss.nominal_value <= _AGREES * loss.std_dev)
+
+    def compression_at(self, force: float) -> "UFloat":
+        """Return the compression in m at which the loading has a force in N.
+
+        Raises
+        ------
+        InvalidValue
+            If there is no loading, or `force` is not positive.
+        """
+        positive("force", force, "newtons")
+        if self.stiffness is None or self.exponent is None:
+            raise InvalidValue("compression_at must have a loading to read it from, got none")
+        c: UFloat = (force / self.stiffness) ** (1.0 / self.exponent)
+        return c
+
+    def rows(self) -> list[Row]:
+        """Return what was found as rows of a table, the most important first."""
+        p = f"N/m^{self.exponent.nominal_value:.3g}" if self.exponent is not None else "N/m^p"
+        held = [
+            ("static stiffness, straight line", self.linear_stiffness, "N/m"),
+            ("exponent", self.exponent, ""),
+            ("stiffness of the power law", self.stiffness, p),
+            ("restitution", self.restitution, ""),
+            ("energy lost", self.loss, ""),
+            ("unloading exponent, from the energy", self.energy_exponent, ""),
+            ("unloading exponent, from the curve", self.unloading_exponent, ""),
+            ("peak compression", self.peak_compression, "m"),
+            ("peak force", self.peak_force, "N"),
+            ("stiffness at the peak, tangent", self.tangent_stiffness, "N/m"),
+            ("stiffness at the peak, secant", self.secant_stiffness, "N/m"),
+            ("work in loading", self.work_in, "J"),
+            ("work in unloading", self.work_out, "J"),
+            ("compression at contact, as recorded", self.contact, "m"),
+            ("force with nothing pressed, as recorded", self.zero, "N"),
+            ("drop of the force at the turn", self.relaxed, "N"),
+        ]
+        rows = [Row(name, value, unit) for name, value, unit in held if value is not None]
+        if self.cycles > 1:
+            rows.append(Row("cycle", f"{self.cycle + 1} of {self.cycles}"))
+        return rows + [Row("note", note) for note in self.notes]
+
+    def parts(self) -> dict[str, object]:
+        """Return the contact, as a drop's TOML has it.
+
+        The exponent is 1 where it is 1 within two standard errors or below 1, which no law has; the
+        stiffness then is that of the straight line. Where no loss is seen (less than two standard
+        errors of it, or no unloading at all) the law is `Spring`, or `PowerLaw` for another
+        exponent; else it is `Hysteretic`, with the restitution that the works give.
+
+        Returns
+        -------
+        dict
+            ``{"contact": {"law": …}}``, or nothing if there is no loading.
+        """
+        k, p, line, e = self.stiffness, self.exponent, self.linear_stiffness, self.restitution
+        if k is None or p is None or line is None:
+            return {}
+        straight = self.linear or p.nominal_value < 1.0
+        contact: dict[str, object] = {"stiffness": float((line if straight else k).nominal_value)}
+        if not straight:
+            contact["exponent"] = float(p.nominal_value)
+        if e is None or self.lossless:
+            return {"contact": {"law": "Spring" if straight else "PowerLaw", **contact}}
+        return {"contact": {"law": "Hysteretic", **contact, "restitution": float(e.nominal_value)}}

@@ -1,0 +1,335 @@
+"""A recording of a bouncing ball -> the times of its knocks."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding, whitened
+from stackbounce.measure.kinds.sound.onset import onsets
+from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
+from stackbounce.measure.rows import Row
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["Dropped", "Knocks", "knocks"]
+
+_DEAD = 8e-3  # s: two knocks closer than that are one impact
+_AS_LATE = 1.5e-3  # s by which the delay of an echo may differ
+_SECOND_SERIES = 4
+_LASTS = 10e-3  # s of a knock that tell how loud it is
+_CLIPPED = 4  # samples in a row at the largest value
+
+
+@dataclass(frozen=True)
+class Dropped:
+    """A sound that was heard and is no bounce of the series: when (s), and why it was left out."""
+
+    time: float
+    why: str
+
+
+@dataclass(frozen=True)
+class Knocks:
+    """The knocks of one ball's bounces.
+
+    Attributes
+    ----------
+    times : tuple of ufloat
+        When each begins, in s.
+    loudness : ndarray
+        (N,) amplitude over 10 ms without hum, relative to the loudest.
+    missed : tuple of int
+        How many bounces are missing after each but the last.
+    dropped : tuple of Dropped
+        Sounds that were left out: echoes, second sounds of one impact, others.
+    rate : float
+        Samples per second.
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    """
+
+    times: "tuple[UFloat, ...]"
+    loudness: NDArray[np.float64]
+    missed: tuple[int, ...]
+    dropped: tuple[Dropped, ...]
+    rate: float
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = [Row("knocks", len(self.times)), Row("sounds left out", len(self.dropped))]
+        for k, (time, loudness) in enumerate(zip(self.times, self.loudness, strict=True)):
+            rows.append(Row(f"time of knock {k}", time, "s"))
+            rows.append(Row(f"loudness of knock {k}", float(loudness)))
+        rows.extend(Row("note", note) for note in self.notes)
+        return rows
+
+    def parts(self) -> dict[str, object]:
+        """Return nothing: times alone are no part of a drop; `bounces` makes a contact of them."""
+        return {}
+
+
+def knocks(
+    data: Any,
+    *,
+    threshold: float | None = None,
+    dead_time: float | None = None,
+    rate: float | None = None,
+    start: float | None = None,
+    stop: float | None = None,
+) -> Knocks:
+    """Return the times of a bouncing ball's knocks in a recording.
+
+    A knock is where the sound rises far above what preceded it, once hum and steady noise have been
+    taken out. Of all such rises those are kept that one bouncing ball can have made: each flight
+    shorter than the one before by a factor that changes slowly. Echoes, second sounds of one
+    impact, speech and other noises are left out and listed.
+
+    Parameters
+    ----------
+    data : Dataset or array_like
+        A Dataset with `sound` (as `stackbounce.read` gives it), or samples, (N,) or (channels, N).
+    threshold : float, optional
+        By which factor the amplitude must rise within 2 ms, above 1; by default what steady noise
+        does not do by chance, and at least 1.7.
+    dead_time : float, optional
+        Sounds that follow a knock within this time in s belong to it; by default 8 ms.
+    rate : float, optional
+        Samples per second, of plain samples.
+    start, stop : float, optional
+        In s: where to listen, by default everywhere.
+
+    Returns
+    -------
+    Knocks
+
+    Raises
+    ------
+    InvalidValue
+        If there is no sound, no knock, or a number is out of its range.
+    InvalidType
+        If `data` is no recording.
+
+    Notes
+    -----
+    The time of a knock is where its wave rises out of the noise, with the error of that: see
+    `onset.onsets`. Of several channels that one is taken in which the knocks
+    are clearest.
+
+    Examples
+    --------
+    >>> from stackbounce.synthetic.falls import falls
+    >>> from stackbounce.synthetic.sound import sound
+    >>> fall = falls(0.5, 0.8, bounces=8)
+    >>> found = knocks(sound(fall, seed=1))
+    >>> len(found.times), len(found.dropped)
+    (8, 0)
+    """
+    from uncertainties import ufloat
+
+    if threshold is not None and positive("threshold", threshold) <= 1.0:
+        raise InvalidValue(f"threshold must be a factor above 1, got {shown(threshold)}")
+    dead = _DEAD if dead_time is None else positive("dead_time", dead_time, "seconds")
+    samples, rate, origin = _samples(data, rate)
+    samples, origin = _part(samples, rate, origin, start, stop)
+    notes = _notes_on(samples)
+    rounded = rounding(samples)
+    white = whitened(samples, rounded)
+    rises = find_rises(white, rate, threshold, float(rounded.mean()))
+    if not len(rises.times):
+        raise InvalidValue(
+            "sound must hold a knock that rises above what precedes it, got none: "
+            "lower threshold, or record closer to the ball"
+        )
+    rises, doubles = _merged(rises, dead)
+    worth = 0.5 + np.clip(np.log(rises.ratios), 0.0, 3.0)
+    chain = find_chain(rises.times, worth, rises.amplitudes, rises.errors, dead)
+    chain, dropped = _without_echoes(chain, rises, notes)
+    _note_series(chain, rises, worth, dead, origin, notes)
+    at = list(chain.indices)
+    times, errors = onsets(white, rate, rises.times[at], rounded)
+    loudness = _loudness(white, rate, times)
+    left_out = sorted([*doubles, *dropped], key=lambda one: one.time)
+    return Knocks(
+        tuple(map(ufloat, origin + times, errors)),
+        loudness / loudness.max(),
+        chain.missed,
+        tuple(Dropped(origin + one.time, one.why) for one in left_out),
+        rate,
+        tuple(notes),
+    )
+
+
+def _samples(data: Any, rate: float | None) -> tuple[NDArray[np.float32], float, float]:
+    """Return samples (channels, N), their rate and the time of the first one."""
+    origin = 0.0
+    if hasattr(data, "data_vars"):
+        if "sound" not in data:
+            names = ", ".join(map(str, data.data_vars)) or "none"
+            raise InvalidType(f"data must hold a variable sound, got {names}")
+        column = data["sound"]
+        values = np.asarray(column.transpose(..., "time").values, dtype=np.float32)
+        times = column.coords.get("time")
+        rate = rate or column.attrs.get("rate") or data.attrs.get("rate")
+        if times is not None and len(times) > 1:
+            origin = float(times[0])
+            rate = rate or (len(times) - 1) / (float(times[-1]) - origin)
+    else:
+        try:
+            values = np.asarray(data, dtype=np.float32)
+        except (TypeError, ValueError):
+            raise InvalidType(
+                f"data must be a Dataset with sound or samples, got {shown(data)}"
+            ) from None
+        if rate is None:
+            raise InvalidValue("rate must be given for plain samples, got None")
+    values = np.atleast_2d(values)
+    if values.ndim > 2 or not values.size:
+        raise InvalidValue(f"data must hold samples (N,) or (channels, N), got {values.shape}")
+    rate = positive("rate", rate, "samples per second")
+    return np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0), rate, origin
+
+
+def _part(
+    samples: NDArray[np.float32], rate: float, origin: float, start: Any, stop: Any
+) -> tuple[NDArray[np.float32], float]:
+    from stackbounce.errors import finite
+
+    count = samples.shape[1]
+    first = 0 if start is None else round((finite("start", start, "seconds") - origin) * rate)
+    last = count if stop is None else round((finite("stop", stop, "seconds") - origin) * rate)
+    first, last = min(max(first, 0), count), min(max(last, 0), count)
+    if last - first < 2:
+        raise InvalidValue("start and stop must leave some of the recording, got nothing between")
+    return samples[:, first:last], origin + first / rate
+
+
+def _notes_on(samples: NDArray[np.float32]) -> list[str]:
+    """Return notes on a recording that is silent or clipped."""
+    peak = float(np.abs(samples).max())
+    if peak == 0.0:
+        raise InvalidValue("sound must hold more than silence, got only zeros")
+    top = np.abs(samples) >= 0.999 * peak
+    run = top[:, _CLIPPED - 1 :].copy()
+    for shift in range(_CLIPPED - 1):
+        run &= top[:, shift : top.shape[1] - _CLIPPED + 1 + shift]
+    if run.any():
+        return ["The recording is clipped: loudness is wrong there, times are hardly touched."]
+    return []
+
+
+def _merged(rises: Rises, dead: float) -> tuple[Rises, list[Dropped]]:
+    """Return rises without those that follow a knock within the dead time.
+
+    A faint one just before a far louder one is left out rather than the louder one.
+    """
+    kept: list[int] = []
+    dropped = []
+    for k in range(len(rises.times)):
+        last = kept[-1] if kept else None
+        if last is None or rises.times[k] - rises.times[last] >= dead:
+            kept.append(k)
+            continue
+        fainter = k
+        if rises.amplitudes[k] > 5.0 * rises.amplitudes[last]:
+            kept[-1], fainter = k, last
+        dropped.append(Dropped(float(rises.times[fainter]), "second sound of one impact"))
+    return Rises(*(column[kept] for column in rises)), dropped
+
+
+def _without_echoes(chain: Chain, rises: Rises, notes: list[str]) -> tuple[Chain, list[Dropped]]:
+    """Return the series without echoes at its end, and why all other rises are left out."""
+    delay = _echo_delay(chain, rises)
+    indices, missed = list(chain.indices), list(chain.missed)
+    cut = []
+    while delay and len(indices) > 3:
+        lag = rises.times[indices[-1]] - rises.times[indices[-2]]
+        quieter = rises.amplitudes[indices[-1]] < rises.amplitudes[indices[-2]]
+        if not (abs(lag - delay) < _AS_LATE and quieter):
+            break
+        cut.append(indices.pop())
+        missed.pop()
+    if delay:
+        notes.append(f"Each knock has an echo {1e3 * delay:.1f} ms later, which is left out.")
+    dropped = []
+    times = rises.times
+    for k in range(len(times)):
+        if k in indices:
+            continue
+        before = [i for i in indices if i < k]
+        if not before:
+            why = "before the series"
+        elif k in cut or rises.amplitudes[k] < rises.amplitudes[before[-1]]:
+            why = "echo, or a fainter noise"
+            if delay and abs(times[k] - times[before[-1]] - delay) < _AS_LATE:
+                why = "echo"
+        else:
+            why = "louder than the bounce before it"
+        if before and before[-1] == indices[-1] and k not in cut:
+            why = "after the series" if why != "echo" else why
+        dropped.append(Dropped(float(times[k]), why))
+    return Chain(tuple(indices), tuple(missed)), dropped
+
+
+def _echo_delay(chain: Chain, rises: Rises) -> float:
+    """Return the delay in s that at least three sounds after knocks have in common, or 0."""
+    lags = []
+    for k in range(len(rises.times)):
+        before = [i for i in chain.indices if i < k]
+        if before and k not in chain.indices:
+            lags.append(rises.times[k] - rises.times[before[-1]])
+    if len(lags) < 3:
+        return 0.0
+    near = np.abs(np.subtract.outer(lags, lags)) < _AS_LATE
+    best = int(np.argmax(near.sum(axis=1)))
+    return float(np.median(np.array(lags)[near[best]])) if near[best].sum() > 2 else 0.0
+
+
+def _note_series(
+    chain: Chain,
+    rises: Rises,
+    worth: NDArray[np.float64],
+    dead: float,
+    origin: float,
+    notes: list[str],
+) -> None:
+    """Say where a bounce is missing, where there is too little, and where there is more."""
+    times = origin + rises.times[list(chain.indices)]
+    notes.extend(
+        f"A bounce seems to be missing between {times[k]:.4g} s and {times[k + 1]:.4g} s."
+        for k in np.flatnonzero(chain.missed)
+    )
+    if len(times) < 4:
+        notes.append(
+            f"Only {len(times)} knock{'s' * (len(times) != 1)}: too few to tell bounces from "
+            "other sounds."
+        )
+    for side, left in (
+        ("before", slice(0, chain.indices[0])),
+        ("after", slice(chain.indices[-1] + 1, None)),
+    ):
+        rest = Rises(*(column[left] for column in rises))
+        if len(rest.times) < _SECOND_SERIES:
+            continue
+        other = find_chain(rest.times, worth[left], rest.amplitudes, rest.errors, dead)
+        faint = rest.amplitudes[list(other.indices)].max() < 0.2 * rises.amplitudes.max()
+        if len(other.indices) >= _SECOND_SERIES and not faint:
+            first, last = (origin + rest.times[other.indices[k]] for k in (0, -1))
+            notes.append(
+                f"There is another series of {len(other.indices)} knocks {side} this one, from "
+                f"{first:.4g} s to {last:.4g} s: choose by start and stop."
+            )
+
+
+def _loudness(
+    white: NDArray[np.float32], rate: float, times: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return the root mean square of each knock, of all channels together."""
+    count = max(1, round(_LASTS * rate))
+    first = np.round(times * rate).astype(np.int64)
+    parts = [white[:, at : at + count].astype(np.float64) for at in np.maximum(first, 0)]
+    return np.array([np.sqrt((part**2).mean()) for part in parts])

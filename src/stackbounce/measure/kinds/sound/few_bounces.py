@@ -1,0 +1,92 @@
+"""What a sound of too few bounces for a restitution tells all the same."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from stackbounce.errors import positive
+from stackbounce.measure.kinds.sound.analysis import Knocks
+from stackbounce.measure.rows import Row
+from stackbounce.model.drop import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["FewBounces", "few_bounces"]
+
+
+@dataclass(frozen=True)
+class FewBounces:
+    """Flights that have no neighbour, so that no restitution follows from them.
+
+    Attributes
+    ----------
+    flights : tuple of (ufloat or None)
+        Time in the air after each bounce but the last, in s; None where a bounce is missing.
+    apex_heights : tuple of (ufloat or None)
+        How high the ball rose in them, in m.
+    notes : tuple of str
+        What could not be found, and what is needed for it.
+    """
+
+    flights: "tuple[UFloat | None, ...]"
+    apex_heights: "tuple[UFloat | None, ...]"
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = []
+        for k, (flight, height) in enumerate(zip(self.flights, self.apex_heights, strict=True)):
+            if flight is not None and height is not None:
+                rows.append(Row(f"flight after bounce {k}", flight, "s"))
+                rows.append(Row(f"apex height after bounce {k}", height, "m"))
+        rows.extend(Row("note", note) for note in self.notes)
+        return rows
+
+    def parts(self) -> dict[str, object]:
+        """Return nothing: without a restitution there is no contact."""
+        return {}
+
+
+def few_bounces(heard: Knocks, *, gravity: float = STANDARD_GRAVITY) -> FewBounces:
+    """Return what knocks tell of which no two neighbouring flights are known.
+
+    A flight of time T rises to ``g T**2/8``.
+
+    Parameters
+    ----------
+    heard : Knocks
+        One knock, two, or more with bounces missing between them.
+    gravity : float, optional
+        In m/s**2, above 0.
+
+    Returns
+    -------
+    FewBounces
+
+    Raises
+    ------
+    InvalidValue
+        If gravity is not above 0.
+
+    Examples
+    --------
+    >>> from stackbounce.measure.kinds.sound.analysis import knocks
+    >>> from stackbounce.synthetic.falls import falls
+    >>> from stackbounce.synthetic.sound import sound
+    >>> found = few_bounces(knocks(sound(falls(0.5, 0.8, bounces=2), seed=1)))
+    >>> f"{found.apex_heights[0].nominal_value:.3f} m"
+    '0.320 m'
+    >>> print(found.notes[0])
+    No restitution was found: it needs 3 bounces in a row, or 2 and the drop height; 2 were heard.
+    """
+    gravity = positive("gravity", gravity, "m/s^2")
+    pairs = zip(heard.times[:-1], heard.times[1:], heard.missed, strict=True)
+    flights = tuple(None if lost else later - first for first, later, lost in pairs)
+    heights = tuple(None if one is None else gravity * one**2 / 8.0 for one in flights)
+    count = len(heard.times)
+    between = ", with others missing between them" if any(heard.missed) else ""
+    note = (
+        "No restitution was found: it needs 3 bounces in a row, or 2 and the drop height; "
+        f"{count} {'was' if count == 1 else 'were'} heard{between}."
+    )
+    return FewBounces(flights, heights, (note,))

@@ -1,0 +1,174 @@
+"""When exactly each knock of one ball begins."""
+
+import math
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+__all__ = ["onsets"]
+
+_RISES = (0.0, 0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3)  # s in which a knock may rise
+_FAR, _NEAR = 1.5e-3, 0.65e-3  # s to both sides of where a knock is thought to begin
+_MOST = 64  # samples to both sides together: at higher rates they are thinned out
+_KNOWN = 5.0  # errors that `_NEAR` must be
+_QUIET, _GUARD = 8e-3, 0.5e-3  # s before it that tell the noise, and between
+_LOUD = 2e-3  # s after it that tell how loud it is
+_COLOR = 4e-3  # s after it that tell its color
+_LEAST = 1e-3  # of the noise: the least power of a knock
+_ONE_SIGMA = (0.15865525, 0.84134475)  # what lies below one sigma to both sides
+
+Array: TypeAlias = NDArray[np.float64]
+
+
+class _Knock(NamedTuple):
+    """Samples around a knock, powers of noise and after it, and its color (autocorrelation)."""
+
+    first: int
+    values: Array
+    noise: float
+    loud: float
+    color: Array
+
+
+def onsets(
+    white: NDArray[np.float32], rate: float, about: Array, rounded: Array
+) -> tuple[Array, Array]:
+    """Return when the knocks of one ball begin, and the errors of that.
+
+    A knock is a random wave of some color, which rises like ``1 - exp(-t/a)`` out of white noise.
+    One ball on one floor sounds alike each time: the color (autocorrelation) is half the knock's
+    own and half the mean of all, and the rise a is the same for all, the likeliest of a list; one
+    that is off shifts all alike, which no flight sees. The time is the mean of its posterior; the
+    error is the standard deviation, or half of the middle 68.3 % where far tails make that less.
+
+    Parameters
+    ----------
+    white : ndarray
+        (channels, N), as of `loudness.whitened`. The channel is taken in which
+        the knocks are clearest: two often hold the same, or hear it at different times.
+    rate : float
+        Samples per second.
+    about : ndarray
+        (K,) when they begin, within 1 ms, in s.
+    rounded : ndarray
+        (channels,) variance of a sample's error of rounding: the least noise that there is.
+
+    Returns
+    -------
+    times, errors : ndarray
+        (K,) in s.
+
+    Notes
+    -----
+    The samples of a wave go together: who takes each for a new one finds an onset too late, and too
+    small an error, wherever a wave begins slowly. So the likelihood is that of a Gaussian process,
+    ``power g_i g_j R_(i-j) + noise δ_ij`` from the onset on (g the rise, R the color).
+
+    Examples
+    --------
+    >>> random = np.random.default_rng(1)
+    >>> values = random.normal(0.0, np.where(np.arange(4800) < 2400, 0.01, 1.0))[None]
+    >>> times, errors = onsets(values.astype("f4"), 48000.0, np.array([0.0505]), np.zeros(1))
+    >>> bool(abs(times[0] - 0.05) < 3e-5), bool(errors[0] < 3e-5)
+    (True, True)
+    """
+    best = _clearest(white, rate, about, rounded) if len(white) > 1 else 0
+    errors = np.full(len(about), np.inf)
+    far = 2.0 * _FAR * rate
+    # The better an onset is known, the better loudness and color, which are of what follows it.
+    for reach in (_FAR, _FAR, _NEAR) if far > _MOST else (_FAR, _FAR):
+        thin = math.ceil(2.0 * reach * rate / _MOST)
+        knocks = [_knock(white[best], at, rate, reach, thin, rounded[best]) for at in about]
+        times, sure = _improved(knocks, rate / thin)
+        times += 0.5 * (thin - 1) / rate  # the middle of the samples that were taken together
+        within = np.full(len(about), reach == _FAR) | (errors < reach / _KNOWN)
+        about, errors = np.where(within, times, about), np.where(within, sure, errors)
+    return about, errors
+
+
+def _clearest(white: NDArray[np.float32], rate: float, about: Array, rounded: Array) -> int:
+    """Return the channel in which the knocks are clearest."""
+    clear = []
+    for values, least in zip(white, rounded, strict=True):
+        heard = [_knock(values, at, rate, _FAR, 1, least) for at in about]
+        clear.append(sum(math.log(one.loud / one.noise) for one in heard))
+    return int(np.argmax(clear))
+
+
+def _knock(
+    values: NDArray[np.float32], time: float, rate: float, reach: float, thin: int, rounded: float
+) -> _Knock:
+    rate /= thin
+    at, half, guard = round(time * rate), round(reach * rate), round(_GUARD * rate)
+    before = _part(values, max(at - guard - round(_QUIET * rate), 0), max(at - guard, 1), thin)
+    quiet = float((before**2).mean())
+    loud = float((_part(values, at, at + round(_LOUD * rate), thin) ** 2).mean())
+    noise = max(quiet + _rounding(quiet, rounded / thin), 1e-9 * loud, 1e-30)
+    wave = _part(values, at, at + max(2 * half, round(_COLOR * rate)), thin)
+    color = np.correlate(wave, wave, "full")[len(wave) - 1 :][: 2 * half]
+    around = _part(values, at - half, at + half, thin)
+    return _Knock(at - half, around, noise, max(loud, _LEAST * noise), color / max(color[0], 1e-30))
+
+
+def _rounding(noise: float, variance: float) -> float:
+    """Return as how much noise errors of rounding count.
+
+    Where noise of a variance σ² makes them independent of the signal it is their own, s²/12 of a
+    step s. Without it those of a slow wave go together, and reach half a step. In between the share
+    that goes with the signal is ``exp(-4 π² σ²/s²)`` (B. Widrow, I. Kollár, "Quantization Noise",
+    2008).
+    """
+    if variance == 0.0:
+        return 0.0
+    return variance * (1.0 + 2.0 * math.exp(-(math.pi**2) / 3.0 * noise / variance))
+
+
+def _part(values: NDArray[np.float32], start: int, stop: int, thin: int) -> Array:
+    """Return means of `thin` samples each, and zeros where there are none."""
+    inside = values[max(start * thin, 0) : max(stop * thin, 0)].astype(np.float64)
+    before = max(-start * thin, 0)
+    after = (stop - start) * thin - before - len(inside)
+    return np.asarray(np.pad(inside, (before, after)).reshape(-1, thin).mean(axis=1))
+
+
+def _improved(knocks: list[_Knock], rate: float) -> tuple[Array, Array]:
+    """Return times and errors of knocks, in s."""
+    common = np.mean([one.color for one in knocks], axis=0)
+    logs = np.array([_logs(one, 0.5 * (one.color + common), rate) for one in knocks])
+    chances = np.exp(logs - logs.max(axis=(1, 2), keepdims=True))  # (knock, rise, onset)
+    evidence = np.maximum(chances.sum(axis=2), 1e-300)
+    rise = int(np.argmax(np.log(evidence).sum(axis=0)))
+    each = chances[:, rise] / chances[:, rise].sum(axis=1, keepdims=True)
+    places = np.arange(each.shape[1] + 1) - 1.0  # an onset lies between a sample and the next
+    means = each @ (places[:-1] + 0.5)
+    held = np.pad(np.cumsum(each, axis=1), ((0, 0), (1, 0)))
+    low, high = np.array([np.interp(_ONE_SIGMA, one, places) for one in held]).T
+    deviations = np.sqrt(
+        (each * (places[:-1] + 0.5 - means[:, None]) ** 2).sum(axis=1) + 1.0 / 12.0
+    )
+    first = np.array([one.first for one in knocks])
+    return (first + means) / rate, np.minimum(deviations, 0.5 * (high - low)) / rate
+
+
+def _logs(knock: _Knock, color: Array, rate: float) -> Array:
+    """Return the log-likelihood of each rise and onset of a knock, (rises, onsets)."""
+    from scipy.linalg import toeplitz
+
+    count = len(color)
+    since = (np.arange(max(count, round(_LOUD * rate))) + 0.5) / rate
+    grown = np.array([-np.expm1(-since / rise) if rise else np.ones(len(since)) for rise in _RISES])
+    power = (knock.loud - knock.noise) / (grown[:, : round(_LOUD * rate)] ** 2).mean(axis=1)
+    power = np.maximum(power, _LEAST * knock.noise)
+    wave = np.sqrt(power)[:, None] * grown[:, :count]
+    covariances = toeplitz(color) * wave[:, :, None] * wave[:, None] + knock.noise * np.eye(count)
+    # The root of a leading part of a matrix is the leading part of its root: one for all onsets.
+    roots = np.linalg.cholesky(covariances)
+    later = np.add.outer(np.arange(count), np.arange(count))  # sample, onset
+    inside = later < count
+    follows = np.where(inside, knock.values[np.minimum(later, count - 1)], 0.0)
+    logs = 2.0 * np.log(np.diagonal(roots, axis1=1, axis2=2))
+    unlike = (np.linalg.inv(roots) @ follows) ** 2 + logs[:, :, None]
+    silent = np.cumsum(knock.values**2 / knock.noise + math.log(knock.noise))
+    silent = np.concatenate([[0.0], silent])[:-1]
+    return np.asarray(-0.5 * (silent + np.where(inside, unlike, 0.0).sum(axis=1)))

@@ -1,0 +1,1 @@
+"""Tracks of falling and bouncing balls, from video: flights, speeds, heights."""

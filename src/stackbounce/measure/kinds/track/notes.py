@@ -1,0 +1,63 @@
+"""What should be known of a ball's track, a sentence each."""
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.kinds.track.flights import Flights
+
+__all__ = ["notes_of", "stays_long"]
+
+_CORRELATED = 0.2
+_NOTICED = 1.0  # error of a speed, beyond which it is said to be off
+
+
+def notes_of(
+    name: str,
+    times: NDArray[np.float64],
+    fit: Flights,
+    bounces: list[int],
+    impact: Any,
+    fallen: Any,
+) -> tuple[str, ...]:
+    """Return what should be known of a ball's track; `fallen` is its time of fall from rest."""
+    notes = []
+    first = fit.flights[bounces[0]]
+    late = float(times[first.first] - (impact - fallen).nominal_value)
+    if late > 0.2 * fallen.nominal_value:
+        notes.append(
+            f"{name}: its track begins {late:.2g} s after the fall did; the drop height is that of "
+            "a fall from rest with the same impact speed."
+        )
+    elif late < -0.1 * fallen.nominal_value:
+        notes.append(
+            f"{name}: it goes up before it falls; the drop height is that of its highest point."
+        )
+    least = min(last - start for start, last in fit.flights)
+    if least < 5:
+        notes.append(f"{name}: a flight has only {least} points; a higher frame rate would help.")
+    if fit.correlation > _CORRELATED:
+        notes.append(
+            f"{name}: the errors of neighbouring points go together (correlation "
+            f"{fit.correlation:.2g}), as when a mark drifts on the ball; the errors allow for it."
+        )
+    return tuple(notes)
+
+
+def stays_long(
+    name: str, times: NDArray[np.float64], fit: Flights, bounce: int, impact: Any, fall: Any
+) -> tuple[str, ...]:
+    """Return a note where a ball is on the floor so long that its speeds are not those there."""
+    before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
+    lasts = max(after - before - 1, 0) * float(np.median(np.diff(times)))  # at least
+    excess = 0.5 * fall.nominal_value * lasts
+    if excess < _NOTICED * impact.std_dev:
+        return ()
+    note = (
+        f"{name} is on the floor for {1e3 * lasts:.0f} ms or more: its speeds, where the flights "
+        f"before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
+        "errors, and so are its heights; tell the floor's level (--floor, floor=) for those at "
+        "the touch"
+    )
+    return (note,)

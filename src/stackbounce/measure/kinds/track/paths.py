@@ -1,0 +1,290 @@
+"""A track's columns -> heights against time: which way is up, and the flights in them."""
+
+import math
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.measure.kinds.track.flights import (
+    Flight,
+    Flights,
+    find_flights,
+    fit_flights,
+    unexplained,
+)
+
+__all__ = ["Columns", "Upward", "columns", "flights_of", "tilt_of", "upward"]
+
+_MOVES = 0.03  # of the range of a track, within a window
+_JUMP = 5.0  # errors that make a velocity's jump a bounce
+_LEAST_JUMP = 0.1  # of the largest one; smaller ones are a hand's
+_ROUNDS = 4
+_WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
+_UNSEEN = 4.0  # errors by which a released ball has fallen before it is seen to
+_SURE = 5  # points that a fall keeps
+_ALIKE = 0.05
+_AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
+
+
+class Columns(NamedTuple):
+    """Times (N,) in s and, for each ball, its name and positions by axis, (N,) in m."""
+
+    times: NDArray[np.float64]
+    names: list[str]
+    positions: list[dict[str, NDArray[np.float64]]]
+
+
+class Upward(NamedTuple):
+    """The vertical: the axis, its sign, and the angle by which it is off, in radians."""
+
+    axis: str
+    sign: float
+    tilt: float = 0.0
+
+    def heights(self, position: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+        """Return heights from positions."""
+        along = self.sign * position[self.axis]
+        if not self.tilt:
+            return along
+        across = position["x" if self.axis == "y" else "y"]
+        return math.cos(self.tilt) * along + math.sin(self.tilt) * across
+
+
+def columns(data: Any) -> Columns:
+    """Return times and positions out of a Dataset or of plain arrays."""
+    if hasattr(data, "data_vars"):
+        found = _from_dataset(data)
+    else:
+        if isinstance(data, str | bytes):
+            raise InvalidType(f"data must be a Dataset or arrays of a track, got {shown(data)}")
+        try:
+            arrays = [np.asarray(one, dtype=np.float64) for one in data]
+        except (TypeError, ValueError):
+            raise InvalidType(
+                f"data must be a Dataset or (times, heights), got {shown(data)}"
+            ) from None
+        if len(arrays) not in (2, 3) or any(one.shape != arrays[0].shape for one in arrays):
+            raise InvalidValue(
+                "data must be (times, heights) or (times, x, y) of equal lengths, got "
+                f"{len(arrays)} arrays of shapes {', '.join(str(one.shape) for one in arrays)}"
+            )
+        names = ("y",) if len(arrays) == 2 else ("x", "y")
+        found = Columns(arrays[0], ["ball"], [dict(zip(names, arrays[1:], strict=True))])
+    good = np.isfinite(found.times)
+    times = found.times[good]
+    if len(times) < 4 or (np.diff(times) <= 0.0).any():
+        raise InvalidValue(
+            f"times must ascend and be at least 4, got {len(times)}"
+            + " that do not ascend" * (len(times) > 3)
+        )
+    positions = [{axis: one[good] for axis, one in p.items()} for p in found.positions]
+    return Columns(times, found.names, positions)
+
+
+def _from_dataset(data: Any) -> Columns:
+    axes = [axis for axis in ("x", "y") if axis in data.data_vars]
+    if not axes:
+        if "position" in data.data_vars:  # a motion detector's
+            data, axes = data.rename(position="y"), ["y"]
+        else:
+            held = ", ".join(map(str, data.data_vars)) or "none"
+            raise InvalidType(f"data must hold variables x and y of a track, got {held}")
+    times = np.asarray(data["time"].values, dtype=np.float64)
+    if "track" not in data[axes[0]].dims:
+        whole = {axis: np.asarray(data[axis].values, dtype=np.float64) for axis in axes}
+        return Columns(times, ["ball"], [whole])
+    count = data.sizes["track"]
+    names = [str(one) for one in data["track"].values] if "track" in data.coords else []
+    positions = [
+        {
+            axis: np.asarray(data[axis].isel(track=k).values, dtype=np.float64).ravel()
+            for axis in axes
+        }
+        for k in range(count)
+    ]
+    return Columns(times, names or [f"ball {k}" for k in range(count)], positions)
+
+
+def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
+    """Return which way is up: along which falling at one acceleration explains most."""
+    if axis is not None:
+        if axis not in _AXES:
+            raise InvalidValue(f"axis must be x, y, -x or -y, got {shown(axis)}")
+        name, sign = _AXES[axis]
+        if name not in found.positions[0]:
+            raise InvalidValue(f"axis must be one of the track's, got {shown(axis)}")
+        return Upward(name, sign)
+    best = ("y" if "y" in found.positions[0] else "x", 1.0, 0.0)
+    for name in found.positions[0]:
+        gains = [0.0, 0.0]  # upward, downward
+        for position in found.positions:
+            good = np.isfinite(position[name])
+            times, heights = found.times[good], position[name][good]
+            if good.sum() < 5 or np.ptp(heights) == 0.0:
+                continue
+            falls = _guesses(times, heights, gravity)
+            both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
+            costs = unexplained(times, heights, _noise(heights), both)
+            gains[0] += float(costs[0] - costs[1 : 1 + len(falls)].min())
+            gains[1] += float(costs[0] - costs[1 + len(falls) :].min())
+        for sign, gain in zip((1.0, -1.0), gains, strict=True):
+            if gain > best[2]:
+                best = (name, sign, gain)
+    return Upward(*best[:2])
+
+
+def _guesses(
+    times: NDArray[np.float64], heights: NDArray[np.float64], gravity: float
+) -> NDArray[np.float64]:
+    """Return accelerations worth trying: of windows, and gravity with a usual wrong clock."""
+    guesses = [gravity, gravity / 16.0]
+    for wide in _WIDTHS:
+        falls = -_accelerations(times, heights, wide)
+        one = float(np.median(falls)) if len(falls) else 0.0
+        if one > 0.0 and all(abs(one / other - 1.0) > _ALIKE for other in guesses):
+            guesses.append(one)
+    return np.array(guesses)
+
+
+def _accelerations(
+    times: NDArray[np.float64], heights: NDArray[np.float64], wide: int
+) -> NDArray[np.float64]:
+    """Return the accelerations of parabolas through windows of points in which the ball moves."""
+    if len(heights) < wide:
+        return np.zeros(0)
+    t, u = (np.lib.stride_tricks.sliding_window_view(one, wide) for one in (times, heights))
+    moves = np.ptp(u, axis=1) > _MOVES * np.ptp(heights)
+    t, u = t[moves], u[moves]
+    since = t - t.mean(axis=1, keepdims=True)
+    # Least squares of 1, t, t² in each window, by making t² orthogonal to the others.
+    square = since**2
+    slope = (square * since).sum(axis=1) / np.maximum((since**2).sum(axis=1), 1e-300)
+    square = square - square.mean(axis=1, keepdims=True) - slope[:, None] * since
+    curve = (square * u).sum(axis=1) / np.maximum((square**2).sum(axis=1), 1e-300)
+    return np.asarray(2.0 * curve)
+
+
+def flights_of(
+    times: NDArray[np.float64], heights: NDArray[np.float64], gravity: float
+) -> tuple[Flights, list[int]] | None:
+    """Return the flights of a ball, and after which of them it bounces, None where it never does.
+
+    The acceleration is the track's own, whatever its clock and ruler are.
+    """
+    sigma = _noise(heights)
+    guesses = _guesses(times, heights, gravity)
+    acceleration = float(guesses[np.argmin(unexplained(times, heights, sigma, guesses))])
+    fitted: Flights | None = None
+    jumps: list[int] = []
+    for _ in range(_ROUNDS):
+        flights = find_flights(times, heights, sigma, acceleration)
+        fitted, jumps = _joined(times, heights, flights)
+        if fitted is None or not jumps:
+            return None
+        new = float(fitted.values[0])
+        wider = max(_noise_floor(heights), fitted.sigma)
+        steady = abs(new / acceleration - 1.0) < 1e-3 and abs(wider / sigma - 1.0) < 0.05
+        if new <= 0.0 or steady:
+            break
+        acceleration, sigma = new, wider
+    if fitted is None or fitted.values[0] <= 0.0:
+        return None
+    return fit_flights(times, heights, _released(times, fitted, jumps)), jumps
+
+
+def _released(times: NDArray[np.float64], fitted: Flights, bounces: list[int]) -> list[Flight]:
+    """Return the flights, less the first points of a fall that follows a rest.
+
+    Near its release a ball has hardly moved: which points still belong to the rest cannot be seen,
+    and choosing those that fit best would pull the parabola.
+    """
+    flights = list(fitted.flights)
+    fall = float(fitted.values[0])
+    for j in bounces:
+        first, last = flights[j]
+        if j - 1 in bounces or first == 0:
+            continue
+        apex = fitted.origins[j] + fitted.values[2 + 2 * j] / fall
+        after = apex + math.sqrt(2.0 * _UNSEEN * fitted.sigma / fall)
+        start = max(first, int(np.searchsorted(times, after)))
+        if last - start >= _SURE:
+            flights[j] = Flight(start, last)
+    return flights
+
+
+def _noise(heights: NDArray[np.float64]) -> float:
+    """Return the error of a point, from third differences, most of which lie within one flight."""
+    third = np.abs(np.diff(heights, 3))
+    quartile = float(np.quantile(third, 0.25)) if len(third) else 0.0
+    return max(quartile / 0.3186 / math.sqrt(20.0), _noise_floor(heights))
+
+
+def _noise_floor(heights: NDArray[np.float64]) -> float:
+    """Return what rounding to pixels or digits makes at least."""
+    steps = np.diff(np.unique(heights))
+    steps = steps[steps > 1e-9 * np.ptp(heights)]
+    step = float(steps.min()) if len(steps) else 0.0
+    return max(step / math.sqrt(12.0), 1e-5 * float(np.ptp(heights)), 1e-12)
+
+
+def _joined(
+    times: NDArray[np.float64], heights: NDArray[np.float64], flights: list[Flight]
+) -> tuple[Flights | None, list[int]]:
+    """Return flights fitted, those joined between which no bounce is, and the bounces."""
+    while flights:
+        fitted = fit_flights(times, heights, flights)
+        if fitted.freedom < 1 or fitted.values[0] <= 0.0:
+            return None, []
+        jumps = [_jump(times, fitted, j) for j in range(len(flights) - 1)]
+        weak = [j for j, (jump, error, *_) in enumerate(jumps) if abs(jump) < _JUMP * error]
+        if weak:
+            j = min(weak, key=lambda k: abs(jumps[k][0]))
+            joined = Flight(flights[j].first, flights[j + 1].last)
+            flights = [*flights[:j], joined, *flights[j + 2 :]]
+            continue
+        least = _LEAST_JUMP * max((jump for jump, *_ in jumps), default=0.0)
+        bounces = [j for j, (jump, _, before) in enumerate(jumps) if jump > least and before < 0.0]
+        used = sorted({j for b in bounces for j in (b, b + 1)})
+        if len(used) == len(flights) or not used:
+            return fitted, bounces
+        flights = [flights[j] for j in used]
+    return None, []
+
+
+def _jump(times: NDArray[np.float64], fitted: Flights, j: int) -> tuple[float, float, float]:
+    """Return the jump of the velocity after flight j, its error, and the velocity before it."""
+    middle = 0.5 * (times[fitted.flights[j].last - 1] + times[fitted.flights[j + 1].first])
+    since = middle - fitted.origins[j : j + 2]
+    gradient = np.zeros(len(fitted.values))
+    gradient[0] = since[0] - since[1]
+    gradient[2 + 2 * j], gradient[4 + 2 * j] = -1.0, 1.0
+    jump = float(gradient @ fitted.values)
+    error = math.sqrt(max(float(gradient @ fitted.covariance @ gradient), 0.0))
+    before = float(fitted.values[2 + 2 * j] - fitted.values[0] * since[0])
+    return jump, error, before
+
+
+def tilt_of(
+    times: Sequence[NDArray[np.float64]],
+    along: Sequence[NDArray[np.float64]],
+    across: Sequence[NDArray[np.float64]],
+    flights: Sequence[list[Flight]],
+) -> tuple[float, float]:
+    """Return the angle in radians between an axis and the vertical, and its error."""
+    angles, weights = [], []
+    for t, up, side, own in zip(times, along, across, flights, strict=True):
+        good = np.isfinite(up) & np.isfinite(side)
+        kept = [Flight(a, b) for a, b in own if good[a:b].all()]
+        if not kept:
+            continue
+        first, second = (fit_flights(t, np.where(good, one, 0.0), kept) for one in (up, side))
+        fall, drift = first.values[0], second.values[0]
+        angles.append(math.atan2(drift, fall))
+        error = math.sqrt(max(second.covariance[0, 0], 0.0)) / max(abs(fall), 1e-300)
+        weights.append(1.0 / max(error, 1e-9) ** 2)
+    if not angles:
+        return 0.0, math.inf
+    return float(np.average(angles, weights=weights)), 1.0 / math.sqrt(sum(weights))

@@ -1,0 +1,229 @@
+"""Where the record is quiet: its level, its drift, its hum, its noise."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.kinds.waveform.record import Array, Record
+
+__all__ = ["Quiet", "first_guess", "quiet_parts", "scatter", "stuck"]
+
+_SHARE = 0.25  # of a record that is surely quiet
+_FAR = 0.2  # of a record's range: the ends are not at this level
+_MAD = 0.6745  # of a normal deviate: its middle size
+_FIFTH = (0.2, 0.2533)  # of normal deviates are within this
+_MAINS = (50.0, 60.0)  # Hz
+_BLOCK = 1e-3  # s, over which a hum hardly changes
+_WORTH = 40.0
+_PERIODS = 2.0  # below, hum is a drift
+_LAGS = 200
+_LEVERAGE = 5.0  # of a sample over that of a typical quiet one
+_ONE = 0.683  # of normal deviates are within one standard deviation
+_CLIPS, _CLIP = 4, 4.0  # times that what lies beyond so many standard deviations is left out
+_ENOUGH = 24  # quiet samples for a fit with hum
+
+
+@dataclass(frozen=True, eq=False)
+class Quiet:
+    """The baseline of a record, and what scatters around it.
+
+    Parameters
+    ----------
+    baseline : ndarray
+        (n,) at each sample: a line, and the hum of the mains.
+    noise : float
+        Standard deviation of one sample.
+    density : float
+        Standard deviation of one sample that, if all were independent, would give averages their
+        true error: `noise` times the root of the correlation of neighbours.
+    error : float
+        Of the baseline's level, one standard deviation.
+    hum : float
+        Amplitude of the hum; 0 where there is none.
+    mains : float
+        Its frequency in Hz; 0 where there is none.
+    """
+
+    baseline: Array
+    noise: float
+    density: float
+    error: float
+    hum: float
+    mains: float
+
+
+def first_guess(record: Record) -> tuple[float, float]:
+    """Return level and noise of the quiet part before anything is known of the contacts.
+
+    The level is the middle of the shortest range that holds a quarter of all values.
+    """
+    values = record.values
+    level = _densest(values)
+    ends = np.concatenate([one[: max(3, len(values) // 50)] for one in (values, values[::-1])])
+    limits = (values == values.max()) | (values == values.min())
+    at_limit = level in (values.max(), values.min())
+    if at_limit and not limits.all() and abs(np.median(ends) - level) > _FAR * np.ptp(values):
+        level = _densest(values[~limits])  # at the recorder's limit it is as even
+    jumps = np.abs(np.diff(values))
+    fast = float(np.median(jumps)) / (_MAD * np.sqrt(2.0))
+    slow = float(np.quantile(np.abs(values - level), _FIFTH[0])) / _FIFTH[1]
+    return level, max(fast, slow, _floor(record))
+
+
+def _densest(values: Array) -> float:
+    """Return the middle of the shortest range that holds a quarter of the values."""
+    ordered = np.sort(values)
+    count = min(max(3, int(_SHARE * len(ordered))), len(ordered))
+    widths = ordered[count - 1 :] - ordered[: len(ordered) - count + 1]
+    at = int(np.argmin(widths))
+    return float(np.median(ordered[at : at + count]))
+
+
+def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet:
+    """Return baseline and noise from the samples that are marked as quiet.
+
+    Parameters
+    ----------
+    record : Record
+        What was measured.
+    quiet : ndarray of bool
+        (n,) which samples belong to no contact.
+    hum : bool
+        Whether to look for hum.
+
+    Returns
+    -------
+    Quiet
+    """
+    if quiet.sum() < 3:
+        level, noise = first_guess(record)
+        return Quiet(np.full(len(quiet), level), noise, noise, noise, 0.0, 0.0)
+    times = record.times - record.times[0]
+    span = max(float(times[-1]), record.step)
+    line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
+    if not _holds(line, quiet):
+        line = line[:, :1]
+    best, base = line, _fitted(line, record.values, quiet)
+    height = mains = 0.0
+    if hum and quiet.sum() >= _ENOUGH:
+        tone = _tone(times, record, quiet)
+        waves = np.concatenate([line, _waves(times, tone)], axis=1)
+        if tone and _holds(waves, quiet):
+            best, mains, base = waves, tone, _fitted(waves, record.values, quiet)
+            height = float(np.ptp(base - _fitted(line, base, quiet))) / 2.0
+    rest = (record.values - base)[quiet]
+    noise, density = scatter(rest, best.shape[1], record.quantum)
+    floor = _floor(record)
+    noise, density = max(noise, floor), max(density, floor)
+    error = float(np.hypot(density / np.sqrt(len(rest)), stuck(record.quantum, noise)))
+    return Quiet(base, noise, density, error, height, mains)
+
+
+def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
+    """Return the noise of one sample and of averages, see `Quiet`, from what a fit left.
+
+    Parameters
+    ----------
+    rest : ndarray
+        (n,) quiet samples without their baseline.
+    fitted : int
+        How many numbers were fitted to them.
+    quantum : float
+        The step of the converter, 0 where none is seen.
+
+    Returns
+    -------
+    (float, float)
+    """
+    noise = _robust(rest, quantum) * float(np.sqrt(len(rest) / max(1, len(rest) - fitted)))
+    noise = max(noise, quantum / np.sqrt(12.0))
+    return float(noise), float(noise * np.sqrt(_correlation(rest)))
+
+
+def _tones(span: float, step: float) -> list[float]:
+    """Return the frequencies in Hz tried for the mains, as fine as the record can tell them."""
+    if span < _PERIODS / _MAINS[0] or step > 0.2 / _MAINS[1]:
+        return []
+    if span < 0.1:
+        return list(_MAINS)
+    fine = np.linspace(-0.3, 0.3, int(min(31, 3 + 12 * span)))
+    return [float(main + off) for main in _MAINS for off in fine]
+
+
+def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
+    """Return the frequency in Hz of a hum that stands out, or 0."""
+    width = max(1, int(_BLOCK / record.step))
+    count = len(times) // width * width
+    calm = quiet[:count].reshape(-1, width).all(axis=1)
+    t, y = (one[:count].reshape(-1, width).mean(axis=1)[calm] for one in (times, record.values))
+    every = np.ones(len(t), dtype=bool)
+    line = np.stack([np.ones_like(t), t], axis=1)
+    if len(t) < _ENOUGH:
+        return 0.0
+    found, least = 0.0, float(np.sum((y - _fitted(line, y, every)) ** 2))
+    # two more numbers must pay for themselves many times over
+    least /= 1.0 + _WORTH / len(t)
+    for tone in _tones(float(times[-1]), record.step):
+        columns = np.concatenate([line, _waves(t, tone)], axis=1)
+        left = float(np.sum((y - _fitted(columns, y, every)) ** 2))
+        if left < least:
+            found, least = tone, left
+    return found
+
+
+def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
+    """Tell whether a fit where it is quiet says enough of what is between."""
+    normal = columns[quiet].T @ columns[quiet] / quiet.sum()
+    some = columns[:: max(1, len(columns) // 500)]
+    errors = np.sum(some * (some @ np.linalg.pinv(normal, hermitian=True)), axis=1)
+    return bool(errors.max() < _LEVERAGE * columns.shape[1])
+
+
+def _waves(times: Array, tone: float) -> Array:
+    angle = 2.0 * np.pi * tone * times
+    return np.stack([np.sin(angle), np.cos(angle)], axis=1)
+
+
+def _fitted(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
+    """Return the columns' best sum, found where it is quiet, everywhere."""
+    weights = np.linalg.lstsq(columns[quiet], values[quiet], rcond=None)[0]
+    fitted: Array = columns @ weights
+    return fitted
+
+
+def _robust(rest: Array, quantum: float) -> float:
+    """Return the standard deviation without what stands out."""
+    scale = float(np.quantile(np.abs(rest), _ONE)) + 0.5 * quantum
+    for _ in range(_CLIPS):
+        inside = rest[np.abs(rest) <= _CLIP * scale]
+        if not len(inside) or not inside.any():
+            break
+        scale = float(np.sqrt(np.mean(inside**2)))
+    return scale if rest.any() else 0.0
+
+
+def _floor(record: Record) -> float:
+    """Return the least noise: that of the converter, or round-off."""
+    return max(record.quantum / math.sqrt(12.0), 1e-6 * float(np.ptp(record.values)), 1e-300)
+
+
+def stuck(quantum: float, noise: float) -> float:
+    """Return a level's error by a converter whose steps the noise does not smear out."""
+    return quantum / math.sqrt(12.0) if noise < 0.5 * quantum else 0.0
+
+
+def _correlation(rest: Array) -> float:
+    """Return by how much the variance of an average exceeds that of independent samples."""
+    count = len(rest)
+    if count < 2 * _ENOUGH:
+        return 1.0
+    power = float(np.mean(rest**2))
+    total = 1.0
+    for lag in range(1, min(_LAGS, count // 4)):
+        rho = float(np.mean(rest[lag:] * rest[:-lag])) / power if power > 0.0 else 0.0
+        if rho < 2.0 / np.sqrt(count):
+            break
+        total += 2.0 * rho
+    return total

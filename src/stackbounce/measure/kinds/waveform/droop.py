@@ -1,0 +1,104 @@
+"""The droop of a piezo sensor: what its amplifier lets leak away is put back."""
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from stackbounce.errors import InvalidValue, positive
+from stackbounce.measure.kinds.waveform.record import Array
+
+__all__ = ["drooped", "undrooped"]
+
+
+def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Array:
+    """Return what a sensor felt, from what came out of a high-pass of first order.
+
+    Parameters
+    ----------
+    times : array_like
+        (n,) in s, ascending.
+    values : array_like
+        (n,) what was recorded, without any offset of the recorder.
+    time_constant : float
+        RC in s, above 0: after so long a constant force has leaked away to 1/e.
+
+    Returns
+    -------
+    ndarray
+        (n,) in the unit of `values`: ``y + (1/RC) ∫ y dt``, exact for a force that changes evenly
+        between samples.
+
+    Raises
+    ------
+    InvalidValue
+        If `time_constant` is not positive and finite, or lengths do not fit.
+    InvalidType
+        If it is no number.
+
+    Notes
+    -----
+    An offset b that is left in `values` comes out as a drift b t/RC, and the recorder's noise as a
+    random walk on top of itself, which grows to σ sqrt(Δt t)/RC.
+
+    Examples
+    --------
+    >>> times = np.linspace(0.0, 2.0, 2001)
+    >>> leaked = np.exp(-times / 0.5)  # of a constant force
+    >>> float(np.abs(undrooped(times, leaked, 0.5) - 1.0).max().round(5))
+    0.0
+    """
+    rc = positive("time_constant", time_constant, "seconds")
+    t, y = _pair(times, values)
+    share = np.diff(t) / rc
+    changes = (y[1:] - np.exp(-share) * y[:-1]) * share / -np.expm1(-share)
+    return np.cumsum(np.concatenate([y[:1], changes]))
+
+
+def drooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Array:
+    """Return what comes out of a high-pass of first order: `undrooped` turned round, exactly.
+
+    Parameters
+    ----------
+    times : array_like
+        (n,) in s, ascending.
+    values : array_like
+        (n,) what the sensor feels.
+    time_constant : float
+        RC in s, above 0.
+
+    Returns
+    -------
+    ndarray
+        (n,) in the unit of `values`, for a force that changes evenly between samples.
+
+    Raises
+    ------
+    InvalidValue
+        If `time_constant` is not positive and finite, or lengths do not fit.
+    InvalidType
+        If it is no number.
+
+    Examples
+    --------
+    >>> out = drooped([0.0, 0.1, 0.2], [1.0, 1.0, 1.0], 0.1)
+    >>> [round(one, 6) for one in out.tolist()]  # 1, 1/e, 1/e**2
+    [1.0, 0.367879, 0.135335]
+    """
+    rc = positive("time_constant", time_constant, "seconds")
+    t, x = _pair(times, values)
+    out = np.empty_like(x)
+    out[:1] = x[:1]
+    share = np.diff(t) / rc
+    kept = np.exp(-share)
+    gained = np.diff(x) * -np.expm1(-share) / share
+    y = float(x[0])
+    for k, (keep, gain) in enumerate(zip(kept.tolist(), gained.tolist(), strict=True), start=1):
+        y = keep * y + gain
+        out[k] = y
+    return out
+
+
+def _pair(times: ArrayLike, values: ArrayLike) -> tuple[Array, Array]:
+    t, y = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
+    if t.shape != y.shape or t.ndim != 1:
+        raise InvalidValue(f"values must be one for each time, got {t.shape} and {y.shape}")
+    return t, y

@@ -1,0 +1,287 @@
+"""When a contact began or ended: its flank followed down through the noise.
+
+A threshold is crossed too late by an amount that depends on the threshold. Here the rise itself is
+fitted, by the curve of a shape (`shapes`). The start, the shape's
+unknown, all else of the curve and the level before the touch are unknown, and the error of the
+start holds what the others leave open.
+"""
+
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from stackbounce.measure.kinds.waveform.intervals import smoothed
+from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.kinds.waveform.shapes import Shape
+
+__all__ = ["Flank", "fit_flank"]
+
+_STARTS = 21
+_ZOOMS, _SETTLED = 7, 3
+_MOST = 36  # points; more are averaged
+_AROUND = 4.5  # standard deviations on the fine grid
+_LEVELS = (0.7, 0.5, 0.35, 0.25, 0.15, 0.1)
+_FEW = 8  # points on a flank, below which it is not cut shorter
+_CLEAR, _FEWEST = 3.0, 3  # noise levels of the lowest level; samples
+_ONE = (0.1587, 0.8413)  # of the probability: below minus one error, and below plus one
+_SLACK = 3.0  # standard deviations of chi squared
+
+
+@dataclass(frozen=True, eq=False)
+class Flank:
+    """The beginning of a contact, or with time reversed its end.
+
+    Parameters
+    ----------
+    time, error : float
+        When the force began, in s, and one standard deviation.
+    exponent, exponent_error : float
+        The power with which it began.
+    times, force : ndarray
+        The fitted curve, for a picture: in s and in the record's unit.
+    misfit : float
+        Root of chi squared per degree of freedom; the error holds it if it exceeds 1.
+    """
+
+    time: float
+    error: float
+    exponent: float
+    exponent_error: float
+    times: Array
+    force: Array
+    misfit: float
+
+    def reversed(self) -> "Flank":
+        """Return the same with time running the other way."""
+        times, force = -self.times[::-1], self.force[::-1]
+        return replace(self, time=-self.time, times=times, force=force)
+
+
+@dataclass(frozen=True, eq=False)
+class _Points:
+    """Samples, or averages over blocks of them between `edges`; `level` is that of the last.
+
+    `length` is that of the contact and `step` that between averaged samples, in s.
+    """
+
+    times: Array
+    edges: Array | None
+    values: Array
+    sigma: float
+    height: float = 0.0
+    level: float = 0.0
+    offset: float = 0.0
+    length: float = 0.0
+    step: float = 0.0
+
+    @property
+    def unit(self) -> float:
+        """The whole time in s."""
+        return float(self.times[-1] - self.times[0])
+
+
+def fit_flank(
+    times: Array,
+    values: Array,
+    sigma: float,
+    shape: Shape,
+    *,
+    peak: float,
+    offset: float,
+    length: float,
+    width: int = 1,
+) -> Flank | None:
+    """Return the beginning of a rise from the baseline, or None where nothing rises.
+
+    Parameters
+    ----------
+    times : ndarray
+        (n,) ascending, in s, from well before the rise to its peak.
+    values : ndarray
+        (n,) without baseline.
+    sigma : float
+        Standard deviation of a value.
+    shape : Shape
+        How the force may begin.
+    peak : float
+        The height of the first peak.
+    offset : float
+        How far the baseline may be off, one standard deviation.
+    length : float
+        Of the contact, in s, roughly.
+    width : int, optional
+        How many samples are averaged to see where the rise is; odd.
+
+    Returns
+    -------
+    Flank or None
+
+    Examples
+    --------
+    >>> times = np.arange(0.0, 1.0, 0.01)
+    >>> values = np.sin(np.maximum(times - 0.314, 0.0))
+    >>> shape = Shape(1.0, 1.5)
+    >>> flank = fit_flank(times, values, 1e-3, shape, peak=0.6, offset=0.0, length=1.4)
+    >>> abs(flank.time - 0.314) < 2 * flank.error < 0.02
+    True
+    """
+    found: Flank | None = None
+    even = smoothed(values, width)
+    calm = sigma / np.sqrt(width)
+    for level in _LEVELS:
+        cut = _cut(times, even, calm, level * peak)
+        if cut is None or (found is not None and (cut.stop - cut.foot) // width < _FEW):
+            break
+        bare = _points(times, values, sigma, cut)
+        points = replace(bare, height=level * peak, level=level, offset=offset, length=length)
+        found = _fit(points, shape)
+        if found.misfit == 1.0:
+            break
+    return found
+
+
+class _Cut(NamedTuple):
+    start: int
+    foot: int
+    stop: int
+
+
+def _cut(times: Array, even: Array, calm: float, level: float) -> _Cut | None:
+    """Return where a rise is: from well before its foot to the first two values above a level."""
+    if level < _CLEAR * calm or len(even) < _FEWEST:
+        return None
+    over = even >= level
+    above = np.flatnonzero(over[:-1] & over[1:])  # one may be noise
+    if len(above) and above[0] == 0:
+        return None
+    last = int(above[0]) if len(above) else len(even) - 1
+    low = np.flatnonzero(even[: last + 1] < max(0.1 * level, 2.0 * calm))
+    foot = int(low[-1]) if len(low) else 0
+    rise = max(times[last] - times[foot], times[last] - times[last - 1])
+    start = min(int(np.searchsorted(times, times[foot] - 2.0 * rise)), max(0, foot - 4))
+    return _Cut(start, foot, last + 1)
+
+
+def _points(times: Array, values: Array, sigma: float, cut: _Cut) -> _Points:
+    """Return the samples of a cut, averaged over blocks where they are many."""
+    width = max(1, (cut.stop - cut.start) // _MOST)
+    first = cut.start + (cut.stop - cut.start) % width
+    t, y = times[first : cut.stop], values[first : cut.stop]
+    if width == 1:
+        return _Points(t, None, y, sigma)
+    half = 0.5 * (t[1] - t[0])
+    inner = 0.5 * (t[width - 1 : -1 : width] + t[width::width])
+    edges = np.concatenate([[t[0] - half], inner, [t[-1] + half]])
+    t, y = (one.reshape(-1, width).mean(axis=1) for one in (t, y))
+    return _Points(t, edges, y, float(sigma / np.sqrt(width)), step=2.0 * half)
+
+
+def _fit(points: _Points, shape: Shape) -> Flank:
+    """Return the flank from all starts and unknowns of the shape."""
+    times = points.times
+    end = times[-1]
+    low = np.flatnonzero(points.values < max(0.3 * points.height, 2.0 * points.sigma))
+    latest = times[low[-1] + 1] if len(low) and low[-1] + 1 < len(times) else end
+    logs = shape.grid()
+    first = np.linspace(times[0], min(latest, end - 1e-6 * points.unit), _STARTS)
+    starts = np.tile(first, (len(logs), 1))
+    for k in range(_ZOOMS):
+        score = _scan(points, shape, starts, logs)[0]
+        finer = k >= _SETTLED and not shape.known  # each needs its best start first
+        starts, logs = _closer(starts, logs, score, end, finer=finer)
+    score, chi, best = _scan(points, shape, starts, logs)
+    weight = np.exp(score - score.max())
+    weight /= weight.sum()
+    t, e = _moments(starts, weight)
+    if shape.kind == "jump":
+        e = max(float(np.hypot(e, points.step / np.sqrt(12.0))), _half(starts, weight))
+    p, r = shape.begins(*_moments(logs, weight.sum(axis=1)))
+    freedom = max(1, len(times) - 5)
+    fits = chi < freedom + _SLACK * np.sqrt(2.0 * freedom)
+    misfit = 1.0 if fits else float(np.sqrt(chi / freedom))
+    return Flank(t, e * misfit, p, r * misfit, *_curve(points, shape, *best), misfit)
+
+
+def _closer(
+    starts: Array, logs: Array, score: Array, end: float, *, finer: bool
+) -> tuple[Array, Array]:
+    """Return a finer grid around the weight on a coarse one.
+
+    Each exponent has starts of its own: the larger it is, the earlier the touch, and where noise is
+    low the weight lies on a line between the two that is much thinner than it is long.
+    """
+    best = score.max(axis=1)
+    own = np.exp(score - best[:, None])
+    rows = np.exp(best - best.max()) * own.sum(axis=1)
+    rows /= rows.sum()
+    own /= own.sum(axis=1)[:, None]
+    middles = np.sum(starts * own, axis=1)
+    spreads = np.sqrt(np.sum((starts - middles[:, None]) ** 2 * own, axis=1))
+    wide = _AROUND * np.maximum(spreads, 0.5 * (starts[:, 1] - starts[:, 0]))
+    powers = logs
+    if finer:
+        mean, spread = _moments(logs, rows)
+        reach = _AROUND * max(spread, 0.5 * (logs[1] - logs[0]))
+        powers = np.linspace(mean - reach, mean + reach, len(logs))
+    middle, half = (np.interp(powers, logs, one) for one in (middles, wide))
+    top = np.minimum(middle + half, end - 1e-9 * half)
+    return np.linspace(middle - half, top, starts.shape[1], axis=1), powers
+
+
+def _moments(grid: Array, weight: Array) -> tuple[float, float]:
+    mean = float(np.sum(grid * weight))
+    return mean, float(np.sqrt(np.sum((grid - mean) ** 2 * weight)))
+
+
+def _half(grid: Array, weight: Array) -> float:
+    """Return half of the range that holds 68 %, which exceeds the spread for a jump.
+
+    A jump between two samples is as probable anywhere between them.
+    """
+    order = np.argsort(grid, axis=None)
+    share, places = weight.ravel()[order], grid.ravel()[order]
+    low, high = np.interp(_ONE, np.cumsum(share) - 0.5 * share, places)
+    return 0.5 * float(high - low)
+
+
+def _scan(
+    points: _Points, shape: Shape, starts: Array, logs: Array
+) -> tuple[Array, float, tuple[float, float, Array]]:
+    """Return the logarithm of the probability of each pair of start and unknown.
+
+    For each pair the curve is linear in all else, which is integrated over. Also chi squared of the
+    best pair, and what its curve needs.
+    """
+    where = points.times if points.edges is None else points.edges
+    u = (where - starts[:, :, None]) / points.unit
+    unknown = shape.unknown(logs, points.length / points.unit)
+    rows = shape.rows(u, unknown[:, None, None], averaged=points.edges is not None)
+    heights = np.maximum(rows[..., -1:], 1e-300)  # so that each is 1 at the end of the flank
+    rows = rows / heights / points.sigma
+    values = points.values / points.sigma
+    normal = rows @ np.swapaxes(rows, -1, -2)
+    spreads: Array = np.array([shape.others, shape.slowing]) * points.height
+    offset = max(points.offset, 1e-6 * points.height)
+    normal[..., range(4), range(4)] += (1e-12, *spreads**-2, offset**-2)
+    right = rows @ values
+    means = np.stack(shape.corrections(logs, points.level), axis=-1)[:, None] * points.height
+    right[..., 1:3] += means / spreads**2
+    solved = np.linalg.solve(normal, right[..., None])[..., 0]
+    cost = np.sum((means / spreads) ** 2, axis=-1) - np.sum(right * solved, axis=-1)
+    score = -0.5 * cost - 0.5 * np.linalg.slogdet(normal)[1] + shape.prior(logs)[:, None]
+    score = score + np.log(starts[:, 1:2] - starts[:, :1])
+    i, j = np.unravel_index(int(np.argmax(score)), score.shape)
+    chi = float(np.sum((values - solved[i, j] @ rows[i, j]) ** 2))
+    scaled = solved[i, j] / heights[i, j, :, 0]
+    return score, chi, (float(starts[i, j]), float(unknown[i]), scaled)
+
+
+def _curve(
+    points: _Points, shape: Shape, start: float, unknown: float, scaled: Array
+) -> tuple[Array, Array]:
+    """Return the best curve, from the touch on."""
+    times = np.linspace(start, points.times[-1], 60)
+    u = (times - start) / points.unit
+    force: Array = scaled @ shape.rows(u, np.array(unknown), averaged=False)
+    return times, force

@@ -1,0 +1,109 @@
+"""Where a record shows contacts: stretches that stand out of the noise."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.kinds.waveform.record import Array
+
+__all__ = ["Stretch", "find_stretches", "smoothed", "which_sign"]
+
+_OUT = 6.0  # noise levels that no noise reaches, in a million samples
+_LOW = 3.0  # noise levels to which a contact is followed down
+_SMALL = 0.01  # of the highest peak: smaller things are ringing
+_SMOOTH = 25  # averages over a contact
+_WIDE = 3  # samples of the shortest contact
+_WIDEST = 20_001
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """Samples from `first` to `last`, both above the noise."""
+
+    first: int
+    last: int
+
+    def __len__(self) -> int:
+        """Return the number of samples."""
+        return self.last - self.first + 1
+
+
+def smoothed(values: Array, width: int) -> Array:
+    """Return moving averages over an odd number of samples; over fewer at the ends.
+
+    Examples
+    --------
+    >>> smoothed(np.array([0.0, 3.0, 0.0, 0.0]), 3)
+    array([1.5, 1. , 1. , 0. ])
+    """
+    if width <= 1:
+        return values
+    half, count = width // 2, len(values)
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    at = np.arange(count)
+    low, high = np.maximum(at - half, 0), np.minimum(at + half + 1, count)
+    averages: Array = (total[high] - total[low]) / (high - low)
+    return averages
+
+
+def which_sign(signal: Array, noise: float) -> int:
+    """Return +1 if contacts go up and -1 if they go down, by what stands out of the noise."""
+    out = np.where(np.abs(signal) > _OUT * noise, signal, 0.0)
+    up, down = np.sum(out[out > 0.0] ** 2), np.sum(out[out < 0.0] ** 2)
+    return -1 if down > up else 1
+
+
+def find_stretches(
+    signal: Array, noise: float, density: float, threshold: float | None
+) -> tuple[list[Stretch], int]:
+    """Return the stretches in which an upward signal stands out, and how many were too short.
+
+    Parameters
+    ----------
+    signal : ndarray
+        (n,) without its baseline, contacts upward.
+    noise, density : float
+        Of one sample, and of averages, see `Quiet`.
+    threshold : float or None
+        What a contact must rise above; None for 6 noise levels and 1 % of the highest peak.
+
+    Returns
+    -------
+    list of Stretch
+        In order.
+    int
+        How many things of one or two samples were left out.
+    """
+    high = max(_OUT * noise, _SMALL * float(signal.max())) if threshold is None else threshold
+    rough = _runs(signal, high, min(_LOW * noise, 0.5 * high), 2)
+    wide = np.sort([len(one) for one in rough if len(one) >= _WIDE])
+    if not len(wide):
+        return [], len(rough)
+    # noise breaks the flanks of long ones to pieces: half of all samples are in longer ones
+    usual = int(wide[np.searchsorted(np.cumsum(wide), 0.5 * wide.sum())])
+    width = 2 * (min(usual, _WIDEST) // _SMOOTH // 2) + 1
+    if width == 1:
+        return [one for one in rough if len(one) >= _WIDE], len(rough) - len(wide)
+    calm = density / np.sqrt(width)
+    level = max(_OUT * calm, _SMALL * float(signal.max())) if threshold is None else threshold
+    found = _runs(smoothed(signal, width), level, min(_LOW * calm, 0.5 * level), width)
+    return [one for one in found if len(one) >= _WIDE + width], len(rough) - len(wide)
+
+
+def _runs(signal: Array, high: float, low: float, join: int) -> list[Stretch]:
+    """Return runs above `low` that reach `high`; those less than `join` samples apart are one."""
+    above: NDArray[np.int8] = (signal > low).astype(np.int8)
+    edges = np.diff(np.concatenate([[0], above, [0]]))
+    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
+    if not len(starts):
+        return []
+    tops = np.maximum.reduceat(signal, np.stack([starts, ends + 1], 1).ravel()[:-1])[::2]
+    kept = tops > high
+    runs: list[Stretch] = []
+    for start, end in zip(starts[kept].tolist(), ends[kept].tolist(), strict=True):
+        if runs and start - runs[-1].last <= join:
+            runs[-1] = Stretch(runs[-1].first, end)
+        else:
+            runs.append(Stretch(start, end))
+    return runs

@@ -1,0 +1,177 @@
+"""The peaks of a contact, their heights, and its impulse."""
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from stackbounce.measure.kinds.waveform.intervals import smoothed
+from stackbounce.measure.kinds.waveform.record import Array
+
+__all__ = ["Peak", "find_peaks", "flat_top", "impulse_of"]
+
+_AVERAGES = 60  # over a contact, at least
+_STAND_OUT = 7.0  # noise levels between a peak and the dip beside it
+_SHARE = 0.02  # of the highest peak, likewise
+_CAP = 0.82  # of a peak's height, above which its cap is fitted
+_DEGREE = 4
+_RUN = 3  # equal samples that make a flat top
+_NEXT = 0.15  # of the samples at the top may lie one step below it if it was cut off
+
+
+class Peak(NamedTuple):
+    """A maximum of the force: time in s, height and its error in the record's unit."""
+
+    time: float
+    time_error: float
+    force: float
+    force_error: float
+
+
+@dataclass(frozen=True)
+class _Cap:
+    low: int
+    high: int
+
+
+def find_peaks(times: Array, values: Array, noise: float, density: float) -> list[Peak]:
+    """Return the peaks of one contact, from its touch to its release, in order.
+
+    Parameters
+    ----------
+    times, values : ndarray
+        (n,) of the contact with a little of the baseline on both sides, contacts upward.
+    noise, density : float
+        See `Quiet`.
+
+    Returns
+    -------
+    list of Peak
+        At least one. Dips are told from noise where they are 7 noise levels of the averages deep,
+        and 2 % of the highest peak.
+
+    Examples
+    --------
+    >>> times = np.linspace(0.0, 1.0, 101)
+    >>> found = find_peaks(times, np.sin(np.pi * times) ** 2, 1e-3, 1e-3)
+    >>> [(round(peak.time, 2), round(peak.force, 2)) for peak in found]
+    [(0.5, 1.0)]
+    """
+    from scipy.signal import find_peaks as maxima
+
+    width = 2 * (len(values) // _AVERAGES // 2) + 1
+    even = np.maximum(smoothed(values, width), 0.0)  # what noise does below zero is no dip
+    calm = density / np.sqrt(width)
+    padded = np.concatenate([[0.0], even, [0.0]])
+    stand_out = max(_STAND_OUT * max(calm, noise / width), _SHARE * float(even.max()))
+    tops = maxima(padded, prominence=stand_out)[0] - 1
+    if not len(tops):
+        tops = np.array([int(np.argmax(even))])
+    dips = [int(a + np.argmin(even[a:b])) for a, b in pairwise(tops)]
+    edges = [0, *dips, len(even) - 1]
+    return [
+        _cap(times, values, even, int(top), _Cap(*edges[k : k + 2]), density)
+        for k, top in enumerate(tops)
+    ]
+
+
+def _cap(times: Array, values: Array, even: Array, top: int, room: _Cap, density: float) -> Peak:
+    """Return time and height of a peak by a polynomial through its cap."""
+    floor = _CAP * even[top]
+    low = high = top
+    while low > room.low and even[low - 1] > floor:
+        low -= 1
+    while high < room.high and even[high + 1] > floor:
+        high += 1
+    if high - low < 2:  # one sample on each side at least
+        low, high = max(top - 1, 0), min(top + 1, len(even) - 1)
+    count = high + 1 - low
+    middle, half = times[top], max(0.5 * (times[high] - times[low]), 1e-300)
+    degree = min(_DEGREE, max(2, (count - 1) // 2), count - 1)
+    if degree < 2:
+        return Peak(float(middle), float(half), float(values[top]), density)
+    u = (times[low : high + 1] - middle) / half
+    columns = np.vander(u, degree + 1, increasing=True)
+    weights, *_ = np.linalg.lstsq(columns, values[low : high + 1], rcond=None)
+    rest = values[low : high + 1] - columns @ weights
+    freedom = count - degree - 1
+    scatter = float(np.sqrt(np.sum(rest**2) / freedom)) if freedom > 4 else 0.0
+    sigma = max(density, scatter)
+    fine = np.linspace(u[0], u[-1], 401)
+    curve = np.vander(fine, degree + 1, increasing=True) @ weights
+    best = int(np.argmax(curve))
+    cover = np.linalg.pinv(columns.T @ columns) * sigma**2
+    at = np.vander(fine[best : best + 1], degree + 1, increasing=True)[0]
+    slope = np.array([k * fine[best] ** max(k - 1, 0) for k in range(degree + 1)])
+    bend = sum(k * (k - 1) * weights[k] * fine[best] ** (k - 2) for k in range(2, degree + 1))
+    shift = np.sqrt(slope @ cover @ slope) / max(abs(float(bend)), 1e-300)
+    return Peak(
+        float(middle + half * fine[best]),
+        float(half * min(shift, 1.0)),
+        float(curve[best]),
+        float(np.sqrt(at @ cover @ at)),
+    )
+
+
+def impulse_of(
+    times: Array, values: Array, density: float, offset: float, ends: tuple[float, float]
+) -> tuple[float, float]:
+    """Return the area under the force between two times, and its error.
+
+    Parameters
+    ----------
+    times, values : ndarray
+        (n,) of the contact and a little more, contacts upward.
+    density, offset : float
+        Noise of one sample as in `Quiet`; error of the baseline.
+    ends : (float, float)
+        From the touch to the release, in s.
+
+    Returns
+    -------
+    (float, float)
+        In s times the values' unit. The trapezium rule errs where the force begins and ends; half
+        a step's worth of that, over √3, is in the error.
+
+    Examples
+    --------
+    >>> times = np.linspace(-0.1, 1.1, 121)
+    >>> force = np.sin(np.pi * np.clip(times, 0.0, 1.0))
+    >>> area, error = impulse_of(times, force, 0.0, 0.0, (0.0, 1.0))
+    >>> abs(area - 2.0 / np.pi) < 2.0 * error < 1e-4
+    True
+    """
+    # from the last sample before the touch to the first one after the release
+    first = max(int(np.searchsorted(times, ends[0], "right")) - 1, 0)
+    last = min(int(np.searchsorted(times, ends[1], "left")), len(times) - 1)
+    t, f = times[first : last + 1], values[first : last + 1]
+    steps = np.diff(t)
+    weights = np.zeros(len(t))
+    weights[:-1] += 0.5 * steps
+    weights[1:] += 0.5 * steps
+    slopes = np.abs(np.diff(f)) / np.maximum(steps, 1e-300)
+    bends = (slopes[:2].max(), slopes[-2:].max()) if len(slopes) > 1 else (0.0, 0.0)
+    rule = float(np.max(steps)) ** 2 / 12.0 * np.hypot(*bends) if len(steps) else 0.0
+    own = density * np.sqrt(np.sum(weights**2))
+    level = offset * (t[-1] - t[0])
+    return float(np.sum(weights * f)), float(np.sqrt(own**2 + level**2 + rule**2))
+
+
+def flat_top(values: Array, quantum: float) -> bool:
+    """Tell whether the top of a contact was cut off: equal samples, and hardly any just below.
+
+    Examples
+    --------
+    >>> wave = np.sin(np.linspace(0.0, np.pi, 50))
+    >>> flat_top(wave, 0.0), flat_top(np.minimum(wave, 0.8), 0.0)
+    (False, True)
+    """
+    top = float(values.max())
+    step = quantum or 1e-9 * abs(top)
+    at = values > top - 0.5 * step
+    runs = np.diff(np.flatnonzero(np.diff(np.concatenate([[0], at.astype(int), [0]]))))[::2]
+    if runs.max() < _RUN:
+        return False
+    below = (values > top - 1.5 * step) & ~at
+    return bool(below.sum() <= _NEXT * at.sum())

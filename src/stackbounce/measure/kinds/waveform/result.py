@@ -1,0 +1,170 @@
+"""What was found in a force record."""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.measure.kinds.waveform.flanks import Flank
+from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.law_constants import dynamic_stiffness
+from stackbounce.measure.rows import Row
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["Contact", "Waveform"]
+
+_LISTED = 12  # contacts in a table for people
+
+
+@dataclass(frozen=True, eq=False)
+class Contact:
+    """One contact interval of a force record, from the first touch to the last release.
+
+    Parameters
+    ----------
+    start, end : UFloat or None
+        In s, on the record's clock; None where the record begins or stops within the contact.
+    time : UFloat or None
+        The contact time in s, from touch to release.
+    peaks : tuple of (UFloat, UFloat)
+        Time in s and height of each maximum of the force, in order.
+    peak_force : UFloat
+        The greatest height; where the record is clipped it is only a lower limit.
+    impulse : UFloat
+        The area under the force, in s times the force's unit; a lower limit where the record is
+        clipped or does not hold the whole contact.
+    rise, fall : UFloat or None
+        From the touch to the first peak and from the last peak to the release, in s.
+    exponents : (UFloat or None, UFloat or None)
+        The powers of time with which the force began and ended: 1 for a linear spring, 1.5 for
+        Hertz's law, more where a lossy contact ends softly.
+    clipped : bool
+        Whether the top was cut off.
+    samples : int
+        How many samples the contact has.
+    flanks : (Flank or None, Flank or None)
+        The fits behind `start` and `end`, for a picture.
+    """
+
+    start: "UFloat | None"
+    end: "UFloat | None"
+    time: "UFloat | None"
+    peaks: "tuple[tuple[UFloat, UFloat], ...]"
+    peak_force: "UFloat"
+    impulse: "UFloat"
+    rise: "UFloat | None"
+    fall: "UFloat | None"
+    exponents: "tuple[UFloat | None, UFloat | None]"
+    clipped: bool
+    samples: int
+    flanks: tuple[Flank | None, Flank | None] = field(repr=False)
+
+
+@dataclass(frozen=True, eq=False)
+class Waveform:
+    """A force record, and the contacts in it; made by `waveform`.
+
+    Parameters
+    ----------
+    contacts : tuple of Contact
+        In order; empty where nothing stands out of the noise.
+    unit : str
+        Of the force: ``"N"``, ``"V"`` or empty.
+    noise : float
+        Standard deviation of one sample, in `unit`, from the quiet parts.
+    baseline : UFloat
+        The level without force at the record's middle.
+    drift : float
+        By how much it changes over the record.
+    hum : float
+        Amplitude of the mains' hum that was taken off, in `unit`; 0 where there is none.
+    sign : int
+        -1 where contacts went down in the record.
+    step : float
+        The sampling interval in s.
+    notes : tuple of str
+        What should be known about the record, a sentence each.
+    sensitivity : UFloat or None
+        In V/N, where `mass` and `impact_speed` calibrate the sensor.
+    mass, impact_speed : UFloat, float or None
+        As they were given, in kg and m/s.
+    times, force, zero : ndarray
+        (n,) the record's times in s, its values contacts upward without baseline, droop corrected,
+        and the baseline that was taken off, all for a picture.
+    """
+
+    contacts: tuple[Contact, ...]
+    unit: str
+    noise: float
+    baseline: "UFloat"
+    drift: float
+    hum: float
+    sign: int
+    step: float
+    notes: tuple[str, ...]
+    sensitivity: "UFloat | None"
+    mass: "UFloat | float | None"
+    impact_speed: "UFloat | float | None"
+    times: Array = field(repr=False)
+    force: Array = field(repr=False)
+    zero: Array = field(repr=False)
+
+    @property
+    def stiffness(self) -> "UFloat | None":
+        """Dynamic stiffness ``m (π/τ)**2`` in N/m of the first whole contact, if `mass` is known.
+
+        It supposes one ball on one linear spring: R. Cross, Am. J. Phys. 75, 1009 (2007),
+        section III.
+        """
+        time = self._first_time
+        return None if self.mass is None or time is None else dynamic_stiffness(self.mass, time)
+
+    @property
+    def _first_time(self) -> "UFloat | None":
+        return next((one.time for one in self.contacts if one.time is not None), None)
+
+    def rows(self) -> list[Row]:
+        """Return what was found as rows of a table, the most important first."""
+        rows = [Row("contacts", len(self.contacts))]
+        for number, contact in enumerate(self.contacts[:_LISTED], start=1):
+            rows += self._rows_of(contact, f"contact {number}: " if self.contacts[1:] else "")
+        if len(self.contacts) > _LISTED:
+            rows.append(Row("further contacts, not listed", len(self.contacts) - _LISTED))
+        if self.stiffness is not None:
+            rows.append(Row("dynamic stiffness", self.stiffness, "N/m"))
+        if self.sensitivity is not None:
+            rows.append(Row("sensitivity", self.sensitivity, "V/N"))
+        rows += [Row("noise", self.noise, self.unit), Row("baseline", self.baseline, self.unit)]
+        if self.hum:
+            rows.append(Row("hum taken off, amplitude", self.hum, self.unit))
+        return rows
+
+    def _rows_of(self, contact: Contact, start: str) -> list[Row]:
+        force, area = self.unit, f"{self.unit} s".strip()
+        told: list[tuple[str, Any, str]] = [
+            ("contact time", contact.time, "s"),
+            ("touch", contact.start, "s"),
+            ("release", contact.end, "s"),
+            ("peaks", len(contact.peaks), ""),
+        ]
+        if contact.clipped:
+            told.append(("peak force", f"above {contact.peak_force.nominal_value:.4g}", force))
+            told.append(("impulse", f"above {contact.impulse.nominal_value:.4g}", area))
+        else:
+            told.append(("peak force", contact.peak_force, force))
+            told.append(("impulse", contact.impulse, area))
+        told += [("rise", contact.rise, "s"), ("fall", contact.fall, "s")]
+        return [Row(start + name, value, unit) for name, value, unit in told if value is not None]
+
+    def parts(self) -> dict[str, object]:
+        """Return what a drop can use, by the keys of its TOML: ball, contact, impact speed."""
+        from uncertainties import nominal_value
+
+        found: dict[str, object] = {}
+        if self.mass is not None:
+            found["ball"] = {"mass": nominal_value(self.mass)}
+        if self.stiffness is not None:
+            found["contact"] = {"law": "Spring", "stiffness": nominal_value(self.stiffness)}
+        if self.impact_speed is not None:
+            found["impact_speed"] = nominal_value(self.impact_speed)
+        return found

@@ -1,0 +1,164 @@
+"""How a force may begin: the curves of the contact laws' flanks, and what is supposed of them.
+
+With u the time since the touch, or until the release, a flank is
+
+    F = A (L(u) + b u**q + c u**r),
+
+where the lead L is what a law begins or ends with, b stands for what else presses or accelerates,
+and c for the ball's own slowing down, which Newton's law ties to the lead: see `_slowing`. The
+leads, with one unknown each:
+
+- power, ``u**p``: a `Spring` has p = 1, `Hertz` 1.5;
+- jump, ``u + a``: the touch of a `Dashpot`, where a is its damping over its stiffness;
+- root, ``u**1.5 + a u**0.5``: the touch of a `Viscoelastic` contact, where a is 1.5 times its
+  dissipative time;
+- fade, ``u (u + a)**0.5``: the release of the same, where its force would begin to pull.
+"""
+
+from dataclasses import dataclass
+from math import log
+
+import numpy as np
+
+from stackbounce.measure.kinds.waveform.record import Array
+
+__all__ = ["FADE", "JUMP", "ROOT", "Shape"]
+
+_EDGES = (0.1, 0.25)
+"""Of the unknown's logarithm: spreads of the normals that follow below its range and above."""
+
+_GRID = 13  # values of the unknown
+_BULK = {"jump": 1.0, "root": 1.5, "fade": 1.25}  # power of the force where it is large
+_FORWARD = {"jump": 0.5, "root": 0.7, "fade": -0.3}  # a fit to simulations
+_HIGH, _FASTER = 0.7, 1.6  # of the same fit: level, and the power of the level
+_BEGINS = {"jump": 0.0, "root": 0.5, "fade": 1.0}
+_CORRECTIONS = {"jump": (2.0, 3.0), "root": (3.0, 4.0), "fade": (2.0, 3.5)}  # q and r
+
+
+@dataclass(frozen=True)
+class Shape:
+    """A lead, what its unknown may be before the flank is seen, and its corrections.
+
+    Parameters
+    ----------
+    least, most : float
+        Between which the unknown is as probable everywhere, on a log scale, and rarely beyond;
+        equal where it is known. It is p, or a as a share of the contact's length.
+    kind : str, optional
+        ``"power"``, ``"jump"``, ``"root"`` or ``"fade"``.
+    others, slowing : float, optional
+        Spreads of the corrections b and c, as shares of the flank's height.
+
+    Examples
+    --------
+    >>> Shape(1.5, 1.5).known, Shape(1.0, 1.5).known
+    (True, False)
+    """
+
+    least: float
+    most: float
+    kind: str = "power"
+    others: float = 0.3
+    slowing: float = 0.15
+
+    @property
+    def known(self) -> bool:
+        """Whether nothing is unknown of the lead."""
+        return self.least == self.most
+
+    def grid(self) -> Array:
+        """Return logarithms of the unknown that cover what it may be."""
+        if self.known:
+            return np.array([log(self.least)])
+        below, above = _EDGES
+        return np.linspace(log(self.least) - 3.0 * below, log(self.most) + 3.0 * above, _GRID)
+
+    def prior(self, logs: Array) -> Array:
+        """Return the logarithm of how probable these are before the flank is seen."""
+        beyond = np.maximum(
+            (log(self.least) - logs) / _EDGES[0], (logs - log(self.most)) / _EDGES[1]
+        )
+        free: Array = -0.5 * np.maximum(beyond, 0.0) ** 2
+        return free
+
+    def unknown(self, logs: Array, length: float) -> Array:
+        """Return p, or a in the unit of the contact's length."""
+        unknown: Array = np.exp(logs)
+        return unknown if self.kind == "power" else unknown * length
+
+    def begins(self, log: float, spread: float) -> tuple[float, float]:
+        """Return the power of the time with which the force begins, and the error of that."""
+        if self.kind == "power":
+            return float(np.exp(log)), float(np.exp(log)) * spread
+        return _BEGINS[self.kind], 0.0
+
+    def corrections(self, logs: Array, level: float) -> tuple[Array, Array]:
+        """Return what b and c are on average, as shares of the flank's height.
+
+        A loss takes some of the slowing's curve forward, to b.
+        """
+        if self.kind == "power":
+            return np.zeros_like(logs), _slowing(np.exp(logs), level)
+        forward = _FORWARD[self.kind] * np.exp(0.5 * logs) * (level / _HIGH) ** _FASTER
+        bulk = np.full_like(logs, _BULK[self.kind])
+        return -forward, _slowing(bulk, level) + forward
+
+    def rows(self, u: Array, unknown: Array, *, averaged: bool) -> Array:
+        """Return lead, corrections and 1, where u is at most 0 before the touch.
+
+        They are taken at each u, or averaged between each and the next; `unknown` is p, or a in
+        the unit of u.
+        """
+        wide = np.diff(u, axis=-1) if averaged else None
+        touched = u > 0.0
+        u = np.maximum(u, 0.0)
+        if self.kind == "power":
+            first = u**unknown
+            one = first * u
+            rows = [first, one, first * one]
+            powers = unknown, unknown + 1.0, 2.0 * unknown + 1.0
+            if averaged:
+                rows = [row * u / (power + 1.0) for row, power in zip(rows, powers, strict=True)]
+        else:
+            lead, area = _lead(self.kind, u, unknown)
+            second, third = _CORRECTIONS[self.kind]
+            rows = [np.where(touched, lead, 0.0), u**second, u**third]
+            if averaged:
+                rows = [area, u * rows[1] / (second + 1.0), u * rows[2] / (third + 1.0)]
+        if wide is not None:
+            rows = [np.diff(area, axis=-1) / wide for area in rows]
+        return np.stack([*rows, np.ones_like(rows[0])], axis=-2)
+
+
+JUMP, ROOT, FADE = (Shape(0.01, 0.3, kind) for kind in ("jump", "root", "fade"))
+"""Of restitutions from about 0.95 down to 0.3."""
+
+
+def _lead(kind: str, u: Array, a: Array) -> tuple[Array, Array]:
+    """Return a lead and its integral from the touch on."""
+    if kind == "jump":
+        return u + a, (0.5 * u + a) * u
+    if kind == "root":
+        return (u + a) * np.sqrt(u), (0.4 * u + 2.0 / 3.0 * a) * u * np.sqrt(u)
+    area = (0.4 * u - 4.0 / 15.0 * a) * (u + a) ** 1.5 + 4.0 / 15.0 * a**2.5
+    return u * np.sqrt(u + a), area
+
+
+def _slowing(p: Array, level: float) -> Array:
+    """Return by how much a ball's slowing down lowers the force, as a share of what it then is.
+
+    At a level, a share of the peak force, the compression is x = level**(1/p) of the largest, and
+    the time since the touch that in which the impact speed would make it ξ, the integral of
+    ``(1 - y**(p + 1))**-0.5`` from 0 to x. Without slowing the force would be ``(ξ / x)**p`` times
+    as large.
+
+    Examples
+    --------
+    >>> round(float(_slowing(np.array(1.0), 0.5)), 3)  # 1 - (π / 6) / sin(π / 6)
+    -0.047
+    """
+    from scipy.special import hyp2f1
+
+    part = 1.0 / (p + 1.0)
+    longer: Array = hyp2f1(0.5, part, 1.0 + part, level ** ((p + 1.0) / p))
+    return 1.0 - longer**p

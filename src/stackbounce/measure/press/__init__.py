@@ -1,7 +1,0 @@
-"""From a press curve to static stiffness, exponent, energy loss and unloading exponent."""
-
-from stackbounce.measure.press.analysis import press
-from stackbounce.measure.press.found import Curve, Press
-from stackbounce.measure.press.series import Split, series_stiffness, split_series
-
-__all__ = ["Curve", "Press", "Split", "press", "series_stiffness", "split_series"]

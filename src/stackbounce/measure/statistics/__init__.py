@@ -1,0 +1,1 @@
+"""Statistics that several kinds of measurement share: regression, AR noise, change points."""

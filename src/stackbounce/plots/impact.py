@@ -1,0 +1,168 @@
+"""Pictures of a result: where the balls go, and what presses them."""
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType
+from stackbounce.plots.impact_window import impact_window, moments
+from stackbounce.plots.style import STYLE, color_of, written
+from stackbounce.run.result import Result
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["bounce"]
+
+_SAMPLES = 1200
+_LABEL = 0.13  # height of a label in its axes
+
+
+def bounce(result: Result) -> "Figure":
+    """Draw the impact: the position of each ball and the force at each contact against time.
+
+    Parameters
+    ----------
+    result : Result
+        What to draw. A rigid stack has no finite forces: its impulses are drawn instead.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved: ``figure.savefig("bounce.svg")`` does.
+
+    Raises
+    ------
+    InvalidType
+        If `result` is no Result.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce import plots
+    >>> drop = sb.Drop(
+    ...     balls=[sb.Ball(0.150, name="basketball"), sb.Ball(0.057, name="tennis ball")],
+    ...     contacts=[sb.Spring(2500.0), sb.Spring(1000.0)],
+    ...     impact_speed=3.53,
+    ... )
+    >>> figure = plots.bounce(sb.simulate(drop))
+    >>> [axes.get_ylabel() for axes in figure.axes]
+    ['position (mm)', 'force (N)']
+    """
+    if not isinstance(result, Result):
+        raise InvalidType(f"result must be a Result, got {type(result).__name__}")
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(7.2, 5.6))
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+        times = np.linspace(*impact_window(result), _SAMPLES)
+        sample = moments(result, times)
+        _draw_positions(above, result, times, sample.position.values)
+        if result.drop.rigid:
+            _draw_impulses(below, result)
+        else:
+            _draw_forces(below, result, times, sample.force.values)
+        floor = result.drop.contacts[0] is not None
+        below.set_xlabel("time" + floor * " since the lowest ball touched the floor" + " (ms)")
+        below.set_xlim(1e3 * times[0], 1e3 * times[-1])
+        figure.align_ylabels()
+    return figure
+
+
+def _draw_positions(
+    axes: "Axes", result: Result, times: NDArray[np.float64], paths: NDArray[np.float64]
+) -> None:
+    """Draw the path of each ball, straight before the first touch."""
+    drop = result.drop
+    ends = []
+    for b, (ball, path) in enumerate(zip(drop.balls, paths, strict=True)):
+        axes.plot(1e3 * times, 1e3 * path, color=color_of(b))
+        ends.append((1e3 * float(path[-1]), b, written(ball.name or f"ball {b}")))
+    _label_ends(axes, 1e3 * times[-1], ends, result.rebound_ratios)
+    axes.set_ylabel("position (mm)")
+    axes.axhline(0.0, color="#808080", linewidth=0.8)
+    axes.set_title(_summary(result), loc="left", fontsize=10)
+
+
+def _label_ends(
+    axes: "Axes",
+    right: float,
+    ends: list[tuple[float, int, str]],
+    ratios: NDArray[np.float64],
+) -> None:
+    """Write each ball's name and rebound ratio where its path ends, from below, none on another."""
+    low, high = axes.get_ylim()
+    apart = _LABEL * (high - low)
+    place = -math.inf
+    for height, b, name in sorted(ends):
+        place = max(height, place + apart)
+        axes.annotate(
+            f"{name}\n{ratios[b]:.3g} v₀",
+            xy=(right, place),
+            xytext=(6, 0),
+            textcoords="offset points",
+            va="center",
+            color=color_of(b),
+            annotation_clip=False,
+        )
+
+
+def _draw_forces(
+    axes: "Axes", result: Result, times: NDArray[np.float64], forces: NDArray[np.float64]
+) -> None:
+    """Draw the force at each contact."""
+    for i, force in enumerate(forces):
+        if result.drop.contacts[i] is None:
+            continue
+        axes.plot(1e3 * times, force, color=color_of(i), label=_between(result, i))
+        axes.fill_between(1e3 * times, force, color=color_of(i), alpha=0.12, linewidth=0)
+    axes.set_ylabel("force (N)")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(frameon=False, loc="upper right")
+
+
+def _draw_impulses(axes: "Axes", result: Result) -> None:
+    """Draw the impulse of each collision of a rigid stack as a stem."""
+    for i, law in enumerate(result.drop.contacts):
+        if law is None:
+            continue
+        rows = result.intervals[result.intervals["contact"] == i]
+        axes.vlines(
+            1e3 * rows["start"],
+            0.0,
+            rows["impulse"],
+            color=color_of(i),
+            linewidth=3.0 if i == 0 else 1.6,
+            label=_between(result, i) + f" ({_count(int(result.collisions[i]))})",
+        )
+    axes.set_ylabel("impulse (N s)")
+    axes.set_ylim(bottom=0.0)
+    axes.legend(frameon=False, loc="upper right")
+
+
+def _count(collisions: int) -> str:
+    if collisions < 0:
+        return "infinitely many"
+    return "once" if collisions == 1 else f"{collisions} times"
+
+
+def _between(result: Result, contact: int) -> str:
+    """Return the words for a contact, such as ``floor and basketball``."""
+    names = [written(ball.name or f"ball {b}") for b, ball in enumerate(result.drop.balls)]
+    lower = "floor" if contact == 0 else names[contact - 1]
+    return f"{lower} and {names[contact]}"
+
+
+def _summary(result: Result) -> str:
+    """Return one line on what came in and what was kept."""
+    speed = result.drop.reference_speed
+    kept = result.energy_retained
+    words = f"v₀ = {speed:.3g} m/s"
+    if math.isfinite(kept):
+        words += f", kinetic energy kept {100.0 * kept:.0f} %"
+    return words

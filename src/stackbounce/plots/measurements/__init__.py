@@ -1,0 +1,1 @@
+"""Pictures of measurements: a file for each kind."""

@@ -1,0 +1,167 @@
+"""Pictures of a press curve: what was measured, what was found in it."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.plots.style import COLORS, STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+_IN, _OUT, _LINE = COLORS[0], COLORS[1], "#606060"
+_MANY = 1500  # points of a branch that are drawn, about
+
+
+def draw(data: Any, found: Any) -> "Figure":
+    """Draw a press curve with its fits, the loop between them, and below what the fits leave over.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or None
+        What was measured; its `source` is named above the picture.
+    found : Press
+        What `stackbounce.measure.kinds.press` found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.measure import press
+    >>> from stackbounce.synthetic.press import press_record
+    >>> data = press_record(sb.Hysteretic(1e4, restitution=0.8), peak=5e-3, noise=0.1)
+    >>> [axes.get_ylabel() for axes in draw(data, press(data)).axes]
+    ['force (N)', 'force − fit (N)']
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(7.2, 6.0))
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3.4, 1])
+        _draw_record(above, found)
+        _draw_branches(above, found)
+        _draw_line(above, found)
+        _draw_residuals(below, found)
+        above.set_ylabel("force (N)")
+        above.set_title(_title(data, found), loc="left", fontsize=10)
+        above.legend(frameon=False, loc="upper left")
+        below.set_ylabel("force − fit (N)")
+        below.set_xlabel("compression from contact (mm)")
+        above.set_ylim(*_limits(found))
+        figure.align_ylabels()
+    return figure
+
+
+def _branches(found: Any) -> list[tuple[Any, str, str]]:
+    pairs = ((found.loading, _IN, "in"), (found.unloading, _OUT, "out"))
+    return [(curve, color, way) for curve, color, way in pairs if curve is not None]
+
+
+def _limits(found: Any) -> tuple[float, float]:
+    top = max(float(curve.force.max()) for curve, _, _ in _branches(found))
+    low = min(float(curve.force.min()) for curve, _, _ in _branches(found))
+    return min(-0.03 * top, 1.1 * low), 1.07 * top
+
+
+def _draw_record(axes: "Axes", found: Any) -> None:
+    """Draw the other cycles in grey."""
+    if found.cycles < 2:
+        return
+    x, y = found.record
+    some = slice(None, None, max(1, len(x) // (4 * _MANY)))
+    axes.plot(1e3 * x[some], y[some], color="#c4c4c4", linewidth=0.8, label="other cycles")
+
+
+def _draw_branches(axes: "Axes", found: Any) -> None:
+    """Draw points and fits of both branches, and shade what lies between the fits."""
+    for curve, color, way in _branches(found):
+        x, y = 1e3 * curve.compression, curve.force
+        some = slice(None, None, max(1, len(x) // _MANY))
+        size = float(np.clip(600.0 / len(x), 1.2, 4.0))
+        axes.plot(x[some], y[some], ".", color=color, markersize=size, alpha=0.45)
+        order = np.argsort(x)
+        exponent = found.exponent if way == "in" else found.unloading_exponent
+        name = f"{way}: force ∝ compression$^{{{exponent.nominal_value:.3g}}}$"
+        axes.plot(x[order], curve.fit[order], color=color, label=name)
+    if found.loading is not None and found.unloading is not None:
+        _shade(axes, found)
+
+
+def _shade(axes: "Axes", found: Any) -> None:
+    c = np.linspace(0.0, float(found.peak_compression.nominal_value), 400)
+    fits = []
+    for curve, _, _ in _branches(found):
+        order = np.argsort(curve.compression)
+        fits.append(np.interp(c, curve.compression[order], curve.fit[order]))
+    axes.fill_between(1e3 * c, fits[1], fits[0], color=_IN, alpha=0.10, linewidth=0)
+    if found.loss is None or found.loss.nominal_value < 0.03:
+        return
+    gap = fits[0] - fits[1]
+    at = int(gap.argmax())
+    axes.annotate(
+        f"{100.0 * found.loss.nominal_value:.0f} % of the work lost",
+        xy=(1e3 * c[at], 0.5 * (fits[0][at] + fits[1][at])),
+        xytext=(0.97, 0.10),
+        textcoords="axes fraction",
+        ha="right",
+        color="#404040",
+        arrowprops={"arrowstyle": "-", "color": "#808080", "linewidth": 0.8},
+    )
+
+
+def _draw_line(axes: "Axes", found: Any) -> None:
+    """Draw the straight line through the contact."""
+    if found.linear_stiffness is None:
+        return
+    end = float(found.peak_compression.nominal_value)
+    k = float(found.linear_stiffness.nominal_value)
+    label = f"straight line: {_kilo(k)}"
+    axes.plot(
+        [0.0, 1e3 * end], [0.0, k * end], "--", color=_LINE, linewidth=1.2, label=label, zorder=4
+    )
+
+
+def _kilo(stiffness: float) -> str:
+    """Return a stiffness in a handy unit.
+
+    Examples
+    --------
+    >>> _kilo(7437.0)
+    '7.44 kN/m'
+    """
+    if stiffness >= 1e6:
+        return f"{1e-6 * stiffness:.3g} MN/m"
+    return f"{1e-3 * stiffness:.3g} kN/m" if stiffness >= 1e3 else f"{stiffness:.3g} N/m"
+
+
+def _draw_residuals(axes: "Axes", found: Any) -> None:
+    for curve, color, _ in _branches(found):
+        some = slice(None, None, max(1, len(curve.force) // _MANY))
+        rest = curve.force - curve.fit
+        axes.plot(1e3 * curve.compression[some], rest[some], ".", color=color, markersize=2.5)
+    axes.axhline(0.0, color="#808080", linewidth=0.8)
+
+
+def _title(data: Any, found: Any) -> str:
+    """Return one line: the file, the exponent and the restitution."""
+    words = []
+    source = getattr(data, "attrs", {}).get("source", "")
+    if source and source != "synthetic":
+        words.append(source)
+    if found.exponent is not None:
+        words.append(f"exponent {_short(found.exponent)}")
+    if found.restitution is not None:
+        words.append(f"restitution {_short(found.restitution)}")
+    return ", ".join(words)
+
+
+def _short(value: Any) -> str:
+    return f"{value:.1uP}" if value.std_dev > 0.0 else f"{value.nominal_value:.3g}"

@@ -1,0 +1,193 @@
+"""A picture of what was found in a force record."""
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from stackbounce.plots.style import COLORS, STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+_RECORD, _SHADE, _FLANK, _PEAK = "#4d4d4d", COLORS[0], COLORS[1], COLORS[2]
+_TINY = 0.03  # of the whole extent: a contact too narrow to be seen
+_MOST = 6  # contacts that are labelled one by one
+_BESIDE = 0.6  # of all contacts' extent, shown on each side
+_DOTS = 160  # samples within the picture, up to which each gets a dot
+_BINS = 2400  # beyond, the record is drawn as the range of each bin
+
+
+def draw(data: Any, found: Any) -> "Figure":
+    """Draw a force record, its baseline, its contacts with their flanks, and its peaks.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or (array_like, array_like)
+        The record, as `waveform` took it; its name is written above the picture.
+    found : Waveform
+        What `waveform` found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved. The time axis holds the contacts and a little on both sides;
+        forces are as they were analysed: contacts upward, without baseline, droop put back.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.synthetic.waveform import waveform as record_of
+    >>> from stackbounce.measure.kinds.waveform import waveform
+    >>> drop = sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0)
+    >>> record = record_of(drop, rate=1e5, noise=1.0)
+    >>> draw(record, waveform(record)).axes[0].get_ylabel()
+    'force (N)'
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE):
+        low, high = _extent(found, found.contacts)
+        first = next((one for one in found.contacts if one.time is not None), None)
+        tiny = first is not None and first.time.nominal_value < _TINY * (high - low)
+        figure = Figure(figsize=(7.2, 6.4 if tiny else 4.2))
+        panels = figure.subplots(1 + tiny, 1, squeeze=False)[:, 0]
+        _draw_panel(panels[0], found, found.contacts, (low, high), named=not tiny)
+        if tiny:
+            panels[1].set_title("the first contact", loc="left", fontsize=10)
+            _draw_panel(panels[1], found, [first], _extent(found, [first]), named=True)
+        _title(panels[0], data, found)
+        names = [axes.get_legend_handles_labels() for axes in panels]
+        known = {label: mark for panel in names for mark, label in zip(*panel, strict=True)}
+        panels[-1].legend(
+            known.values(),
+            known.keys(),
+            frameon=False,
+            loc="lower right",
+            bbox_to_anchor=(1.0, 1.0),
+            ncols=4,
+            borderpad=0.0,
+            handlelength=1.4,
+            columnspacing=1.2,
+            fontsize=9,
+        )
+        figure.align_ylabels()
+    return figure
+
+
+def _draw_panel(
+    axes: "Axes", found: Any, contacts: Any, extent: tuple[float, float], *, named: bool
+) -> None:
+    """Draw a stretch of the record and the contacts in it."""
+    low, high = extent
+    factor, unit = (1e3, "ms") if high - low < 1.0 else (1.0, "s")
+    _draw_record(axes, found, low, high, factor)
+    for contact in contacts:
+        _draw_contact(axes, found, contact, factor, flanks=named)
+    top = max((one.peak_force.nominal_value for one in contacts), default=0.0)
+    if top > 0.0:
+        inside = (found.times >= low) & (found.times <= high)
+        least = min(float(found.force[inside].min()), -0.04 * top)
+        few = len(contacts) <= _MOST
+        axes.set_ylim(1.15 * least, (1.22 if few else 1.08) * top)
+        if few:
+            _label_contacts(axes, contacts, factor, factor * (high - low))
+    axes.set_xlim(factor * low, factor * high)
+    axes.set_xlabel(f"time ({unit})")
+    name = {"N": "force (N)", "V": "signal (V)"}.get(found.unit, "signal")
+    axes.set_ylabel(name + ("" if found.sign > 0 else ", turned over"))
+
+
+def _extent(found: Any, contacts: Any) -> tuple[float, float]:
+    """Return the times in s between which something is to be seen."""
+    first, last = float(found.times[0]), float(found.times[-1])
+    if not contacts:
+        return first, last
+    start, end = contacts[0].start, contacts[-1].end
+    low = first if start is None else start.nominal_value
+    high = last if end is None else end.nominal_value
+    beside = _BESIDE * (high - low) / (1 + len(contacts) // 2)
+    return max(first, low - beside), min(last, high + beside)
+
+
+def _draw_record(axes: "Axes", found: Any, low: float, high: float, factor: float) -> None:
+    """Draw the samples, as dots where they are few, or as the range that each bin covers."""
+    inside = (found.times >= low) & (found.times <= high)
+    times, force = factor * found.times[inside], found.force[inside]
+    axes.axhspan(
+        -found.noise, found.noise, color="#bdbdbd", alpha=0.45, lw=0, label="baseline ± noise"
+    )
+    axes.axhline(0.0, color="#808080", linewidth=0.8)
+    look: Any = {"color": _RECORD, "label": "record"}
+    if len(times) <= _DOTS:
+        axes.plot(times, force, "o", markersize=3.2, **look)
+    elif len(times) <= 2 * _BINS:
+        axes.plot(times, force, linewidth=0.9, **look)
+    else:
+        width = len(times) // _BINS
+        bins = force[: len(force) // width * width].reshape(-1, width)
+        axes.fill_between(
+            times[: bins.size : width], bins.min(1), bins.max(1), linewidth=0.6, **look
+        )
+
+
+def _draw_contact(axes: "Axes", found: Any, contact: Any, factor: float, *, flanks: bool) -> None:
+    """Shade a contact, draw the fits of its flanks, mark its peaks."""
+    start = found.times[0] if contact.start is None else contact.start.nominal_value
+    end = found.times[-1] if contact.end is None else contact.end.nominal_value
+    axes.axvspan(factor * start, factor * end, color=_SHADE, alpha=0.10, linewidth=0)
+    for edge in (contact.start, contact.end):
+        if edge is not None:
+            axes.axvline(factor * edge.nominal_value, color=_SHADE, linewidth=0.8, alpha=0.7)
+    for flank in contact.flanks if flanks else ():
+        if flank is not None:
+            look: Any = {"color": _FLANK, "linewidth": 2.4, "label": "flanks, fitted"}
+            axes.plot(factor * flank.times, flank.force, **look)
+    times = [factor * time.nominal_value for time, _ in contact.peaks]
+    heights = [force.nominal_value for _, force in contact.peaks]
+    axes.plot(
+        times,
+        heights,
+        "v",
+        color=_PEAK,
+        markersize=7,
+        markeredgecolor="white",
+        label="peaks",
+        zorder=4,
+    )
+
+
+def _label_contacts(axes: "Axes", contacts: Any, factor: float, wide: float) -> None:
+    """Write each contact's time over it, in rows where they would meet."""
+    ends = [-np.inf, -np.inf]
+    for contact in contacts:
+        if contact.time is None:
+            continue
+        text = f"{contact.time * 1e3:.1uS} ms"
+        middle = factor * 0.5 * (contact.start.nominal_value + contact.end.nominal_value)
+        room = 0.0075 * wide * len(text)
+        row = 0 if middle - room > ends[0] else 1
+        ends[row] = middle + room
+        axes.annotate(
+            text,
+            xy=(middle, 1.0),
+            xycoords=axes.get_xaxis_transform(),
+            xytext=(0, -4 - 12 * row),
+            textcoords="offset points",
+            ha="center",
+            va="top",
+            color=_SHADE,
+            fontsize=9.5,
+            bbox={"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.5},
+        )
+
+
+def _title(axes: "Axes", data: Any, found: Any) -> None:
+    """Write how many contacts there are, and which file it is."""
+    count = len(found.contacts)
+    words = f"{count or 'no'} contact{'s' * (count != 1)}"
+    source = getattr(data, "attrs", {}).get("source", "")
+    axes.set_title(f"{source}: {words}" if source else words, loc="left", fontsize=10)

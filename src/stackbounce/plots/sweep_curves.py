@@ -1,0 +1,253 @@
+"""Pictures of a sweep: lines over one number, maps over two."""
+
+import tomllib
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.plots.maps import draw_counts, draw_levels, hatch
+from stackbounce.plots.scales import flat, label, scale_of, shown_in
+from stackbounce.plots.style import COLORS, STYLE, color_of
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["TITLES", "heatmap", "legend", "lines", "name_of"]
+
+TITLES = {
+    "rebound_ratio": "rebound ratio",
+    "collisions": "collisions",
+    "energy_retained": "energy retained",
+    "first_touch": "first touch",
+    "last_release": "last release",
+}
+"""What can be drawn, and how it is called."""
+
+_STROKES = ("-", "--", ":", "-.")
+_FEW = 25  # values: each one gets a dot
+_IN_A_ROW = 4  # names
+
+
+def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None) -> "Figure":
+    """Draw a sweep over one number: a line for each ball, or for each contact.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        From `sweep`, with one dimension.
+    show : str, optional
+        What to draw: ``rebound_ratio``, ``collisions``, ``energy_retained``, ``first_touch`` or
+        ``last_release``.
+    index : int, optional
+        The only ball or contact to draw; default all of them.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved. Drops that could not be finished are left out, and counted above.
+
+    Raises
+    ------
+    InvalidValue
+        If the sweep has not one dimension, or nothing of that name, or no such ball or contact.
+    InvalidType
+        If `data` is no Dataset.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce import plots
+    >>> drop = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, impact_speed=1.0)
+    >>> figure = plots.lines(sb.sweep(drop, {"balls.0.mass": [1.0, 2.0, 5.0]}))
+    >>> figure.axes[0].get_xlabel()
+    'balls.0.mass (kg)'
+    """
+    data, (dim,) = _sorted(data, show, 1)
+    part, own, unfinished = _finished(data, show)
+    chosen = range(own.sizes[part]) if part else range(1)
+    if part and index is not None:
+        chosen = range(_index(own, part, index), _index(own, part, index) + 1)
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(6.4, 4.0))
+        axes = figure.subplots()
+        scale = scale_of(data, dim)
+        rows = [own.isel({part: k}).values if part else own.values for k in chosen]
+        if show == "collisions":
+            rows = _counts_on(axes, np.array(rows))
+        for k, row in zip(chosen, rows, strict=True):
+            name = name_of(data, part, k) if part else None
+            axes.plot(scale.places, row, label=name, **_look(show, k, chosen, row))
+        if part:
+            legend(axes, len(rows))
+        label(axes, "x", str(dim), scale)
+        if len(scale.places) > 1 and not np.isfinite(rows).any():
+            axes.set_xlim(scale.places[0], scale.places[-1])
+        _label_values(axes, show, own, np.array(rows))
+        axes.set_title(unfinished, loc="left", fontsize=10, pad=26 if part else None)
+    return figure
+
+
+def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) -> "Figure":
+    """Draw a sweep over two numbers as a map, with contours, or with a color for each count.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        From `sweep`, with two dimensions; the first one goes up.
+    show : str, optional
+        As in `lines`.
+    index : int, optional
+        Which ball or contact; by default the uppermost.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved. Where there is nothing to show it is hatched: drops that could not
+        be finished, which are counted above, and times of contacts that never close.
+
+    Raises
+    ------
+    InvalidValue
+        If the sweep has not two dimensions, or nothing of that name, or no such ball or contact.
+    InvalidType
+        If `data` is no Dataset.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce import plots
+    >>> drop = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, impact_speed=1.0)
+    >>> over = {"balls.0.mass": [1.0, 2.0], "contacts.1.stiffness": [1.0, 3.0]}
+    >>> plots.heatmap(sb.sweep(drop, over)).axes[0].get_xlabel()
+    'contacts.1.stiffness (N/m)'
+    """
+    data, (up, across) = _sorted(data, show, 2)
+    part, own, unfinished = _finished(data, show)
+    title = TITLES[show]
+    if part:
+        title += f" of {name_of(data, part, _index(own, part, index))}"
+        own = own.isel({part: index})
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context():
+        mpl.rcParams.update(STYLE | {"axes.grid": False})
+        figure = Figure(figsize=(6.4, 4.8))
+        axes = figure.subplots()
+        x, y = scale_of(data, across), scale_of(data, up)
+        label(axes, "x", str(across), x)
+        label(axes, "y", str(up), y)
+        values = own.values.astype(float)
+        if np.isnan(values).any():
+            hatch(axes)
+        if show == "collisions":
+            draw_counts(axes, x, y, values)
+        else:
+            unit = draw_levels(axes, x, y, values, own.attrs.get("units", "1").removeprefix("1"))
+            title += f" ({unit})" if unit else ""
+        axes.set_title("\n".join(filter(None, (title, unfinished))), loc="left", fontsize=10)
+    return figure
+
+
+def _look(show: str, k: int, chosen: range, row: NDArray[Any]) -> dict[str, Any]:
+    """Return color, stroke and width of a line: they tell more than six apart, and equal counts."""
+    stroke = _STROKES[k // len(COLORS) % len(_STROKES)]
+    look: dict[str, Any] = {"color": color_of(k), "linestyle": stroke}
+    above = chosen.stop - 1 - k
+    if show == "collisions":  # one may hide another
+        look |= {"drawstyle": "steps-mid", "linewidth": 1.5 + min(2.0, 6.0 / chosen.stop) * above}
+    elif len(row) <= _FEW:
+        look |= {"marker": "o", "markersize": 4}
+    return look
+
+
+def legend(axes: "Axes", count: int) -> None:
+    """Put the names where no line goes: above, or many of them to the right."""
+    look: Any = {"frameon": False, "handlelength": 1.6, "borderpad": 0.0}
+    if count <= _IN_A_ROW:
+        look |= {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "ncols": count}
+    else:
+        look |= {"loc": "upper left", "bbox_to_anchor": (1.02, 1.0)}
+    axes.legend(**look)
+
+
+def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[Any]) -> None:
+    """Name the upward axis; differences of round-off are not drawn out."""
+    unit = own.attrs.get("units", "1").removeprefix("1")
+    if show != "collisions":
+        unit, _ = shown_in(axes.yaxis, rows, unit)
+        if flat(rows):
+            middle = float(np.nanmean(rows)) if np.isfinite(rows).any() else 0.0
+            wide = 0.5 * abs(middle) or 1.0
+            axes.set_ylim(middle - wide, middle + wide)
+    axes.set_ylabel(f"{TITLES[show]} ({unit})" if unit else TITLES[show])
+
+
+def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
+    """Return counts as they are drawn: infinity above all others, where a tick names it."""
+    from matplotlib.ticker import MaxNLocator
+
+    finite = rows[rows >= 0]
+    high = int(finite.max()) if finite.size else 0
+    low = int(finite.min()) if finite.size else 0
+    places = MaxNLocator(6, integer=True, min_n_ticks=1).tick_values(low, max(high, low + 1))
+    ticks = [float(place) for place in places if low - 1 < place < high + 1]
+    names = [f"{tick:.0f}" for tick in ticks]
+    top = high + max(1.0, 0.12 * (high - low))
+    if (rows < 0).any():
+        ticks, names = [*ticks, top], [*names, "∞"]
+    axes.set_yticks(ticks, names)
+    axes.set_ylim(low - 0.06 * (top - low) - 0.1, top + 0.06 * (top - low))
+    return list(np.where(rows < 0, top, rows))
+
+
+def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, ...]]:
+    """Return a sweep in ascending order and its dimensions, of which there must be so many."""
+    import xarray as xr
+
+    if not isinstance(data, xr.Dataset) or "status" not in data:
+        raise InvalidType(f"data must be a Dataset from sweep, got {shown(data)}")
+    if show not in TITLES:
+        raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, TITLES)}")
+    dims = data["status"].dims
+    if len(dims) != count:
+        right = "one dimension" if count == 1 else "two dimensions"
+        got = ", ".join(map(str, dims)) or "none"
+        raise InvalidValue(f"data must have {right}, got {got}: choose with data.sel or data.isel")
+    numbers = [dim for dim in dims if dim in data.coords and data[dim].dtype.kind in "iuf"]
+    return data.sortby(numbers), dims
+
+
+def _finished(data: "xr.Dataset", show: str) -> tuple[str, "xr.DataArray", str]:
+    """Return balls or contacts, what to draw (nan for unfinished drops), and a line on these."""
+    from stackbounce.run.result import Status
+
+    wrong = data["status"].isin([int(Status.EVENT_LIMIT), int(Status.INVALID)])
+    own = data[show]
+    part = next((name for name in ("ball", "contact") if name in own.dims), "")
+    count, words = int(wrong.sum()), ""
+    if count:
+        own = own.where(~wrong, drop=False).assign_attrs(own.attrs)
+        words = f"{count} of {wrong.size} drops could not be finished: see status"
+    return part, own, words
+
+
+def _index(own: "xr.DataArray", part: str, index: int) -> int:
+    size = own.sizes[part]
+    if not -size <= index < size:
+        raise InvalidValue(f"index must name a {part} from 0 to {size - 1}, got {index}")
+    return index % size
+
+
+def name_of(data: "xr.Dataset", part: str, index: int) -> str:
+    """Return what a ball or a contact is called, with the ball's name if it has one."""
+    balls = tomllib.loads(data.attrs.get("drop", "")).get("balls", [])
+    own = balls[index].get("name", "") if part == "ball" and index < len(balls) else ""
+    return f"{part} {index}" + (f" ({own})" if own else "")

@@ -1,0 +1,145 @@
+"""Rows of numbers that vary -> what the engine takes for many drops, checked."""
+
+import itertools
+import math
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.engine.batch import Drops
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.model import STANDARD_GRAVITY, Drop, Hysteretic
+from stackbounce.run.driver import contact_numbers
+from stackbounce.run.paths import Number, drop_at
+
+__all__ = ["Rows", "base_rows", "check", "fill"]
+
+Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
+"""The numbers that vary, in SI units: arrays that broadcast with each other."""
+
+
+def base_rows(drop: Drop, count: int) -> Drops:
+    """Return a drop so many times, as the engine takes many."""
+    laws = np.array([contact_numbers(law) for law in drop.contacts])
+    kind, stiffness, exponent, extra = laws.T
+    each = ([ball.mass for ball in drop.balls], kind.astype(np.int64), stiffness, exponent, extra)
+    gap, velocity = [0.0, *drop.gaps], drop.start_velocities
+    rows = [np.full((count, len(laws)), numbers) for numbers in (*each, gap, velocity)]
+    return Drops._make([*rows, np.full(count, drop.gravity)])
+
+
+def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
+    """Set the numbers that vary in drops that have all others.
+
+    Parameters
+    ----------
+    drops : Drops
+        Arrays (..., balls), and (...,) gravity, with the base's numbers.
+    drop : Drop
+        The base.
+    rows : mapping
+        The numbers that vary: they broadcast to (...,).
+    """
+    places: dict[str, Any] = {
+        "mass": drops.mass,
+        "stiffness": drops.stiffness,
+        "exponent": drops.exponent,
+    }
+    for number, values in rows.items():
+        if number.part == "gaps":
+            drops.gap[..., number.index + 1] = values
+        elif number.part == "velocities":
+            drops.velocity[..., number.index] = values
+        elif number.field == "gravity":
+            drops.gravity[...] = values
+        elif number.field == "impact_speed":
+            drops.velocity[...] = -values[..., None]
+        elif number.field in places:
+            places[number.field][..., number.index] = values
+        elif number.part == "contacts" and number.field != "restitution":
+            drops.extra[..., number.index] = values
+    _set_restitutions(drop, rows, drops.exponent, drops.extra)
+    if drop.height is not None:
+        height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
+        pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)
+        drops.velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
+
+
+def _set_restitutions(
+    drop: Drop, rows: Rows, exponent: NDArray[np.float64], extra: NDArray[np.float64]
+) -> None:
+    """Fill in n of each Hysteretic contact that is known by its e: e^2 = (p + 1)/(n + 1)."""
+    for i, law in enumerate(drop.contacts):
+        own = {
+            n.field: values for n, values in rows.items() if (n.part, n.index) == ("contacts", i)
+        }
+        if not isinstance(law, Hysteretic):
+            if "restitution" in own:
+                extra[..., i] = own["restitution"]
+            continue
+        known_by_e = law.derived == "unloading_exponent" and "unloading_exponent" not in own
+        if "restitution" in own or (known_by_e and "exponent" in own):
+            e, p = own.get("restitution", law.restitution), exponent[..., i]
+            extra[..., i] = np.maximum(p, (p + 1.0) / e / e - 1.0)
+
+
+def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> None:
+    """Raise for the first drop that cannot be.
+
+    What a number may be is an interval, and one end of it may depend on another number of the same
+    part: if all combinations of smallest and largest values make a drop then so do all rows.
+
+    Parameters
+    ----------
+    drop : Drop
+        The base.
+    rows : mapping
+        The numbers that vary.
+    where : callable
+        Returns what a message says of the place with an index.
+
+    Raises
+    ------
+    InvalidValue, InvalidType
+        As `Drop` does, with the place of the row.
+    """
+    shape = np.broadcast_shapes(*(values.shape for values in rows.values()))
+    if 0 in shape or (_corners_hold(drop, rows) and _all_move(drop, rows)):
+        return
+    wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
+    for index in np.ndindex(shape):
+        try:
+            drop_at(drop, {number: float(values[index]) for number, values in wide.items()})
+        except (InvalidValue, InvalidType) as error:
+            raise type(error)(f"{error} {where(index)}") from error
+
+
+def _corners_hold(drop: Drop, rows: Rows) -> bool:
+    """Tell whether each part of the drop can be made of all smallest and largest values."""
+    parts: dict[tuple[str, int], dict[Number, tuple[float, float]]] = {}
+    for number, values in rows.items():
+        ends = float(np.min(values)), float(np.max(values))
+        if not (math.isfinite(ends[0]) and math.isfinite(ends[1])):
+            return False
+        if number.part != "velocities":
+            parts.setdefault((number.part, number.index), {})[number] = ends
+    for ranges in parts.values():
+        for corner in itertools.product(*ranges.values()):
+            try:
+                drop_at(drop, dict(zip(ranges, corner, strict=True)))
+            except (InvalidValue, InvalidType):
+                return False
+    return True
+
+
+def _all_move(drop: Drop, rows: Rows) -> bool:
+    """Tell whether in each row some ball moves."""
+    if drop.velocities is None:
+        return True
+    varied = {n.index: values for n, values in rows.items() if n.part == "velocities"}
+    still: Any = True
+    for i, velocity in enumerate(drop.velocities):
+        still = still & np.equal(varied.get(i, velocity), 0.0)
+    return not np.any(still)

@@ -1,0 +1,376 @@
+"""What came out of a drop, and everything derived from it."""
+
+import dataclasses
+import enum
+import functools
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from stackbounce.engine import codes
+from stackbounce.engine.batch import energy_kept
+from stackbounce.errors import InvalidType, InvalidValue, finite, shown
+from stackbounce.model import Drop
+from stackbounce.version import __version__
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["Result", "Status"]
+
+INTERVAL = np.dtype(
+    [
+        ("contact", "i8"),
+        ("start", "f8"),
+        ("end", "f8"),
+        ("peak_force", "f8"),
+        ("peak_compression", "f8"),
+        ("impulse", "f8"),
+    ]
+)
+EVENT = np.dtype(
+    [
+        ("time", "f8"),
+        ("contact", "i8"),
+        ("kind", "U9"),
+        ("lower_velocity", "f8"),
+        ("upper_velocity", "f8"),
+    ]
+)
+APEX = np.dtype([("ball", "i8"), ("time", "f8"), ("height", "f8")])
+_KINDS = {codes.TOUCH: "touch", codes.RELEASE: "release", codes.COLLISION: "collision"}
+
+
+class Status(enum.IntEnum):
+    """How a run ended; `advice` says what to do about it.
+
+    Examples
+    --------
+    >>> Status.EVENT_LIMIT.advice
+    'the limit of events, or of steps between two events, was met: raise event_limit, or stop
+    earlier with until'
+    """
+
+    FINISHED = codes.FINISHED
+    SETTLED = codes.SETTLED
+    COLLAPSED = codes.COLLAPSED
+    TIME_REACHED = codes.TIME_REACHED
+    EVENT_LIMIT = codes.EVENT_LIMIT
+    INVALID = codes.INVALID
+
+    @property
+    def advice(self) -> str:
+        """What the status means and what can be done about it, in one line."""
+        return _ADVICE[self]
+
+
+_ADVICE = {
+    Status.FINISHED: "all contacts are open and no ball approaches another: nothing to do",
+    Status.SETTLED: "the stack has come to rest: nothing to do",
+    Status.COLLAPSED: "infinitely many collisions took place in a finite time and ended at their "
+    "limit: their count is given as -1",
+    Status.TIME_REACHED: "the time asked for was reached first: raise until to see more",
+    Status.EVENT_LIMIT: "the limit of events, or of steps between two events, was met: "
+    "raise event_limit, or stop earlier with until",
+    Status.INVALID: "numbers left the range of floating point, or a contact came too late for the "
+    "clock: bring masses, stiffnesses, gaps and speeds closer together",
+}
+
+
+@dataclasses.dataclass(frozen=True, eq=False)
+class Result:
+    """What happened to a drop; made by `simulate`.
+
+    Parameters
+    ----------
+    drop : Drop
+        What was dropped.
+    status : Status
+        How the run ended.
+    end_time : float
+        Time in s of the last event, or at which the run was stopped.
+    final_velocities : sequence of float
+        (N,) velocity of each ball in m/s at `end_time`, up-positive.
+    log : sequence of float
+        The engine's log, a row of `stackbounce.engine.codes.LOG_COLUMNS` numbers per event.
+    infinite : sequence of int
+        (N,) 1 for each contact that collided infinitely often.
+    rerun : callable
+        Repeats the run and returns its samples at the times given.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(22500.0)], impact_speed=3.5)
+    >>> result = sb.simulate(drop)
+    >>> result.status.name, result.rebound_speeds.round(12), result.collisions
+    ('FINISHED', array([3.5]), array([1]))
+    """
+
+    drop: Drop
+    status: Status
+    end_time: float
+    final_velocities: Sequence[float] = dataclasses.field(repr=False)
+    log: Sequence[float] = dataclasses.field(repr=False)
+    infinite: Sequence[int] = dataclasses.field(repr=False)
+    rerun: Callable[[Sequence[float]], Any] = dataclasses.field(repr=False)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Leave out what is derived: arrays would come back writeable."""
+        return {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+
+    @functools.cached_property
+    def rebound_speeds(self) -> NDArray[np.float64]:
+        """(N,) velocity of each ball after the impact, m/s, up-positive."""
+        return _frozen(np.array(self.final_velocities, dtype=float))
+
+    @functools.cached_property
+    def rebound_ratios(self) -> NDArray[np.float64]:
+        """(N,) rebound speed of each ball over the impact speed v0."""
+        with np.errstate(over="ignore"):
+            return _frozen(self.rebound_speeds / self.drop.reference_speed)
+
+    @functools.cached_property
+    def collisions(self) -> NDArray[np.int64]:
+        """(N,) contact intervals that each contact had; -1 where infinitely many."""
+        counts = np.bincount(self.intervals["contact"], minlength=len(self.drop.balls))
+        return _frozen(np.where(np.array(self.infinite, dtype=bool), -1, counts).astype(np.int64))
+
+    @functools.cached_property
+    def intervals(self) -> NDArray[Any]:
+        """A row per contact interval by its start: contact, start, end, peaks and impulse.
+
+        Times are in s, `peak_force` in N, `peak_compression` in m, `impulse` in N s. A rigid
+        collision has end = start and an infinite peak force; of infinitely many the first ones are
+        listed. An interval that had not ended when the run stopped has an infinite end.
+        """
+        rows = self._rows[np.isin(self._rows[:, codes.KIND], (codes.RELEASE, codes.COLLISION))]
+        out = np.empty(len(rows), dtype=INTERVAL)
+        out["contact"] = rows[:, codes.CONTACT]
+        out["start"] = rows[:, codes.START]
+        out["end"] = rows[:, codes.TIME]
+        out["peak_force"] = rows[:, codes.PEAK_FORCE]
+        out["peak_compression"] = rows[:, codes.PEAK_COMPRESSION]
+        out["impulse"] = rows[:, codes.IMPULSE]
+        return _frozen(out[np.lexsort((out["contact"], out["start"]))])
+
+    @functools.cached_property
+    def events(self) -> NDArray[Any]:
+        """A row per event in order: time (s), contact, kind, velocities (m/s) right after it.
+
+        `kind` is ``"collision"`` for rigid stacks, ``"touch"`` or ``"release"`` for finite ones.
+        `lower_velocity` is that of the ball below the contact (0 for the floor), `upper_velocity`
+        that of the ball above it; all other balls keep theirs in a collision, so that every
+        intermediate velocity of a sequence is here.
+        """
+        known = np.isin(self._rows[:, codes.KIND], list(_KINDS))
+        rows = self._rows[known & np.isfinite(self._rows[:, codes.TIME])]
+        out = np.empty(len(rows), dtype=EVENT)
+        out["time"] = rows[:, codes.TIME]
+        out["contact"] = rows[:, codes.CONTACT]
+        out["kind"] = [_KINDS[int(kind)] for kind in rows[:, codes.KIND]]
+        out["lower_velocity"] = rows[:, codes.LOWER_VELOCITY]
+        out["upper_velocity"] = rows[:, codes.UPPER_VELOCITY]
+        return _frozen(out)
+
+    @functools.cached_property
+    def first_touch(self) -> NDArray[np.float64]:
+        """(N,) time in s of each contact's first touch; nan where it never touched."""
+        return self._per_contact("start", np.fmin)
+
+    @functools.cached_property
+    def last_release(self) -> NDArray[np.float64]:
+        """(N,) time in s at which each contact opened last; nan where it never touched."""
+        return self._per_contact("end", np.fmax)
+
+    @functools.cached_property
+    def energy_retained(self) -> float:
+        """Kinetic energy of all balls at the end as a fraction of the one that came in."""
+        mass = [ball.mass for ball in self.drop.balls]
+        return energy_kept(mass, list(self.drop.start_velocities), list(self.final_velocities))
+
+    @functools.cached_property
+    def apexes(self) -> NDArray[Any]:
+        """A row per highest point of a flight, in order: ball, time (s), height (m).
+
+        The height is the ball's position. Only gravity makes an apex; one that a run stopped before
+        is not listed.
+        """
+        gravity = self.drop.gravity
+        if gravity == 0.0:
+            return _frozen(np.empty(0, dtype=APEX))
+        stopped = self.status in (Status.TIME_REACHED, Status.EVENT_LIMIT, Status.INVALID)
+        last = self.end_time if stopped else math.inf
+        rising = [
+            (start + velocity / gravity, ball, start, 0.5 * velocity**2 / gravity)
+            for ball, start, velocity, end in self._flights()
+            if velocity > 0.0 and start + velocity / gravity < end
+        ]
+        rising = sorted(row for row in rising if row[0] <= last)
+        positions = self.sample([start for _, _, start, _ in rising]).position.values
+        rows = [
+            (ball, top, positions[ball, row] + rise)
+            for row, (top, ball, _, rise) in enumerate(rising)
+        ]
+        return _frozen(np.array(rows, dtype=APEX))
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return what came out as a dict: how the run ended, speeds, ratios, collisions, energy.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(22500.0)], impact_speed=3.5)
+        >>> sb.simulate(drop).to_mapping()["status"]
+        'FINISHED'
+        """
+        return {
+            "status": self.status.name,
+            "advice": self.status.advice,
+            "rebound_speeds": self.rebound_speeds,
+            "rebound_ratios": self.rebound_ratios,
+            "collisions": self.collisions,
+            "first_touch": self.first_touch,
+            "last_release": self.last_release,
+            "energy_retained": self.energy_retained,
+            "end_time": self.end_time,
+        }
+
+    def sample(self, times: ArrayLike) -> "xarray.Dataset":
+        """Return where everything is at given times.
+
+        Parameters
+        ----------
+        times : array_like
+            (T,) real numbers of seconds from 0 (the lowest ball's first touch), in any order.
+            Beyond the end of the run the balls fly on.
+
+        Returns
+        -------
+        xarray.Dataset
+            `position` (m, up-positive, from where everything just touches) and `velocity` (m/s) by
+            (ball, time); `force` (N) and `compression` (m, minus the gap while open) by
+            (contact, time); `energy` (J) by time: kinetic, potential, and what the contacts would
+            give back if they opened now.
+
+        Raises
+        ------
+        InvalidValue
+            If a time is negative, not finite, masked, or beyond a run that was stopped.
+        InvalidType
+            If one is no real number.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], impact_speed=2.0)
+        >>> float(sb.simulate(drop).sample([0.5]).compression[0, 0].round(6))
+        0.958851
+        """
+        import xarray as xr
+
+        wanted = self._times(times)
+        order = np.argsort(wanted, kind="stable")
+        samples = self.rerun(wanted[order].tolist())
+        balls = len(self.drop.balls)
+        tables = {}
+        for name in ("position", "velocity", "compression", "force", "stored"):
+            table = np.empty((balls, len(wanted)))
+            table[:, order] = np.reshape(getattr(samples, name), (-1, balls)).T
+            tables[name] = table
+        return xr.Dataset(
+            {
+                "position": (("ball", "time"), tables["position"], {"units": "m"}),
+                "velocity": (("ball", "time"), tables["velocity"], {"units": "m/s"}),
+                "force": (("contact", "time"), tables["force"], {"units": "N"}),
+                "compression": (("contact", "time"), tables["compression"], {"units": "m"}),
+                "energy": ("time", self._energy(tables), {"units": "J"}),
+            },
+            coords={
+                "time": ("time", wanted, {"units": "s"}),
+                "ball": np.arange(balls),
+                "contact": np.arange(balls),
+            },
+            attrs={"stackbounce": __version__, "drop": self.drop.to_toml()},
+        )
+
+    @functools.cached_property
+    def _rows(self) -> NDArray[np.float64]:
+        rows = np.reshape(np.array(self.log, dtype=float), (-1, codes.LOG_COLUMNS))
+        # a clipped contact's end is known, and logged, only once its compression is gone
+        return rows[np.argsort(rows[:, codes.TIME], kind="stable")]
+
+    def _per_contact(self, field: str, choose: np.ufunc) -> NDArray[np.float64]:
+        out = np.full(len(self.drop.balls), math.nan)
+        choose.at(out, self.intervals["contact"], self.intervals[field])
+        return _frozen(out)
+
+    def _times(self, times: ArrayLike) -> NDArray[np.float64]:
+        wanted = _numbers(times)
+        stopped = self.status not in (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
+        last = self.end_time if stopped else math.inf
+        bad = wanted[~(np.isfinite(wanted) & (wanted >= 0.0) & (wanted <= last))]
+        if len(bad):
+            end = f" to the {last:g} s that the run reached" if stopped else ""
+            raise InvalidValue(f"times must be seconds from 0{end}, got {bad[0]:g}")
+        return wanted
+
+    def _energy(self, tables: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+        mass = np.array([ball.mass for ball in self.drop.balls])[:, None]
+        kinetic = 0.5 * mass * tables["velocity"] ** 2
+        potential = mass * self.drop.gravity * tables["position"]
+        return np.asarray(np.sum(kinetic + potential + tables["stored"], axis=0))
+
+    def _flights(self) -> Iterator[tuple[int, float, float, float]]:
+        """Yield the flights of all balls: ball, start, velocity then, end.
+
+        A ball flies while the contacts below and above it are open.
+        """
+        count = len(self.drop.balls)
+        closed: list[set[int]] = [set() for _ in range(count)]
+        under_way = [(0.0, velocity) for velocity in self.drop.start_velocities]
+        for row in self._rows[np.isfinite(self._rows[:, codes.TIME])].tolist():
+            time, contact, kind = row[codes.TIME], int(row[codes.CONTACT]), row[codes.KIND]
+            lower, upper = row[codes.LOWER_VELOCITY], row[codes.UPPER_VELOCITY]
+            sides = [(contact - 1, lower), (contact, upper)]
+            if kind == codes.JOINED:
+                sides = [(b, upper) for b in range(contact - 1, int(row[codes.START]) + 1)]
+            for ball, velocity in sides:
+                if ball < 0:
+                    continue
+                if not closed[ball]:
+                    yield (ball, *under_way[ball], time)
+                if kind == codes.TOUCH:
+                    closed[ball].add(contact)
+                    continue
+                closed[ball].discard(contact)
+                under_way[ball] = (time, velocity)
+        for ball in range(count):
+            if not closed[ball]:
+                yield (ball, *under_way[ball], math.inf)
+
+
+def _numbers(times: object) -> NDArray[np.float64]:
+    """Return times as an array, if all are real numbers."""
+    if np.ma.isMaskedArray(times):
+        raise InvalidType(f"times must be a list of numbers, got a masked array: {shown(times)}")
+    try:
+        # Without an array's type, numpy would make one of [1.0, True] and of [1.0, "2"].
+        table = np.asarray(times, dtype=None if hasattr(times, "dtype") else object)
+    except Exception:
+        raise InvalidType(f"times must be a list of numbers, got {shown(times)}") from None
+    if table.ndim > 1:
+        raise InvalidValue(f"times must be a list of numbers, got an array of {table.ndim} axes")
+    if table.ndim == 0:
+        return np.array([finite("times", table[()], "seconds")])
+    if table.dtype.kind in "iuf":
+        return table.astype(float)
+    return np.array([finite(f"times.{i}", time, "seconds") for i, time in enumerate(table)])
+
+
+def _frozen(array: NDArray[Any]) -> NDArray[Any]:
+    array.flags.writeable = False
+    return array

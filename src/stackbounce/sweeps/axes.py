@@ -1,0 +1,129 @@
+"""Texts such as ``contacts.0.stiffness=1e3:1e6:400:log`` -> a number of a drop and its values."""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue, shown
+from stackbounce.model import Drop
+from stackbounce.run.paths import Number, number_at, numbers_of
+from stackbounce.units import quantity
+
+__all__ = ["axis", "grid"]
+
+_MOST = 10**9
+_RIGHT = "PATH=START:STOP:COUNT, with :log for even ratios, or PATH=VALUE,VALUE,…"
+
+
+def grid(drop: Drop, texts: Sequence[str]) -> dict[str, NDArray[np.float64]]:
+    """Return the values of each number that some texts name.
+
+    Raises
+    ------
+    InvalidValue
+        If a text cannot be read, or two name the same number.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> grid(drop, ["balls.0.mass=1kg:3kg:3", "height=5cm,50cm"])
+    {'balls.0.mass': array([1., 2., 3.]), 'height': array([0.05, 0.5 ])}
+    """
+    found: dict[str, NDArray[np.float64]] = {}
+    for text in texts:
+        path, values = axis(drop, text)
+        if path in found:
+            raise InvalidValue(f"--over must name each number once, got {path} twice")
+        found[path] = values
+    return found
+
+
+def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
+    """Return the path and the values, in SI units, that a text names.
+
+    Parameters
+    ----------
+    drop : Drop
+        Whose number it is.
+    text : str
+        ``PATH=START:STOP:COUNT`` for even steps, the same with ``:log`` for even ratios, or
+        ``PATH=VALUE,VALUE,…``; values with or without units.
+
+    Returns
+    -------
+    path : str
+    values : ndarray
+        (n,)
+
+    Raises
+    ------
+    InvalidValue
+        If the text cannot be read or the drop has no such number.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> axis(drop, "contacts.0.stiffness=1kN/m:100kN/m:3:log")
+    ('contacts.0.stiffness', array([  1000.,  10000., 100000.]))
+    """
+    path, equals, written = text.partition("=")
+    if not equals or not written:
+        raise InvalidValue(f"--over must be {_RIGHT}, got {shown(text)}")
+    path, written = path.strip(), written.strip()
+    number = _number(drop, path)
+    parts = written.split(":")
+    if len(parts) == 1:
+        values = [quantity(one, number.unit, path) for one in written.split(",")]
+        return path, np.array(values)
+    spacing = parts[3:]
+    if len(parts) < 3 or not parts[2].isdecimal() or spacing not in ([], ["log"], ["lin"]):
+        raise InvalidValue(f"--over must be {_RIGHT}, got {shown(text)}")
+    start, stop = (quantity(one, number.unit, path) for one in parts[:2])
+    count = int(parts[2])
+    if not 1 <= count <= _MOST:
+        raise InvalidValue(f"--over {path} must have from 1 to {_MOST} values, got {count}")
+    if spacing != ["log"]:
+        return path, np.linspace(start, stop, count)
+    if not start * stop > 0.0:
+        raise InvalidValue(
+            f"--over {path} must run between numbers of one sign for :log, not from or to 0, "
+            f"got {written}"
+        )
+    return path, np.geomspace(start, stop, count)
+
+
+def _number(drop: Drop, path: str) -> Number:
+    """Return the number at a path; for one that other drops have, say why it is not there."""
+    try:
+        return number_at(drop, path)
+    except InvalidValue as error:
+        reason = _reason(drop, path.split("."))
+        if not reason:
+            raise
+        raise InvalidValue(f"{path} is no number of this drop: {reason}") from error
+
+
+def _reason(drop: Drop, words: list[str]) -> str:
+    known = numbers_of(drop)
+    if len(words) == 1:
+        falls = [name for name in ("height", "impact_speed", "velocities") if name in known]
+        if words[0] in ("height", "impact_speed", "speed") and falls:
+            return f"it is given by its {falls[0]} (--height or --speed choose)"
+        same = [path for path in known if path.endswith(f".{words[0]}")]
+        return f"say which, {' or '.join(same)}" if same else ""
+    part, index, *field = words
+    count = {"balls": len(drop.balls), "contacts": len(drop.contacts), "gaps": len(drop.gaps)}
+    if part not in count or not index.isdecimal():
+        return ""
+    if int(index) >= count[part]:
+        last = count[part] - 1
+        return f"its {part} count from 0, the lowest, to {last}" if last >= 0 else ""
+    if part == "contacts" and len(field) == 1:
+        law = type(drop.contacts[int(index)]).__name__
+        own = [path.rpartition(".")[2] for path in known if path.startswith(f"contacts.{index}.")]
+        if own:
+            return f"contact {index} is a {law}, which has {', '.join(own)} (--contact chooses)"
+    return ""

@@ -1,0 +1,200 @@
+"""The files that a sweep larger than memory can go to: a Zarr store, or NetCDF-4.
+
+A file is made with all its coordinates and no results; the results are then written block by
+block, and a block that was being written when the process died is simply written again. A block is
+a chunk of the Zarr store. In a NetCDF file each array lies in one piece, so that a block goes to a
+place of its own and nothing else is touched: neither kind remembers in which order it was written.
+"""
+
+import contextlib
+import math
+import shutil
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue, shown
+from stackbounce.run.blocks import Block
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["Form", "Format", "format_of"]
+
+Writer: TypeAlias = Callable[[Block, "xr.Dataset"], None]
+
+
+class Form:
+    """What a file is to hold.
+
+    Parameters
+    ----------
+    sample : xarray.Dataset
+        The sweep with one value of each number that varies.
+    axes : mapping
+        All values, by dimension.
+    sides : sequence of int
+        Of a block, by dimension.
+    """
+
+    def __init__(
+        self, sample: "xr.Dataset", axes: Mapping[str, NDArray[np.float64]], sides: Sequence[int]
+    ) -> None:
+        self.attrs = sample.attrs
+        self.results = {str(name): one for name, one in sample.data_vars.items()}
+        self.coordinates = {str(name): one for name, one in sample.coords.items()}
+        self.values = {name: one.values for name, one in self.coordinates.items()} | dict(axes)
+        self.sides = tuple(sides)
+
+    def shape(self, one: "xr.DataArray") -> tuple[int, ...]:
+        """Return the shape that one of the arrays has in the whole file."""
+        return tuple(len(self.values[str(dim)]) for dim in one.dims)
+
+    def chunk(self, one: "xr.DataArray") -> tuple[int, ...]:
+        """Return the shape that a block has in one of the arrays."""
+        return self.sides + self.shape(one)[len(self.sides) :]
+
+    def is_of(self, found: "xr.Dataset") -> bool:
+        """Tell whether a file that was found is of this sweep."""
+        return found.attrs == self.attrs and all(
+            name in found.coords and np.array_equal(found[name].values, values)
+            for name, values in self.values.items()
+        )
+
+
+class Format(Protocol):
+    """A kind of file."""
+
+    def create(self, path: Path, form: Form) -> None:
+        """Make a file without results."""
+
+    def writer(self, path: Path) -> contextlib.AbstractContextManager[Writer]:
+        """Open a file that results can be written to, block by block."""
+
+    def opened(self, path: Path) -> "xr.Dataset":
+        """Open a file; numbers are read when they are needed."""
+
+    def remove(self, path: Path) -> None:
+        """Remove a file."""
+
+
+class _Zarr:
+    """A Zarr store, of format 2."""
+
+    def create(self, path: Path, form: Form) -> None:
+        import zarr
+
+        group = zarr.create_group(path, zarr_format=2, attributes=form.attrs)
+        for name, one in (form.results | form.coordinates).items():
+            own = name in form.coordinates
+            array = group.create_array(
+                name,
+                shape=form.shape(one),
+                chunks=form.shape(one) if own else form.chunk(one),
+                dtype=one.dtype,
+                fill_value=math.nan if one.dtype.kind == "f" else None,
+                attributes={**one.attrs, "_ARRAY_DIMENSIONS": [str(dim) for dim in one.dims]},
+            )
+            if own:
+                array[...] = form.values[name]
+        zarr.consolidate_metadata(group.store)
+
+    @contextlib.contextmanager
+    def writer(self, path: Path) -> Iterator[Writer]:
+        import zarr
+
+        for leftover in path.rglob("*.partial"):  # of a chunk that was being written
+            leftover.unlink()
+        group: Any = zarr.open_group(path, mode="r+")
+        arrays = dict(group.arrays())
+
+        def write(block: Block, data: "xr.Dataset") -> None:
+            for name, one in data.data_vars.items():
+                arrays[name][block] = one.values
+
+        yield write
+
+    def opened(self, path: Path) -> "xr.Dataset":
+        import xarray as xr
+
+        return xr.open_dataset(path, engine="zarr", chunks=None)
+
+    def remove(self, path: Path) -> None:
+        shutil.rmtree(path)
+
+
+class _NetCDF:
+    """A NetCDF-4 file."""
+
+    def create(self, path: Path, form: Form) -> None:
+        import h5netcdf
+
+        with h5netcdf.File(path, "w") as file:
+            file.attrs.update(form.attrs)
+            file.dimensions = {name: len(values) for name, values in form.values.items()}
+            for name, one in (form.results | form.coordinates).items():
+                array = file.create_variable(name, one.dims, one.dtype)
+                array.attrs.update(
+                    {
+                        key: np.asarray(value) if isinstance(value, list) else value
+                        for key, value in one.attrs.items()
+                    }
+                )
+                if name in form.coordinates:
+                    array[...] = form.values[name]
+                elif math.prod(array.shape):  # its place in the file is settled here
+                    array[(0,) * array.ndim] = 0
+
+    @contextlib.contextmanager
+    def writer(self, path: Path) -> Iterator[Writer]:
+        import h5netcdf
+
+        with h5netcdf.File(path, "r+") as file:
+
+            def write(block: Block, data: "xr.Dataset") -> None:
+                for name, one in data.data_vars.items():
+                    file[name][block] = one.values
+                file.flush()
+
+            yield write
+
+    def opened(self, path: Path) -> "xr.Dataset":
+        import xarray as xr
+
+        return xr.open_dataset(path, engine="h5netcdf", chunks=None)
+
+    def remove(self, path: Path) -> None:
+        path.unlink()
+
+
+_FORMATS: dict[str, Format] = {".zarr": _Zarr(), ".nc": _NetCDF()}
+
+
+def format_of(path: Path) -> Format:
+    """Return the kind of file that a name stands for.
+
+    Raises
+    ------
+    InvalidValue
+        If its suffix is none that is known, or what it needs is not installed.
+
+    Examples
+    --------
+    >>> format_of(Path("map.txt"))
+    Traceback (most recent call last):
+    stackbounce.errors.InvalidValue: a sweep's file must end in .zarr or .nc, got 'map.txt'
+    """
+    suffix = path.suffix.lower()
+    if suffix not in _FORMATS:
+        raise InvalidValue(f"a sweep's file must end in .zarr or .nc, got {shown(path.name)}")
+    if suffix == ".nc":
+        try:
+            import h5netcdf  # noqa: F401
+            import h5py  # noqa: F401
+        except ImportError as error:
+            words = "a .nc file needs h5netcdf: pip install stackbounce[netcdf]"
+            raise InvalidValue(words) from error
+    return _FORMATS[suffix]

@@ -1,0 +1,115 @@
+"""Records of an accelerometer in a ball, or a phone, that falls and bounces."""
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue, fraction, non_negative, positive
+from stackbounce.synthetic.falls import Falls
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["accelerometer"]
+
+_AXES = ("x", "y", "z")
+
+
+def accelerometer(
+    fall: Falls,
+    *,
+    rate: float = 200.0,
+    before: float = 0.5,
+    noise: float = 0.05,
+    full_range: float = 157.0,
+    smear: float = 0.0,
+    spin: float = 0.0,
+    missing: float = 0.0,
+    seed: int = 0,
+) -> "xr.Dataset":
+    """Return the record of an accelerometer that goes through a fall and its bounces.
+
+    Parameters
+    ----------
+    fall : Falls
+        With a law that has a contact time: a pulse is half a sine in shape, and lasts as long.
+    rate : float, optional
+        Samples per second; the first one comes at random within a step.
+    before : float, optional
+        How long in s it is held before its release.
+    noise : float, optional
+        Of each axis and sample, in m/s².
+    full_range : float, optional
+        Of each axis, in m/s²; beyond it is cut off. 157 is 16 g.
+    smear : float, optional
+        Over which time in s the sensor averages.
+    spin : float, optional
+        Acceleration in m/s² that spinning adds while it flies.
+    missing : float, optional
+        Fraction of samples that are not there, at random.
+    seed : int, optional
+        Of the random numbers.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `read` gives phyphox's acceleration with g: `acceleration_x` … and
+        `acceleration_absolute` in m/s² over `time` in s. It stops within the last flight.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of its range, or the law has no contact time.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.synthetic.falls import falls
+    >>> law = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.01, restitution=0.6)
+    >>> record = accelerometer(falls(0.5, law, mass=0.2, bounces=4), rate=400)
+    >>> float(record.acceleration_absolute[:50].mean().round(1))
+    9.8
+    """
+    import xarray as xr
+
+    step = 1.0 / positive("rate", rate, "samples per second")
+    if not (fall.releases > fall.touches).all():
+        raise InvalidValue("fall must have a law with a contact time, and a mass, got none")
+    random = np.random.default_rng(seed)
+    last = fall.releases[-1] + 0.5 * (2.0 * fall.rebounds[-1] / fall.gravity)
+    times = np.arange(-positive("before", before, "seconds") + step * random.uniform(), last, step)
+    width = non_negative("smear", smear)
+    shares = np.linspace(-0.5, 0.5, 41) * width if width else np.zeros(1)
+    size = np.mean([_felt(fall, times + one, spin) for one in shares], axis=0)
+    tilt = random.normal(size=3)
+    parts = size * (tilt / np.linalg.norm(tilt))[:, None]
+    parts = parts + random.normal(0.0, non_negative("noise", noise), parts.shape)
+    limit = positive("full_range", full_range, "m/s^2")
+    parts = np.clip(parts, -limit, limit)
+    there = random.uniform(size=len(times)) >= fraction("missing", missing)
+    parts, times = parts[:, there], times[there]
+    said = {"units": "m/s^2"}
+    columns = {f"acceleration_{axis}": ("time", parts[k], said) for k, axis in enumerate(_AXES)}
+    columns["acceleration_absolute"] = ("time", np.sqrt(np.sum(parts**2, axis=0)), said)
+    attrs = {
+        "format": "synthetic acceleration with g",
+        "why": "it was made from a simulated fall",
+        "doubt": "",
+        "holds": "acceleration",
+        "source": "",
+    }
+    coords = {"time": ("time", times - times[0], {"units": "s"})}
+    return xr.Dataset(columns, coords=coords, attrs=attrs | {"release": float(-times[0])})
+
+
+def _felt(fall: Falls, times: NDArray[np.float64], spin: float) -> NDArray[np.float64]:
+    """Return the size of the acceleration that is felt, gravity in it, in m/s²."""
+    felt: NDArray[np.float64] = np.where(times < 0.0, fall.gravity, spin)
+    pulses = zip(fall.touches, fall.releases, fall.speeds, fall.rebounds, strict=True)
+    for touch, release, into, out in pulses:
+        share = (times - touch) / (release - touch)
+        peak = 0.5 * np.pi * (into + out) / (release - touch)
+        inside = (share > 0.0) & (share < 1.0)
+        felt = np.where(inside, fall.gravity + peak * np.sin(np.pi * share), felt)
+    return felt

@@ -1,0 +1,134 @@
+"""One ball that bounces again and again: when, and how fast, with its law's restitution."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.calibration import contact_time, restitution
+from stackbounce.errors import InvalidValue, finite, positive, whole
+from stackbounce.model import ContactLaw, Rigid
+from stackbounce.model.drop import STANDARD_GRAVITY
+
+__all__ = ["Falls", "falls"]
+
+_LEAST_FLIGHT = 1e-3  # s; shorter ones are no flights of a measured ball
+
+
+@dataclass(frozen=True)
+class Falls:
+    """The bounces of one ball; t = 0 is its release.
+
+    Attributes
+    ----------
+    height : float
+        The height in m from which it was released.
+    gravity : float
+        In m/s**2.
+    touches, releases : ndarray
+        (N,) when each bounce begins and ends, in s.
+    speeds : ndarray
+        (N,) at which the ball meets the floor, in m/s.
+    restitutions : ndarray
+        (N,) of each bounce.
+    """
+
+    height: float
+    gravity: float
+    touches: NDArray[np.float64]
+    releases: NDArray[np.float64]
+    speeds: NDArray[np.float64]
+    restitutions: NDArray[np.float64]
+
+    def position(self, times: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return the height in m of the ball's lowest point at times in s.
+
+        Before its release the ball is held; in contact it is taken to be on the floor.
+
+        Examples
+        --------
+        >>> falls(1.0, 0.5).position(np.array([-1.0, 0.0, 10.0])).round(3)
+        array([1., 1., 0.])
+        """
+        held = np.maximum(times, 0.0)
+        heights = self.height - 0.5 * self.gravity * held**2
+        for k, (release, speed) in enumerate(zip(self.releases, self.rebounds, strict=True)):
+            since = times - release
+            flown = np.maximum(speed * since - 0.5 * self.gravity * since**2, 0.0)
+            heights = np.where(times >= self.touches[k], np.where(since > 0, flown, 0.0), heights)
+        return heights
+
+    @property
+    def rebounds(self) -> NDArray[np.float64]:
+        """The speed after each bounce, (N,), in m/s."""
+        return self.speeds * self.restitutions
+
+
+def falls(
+    height: float,
+    law: float | ContactLaw | Callable[[float], float],
+    *,
+    mass: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+    bounces: int = 12,
+) -> Falls:
+    """Return the bounces of a ball that is released from rest.
+
+    Parameters
+    ----------
+    height : float
+        In m, above 0.
+    law : float or ContactLaw or callable
+        A restitution, the law of the floor's contact, or a function from the impact speed in m/s
+        to the restitution.
+    mass : float, optional
+        In kg, for laws whose restitution depends on it.
+    gravity : float, optional
+        In m/s**2, above 0.
+    bounces : int, optional
+        How many at most; the ball stops where its flights become shorter than 1 ms.
+
+    Returns
+    -------
+    Falls
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of its range, or a restitution is not from 0 to 1.
+
+    Examples
+    --------
+    >>> falls(1.0, lambda speed: 0.8 - 0.02 * speed, bounces=3).restitutions.round(4)
+    array([0.7114, 0.737 , 0.7536])
+    """
+    height, gravity = positive("height", height, "metres"), positive("gravity", gravity, "m/s^2")
+    if not (callable(law) or isinstance(law, ContactLaw)):
+        law = Rigid(law)
+    speed, time = math.sqrt(2.0 * gravity * height), math.sqrt(2.0 * height / gravity)
+    rows = []
+    for _ in range(whole("bounces", bounces, 1, 10_000)):
+        kept, contact = _bounce(law, mass, speed)
+        rows.append((time, time + contact, speed, kept))
+        flight = 2.0 * kept * speed / gravity
+        if flight < _LEAST_FLIGHT:
+            break
+        time, speed = time + contact + flight, kept * speed
+    return Falls(height, gravity, *np.array(rows).T)
+
+
+def _bounce(
+    law: ContactLaw | Callable[[float], float], mass: float | None, speed: float
+) -> tuple[float, float]:
+    """Return restitution and contact time of a bounce at a speed."""
+    if isinstance(law, Rigid):
+        return law.restitution, 0.0
+    if isinstance(law, ContactLaw):
+        time = 0.0 if mass is None else contact_time(law, mass, speed)
+        return restitution(law, mass, speed), time
+    kept = finite("restitution", law(speed))
+    if not 0.0 <= kept <= 1.0:
+        raise InvalidValue(f"restitution must be from 0 to 1, got {kept!r} at {speed!r} m/s")
+    return kept, 0.0

@@ -1,0 +1,166 @@
+"""Recordings of a bouncing ball, as `stackbounce.read` gives them."""
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue, non_negative, positive, whole
+from stackbounce.synthetic.falls import Falls
+
+if TYPE_CHECKING:
+    import xarray
+
+__all__ = ["sound"]
+
+_TONES = 8  # of a knock
+_LOW, _HIGH = 300.0, 6000.0  # Hz
+_DECAY = 6e-3  # s
+_LASTS = 10.0  # decays until a knock is over
+_EXPONENT = 1.0  # loudness grows with the speed
+
+
+def sound(
+    falls: Falls,
+    *,
+    rate: float = 48000.0,
+    bits: int = 16,
+    level: float = 0.8,
+    noise: float = 0.002,
+    hum: float = 0.0,
+    echo: tuple[float, float] | None = None,
+    double: tuple[float, float] | None = None,
+    speech: float = 0.0,
+    attack: float = 0.1e-3,
+    before: float = 0.5,
+    after: float = 0.5,
+    seed: int = 0,
+) -> "xarray.Dataset":
+    """Return the recording of a bouncing ball.
+
+    A knock is the sum of decaying tones of random pitch and phase, as loud as the impact is fast.
+
+    Parameters
+    ----------
+    falls : Falls
+        When, and how fast, it bounces. The recording begins `before` s before its first touch.
+    rate : float, optional
+        Samples per second.
+    bits : int, optional
+        Of a sample, 8 to 32; the sound is rounded to them, and clipped at full scale.
+    level : float, optional
+        Amplitude of the first knock, of full scale; above 1 it is clipped.
+    noise, hum, speech : float, optional
+        Amplitudes of white noise (standard deviation), of a 50 Hz hum, and of a burst like speech
+        in the first half of what precedes the first touch.
+    echo, double : (float, float), optional
+        Delay in s and relative amplitude: of an echo of everything, and of a second sound of each
+        impact.
+    attack : float, optional
+        Time in s in which a knock rises.
+    before, after : float, optional
+        What is recorded before the first and after the last knock, in s.
+    seed : int, optional
+        Of the random numbers.
+
+    Returns
+    -------
+    xarray.Dataset
+        `sound` against `time`, of full scale 1.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of its range.
+
+    Examples
+    --------
+    >>> from stackbounce.synthetic.falls import falls
+    >>> data = sound(falls(0.5, 0.7, bounces=3), rate=8000)
+    >>> data.sound.dims, data.attrs["holds"]
+    (('time',), 'sound')
+    """
+    rate = positive("rate", rate, "samples per second")
+    bits = whole("bits", bits, 8, 32)
+    random = np.random.default_rng(seed)
+    zero = falls.touches[0] - non_negative("before", before, "seconds")
+    count = math.ceil((falls.touches[-1] - zero + non_negative("after", after, "seconds")) * rate)
+    values = np.zeros(count)
+    for time, speed in zip(falls.touches - zero, falls.speeds, strict=True):
+        loud = level * (speed / falls.speeds[0]) ** _EXPONENT
+        tones = _tones(random)
+        _add(values, time, loud, tones, rate, attack)
+        if double:
+            _add(values, time + double[0], loud * double[1], _tones(random), rate, attack)
+    if echo:
+        late = round(positive("echo", echo[0], "seconds") * rate)
+        if late >= count:
+            raise InvalidValue(f"echo must come within the recording, got {echo[0]!r} s")
+        values[late:] += echo[1] * values[: count - late]
+    times = np.arange(count) / rate
+    values += noise * random.standard_normal(count) + hum * np.sin(2 * math.pi * 50.0 * times)
+    if speech:
+        values += speech * _speech(random, times, 0.5 * before)
+    step = 2.0 ** (1 - bits)
+    values = np.clip(np.round(values / step) * step, -1.0, 1.0 - step)
+    return _dataset(times, values, rate)
+
+
+def _tones(random: np.random.Generator) -> NDArray[np.float64]:
+    """Return pitch (Hz), phase, amplitude and decay (s) of the tones of a knock."""
+    pitch = np.exp(random.uniform(math.log(_LOW), math.log(_HIGH), _TONES))
+    phase = random.uniform(0.0, 2.0 * math.pi, _TONES)
+    decay = _DECAY * random.uniform(0.5, 1.5, _TONES)
+    return np.stack([pitch, phase, np.full(_TONES, math.sqrt(2.0 / _TONES) / 2.0), decay])
+
+
+def _add(
+    values: NDArray[np.float64],
+    time: float,
+    loud: float,
+    tones: NDArray[np.float64],
+    rate: float,
+    attack: float,
+) -> None:
+    """Add a knock that begins at a time, between samples too."""
+    first = math.ceil(time * rate)
+    last = min(len(values), first + math.ceil(_LASTS * _DECAY * rate))
+    since = np.arange(first, last) / rate - time
+    pitch, phase, amplitude, decay = tones[:, :, None]
+    waves = amplitude * np.sin(2 * math.pi * pitch * since + phase) * np.exp(-since / decay)
+    rise = -np.expm1(-since / attack) if attack else 1.0
+    values[first:last] += loud * rise * waves.sum(axis=0)
+
+
+def _speech(
+    random: np.random.Generator, times: NDArray[np.float64], until: float
+) -> NDArray[np.float64]:
+    """Return syllables of a few harmonics, with a swell of 30 ms, four a second."""
+    pitch = random.uniform(100.0, 200.0)
+    values = sum(
+        np.sin(2 * math.pi * n * pitch * times + random.uniform(0, 6.3)) / n for n in range(1, 12)
+    )
+    swell = np.clip(np.sin(2 * math.pi * 4.0 * times + random.uniform(0, 6.3)), 0.0, None)
+    return np.asarray(values * swell**2 * (times < until))
+
+
+def _dataset(
+    times: NDArray[np.float64], values: NDArray[np.float64], rate: float
+) -> "xarray.Dataset":
+    import xarray as xr
+
+    attrs = {"units": "1", "long_name": "sound", "rate": rate}
+    clock = ("time", times, {"units": "s", "long_name": "time"})
+    return xr.Dataset(
+        {"sound": ("time", values.astype(np.float32), attrs)},
+        {"time": clock},
+        {
+            "format": "synthetic",
+            "why": "It was made from a simulated ball.",
+            "doubt": "",
+            "holds": "sound",
+            "source": "synthetic",
+            "rate": rate,
+        },
+    )

@@ -1,0 +1,174 @@
+"""Force records as an instrument would write them, from a simulated drop."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, finite, non_negative, positive, whole
+from stackbounce.measure.kinds.waveform.droop import drooped
+from stackbounce.model import Drop
+from stackbounce.run.driver import simulate
+from stackbounce.run.result import Result
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["waveform"]
+
+_MOST = 50_000_000  # samples
+
+
+def waveform(
+    drop: Drop | Result,
+    *,
+    rate: float,
+    contacts: int | Sequence[int] = 0,
+    duration: float | None = None,
+    before: float | None = None,
+    noise: float = 0.0,
+    hum: float = 0.0,
+    mains: float = 50.0,
+    offset: float = 0.0,
+    drift: float = 0.0,
+    bits: int | None = None,
+    full_scale: float | None = None,
+    time_constant: float | None = None,
+    sensitivity: float | None = None,
+    sign: int = 1,
+    seed: int = 0,
+) -> "xr.Dataset":
+    """Return the record that force sensors at the contacts of a drop would give.
+
+    Parameters
+    ----------
+    drop : Drop or Result
+        What falls on the sensors.
+    rate : float
+        Samples per second, above 0.
+    contacts : int or sequence of int, optional
+        Under which ball each sensor lies, a channel each; default one sensor, on the floor.
+    duration : float, optional
+        Of the record in s; default until the last release and as long again as `before`.
+    before : float, optional
+        How long in s it begins before the first touch; default half of the impact's duration. The
+        first sample comes up to one step later, at random, as no recorder knows of the touch.
+    noise : float, optional
+        Standard deviation of normal noise, in N, or in V with a `sensitivity`.
+    hum, mains : float, optional
+        Amplitude of the mains' hum in the same unit, at a random phase; its frequency in Hz.
+    offset, drift : float, optional
+        The level without force, in the same unit, and its change over the record.
+    bits : int, optional
+        Of the converter, from 1 to 32; default no steps.
+    full_scale : float, optional
+        The converter's range, from minus to plus this, in the same unit; default no limit, or with
+        `bits` the next power of two above all values.
+    time_constant : float, optional
+        RC in s of a piezo sensor and its amplifier; default no droop.
+    sensitivity : float, optional
+        In V/N: the record is a voltage; default a force in N.
+    sign : int, optional
+        -1 for a sensor whose compression is negative.
+    seed : int, optional
+        Of the noise, the phases and the first sample's time.
+
+    Returns
+    -------
+    xarray.Dataset
+        As `read` gives a waveform: `force` in N or `voltage` in V over `time` in s, with
+        ``force_2`` and so on for further channels.
+
+    Raises
+    ------
+    InvalidType
+        If something has the wrong type.
+    InvalidValue
+        If a number is out of its range, or the record would exceed 50 million samples.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0)
+    >>> record = waveform(drop, rate=1e5, noise=0.5, bits=12, full_scale=500.0)
+    >>> record.attrs["holds"], 150.0 < float(record.force.max()) < 160.0
+    ('waveform', True)
+    """
+    import xarray as xr
+
+    result = simulate(drop) if isinstance(drop, Drop) else drop
+    if not isinstance(result, Result):
+        raise InvalidType(f"drop must be a Drop or a Result, got {type(drop).__name__}")
+    if sign not in (1, -1):
+        raise InvalidValue(f"sign must be 1 or -1, got {sign}")
+    random = np.random.default_rng(seed)
+    times = _times(result, rate, duration, before, random)
+    own = [contacts] if isinstance(contacts, int) else list(contacts)
+    gain = sign * (1.0 if sensitivity is None else positive("sensitivity", sensitivity, "V/N"))
+    name, unit = ("force", "N") if sensitivity is None else ("voltage", "V")
+    forces = result.sample(np.maximum(times, 0.0)).force.values * (times >= 0.0)
+    columns: dict[str, Any] = {}
+    for count, contact in enumerate(own, start=1):
+        whole("contacts", contact, 0, len(forces) - 1)
+        felt = gain * forces[contact]
+        if time_constant is not None:
+            felt = drooped(times, felt, time_constant)
+        phase = random.uniform(0.0, 2.0 * np.pi)
+        share = (times - times[0]) / max(times[-1] - times[0], 1e-300)
+        out = felt + finite("offset", offset) + finite("drift", drift) * share
+        wave = np.sin(2.0 * np.pi * positive("mains", mains, "Hz") * times + phase)
+        out = out + non_negative("hum", hum) * wave
+        out = out + random.normal(0.0, non_negative("noise", noise), len(times))
+        key = name if count == 1 else f"{name}_{count}"
+        columns[key] = ("time", _converted(out, bits, full_scale), _attrs(unit, key))
+    attrs = {
+        "format": "synthetic waveform",
+        "why": "it was made from a simulated drop",
+        "doubt": "",
+        "holds": "waveform",
+        "source": "",
+    }
+    time = ("time", times - times[0], {"units": "s", "long_name": "time"})
+    return xr.Dataset(columns, coords={"time": time}, attrs=attrs | {"touch": float(-times[0])})
+
+
+def _times(
+    result: Result,
+    rate: float,
+    duration: float | None,
+    before: float | None,
+    random: np.random.Generator,
+) -> NDArray[np.float64]:
+    """Return when it is sampled, in s since the first touch."""
+    step = 1.0 / positive("rate", rate, "samples per second")
+    ends = result.intervals["end"]
+    last = max([0.0, *ends[np.isfinite(ends)].tolist()])
+    lead = 0.5 * last if before is None else finite("before", before)
+    stopped = result.status.name in ("TIME_REACHED", "EVENT_LIMIT", "INVALID")
+    stop = min(last + lead, result.end_time) if stopped else last + lead
+    span = lead + stop - step if duration is None else positive("duration", duration, "seconds")
+    if span / step > _MOST:
+        raise InvalidValue(f"rate must give {_MOST} samples at most, got {span / step:.3g}")
+    count = int(span / step) + 1
+    return np.asarray(step * (np.arange(count) + random.uniform()) - lead, dtype=np.float64)
+
+
+def _converted(
+    values: NDArray[np.float64], bits: int | None, full_scale: float | None
+) -> NDArray[np.float64]:
+    """Return what a converter makes of the values: steps, and no value beyond its range."""
+    if full_scale is not None:
+        limit = positive("full_scale", full_scale)
+        values = np.clip(values, -limit, limit).astype(float)
+    if bits is None:
+        return values
+    top = full_scale or 2.0 ** np.ceil(np.log2(max(float(np.max(np.abs(values))), 1e-300)))
+    step = top / 2.0 ** (whole("bits", bits, 1, 32) - 1)
+    most = top / step
+    steps: NDArray[np.float64] = np.clip(np.round(values / step), -most, most - 1.0)
+    return step * steps
+
+
+def _attrs(unit: str, name: str) -> dict[str, str]:
+    return {"units": unit, "long_name": f"{name.capitalize()} ({unit})"}

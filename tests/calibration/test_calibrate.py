@@ -1,0 +1,557 @@
+"""From laws to restitution and contact time and back, and separate collisions."""
+
+import dataclasses
+import math
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from mpmath import acos, exp, lambertw, mp, mpf, sqrt
+from scipy.integrate import solve_ivp
+
+import stackbounce as sb
+from stackbounce import errors
+from stackbounce.calibration import between, dashpot, elastic, hunt_crossley, viscoelastic
+
+MEASURED = {"mass": 0.0567, "contact_time": 5e-3, "restitution": 0.75, "impact_speed": 3.0}
+LOSSY = [sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley, sb.Hysteretic]
+ELASTIC = [sb.Spring, sb.Hertz, sb.PowerLaw]
+
+masses = st.floats(1e-6, 1e6)
+times = st.floats(1e-6, 10.0)
+speeds = st.floats(1e-3, 1e3)
+restitutions = st.floats(0.01, 1.0)
+exponents = st.floats(1.0, 6.0)
+
+
+def message(error, make, *arguments, **parameters):
+    with pytest.raises(error) as caught:
+        make(*arguments, **parameters)
+    assert "\n" not in str(caught.value)
+    return str(caught.value)
+
+
+def with_damping_ratio(zeta):
+    return sb.Dashpot(1.0, damping=2.0 * zeta)
+
+
+# published and independent values: mass, stiffness and speed 1
+
+
+@pytest.mark.parametrize(
+    ("law", "constant"),
+    [
+        (sb.Spring(1.0), math.pi),
+        (sb.PowerLaw(1.0, 1.0), math.pi),
+        (sb.Hertz(1.0), 2.943275),
+        (sb.PowerLaw(1.0, 2.0), 2.804364),
+    ],
+)
+def test_contact_time_over_peak_compression(law, constant):
+    p = law.exponent
+    peak = (0.5 * (p + 1.0)) ** (1.0 / (p + 1.0))
+    assert sb.contact_time(law, 1.0, 1.0) == pytest.approx(constant * peak, abs=1e-6)
+
+
+def test_hertz_contact_time():
+    got = sb.contact_time(sb.Hertz(1e6), mass=0.1, speed=2.0)
+    assert got == pytest.approx(3.218065 * (0.1**2 / (1e12 * 2.0)) ** 0.2, rel=2e-7)
+
+
+def test_dashpot_values():
+    assert sb.restitution(with_damping_ratio(0.1), mass=1.0) == pytest.approx(0.744079, abs=5e-7)
+    assert sb.restitution(with_damping_ratio(0.3), mass=1.0) == pytest.approx(0.450975, abs=5e-7)
+    assert sb.contact_time(with_damping_ratio(0.1), mass=1.0) == pytest.approx(2.956075, abs=5e-7)
+
+
+@pytest.mark.parametrize(("d", "e"), [(0.1, 0.937476), (0.3, 0.832870), (1.0, 0.593624)])
+@pytest.mark.parametrize("p", [1.0, 1.5, 3.0])
+def test_hunt_crossley_values(d, e, p):
+    law = sb.HuntCrossley(7.0, p, d / 2.0)
+    assert sb.restitution(law, speed=2.0) == pytest.approx(e, abs=5e-7)
+
+
+@pytest.mark.parametrize(("v", "e"), [(0.3, 0.902852), (0.5, 0.760037), (0.8, 0.525371)])
+def test_viscoelastic_values(v, e):
+    law = sb.Viscoelastic(1.0, dissipative_time=v * v / 1.5)
+    assert sb.restitution(law, 1.0, 1.0) == pytest.approx(e, abs=5e-7)
+
+
+# against integration of the equation of motion
+
+
+def collision(force, force_zero):
+    """Return restitution and contact time of mass 1 at speed 1, until `force_zero` is 0."""
+
+    def release(t, y):
+        return force_zero(*y) if t > 0.0 else 1.0
+
+    release.terminal, release.direction = True, -1
+    run = solve_ivp(
+        lambda _, y: (y[1], -force(max(y[0], 0.0), y[1])),
+        (0.0, 1e4),
+        (0.0, 1.0),
+        "DOP853",
+        rtol=1e-12,
+        atol=1e-14,
+        events=release,
+    )
+    return -run.y_events[0][0][1], run.t_events[0][0]
+
+
+@pytest.mark.parametrize("zeta", [0.05, 0.7, 1.0, 1.3, 5.0])
+def test_dashpots_against_integration(zeta):
+    def force(c, rate):
+        return c + 2.0 * zeta * rate
+
+    law = with_damping_ratio(zeta)
+    got = sb.restitution(law, 1.0), sb.contact_time(law, 1.0)
+    assert got == pytest.approx(collision(force, force), rel=1e-10)
+
+
+@pytest.mark.parametrize("d", [0.01, 1.0, 20.0])
+@pytest.mark.parametrize("p", [1.0, 1.5, 4.0])
+def test_hunt_crossley_against_integration(d, p):
+    run = collision(lambda c, rate: c**p * (1.0 + d * rate), lambda c, _: c)
+    law = sb.HuntCrossley(1.0, p, d)
+    got = sb.restitution(law, 1.0, 1.0), sb.contact_time(law, 1.0, 1.0)
+    assert got == pytest.approx(run, rel=1e-10)
+
+
+@pytest.mark.parametrize("squared", [0.01, 0.5, 3.0])
+def test_viscoelastic_against_integration(squared):
+    def force(c, rate):
+        return c**1.5 + squared * math.sqrt(c) * rate
+
+    law = sb.Viscoelastic(1.0, squared / 1.5)
+    got = sb.restitution(law, 1.0, 1.0), sb.contact_time(law, 1.0, 1.0)
+    run = collision(force, lambda c, rate: c + squared * rate)
+    assert got == pytest.approx(run, rel=1e-8)
+
+
+@pytest.mark.parametrize(("p", "n"), [(1.0, 1.0), (1.0, 7.0), (1.5, 4.0)])
+def test_hysteretic_contacts_against_the_engine(p, n):
+    law = sb.Hysteretic(3.0, exponent=p, unloading_exponent=n)
+    result = sb.simulate(sb.Drop([sb.Ball(2.0)], [law], impact_speed=1.7))
+    assert sb.contact_time(law, 2.0, 1.7) == pytest.approx(result.last_release[0], rel=1e-9)
+    assert sb.restitution(law) == pytest.approx(result.rebound_ratios[0], rel=1e-9)
+
+
+@pytest.mark.parametrize("law", [sb.Spring(3.0), sb.Hertz(3.0), sb.PowerLaw(3.0, 2.2)])
+def test_elastic_contacts_against_the_engine(law):
+    result = sb.simulate(sb.Drop([sb.Ball(2.0)], [law], impact_speed=1.7))
+    assert sb.contact_time(law, 2.0, 1.7) == pytest.approx(result.last_release[0], rel=1e-9)
+
+
+LAWS_WITH_RATES = [
+    sb.Dashpot(3.0, 0.8),
+    sb.Dashpot(3.0, 40.0),
+    sb.Viscoelastic(3.0, 0.2),
+    sb.HuntCrossley(3.0, 1.0, 0.3),
+    sb.HuntCrossley(3.0, 1.5, 0.3),
+]
+
+
+@pytest.mark.parametrize("law", LAWS_WITH_RATES)
+def test_lossy_contacts_against_the_engine(law):
+    result = sb.simulate(sb.Drop([sb.Ball(2.0)], [law], impact_speed=1.7))
+    assert sb.restitution(law, 2.0, 1.7) == pytest.approx(result.rebound_ratios[0], rel=1e-9)
+    assert sb.contact_time(law, 2.0, 1.7) == pytest.approx(result.last_release[0], rel=1e-9)
+
+
+# limits, and round-off
+
+
+def test_dashpots_lose_no_digits_at_any_damping():
+    ratios = [10.0**i for i in range(-20, 21)]
+    ratios += [1.0 + s * 10.0**-i for i in range(1, 16) for s in (-1, 1)] + [1.0, 1.999, 2.0, 2.001]
+    with mp.workdps(60):
+        for zeta in ratios:
+            z = mpf(zeta)
+            time = mpf(2) if zeta == 1.0 else (2 * acos(z) / sqrt(1 - z * z)).real
+            assert dashpot.duration(zeta) == pytest.approx(float(time), rel=1e-14)
+            expected = float(exp(-z * time))
+            assert dashpot.restitution(zeta) == pytest.approx(expected, rel=1e-13)
+
+
+def test_a_dashpot_passes_through_critical_damping_without_a_step():
+    for i in range(1, 17):
+        below, above = 1.0 - 10.0**-i, 1.0 + 10.0**-i
+        # e is analytic at ζ = 1: its mean over both sides differs by the second order only
+        mean = 0.5 * (dashpot.restitution(below) + dashpot.restitution(above))
+        assert mean == pytest.approx(math.exp(-2.0), abs=0.2 * 10.0 ** (-2 * i) + 1e-15)
+        mean = 0.5 * (dashpot.duration(below) + dashpot.duration(above))
+        assert mean == pytest.approx(2.0, abs=0.6 * 10.0 ** (-2 * i) + 1e-15)
+
+
+def test_a_heavily_damped_dashpot_hardly_throws_back():
+    for zeta in (1e3, 1e6, 1e100):
+        assert dashpot.restitution(zeta) == pytest.approx((2.0 * zeta) ** -2, rel=20 / zeta)
+    assert sb.restitution(sb.Dashpot(1.0, 0.0), 1.0) == 1.0
+
+
+def test_hunt_crossley_loses_no_digits_at_any_dissipation():
+    with mp.workdps(60):
+        for d in [10.0**i for i in range(-8, 3)] + [0.3, 0.49, 0.51, 0.7, 1.5, 7.0]:
+            y = 1 + mpf(d)
+            # 1 - d e is the other solution w of w exp(-w) = y exp(-y)
+            expected = float((1 + lambertw(-y * exp(-y)).real) / d)
+            assert hunt_crossley.restitution(d) == pytest.approx(expected, rel=1e-15)
+
+
+def test_hunt_crossley_with_tiny_and_huge_dissipation():
+    for d in (0.0, 1e-300, 1e-17):
+        assert hunt_crossley.restitution(d) == 1.0
+        for p in (1.0, 1.5, 40.0, 1e6):
+            got = hunt_crossley.duration(d, p)
+            assert got == pytest.approx(elastic.duration(p), rel=1e-14)
+    assert hunt_crossley.restitution(1e-6) == pytest.approx(1.0 - 2e-6 / 3.0, abs=1e-12)
+    for d in (1e3, 1e30, 1e299):
+        assert hunt_crossley.restitution(d) == pytest.approx(1.0 / d, rel=1e-15)
+        # soon as slow as 1/χ, it comes up from C sqrt(2/d), with p = 1, in that times d
+        assert hunt_crossley.duration(d, 1.0) == pytest.approx(math.sqrt(2.0 * d), rel=10 / d**0.5)
+
+
+def test_very_steep_contacts():
+    for law in (sb.PowerLaw(1.0, 1e6), sb.HuntCrossley(1.0, 1e6, 1e-9)):
+        # a wall at compression 1, reached and left at speed 1
+        assert sb.contact_time(law, 1.0, 1.0) == pytest.approx(2.0, rel=1e-4)
+
+
+@pytest.mark.parametrize("law", [sb.Dashpot(1.0, 0.0), sb.Viscoelastic(1.0, 0.0)])
+def test_without_dissipation_laws_are_elastic(law):
+    twin = sb.PowerLaw(1.0, law.exponent)
+    assert sb.restitution(law, 1.0, 1.0) == 1.0
+    assert sb.contact_time(law, 1.0, 1.0) == pytest.approx(
+        sb.contact_time(twin, 1.0, 1.0), rel=1e-14
+    )
+
+
+# what is asked for comes out
+
+
+def asked(kind, mass, time, e, speed, p):
+    given = {"mass": mass, "contact_time": time, "restitution": e, "impact_speed": speed}
+    if kind in (sb.PowerLaw, sb.HuntCrossley, sb.Hysteretic):
+        given["exponent"] = p
+    return given
+
+
+@given(
+    st.sampled_from([sb.Dashpot, sb.HuntCrossley, sb.Hysteretic]),
+    masses, times, restitutions, speeds, exponents,
+)  # fmt: skip
+def test_lossy_laws_come_out_as_asked(kind, mass, time, e, speed, p):
+    law = sb.calibrate(kind, **asked(kind, mass, time, e, speed, p))
+    assert type(law) is kind
+    assert sb.restitution(law, mass, speed) == pytest.approx(e, abs=1e-13)
+    assert sb.contact_time(law, mass, speed) == pytest.approx(time, rel=1e-12)
+
+
+@given(st.sampled_from(ELASTIC), masses, times, speeds, exponents)
+def test_elastic_laws_come_out_as_asked(kind, mass, time, speed, p):
+    law = sb.calibrate(kind, **asked(kind, mass, time, 1.0, speed, p))
+    assert type(law) is kind
+    assert sb.contact_time(law, mass, speed) == pytest.approx(time, rel=1e-12)
+
+
+@pytest.mark.parametrize("e", [1.0, 0.999, 0.75, 0.3, 0.05])
+def test_a_viscoelastic_law_comes_out_as_asked(e):
+    given_ = MEASURED | {"restitution": e}
+    law = sb.calibrate(sb.Viscoelastic, **given_)
+    got = sb.restitution(law, given_["mass"], given_["impact_speed"])
+    assert got == pytest.approx(e, abs=1e-9)
+    time = sb.contact_time(law, given_["mass"], given_["impact_speed"])
+    assert time == pytest.approx(given_["contact_time"], rel=1e-9)
+
+
+@pytest.mark.parametrize("kind", LOSSY)
+def test_one_measurement_for_every_lossy_law_and_the_run_agrees(kind):
+    law = sb.calibrate(kind, **MEASURED)
+    result = sb.simulate(sb.Drop([sb.Ball(0.0567)], [law], impact_speed=3.0))
+    assert result.rebound_ratios[0] == pytest.approx(0.75, abs=1e-9)
+    assert result.last_release[0] == pytest.approx(5e-3, rel=1e-9)
+
+
+def test_what_is_not_needed_is_passed_over():
+    assert sb.calibrate(sb.Rigid, **MEASURED) == sb.Rigid(0.75)
+    assert sb.calibrate(sb.Rigid, restitution=0) == sb.Rigid(0.0)
+    given_ = MEASURED | {"restitution": 1}
+    plain = sb.calibrate(sb.Spring, mass=0.0567, contact_time=5e-3, exponent=1)
+    assert sb.calibrate(sb.Spring, **given_).stiffness == pytest.approx(plain.stiffness, rel=1e-14)
+    plain = sb.calibrate(sb.Dashpot, mass=0.0567, contact_time=5e-3, restitution=0.75)
+    assert vars(sb.calibrate(sb.Dashpot, **MEASURED)) == pytest.approx(vars(plain), rel=1e-14)
+    assert sb.calibrate(sb.PowerLaw, **given_, exponent=1).stiffness == pytest.approx(
+        0.0567 * (math.pi / 5e-3) ** 2, rel=1e-15
+    )
+
+
+def test_exponents_by_default():
+    assert sb.calibrate(sb.HuntCrossley, **MEASURED).exponent == 1.5
+    assert sb.calibrate(sb.Hysteretic, **MEASURED).exponent == 1.0
+    given_ = {"mass": 1.0, "contact_time": 1.0, "exponent": 1}
+    assert sb.calibrate(sb.PowerLaw, **given_).exponent == 1.0
+
+
+def test_two_masses_are_reduced():
+    given_ = MEASURED | {"mass": (0.150, 0.057)}
+    law = sb.calibrate(sb.Dashpot, **given_)
+    assert law == sb.calibrate(sb.Dashpot, **(given_ | {"mass": np.array([0.057, 0.150])}))
+    one = 0.150 * 0.057 / 0.207
+    assert sb.restitution(law, (0.150, 0.057)) == pytest.approx(sb.restitution(law, one), rel=1e-15)
+    assert sb.contact_time(law, one) == pytest.approx(5e-3, rel=1e-14)
+    law = sb.Spring(1.0)
+    assert sb.contact_time(law, (1e300, 1e12)) == pytest.approx(math.pi * 1e6, rel=1e-15)
+
+
+@pytest.mark.parametrize("factor", [1e-12, 1.0, 1e12])
+def test_restitution_depends_on_one_number_only(factor):
+    law = sb.Dashpot(100.0 * factor, 2.0 * factor)
+    assert sb.restitution(law, factor) == pytest.approx(dashpot.restitution(0.1), rel=1e-14)
+    law = sb.HuntCrossley(5.0, 2.0, 0.3 / factor)
+    assert sb.restitution(law, speed=factor) == pytest.approx(
+        hunt_crossley.restitution(0.3), rel=1e-14
+    )
+    law = sb.Viscoelastic(factor, 0.2 * factor**-0.4)
+    assert sb.restitution(law, 1.0, 1.0) == pytest.approx(viscoelastic.restitution(0.3), rel=1e-9)
+
+
+@given(st.floats(1e-3, 1.0), st.floats(1e-3, 1.0))
+def test_more_dissipation_gives_back_less(one, other):
+    low, high = sorted((one, other))
+    assert dashpot.damping_ratio(low) >= dashpot.damping_ratio(high)
+    assert hunt_crossley.dissipation(low) >= hunt_crossley.dissipation(high)
+
+
+# what is wrong is said in one line
+
+
+def test_what_is_missing_is_named():
+    got = message(errors.InvalidValue, sb.calibrate, sb.HuntCrossley, restitution=0.75)
+    assert got == (
+        "mass, contact_time, impact_speed must be given to calibrate HuntCrossley, which needs "
+        "mass, contact_time, restitution, impact_speed"
+    )
+    got = message(errors.InvalidValue, sb.calibrate, sb.Rigid, mass=1.0)
+    assert got == "restitution must be given to calibrate Rigid, which needs restitution"
+    got = message(errors.InvalidValue, sb.calibrate, sb.PowerLaw, mass=1.0, contact_time=1.0)
+    assert got.startswith("exponent must be given to calibrate PowerLaw")
+    for kind in (sb.PowerLaw, sb.Hysteretic):
+        given_ = {"mass": 1.0, "contact_time": 1.0, "restitution": 1.0, "exponent": 2}
+        got = message(errors.InvalidValue, sb.calibrate, kind, **given_)
+        assert got.startswith(f"impact_speed must be given to calibrate {kind.__name__}")
+
+
+@pytest.mark.parametrize("kind", ELASTIC)
+def test_an_elastic_law_has_no_restitution_below_1(kind):
+    got = message(errors.InvalidValue, sb.calibrate, kind, **MEASURED)
+    assert got == (
+        f"restitution must be 1 or left out for {kind.__name__}, which gives back all that it "
+        "took, got 0.75"
+    )
+
+
+@pytest.mark.parametrize(
+    ("kind", "p"), [(sb.Spring, 1), (sb.Dashpot, 1), (sb.Hertz, 1.5), (sb.Viscoelastic, 1.5)]
+)
+def test_a_fixed_exponent_stays(kind, p):
+    got = message(errors.InvalidValue, sb.calibrate, kind, exponent=2)
+    assert got == f"exponent must be {p} or left out for {kind.__name__}, got 2"
+
+
+@pytest.mark.parametrize("kind", LOSSY)
+@pytest.mark.parametrize("value", [0, -0.1, 1.1, math.nan])
+def test_lossy_laws_have_a_restitution_above_0(kind, value):
+    got = message(errors.InvalidValue, sb.calibrate, kind, **(MEASURED | {"restitution": value}))
+    assert got == f"restitution must be a number above 0 and at most 1, got {value}"
+
+
+def test_a_hysteretic_law_has_a_least_restitution():
+    given_ = MEASURED | {"restitution": 1e-4}
+    got = message(errors.InvalidValue, sb.calibrate, sb.Hysteretic, **given_)
+    assert got.startswith("restitution must be at least 0.00142 for exponent 1")
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "expected"),
+    [
+        ("mass", 0.0, "mass must be a positive number of kilograms, got 0.0"),
+        ("mass", (1.0, -1.0), "mass.1 must be a positive number of kilograms, got -1.0"),
+        ("mass", (1.0,), "mass must be a number or a pair of numbers, got (1.0,)"),
+        ("contact_time", -1.0, "contact_time must be a positive number of seconds, got -1.0"),
+        ("impact_speed", math.inf, "impact_speed must be a positive number of m/s, got inf"),
+        ("exponent", 0.5, "exponent must be a number from 1 to 1e+06, got 0.5"),
+    ],
+)
+def test_numbers_are_checked(name, value, expected):
+    given_ = MEASURED | {name: value}
+    assert message(errors.InvalidValue, sb.calibrate, sb.HuntCrossley, **given_) == expected
+
+
+@pytest.mark.parametrize("value", ["5 g", {"a": 1.0, "b": 2.0}, ("1", 2.0), True, np.array(1.0)])
+def test_a_mass_is_a_number_or_two(value):
+    got = message(errors.InvalidType, sb.calibrate, sb.Dashpot, **(MEASURED | {"mass": value}))
+    assert re.match(r"mass(\.0)? must be a positive number of kilograms, got ", got)
+
+
+@pytest.mark.parametrize("kind", [sb.Spring(1.0), "Spring", int, None])
+def test_a_class_is_calibrated(kind):
+    got = message(errors.InvalidType, sb.calibrate, kind, **MEASURED)
+    assert got.startswith("law_class must be the class of a contact law (Rigid, Spring, Hertz, ")
+
+
+def test_numbers_out_of_range_are_refused():
+    given_ = {"mass": 1.0, "contact_time": 1e-3, "impact_speed": 1.0, "exponent": 1e6}
+    got = message(errors.InvalidValue, sb.calibrate, sb.PowerLaw, **given_)
+    assert got == (
+        "what was measured must give a PowerLaw in the range of numbers, "
+        "got mass=1, contact_time=0.001, impact_speed=1, exponent=1e+06"
+    )
+    given_ = MEASURED | {"restitution": 5e-324}
+    got = message(errors.InvalidValue, sb.calibrate, sb.HuntCrossley, **given_)
+    assert got.startswith("what was measured must give a HuntCrossley in the range of numbers, got")
+
+
+@pytest.mark.parametrize(
+    ("law", "missing", "timed"),
+    [
+        (sb.Dashpot(1, 1), "mass", "mass"),
+        (sb.Viscoelastic(1, 1), "mass and speed", "mass and speed"),
+        (sb.HuntCrossley(1, 1, 1), "speed", "mass and speed"),
+        (sb.Hysteretic(1, restitution=0.5), None, "mass"),
+        (sb.Hysteretic(1, exponent=2, restitution=0.5), None, "mass and speed"),
+        (sb.Hertz(1), None, "mass and speed"),
+        (sb.Spring(1), None, "mass"),
+        (sb.Rigid(0.5), None, None),
+    ],
+)
+def test_mass_and_speed_are_asked_for_where_they_count(law, missing, timed):
+    name = type(law).__name__
+    if missing is None:
+        assert 0.0 <= sb.restitution(law) <= 1.0
+    else:
+        got = message(errors.InvalidValue, sb.restitution, law)
+        right = f"must be given, as the restitution of {name} depends on it, got None"
+        assert got == f"{missing} {right}"
+    if timed is None:
+        assert sb.contact_time(law) == 0.0
+    else:
+        got = message(errors.InvalidValue, sb.contact_time, law)
+        right = f"must be given, as the contact time of {name} depends on it, got None"
+        assert got == f"{timed} {right}"
+
+
+def test_measures_of_something_else():
+    for measure in (sb.restitution, sb.contact_time):
+        assert message(errors.InvalidType, measure, 0.78) == "law must be a contact law, got 0.78"
+        got = message(errors.InvalidValue, measure, sb.Spring(1.0), 1.0, -1.0)
+        assert got == "speed must be a positive number of m/s, got -1.0"
+        got = message(errors.InvalidValue, measure, sb.Spring(1.0), -1.0)
+        assert got == "mass must be a positive number of kilograms, got -1.0"
+
+
+@pytest.mark.parametrize(
+    ("law", "what"),
+    [(sb.HuntCrossley(1, 1, 1e308), "restitution"), (sb.Dashpot(1e-300, 1e300), "restitution")],
+)
+def test_what_no_number_can_hold_is_refused(law, what):
+    got = message(errors.InvalidValue, getattr(sb, what), law, 1e-300, 1e300)
+    assert got.startswith(f"law, mass and speed must give a {what} in the range of numbers, got ")
+
+
+# separate collisions
+
+
+def test_separate_collisions_at_the_speeds_from_the_bottom_up():
+    balls = [sb.Ball(0.6), sb.Ball(0.058), sb.Ball(0.01)]
+    laws = [sb.Dashpot(2500.0, 7.0), sb.HuntCrossley(1e5, 1.5, 0.1), sb.HuntCrossley(1e5, 1.5, 0.2)]
+    drop = sb.Drop(balls, laws, impact_speed=2.0)
+    e0 = sb.restitution(laws[0], 0.6)
+    v0 = 2.0 * e0
+    e1 = sb.restitution(laws[1], speed=v0 + 2.0)
+    v1 = (0.6 * v0 - 0.058 * 2.0 + 0.6 * e1 * (v0 + 2.0)) / 0.658  # Newton's rule
+    e2 = sb.restitution(laws[2], speed=v1 + 2.0)
+    got = [law.restitution for law in sb.separate(drop).contacts]
+    assert got == pytest.approx([e0, e1, e2], rel=1e-14)
+    v_out = sb.simulate(
+        sb.separate(dataclasses.replace(drop, balls=balls[:2], contacts=laws[:2], gaps=None))
+    )
+    assert v_out.rebound_speeds[1] == pytest.approx(v1, rel=1e-12)
+
+
+def test_a_pair_of_separate_collisions_has_its_reduced_mass():
+    drop = sb.Drop([sb.Ball(1.0), sb.Ball(0.1)], [None, sb.Dashpot(100.0, 1.0)], impact_speed=1.0)
+    drop = dataclasses.replace(drop, impact_speed=None, velocities=[1.0, 0.0])
+    floor, balls = sb.separate(drop).contacts
+    assert floor is None
+    assert balls.restitution == sb.restitution(sb.Dashpot(100.0, 1.0), (1.0, 0.1))
+
+
+def test_a_contact_that_does_not_close_has_the_reference_speed():
+    law = sb.HuntCrossley(1.0, 1.5, 0.1)
+    balls = [sb.Ball(1.0), sb.Ball(1.0)]
+    drop = sb.Drop(balls, [law, law], velocities=[0.5, 3.0])
+    expected = sb.restitution(law, speed=3.0)
+    assert [one.restitution for one in sb.separate(drop).contacts] == [expected, expected]
+
+
+def test_scipy_is_imported_only_where_it_is_needed():
+    code = "import sys, stackbounce as sb\nsb.separate\nprint('scipy' in sys.modules)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert run.stdout.strip() == "False"
+
+
+@pytest.mark.parametrize("loss", [1e-3, 1e-5, 1e-6, 1e-10, 1e-15])
+def test_a_viscoelastic_contact_that_hardly_loses(loss):
+    """1 - e = 1.15348 v*² - ..., to all its digits, though a run would not show them."""
+    e = 1.0 - loss
+    asked = {"mass": 0.1, "contact_time": 1e-3, "impact_speed": 1.0}
+    law = sb.calibrate(sb.Viscoelastic, restitution=e, **asked)
+    assert sb.restitution(law, mass=0.1, speed=1.0) == pytest.approx(e, abs=1e-12)
+    squared = 1.5 * law.dissipative_time * (law.stiffness / 0.1) ** 0.4
+    assert squared == pytest.approx((1.0 - e) / 1.15348, rel=2e-3 if loss > 1e-4 else 1e-4)
+    run = sb.simulate(sb.Drop([sb.Ball(0.1)], [law], impact_speed=1.0))
+    assert run.rebound_ratios == pytest.approx([e], abs=1e-11)
+
+
+def work(law, peak, points=20_001):
+    """The work of a press up to a peak force and of the way back, by the trapezoidal rule."""
+    force = np.linspace(0.0, peak, points)
+    deepest = (peak / law.stiffness) ** (1.0 / law.exponent)
+    out = (force / law.stiffness) ** (1.0 / law.exponent)
+    back = deepest * (force / peak) ** (1.0 / law.unloading_exponent)
+    return np.trapezoid(force, out), np.trapezoid(force, back)
+
+
+@pytest.mark.parametrize("exponent", [1.0, 1.5])
+def test_two_lossy_balls_keep_the_energy_of_both(exponent):
+    one = sb.Hysteretic(3e4, exponent=exponent, restitution=0.9)
+    other = sb.Hysteretic(1e4, exponent=exponent, restitution=0.6)
+    both = between(one, other)
+    found = np.array(work(both, 50.0))
+    np.testing.assert_allclose(found, np.add(work(one, 50.0), work(other, 50.0)), rtol=1e-4)
+
+
+def test_two_balls_on_exact_laws_are_in_series():
+    assert between(sb.Spring(3.0), sb.Spring(6.0)) == sb.Spring(2.0)
+    lossless = between(sb.Spring(3.0), sb.Hysteretic(6.0, restitution=1.0))
+    assert (lossless.stiffness, lossless.restitution) == pytest.approx((2.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ("one", "other"),
+    [
+        (sb.Rigid(0.5), sb.Rigid(0.5)),
+        (sb.Spring(1.0), sb.Hertz(1.0)),
+        (sb.Spring(1.0), sb.Dashpot(1.0, 0.1)),
+        (sb.Hysteretic(1.0, restitution=0.5), sb.Rigid(0.5)),
+        (sb.Hysteretic(1, restitution=0.5), sb.Hysteretic(1, exponent=1.5, restitution=0.5)),
+    ],
+)
+def test_two_balls_that_are_no_law_together(one, other):
+    with pytest.raises(sb.StackbounceError, match="law_"):
+        between(one, other)

@@ -1,0 +1,760 @@
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import stackbounce as sb
+from stackbounce import cross2007, plots
+from stackbounce.calibration import separate
+from stackbounce.cli import app, main, output, show
+from stackbounce.cli.scenario import read, read_contact
+from stackbounce.errors import FileError, InvalidValue
+from stackbounce.model import LAWS
+from stackbounce.version import __version__
+
+PAIR = ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"]
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def run(capfd):
+    def run_main(*arguments):
+        code = main(list(arguments))
+        out, err = capfd.readouterr()
+        return code, out, err
+
+    return run_main
+
+
+def process(*arguments, **options):
+    command = [
+        sys.executable,
+        "-c",
+        "import sys; from stackbounce.cli import main; sys.exit(main())",
+    ]
+    return subprocess.run(
+        [*command, *arguments], capture_output=True, text=True, timeout=120, check=False, **options
+    )
+
+
+def rows(text, first):
+    """The cells of each table row that begins so: cells are two spaces apart, or more."""
+    cells = [re.split(r"  +", line.strip()) for line in text.splitlines()]
+    return [row for row in cells if row[0] == first and len(row) > 1]
+
+
+# the front door
+
+
+def test_version_and_help(run):
+    assert run("--version") == (0, f"stackbounce {__version__}\n", "")
+    code, out, err = run("--help")
+    assert (code, err) == (0, "")
+    assert all(command in out for command in ("simulate", "balls", "paper"))
+    assert run() == (0, out, "")
+    assert run("-h") == (0, out, "")
+    assert CliRunner().invoke(app, ["--help"]).exit_code == 0
+    for command in ("simulate", "balls", "paper"):
+        assert run(command, "--help")[0] == 0
+
+
+def test_help_does_not_wait_for_heavy_libraries():
+    code = (
+        "import sys; from stackbounce.cli import main; main(['--help']); "
+        "heavy = {'numpy', 'pint', 'xarray', 'matplotlib', 'numba', 'uncertainties', 'jinja2'}; "
+        "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert run.stderr.strip() == ""
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected", "command"),
+    [
+        (["simulat"], "No such command 'simulat'", "stackbounce"),
+        (["balls", "--jsn"], "No such option", "stackbounce balls"),
+        (["simulate"], "Missing argument", "stackbounce simulate"),
+        (["paper"], "Missing option '--out'", "stackbounce paper"),
+        (["simulate", "B1", "--height"], "'--height' requires an argument", "stackbounce simulate"),
+        (["balls", "B1"], "unexpected extra argument", "stackbounce balls"),
+        (["measure", "--hight", "1m"], "No such option", "stackbounce measure"),
+    ],
+)
+def test_wrong_usage_is_one_line(run, arguments, expected, command):
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("stackbounce: error: ")
+    assert expected in err
+    assert err.endswith(f" (see {command} --help)\n")
+    assert err.count("\n") == 1
+
+
+# simulate
+
+
+def test_a_table_for_people(run):
+    code, out, err = run(*PAIR)
+    assert (code, err) == (0, "")
+    assert "basketball + tennis from 0.63 m, at 3.515 m/s" in out
+    assert (
+        "contact 1, basketball – tennis: Spring, stiffness 1000 N/m  [Cross 2007, Figure 9]" in out
+    )
+    assert "gap 0, basketball – tennis: 2 mm  [--gap]" in out
+    assert "Energy retained: 100.0 %" in out
+    result = sb.simulate(read(PAIR[1:3], height="0.63m", gaps=["2mm"]).drop)
+    textbook = sb.simulate(separate(result.drop))
+    for i, name in enumerate(("basketball", "tennis")):
+        _, mass, before, after, ratio, bounce, height, *other = rows(out, name)[0]
+        assert float(mass) == result.drop.balls[i].mass * 1e3
+        assert float(before) == pytest.approx(-result.drop.reference_speed, rel=1e-3)
+        assert float(after) == pytest.approx(result.rebound_speeds[i], rel=1e-3)
+        assert float(ratio) == pytest.approx(result.rebound_ratios[i], rel=1e-3)
+        assert float(bounce) == pytest.approx(result.rebound_ratios[i] ** 2, rel=1e-3)
+        assert float(height) == pytest.approx(0.63 * float(bounce), rel=1e-3)
+        assert float(other[0]) == pytest.approx(textbook.rebound_speeds[i], rel=1e-3)
+        assert float(other[1]) == pytest.approx(textbook.rebound_ratios[i] ** 2, rel=1e-3)
+    interval = result.intervals[1]
+    _, count, touch, release, longest, force, compression, impulse = rows(
+        out, "basketball – tennis"
+    )[0]
+    assert count == "1"
+    assert float(touch) == pytest.approx(interval["start"] * 1e3, rel=1e-3)
+    assert float(release) == pytest.approx(interval["end"] * 1e3, rel=1e-3)
+    assert float(longest) == pytest.approx((interval["end"] - interval["start"]) * 1e3, rel=1e-3)
+    assert float(force) == pytest.approx(interval["peak_force"], rel=1e-3)
+    assert float(compression) == pytest.approx(interval["peak_compression"] * 1e3, rel=1e-3)
+    assert float(impulse) == pytest.approx(interval["impulse"], rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    "arguments", [PAIR, ["balls"], ["simulate", "B1", "B2", "B3", "tennis"], ["simulate", "B1"]]
+)
+def test_piped_output_is_plain_and_no_wider_than_a_page(arguments):
+    done = process(*arguments, env=os.environ | {"PYTHONIOENCODING": "utf-8"}, encoding="utf-8")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "\x1b" not in done.stdout
+    assert "…" not in done.stdout
+    assert max(len(line) for line in done.stdout.splitlines()) <= 100
+
+
+def test_a_terminal_without_unicode_is_no_reason_to_fail():
+    done = process(*PAIR, env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"})
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_balls_of_the_catalogue_fall_from_one_metre_unless_told_otherwise(run):
+    _, out, _ = run("simulate", "B1")
+    assert "B1 from 1 m, at 4.429 m/s (1 m unless --height or --speed is given)" in out
+
+
+def test_json_for_machines(run):
+    code, out, err = run(*PAIR, "--json")
+    assert (code, err) == (0, "")
+    got = json.loads(out)
+    result = sb.simulate(sb.Drop.from_mapping(got["drop"]))
+    assert got["stackbounce"] == __version__
+    assert got["status"] == "FINISHED"
+    assert got["rebound_speeds"] == result.rebound_speeds.tolist()
+    assert got["rebound_ratios"] == result.rebound_ratios.tolist()
+    assert got["collisions"] == [1, 1]
+    assert got["intervals"][1]["peak_force"] == result.intervals["peak_force"][1]
+    assert got["contact_sources"] == ["Cross 2007, Figure 9"] * 2
+    assert got["gap_sources"] == ["--gap"]
+    textbook = sb.simulate(separate(result.drop))
+    assert got["separate"]["rebound_speeds"] == textbook.rebound_speeds.tolist()
+
+
+def test_json_has_null_where_numbers_are_not_finite(run):
+    code, out, _ = run("simulate", "B1", "--contact", "Rigid restitution=0.8", "--json")
+    assert code == 0
+    got = json.loads(out, parse_constant=pytest.fail)
+    assert got["intervals"][0]["peak_force"] is None
+    assert got["separate"] is None
+
+
+def test_a_scenario_file_and_changes_to_it(run):
+    drop = sb.Drop(
+        [sb.Ball(0.1, name="lower"), sb.Ball(0.05)],
+        [sb.Spring(1e4), sb.Hysteretic(5e3, restitution=0.8)],
+        height=0.5,
+    )
+    Path("drop.toml").write_text(drop.to_toml())
+    code, out, err = run("simulate", "drop.toml")
+    assert (code, err) == (0, "")
+    assert "lower + ball 1 from 0.5 m, at 3.132 m/s" in out
+    assert "Hysteretic, stiffness 5000 N/m, restitution 0.8  [drop.toml]" in out
+    code, out, _ = run(
+        "simulate", "./drop.toml", "--speed", "2 m/s", "--gap", "1mm", "--gravity", "9.81m/s^2",
+        "--contact", "Spring stiffness='20 kN/m'", "--contact", "spring stiffness=1000", "--json",
+    )  # fmt: skip
+    assert code == 0
+    assert sb.Drop.from_mapping(json.loads(out)["drop"]) == sb.Drop(
+        drop.balls,
+        [sb.Spring(2e4), sb.Spring(1e3)],
+        gaps=[0.001],
+        impact_speed=2.0,
+        gravity=9.81,
+    )
+
+
+def test_a_rigid_drop_needs_no_textbook_beside_it(run):
+    _, out, _ = run("simulate", "B1", "--contact", "Rigid restitution=0.5", "--speed", "2")
+    assert "Rigid, restitution 0.5" in out
+    assert "eparate" not in out
+    assert rows(out, "B1")[0][3:6] == ["1.000", "0.5000", "0.2500"]
+
+
+def test_highest_points_are_shown(run):
+    contact = "Rigid restitution=0.5"
+    given = ("--height", "1m", "--gravity", "9.81m/s^2", "--until", "60s", "--contact", contact)
+    code, out, _ = run("simulate", "B1", *given)
+    assert code == 0
+    assert "Highest points" in out
+    assert re.search(r"B1 +\d+ +0\.2258 +0\.2500 +0\.5644 +0\.06250", out)
+    assert "Status: SETTLED" in out
+    assert "Highest points" not in run("simulate", "B1")[1]
+
+
+def test_a_run_that_did_not_finish_says_what_to_do(run):
+    code, out, _ = run("simulate", "B1", "B2", "--until", "3ms")
+    assert code == 0
+    assert "not yet" in out
+    assert re.search(r"Status: TIME_REACHED: .*until", out)
+    rigid = ["--contact", "Rigid restitution=0.1"] * 2
+    _, out, _ = run("simulate", "B3", "B1", *rigid)
+    assert "Status: COLLAPSED: " in out
+    assert rows(out, "floor – B3")[0][1] == "∞"
+
+
+def test_names_cannot_write_on_the_terminal(run):
+    drop = sb.Drop([sb.Ball(1.0, name="a\x1b[31mb\nc[red]")], [sb.Spring(1.0)], impact_speed=1.0)
+    Path("drop.toml").write_text(drop.to_toml())
+    _, out, _ = run("simulate", "drop.toml")
+    assert "\x1b" not in out
+    assert "a?[31mb?c[red] at 1.000 m/s" in out
+
+
+def one_ball(name, law, mass=0.1, **how):
+    how = how or {"height": 0.5}
+    drop = sb.Drop([sb.Ball(mass, name=name)], [law], **how)
+    Path(f"{name}.toml").write_text(drop.to_toml())
+    return f"{name}.toml"
+
+
+def test_balls_of_a_file_each_are_stacked(run):
+    lower = one_ball("lower", sb.Hysteretic(3e4, restitution=0.8), 0.3)
+    upper = one_ball("upper", sb.Hysteretic(1e4, restitution=0.6), 0.05, height=2.0)
+    code, out, _ = run("simulate", lower, upper, "--gap", "1mm", "--json")
+    assert code == 0
+    told = json.loads(out)
+    drop = sb.Drop.from_mapping(told["drop"])
+    assert [ball.name for ball in drop.balls] == ["lower", "upper"]
+    assert (drop.height, drop.gaps) == (0.5, (0.001,))
+    assert drop.contacts[1].stiffness == pytest.approx(7500.0)
+    assert drop.contacts[1].restitution == pytest.approx(math.sqrt(0.25 * 0.64 + 0.75 * 0.36))
+    assert told["contact_sources"] == ["lower.toml", "lower.toml and upper.toml in series"]
+
+
+def test_files_that_cannot_be_stacked(run):
+    lower = one_ball("lower", sb.Spring(3e4))
+    upper = one_ball("upper", sb.Rigid(0.6))
+    _, _, err = run("simulate", lower, upper)
+    assert "lower.toml and upper.toml: law_b must be a law with a compression" in err
+    assert err.strip().endswith("give all contacts with --contact")
+    contacts = ["--contact", "Rigid restitution=0.8", "--contact", "Rigid restitution=0.5"]
+    assert run("simulate", lower, upper, *contacts)[0] == 0
+    pair = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, height=1.0)
+    Path("pair.toml").write_text(pair.to_toml())
+    _, _, err = run("simulate", lower, "pair.toml")
+    assert (
+        "pair.toml must have one ball and its contact with the floor, to be stacked, got 2" in err
+    )
+
+
+@pytest.mark.parametrize("suffix", [".svg", ".png", ".pdf", ".SVG"])
+def test_pictures(run, suffix):
+    code, out, err = run(*PAIR, "--plot", f"drop{suffix}")
+    assert (code, err) == (0, "")
+    assert f"Picture: drop{suffix}" in out
+    start = Path(f"drop{suffix}").read_bytes()[:5]
+    assert start in (b"<?xml", b"\x89PNG\r", b"%PDF-")
+
+
+@pytest.mark.parametrize("suffix", output.SUFFIXES)
+def test_the_same_picture_is_the_same_file(run, suffix, tmp_path):
+    first, second = (tmp_path / f"{name}{suffix}" for name in "ab")
+    assert run(*PAIR, "--plot", str(first))[0] == run(*PAIR, "--plot", str(second))[0] == 0
+    assert first.read_bytes() == second.read_bytes()
+
+
+def test_json_stays_pure_with_a_picture(run):
+    code, out, _ = run("simulate", "B1", "--plot", "drop.svg", "--json")
+    assert code == 0
+    assert json.loads(out)["status"] == "FINISHED"
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (["tenis"], "ball must be one of the catalogue, got 'tenis'; did you mean tennis? Known: "),
+        (["B1", "--height", "-1m"], "height must be a positive number of metres, got -1.0"),
+        (["B1", "--height", "0"], "height must be a positive number of metres, got 0.0"),
+        (["B1", "--height", "3 kg"], "--height must be a length (a number of m or a string such"),
+        (["B1", "--height", "nan"], "--height must be a length"),
+        (["B1", "--speed", "inf"], "--speed must be a speed"),
+        (["B1", "--speed", "-3m/s"], "impact_speed must be a positive number of m/s, got -3.0"),
+        (["B1", "--speed", "1", "--height", "1"], "--height and --speed: only one of the two"),
+        (
+            ["B1", "B2", "--gap", "-1mm"],
+            "gaps.0 must be a number of metres, 0 or above, got -0.001",
+        ),
+        (["B1", "--gap", "1mm"], "gaps must hold one number per neighbouring pair of balls (0)"),
+        (["B1", "--gravity", "-1"], "gravity must be a number of m/s**2, 0 or above, got -1.0"),
+        (["B1", "--until", "1m"], "--until must be a time"),
+        (["B1", "--until", "-1s"], "until must be"),
+        (["B1", "--contact", ""], "--contact 0 must be 'LAW key=value …', such as 'Spring stiff"),
+        (["B1", "--contact", "Spring 3"], "--contact 0 must be 'LAW key=value …', such as"),
+        (["B1", "--contact", "Spring stiffness="], "--contact 0 must be 'LAW key=value …'"),
+        (["B1", "--contact", "'"], "--contact 0 must be 'LAW key=value …'"),
+        (
+            ["B1", "--contact", "Sprung stiffness=1"],
+            "--contact 0.law must be a contact law, got 'Sp",
+        ),
+        (
+            ["B1", "--contact", "Spring stifness=1"],
+            "--contact 0.stifness is not a known key; did yo",
+        ),
+        (
+            ["B1", "--contact", "Spring stiffness=-1"],
+            "--contact 0.stiffness must be a positive num",
+        ),
+        (
+            ["B1", "--contact", "Spring stiffness=1kg"],
+            "--contact 0.stiffness must be a stiffness (",
+        ),
+        (
+            ["B1", "--contact", "Spring stiffness=1 stiffness=2"],
+            "--contact 0 must give each key once, got 'Spring stiffness=1 stiffness=2'",
+        ),
+        (["B1", "--contact", "Spring law=Rigid"], "--contact 0 must give each key once, got 'Spr"),
+        (["B1", "--height", "1e308"], "height must give an impact speed above 0 and finite at 9."),
+        (["B1", "B2", "--contact", "Spring stiffness=1"], "contacts must hold one law per ball"),
+        (
+            ["B1", "B2", "--contact", "Rigid restitution=1", "--contact", "Spring stiffness=1"],
+            "contacts must be all Rigid or have none that is, got a mixture",
+        ),
+        (["none.toml"], "none.toml cannot be read: No such file or directory"),
+        (["./B1"], "./B1 cannot be read: No such file or directory"),
+        (["."], ". cannot be read: Is a directory"),
+        (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
+        (
+            ["a.toml", "B1"],
+            "either scenario files or balls of the catalogue must be given, got a.toml",
+        ),
+        (["B1", "--plot", "drop.gif"], "--plot must end in .svg, .png, .pdf, got drop.gif"),
+        (["B1", "--plot", "drop"], "--plot must end in .svg, .png, .pdf, got drop"),
+        (["B1", "--plot", "no/drop.svg"], "no/drop.svg cannot be written: there is no folder no"),
+    ],
+)
+def test_bad_input_is_one_line(run, arguments, expected):
+    code, out, err = run("simulate", *arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"stackbounce: error: {expected}")
+    assert err.count("\n") == 1
+
+
+def test_broken_toml_is_one_line(run):
+    Path("bad.toml").write_text("[[balls]\nmass = 1")
+    code, out, err = run("simulate", "bad.toml")
+    assert (code, out) == (2, "")
+    assert err.startswith("stackbounce: error: bad.toml is not TOML: ")
+    assert err.count("\n") == 1
+
+
+def test_a_picture_that_cannot_be_written_is_one_line(run):
+    Path("folder.svg").mkdir()
+    _, _, err = run("simulate", "B1", "--plot", "folder.svg")
+    assert err == "stackbounce: error: folder.svg cannot be written: it is a folder\n"
+
+
+def test_true_process_ends_with_2_and_no_traceback():
+    done = process("simulate", "B1", "--height", "3 kg")
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr == (
+        "stackbounce: error: --height must be a length (a number of m or a string such as "
+        "\"58 mm\"), got '3 kg'\n"
+    )
+
+
+def test_interruption_is_one_line(run, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sb, "simulate", interrupted)
+    assert run("simulate", "B1") == (130, "", "stackbounce: interrupted\n")
+
+
+def test_a_full_disk_is_one_line(run, monkeypatch):
+    def full(*_, **__):
+        raise OSError(28, "No space left on device", "x.svg")
+
+    monkeypatch.setattr(sb, "simulate", full)
+    assert run("simulate", "B1") == (2, "", "stackbounce: error: x.svg: No space left on device\n")
+
+
+@pytest.mark.parametrize(
+    ("error", "line"),
+    [
+        (MemoryError(), "out of memory: ask for fewer balls"),
+        (OverflowError(34, "too\nlarge"), "unexpected OverflowError: (34, 'too\\nlarge')"),
+        (RecursionError("too deep"), "unexpected RecursionError: too deep (please report it)"),
+    ],
+)
+def test_what_nobody_foresaw_is_one_line(run, monkeypatch, error, line):
+    def failing(*_, **__):
+        raise error
+
+    monkeypatch.setattr(sb, "simulate", failing)
+    code, out, err = run("simulate", "B1")
+    assert (code, out) == (1, "")
+    assert err.startswith(f"stackbounce: error: {line}")
+    assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize("speed", ["1e200", "1e308", "1e-200", "5e-324"])
+@pytest.mark.parametrize("form", [[], ["--json"]])
+def test_speeds_at_the_ends_of_the_range(run, speed, form):
+    code, out, err = run("simulate", "B1", "B2", "--speed", speed, *form)
+    assert (code, err) == (0, "")
+    assert "nan" not in out.lower()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a shell closes the streams")
+@pytest.mark.parametrize(
+    ("streams", "line"),
+    [
+        (">&-", "there is no standard output to write to: it is closed"),
+        (">/dev/full", "the disk: No space left on device"),
+        (">&- 2>&-", None),
+    ],
+)
+@pytest.mark.parametrize("arguments", ["--help", "simulate basketball"])
+def test_a_standard_output_that_cannot_be_written_to(arguments, streams, line):
+    code = "import sys; from stackbounce.cli import main; sys.exit(main())"
+    command = ["sh", "-c", f'"$0" -c "{code}" {arguments} {streams}', sys.executable]
+    done = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode in (1, 2)
+    assert done.stderr == ("" if line is None else f"stackbounce: error: {line}\n")
+
+
+def test_a_reader_that_goes_away_is_no_error():
+    reader, writer = os.pipe()
+    os.close(reader)
+    code = "import sys; from stackbounce.cli import main; sys.exit(main(['balls']))"
+    done = subprocess.run(
+        [sys.executable, "-c", code], stdout=writer, stderr=subprocess.PIPE, check=False
+    )
+    os.close(writer)
+    assert done.stderr == b""
+
+
+# balls
+
+
+def test_the_catalogue_as_a_table(run):
+    code, out, err = run("balls")
+    assert (code, err) == (0, "")
+    assert rows(out, "tennis")[0] == ["tennis", *"57.00 66.00 0.7506 5.000 22500 10300".split()]
+    assert rows(out, "basketball")[0][4] == "–"
+    assert "Cross 2007, Table I" in out
+    assert rows(out, "B1")[1][:5] == ["B1", "B2", "56000", "16000", "1.000"]
+
+
+def test_the_catalogue_as_json(run):
+    code, out, _ = run("balls", "--json")
+    assert code == 0
+    got = json.loads(out)
+    tennis = got["balls"][1]
+    assert (tennis["name"], tennis["mass"], tennis["stiffness"]) == ("tennis", 0.057, 22500.0)
+    assert tennis["sources"]["mass"] == "Cross 2007, section III"
+    assert got["balls"][0]["contact_time"] is None
+    assert got["pairs"][0]["stiffness"] == 1000.0
+
+
+# paper
+
+
+@dataclass(frozen=True)
+class Row:
+    verdict: str
+    explained: bool
+
+
+@dataclass(frozen=True)
+class Audit:
+    rows: tuple[Row, ...]
+    counts: dict[str, int]
+
+    def as_dict(self):
+        return {"counts": self.counts, "computed": math.inf}
+
+
+@pytest.fixture
+def write(monkeypatch):
+    """Stands in for the report, which has tests of its own, and takes its time."""
+    written = []
+
+    def stand_in(out, progress, *, study):
+        progress("study" if study else "figure 2a")
+        written.append(out)
+        rows = (Row("agrees", True), Row("agrees", True), Row("differs", False))
+        return Audit(rows, {"agrees": 2, "differs": 1})
+
+    monkeypatch.setattr(cross2007, "write", stand_in)
+    return written
+
+
+def test_paper_says_what_it_does_and_what_came_out(run, write):
+    code, out, err = run("paper", "--out", "new/folder")
+    assert (code, err) == (0, "figure 2a\n")
+    assert write == [Path("new/folder")]
+    assert rows(out, "agrees") == [["agrees", "2"]]
+    assert rows(out, "differs") == [["differs", "1"]]
+    assert rows(out, "all") == [["all", "3"]]
+    assert "Rows that disagree without an explanation: 1\n" in out
+    assert out.endswith("Open new/folder/index.html\n")
+
+
+def test_paper_with_its_study(run, write):
+    code, _, err = run("paper", "--out", "new", "--study")
+    assert (code, err) == (0, "study\n")
+    assert write == [Path("new")]
+
+
+def test_paper_as_json(run, write):
+    code, out, err = run("paper", "--out", "new", "--json")
+    assert (code, err) == (0, "figure 2a\n")
+    assert len(write) == 1
+    assert json.loads(out) == {"counts": {"agrees": 2, "differs": 1}, "computed": None}
+
+
+@pytest.mark.parametrize("folder", ["file", "file/new/deep", "/proc/new"])
+def test_an_output_folder_that_cannot_be_written_to(run, folder):
+    Path("file").write_text("kept")
+    code, out, err = run("paper", "--out", folder)
+    assert (code, out) == (2, "")
+    assert err.startswith(f"stackbounce: error: {folder} cannot be written to: ")
+    assert err.count("\n") == 1
+    assert Path("file").read_text() == "kept"
+    assert list(Path().iterdir()) == [Path("file")]
+
+
+def test_an_output_folder_needs_a_name(run, write):
+    assert run("paper", "--out", "") == (
+        2, "", "stackbounce: error: --out must name a folder, got ''\n",
+    )  # fmt: skip
+    assert write == []
+
+
+@pytest.mark.skipif(os.name != "posix" or os.geteuid() == 0, reason="root may write everywhere")
+def test_an_output_folder_without_permission(run):
+    Path("shut").mkdir(mode=0o500)
+    code, out, err = run("paper", "--out", "shut")
+    assert (code, out) == (2, "")
+    assert err == "stackbounce: error: shut cannot be written to: Permission denied\n"
+    assert list(Path("shut").iterdir()) == []
+
+
+# parts
+
+
+def test_contacts_in_words():
+    assert read_contact("none", "x") is None
+    assert read_contact("Hysteretic stiffness=1kN/m restitution=78%", "x") == sb.Hysteretic(
+        1000.0, restitution=0.78
+    )
+    law = sb.Hysteretic(2000.0, exponent=1.5, restitution=0.5)
+    text = "Hysteretic, stiffness 2000 N/m^1.5, exponent 1.5, restitution 0.5"
+    assert show.law_text(law) == text
+    assert show.law_text(None) == "none"
+
+
+@pytest.mark.parametrize(
+    ("words", "law", "text"),
+    [
+        ("Rigid restitution=0.5", sb.Rigid(0.5), "Rigid, restitution 0.5"),
+        ("Spring stiffness=2kN/m", sb.Spring(2000.0), "Spring, stiffness 2000 N/m"),
+        ("Hertz stiffness=2e9", sb.Hertz(2e9), "Hertz, stiffness 2e+09 N/m^1.5"),
+        (
+            "powerlaw stiffness=20kN/m^1.3 exponent=1.3", sb.PowerLaw(2e4, 1.3),
+            "PowerLaw, stiffness 20000 N/m^1.3, exponent 1.3",
+        ),
+        (
+            "Dashpot stiffness=20kN/m damping='7 N s/m'", sb.Dashpot(2e4, 7.0),
+            "Dashpot, stiffness 20000 N/m, damping 7 N s/m",
+        ),
+        (
+            "Viscoelastic stiffness=3e6 dissipative_time=0.2ms", sb.Viscoelastic(3e6, 2e-4),
+            "Viscoelastic, stiffness 3e+06 N/m^1.5, dissipative time 0.0002 s",
+        ),
+        (
+            "HuntCrossley stiffness=3e6 exponent=1.5 dissipation=0.15s/m",
+            sb.HuntCrossley(3e6, 1.5, 0.15),
+            "HuntCrossley, stiffness 3e+06 N/m^1.5, exponent 1.5, dissipation 0.15 s/m",
+        ),
+        (
+            "Hysteretic stiffness=1kN/m restitution=0.5", sb.Hysteretic(1000.0, restitution=0.5),
+            "Hysteretic, stiffness 1000 N/m, restitution 0.5",
+        ),
+    ],
+)  # fmt: skip
+def test_every_law_is_read_and_told(words, law, text):
+    assert read_contact(words, "x") == law
+    assert show.law_text(law) == text
+
+
+def test_help_names_every_law(run):
+    _, out, _ = run("simulate", "--help")
+    assert all(name in out for name in LAWS)
+
+
+def test_springs_of_any_exponent_lose_nothing(run):
+    _, out, _ = run("simulate", "B1", "--contact", "Hertz stiffness=1e6")
+    assert "Springs lose nothing." in out
+    _, out, _ = run("simulate", "B1", "--contact", "Dashpot stiffness=1e4 damping=1")
+    assert "Springs lose nothing." not in out
+
+
+def test_a_law_from_the_command_line_has_its_separate_collision(run):
+    contact = "HuntCrossley stiffness=3e6 exponent=1.5 dissipation=0.1"
+    code, out, _ = run("simulate", "B1", "--contact", contact, "--speed", "3", "--json")
+    assert code == 0
+    got = json.loads(out)
+    assert got["drop"]["contacts"][0]["dissipation"] == 0.1
+    assert got["separate"]["rebound_ratios"][0] == pytest.approx(0.832870, abs=5e-7)
+
+
+def test_errors_of_the_parts_are_ours():
+    with pytest.raises(InvalidValue):
+        read([])
+    with pytest.raises(FileError):
+        read(["none.toml"])
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (1e-300, "0"), (1e-11, "1.000e-11"), (0.1, "0.1000"), (999.96, "1000."), (1234.5, "1234"),
+        (123456.0, "123456"), (1e12, "1.000e+12"), (-math.inf, "-∞"), (-2.0, "-2.000"),
+    ],
+)  # fmt: skip
+def test_numbers_for_people(value, text):
+    assert show.number(value) == text.removesuffix(".")
+
+
+# sweep
+
+
+def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
+    over = ["--over", "balls.0.mass=50g:500g:4:log", "--over", "gaps.0=0mm,2mm"]
+    files = ["--out", "map.zarr", "--plot", "map.png"]
+    code, out, err = run("sweep", "basketball", "tennis", *over, *files)
+    assert (code, err) == (0, "")
+    assert "8 drops, over\n  balls.0.mass: 4, 0.05 to 0.5 kg\n  gaps.0: 2, 0 to 0.002 m\n" in out
+    assert "  energy_retained: 1\n" in out
+    assert "8 FINISHED" in out
+    assert (tmp_path / "map.png").stat().st_size > 5000
+    again = run("sweep", "basketball", "tennis", *over, "--out", "map.zarr", "--json")
+    found = json.loads(again[1])
+    assert found["status"] == {"FINISHED": 8}
+    assert found["over"] == {"balls.0.mass": 4, "gaps.0": 2}
+    low, high = found["ranges"]["rebound_ratio"]["ball 1"]
+    assert 1.0 < low < high < 3.0
+
+
+def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
+    drawn = []
+    monkeypatch.setattr(plots, "lines", lambda _, *asked, **which: drawn.append((asked, which)))
+    monkeypatch.setattr(output, "draw", lambda make, _: make())
+    over = ["--over", "balls.0.mass = 50 g, 60 g", "--out", "a.zarr", "--plot", "a.png", "--show"]
+    for asked in ("rebound_ratio.0", "collisions"):
+        assert run("sweep", "basketball", "tennis", *over, asked)[0] == 0
+    assert drawn == [(("rebound_ratio",), {"index": 0}), (("collisions",), {})]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--over", "balls.0.mass=1:2"], "--over must be PATH=START:STOP:COUNT"),
+        (["--over", "balls.7.mass=1:2:3"], "balls.7.mass is no number of this drop"),
+        (["--over", "balls.0.mass=-1kg,1kg"], "balls.0.mass must be a positive number"),
+        (
+            ["--over", "gaps.0=0,1", "--cluster", "tcp://127.0.0.1:9"],
+            "--cluster must be the address",
+        ),
+        (["--over", "gaps.0=0,1", "--plot", "map.txt"], "--plot must end in"),
+        (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "colisions"], "did you mean coll"),
+        (["--over", "gaps.0=0,1", "--plot", "a.png", "--show", "collisions.2"], "from 0 to 1, got"),
+        (["--over", "gaps.0=0", "--plot", "a.png", "--show", "energy_retained.0"], "whole stack"),
+        (["--over", "mass=1:2:3"], "say which, balls.0.mass or balls.1.mass"),
+        (["--over", "balls.2.mass=1:2:3"], "its balls count from 0, the lowest, to 1"),
+        (["--over", "speed=1:2:3"], "it is given by its height (--height or --speed choose)"),
+        (["--over", "contacts.0.restitution=1"], "contact 0 is a Spring, which has stiffness"),
+        (["--over", "gaps.0=0:1mm:9:log"], "of one sign for :log, not from or to 0, got 0:1mm"),
+        (
+            ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"],
+            "--plot needs one or two numbers that vary, got 3",
+        ),
+        ([], "Missing option '--over'"),
+    ],
+)
+def test_sweep_says_what_is_wrong_in_one_line(run, tmp_path, arguments, message):
+    code, out, err = run("sweep", "basketball", "tennis", *arguments, "--out", "map.zarr")
+    assert code == 2
+    assert out == ""
+    assert err.count("\n") == 1
+    assert message in err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("out", ["map.csv", "map"])
+def test_sweep_writes_two_kinds_of_file(run, tmp_path, out):
+    code, _, err = run("sweep", "tennis", "--over", "balls.0.mass=1,2", "--out", out)
+    assert code == 2
+    assert err.count("\n") == 1
+    assert f"must end in .zarr or .nc, got '{out}'" in err
+    assert not list(tmp_path.iterdir())
+
+
+def test_sweep_writes_netcdf(run, tmp_path):
+    pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
+    over = ["--over", "balls.0.mass=50g:500g:4:log", "--over", "gaps.0=0mm,2mm"]
+    stores = [
+        run("sweep", "basketball", "tennis", *over, "--out", name, "--json", "--plot", "map.png")
+        for name in ("map.nc", "map.zarr")
+    ]
+    found = [json.loads(out) for _, out, _ in stores]
+    assert [one.pop("store") for one in found] == ["map.nc", "map.zarr"]
+    assert found[0] == found[1]
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert names == ["map.nc", "map.png", "map.zarr"]
+
+
+def test_sweep_does_not_touch_another_store(run, tmp_path):
+    assert run("sweep", "basketball", "tennis", "--over", "gaps.0=0,1", "--out", "map.zarr")[0] == 0
+    code, _, err = run("sweep", "tennis", "--over", "balls.0.mass=1,2", "--out", "map.zarr")
+    assert code == 2
+    assert "map.zarr exists, and is not this sweep" in err
+    assert [path.name for path in tmp_path.iterdir()] == ["map.zarr"]

@@ -1,0 +1,353 @@
+"""`stackbounce fit`: from arguments and files to tables, JSON, pictures and scenarios."""
+
+import contextlib
+import json
+import os
+import re
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import fitted, main
+from stackbounce.fitting import Fit
+
+PAIR = ("basketball", "tennis", "--height", "63cm")
+ONE = (
+    *PAIR,
+    *("--measured", "rebound_ratios.1=1.64 ± 0.02"),
+    *("--vary", "contacts.1.stiffness=0.7kN/m:2.5kN/m"),
+)
+TABLE = """name;height (cm);gaps.0 (mm);rebound_ratios.1
+low;30;1;1,70 ± 0,02
+high;63;1;1,68 ± 0,02
+"""
+
+
+@pytest.fixture
+def run(capfd, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+    def run_main(*arguments):
+        code = main(["fit", *arguments])
+        captured = capfd.readouterr()
+        return code, captured.out, captured.err
+
+    return run_main
+
+
+@pytest.fixture
+def told(run):
+    def run_json(*arguments):
+        code, out, err = run(*arguments, "--json")
+        assert (code, err) == (0, "")
+        return json.loads(out)
+
+    return run_json
+
+
+def cells(out, start):
+    return [line.split() for line in out.splitlines() if line.split()[:1] == [start]]
+
+
+def test_what_is_found_is_what_the_library_finds(told):
+    found = told(*ONE)
+    drop = sb.Drop(
+        [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], height=0.63
+    )
+    same = sb.fit(
+        drop, {"rebound_ratios.1": "1.64 ± 0.02"}, {"contacts.1.stiffness": (700.0, 2500.0)}
+    )
+    (value,) = found["values"].values()
+    assert value["value"] == pytest.approx(same["contacts.1.stiffness"].nominal_value, rel=1e-6)
+    assert value["error"] == pytest.approx(same["contacts.1.stiffness"].std_dev, rel=1e-3)
+    assert value["unit"] == "N/m"
+    assert (found["intervals"], found["posterior"], found["saved"]) == (None, None, [])
+    assert found["probability"] is None  # nothing is left to tell
+
+
+def test_a_table_for_people(run):
+    code, out, err = run(*ONE, "--interval")
+    assert (code, err) == (0, "")
+    ((_, value, error, low, high, unit),) = cells(out, "contacts.1.stiffness")
+    assert (value, error, unit) == ("1477", "55", "N/m")
+    assert float(low) < float(value) < float(high)
+    ((_, measured, error, best, pull),) = cells(out, "rebound_ratios.1")
+    assert (measured, error, best, float(pull)) == ("1.640", "0.020", "1.640", 0.0)
+    assert "0 degrees of freedom: nothing is left to tell whether the model is right." in out
+    assert max(map(len, out.splitlines())) <= 100
+
+
+def test_notes_and_handy_units(run):
+    code, out, _ = run(
+        *PAIR,
+        *("--measured", "rebound_ratios.1=1.90 ± 0.01", "--measured", "rebound_ratios.0=.1 ± .01"),
+        *("--measured", "first_touch.1=1.5 ± 0.1 ms", "--measured", "collisions.1=3"),
+        *("--vary", "contacts.1.stiffness=0.7kN/m:2.5kN/m", "--vary", "gaps.0=0mm:5mm"),
+    )
+    assert code == 0
+    assert cells(out, "first_touch.1")[0][1:3] == ["1.50", "0.10"]
+    assert cells(out, "first_touch.1")[0][-1] == "ms"
+    assert cells(out, "gaps.0")[0][-1] in ("mm", "µm")
+    text = " ".join(out.split())
+    assert "Note: the model does not describe the data: chi squared is" in text
+    assert "Note: collisions.1: 3 seen, 1 in the fit." in text
+
+
+def test_strong_correlations_are_told(run, told):
+    asked = (*ONE, "--vary", "gaps.0=1.3 ± 0.9 mm")
+    _, out, _ = run(*asked)
+    (_, correlation), _ = told(*asked)["correlations"]
+    assert abs(correlation) > 0.5
+    words = f"Correlations: contacts.1.stiffness and gaps.0 {correlation:+.2f}"
+    assert words in " ".join(out.split())
+
+
+def test_what_is_known_beforehand_and_what_follows(told):
+    found = told(
+        *ONE,
+        *("--vary", "gaps.0=1.3 ± 0.9 mm", "--tie", "contacts.0.stiffness=2*contacts.1.stiffness"),
+    )
+    assert list(found["values"]) == ["contacts.1.stiffness", "gaps.0"]
+    assert found["residuals"][-1]["name"] == "gaps.0 (known)"
+    drop = sb.Drop.from_mapping(tomllib.loads(found["drops"][""]))
+    assert drop.contacts[0].stiffness == pytest.approx(2.0 * drop.contacts[1].stiffness)
+
+
+def test_a_drop_that_is_saved_does_what_was_measured(run, tmp_path):
+    code, out, err = run(*ONE, "--save", "fitted.toml")
+    assert (code, err) == (0, "")
+    assert "Fitted: fitted.toml; now: stackbounce simulate fitted.toml" in out
+    result = sb.simulate(sb.Drop.from_toml(tmp_path / "fitted.toml"))
+    assert result.rebound_ratios[1] == pytest.approx(1.64, abs=1e-6)
+    assert main(["simulate", "fitted.toml"]) == 0
+    again = run("fitted.toml", *ONE[4:])
+    assert cells(again[1], "contacts.1.stiffness") == cells(out, "contacts.1.stiffness")
+    assert [path.name for path in tmp_path.iterdir()] == ["fitted.toml"]
+
+
+def test_several_drops_are_saved_into_a_folder(run, told, tmp_path):
+    (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
+    asked = (*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness")
+    found = told(*asked, "--save", "fitted")
+    assert [one["drop"] for one in found["residuals"]] == ["low", "high"]
+    assert found["saved"] == [str(Path("fitted", f"{name}.toml")) for name in ("low", "high")]
+    for name, height in (("low", 0.30), ("high", 0.63)):
+        drop = sb.Drop.from_toml(tmp_path / "fitted" / f"{name}.toml")
+        assert (drop.height, drop.gaps) == (height, (0.001,))
+        stiffness = found["values"]["contacts.1.stiffness"]["value"]
+        assert drop.contacts[1].stiffness == stiffness
+    more = told(*asked, "--measured", "low.rebound_ratios.0=0.2 ± 0.1")
+    assert [one["name"] for one in more["residuals"]][:2] == [
+        "rebound_ratios.1",
+        "rebound_ratios.0",
+    ]
+    code, out, _ = run(*asked)
+    assert code == 0
+    assert len(cells(out, "low.rebound_ratios.1")) == len(cells(out, "high.rebound_ratios.1")) == 1
+
+
+def test_a_file_asks_and_options_change_it(told, tmp_path):
+    (tmp_path / "fit.toml").write_text(
+        "height = 1\nmeasured.durations.0 = '5.0 ± 0.1 ms'\nvary.contacts.0.stiffness = ''\n"
+        "[[balls]]\nmass = '56.7 g'\n[[contacts]]\nlaw = 'Spring'\nstiffness = 1e4\n",
+        encoding="utf-8",
+    )
+    first = told("fit.toml")["values"]["contacts.0.stiffness"]
+    assert first["value"] == pytest.approx(0.0567 * (3.14159265 / 5e-3) ** 2, rel=1e-6)
+    other = told("fit.toml", "--measured", "durations.0=2.5 ± 0.1 ms", "--height", "2m")
+    assert other["values"]["contacts.0.stiffness"]["value"] == pytest.approx(4.0 * first["value"])
+    assert "height = 2.0" in other["drops"][""]
+
+
+def test_draws_and_their_picture(told, tmp_path):
+    found = told(*ONE, "--sample", "3200", "--seed", "3", "--corner", "corner.png")
+    drawn = found["posterior"]
+    assert (drawn["draws"], drawn["seed"]) == (75 * 32, 3)
+    assert 0.1 < drawn["acceptance"] < 0.9
+    value = drawn["values"]["contacts.1.stiffness"]
+    assert value["autocorrelation"] > 0.0
+    assert value["quantiles"]["0.5"] == pytest.approx(1477.0, abs=30.0)
+    assert (tmp_path / "corner.png").stat().st_size > 5_000
+    assert told(*ONE, "--sample", "3200", "--seed", "3")["posterior"] == drawn
+
+
+def test_draws_in_a_table(run):
+    code, out, err = run(*ONE, "--sample", "3200", "--interval")
+    assert (code, err) == (0, "")
+    ((*numbers, unit),) = cells(out, "contacts.1.stiffness")
+    assert (len(numbers), unit) == (8, "N/m")
+    assert re.search(r"Draws: \d+ kept; \d\d% of the steps were taken, and a walker", out)
+
+
+@pytest.mark.parametrize("picture", ["fit.png", "fit.svg"])
+def test_a_picture(run, tmp_path, picture):
+    code, out, _ = run(*ONE, "--plot", picture)
+    assert code == 0
+    assert f"Picture: {picture}" in out
+    assert (tmp_path / picture).stat().st_size > 10_000
+
+
+@pytest.mark.skipif(os.name != "posix", reason="a terminal of its own")
+def test_a_terminal_sees_how_far_the_draws_are(tmp_path):
+    ours, theirs = os.openpty()
+    code = "import sys; from stackbounce.cli import main; sys.exit(main(sys.argv[1:]))"
+    command = [sys.executable, "-c", code, "fit", *ONE, "--sample", "3200"]
+    options = {"stderr": theirs, "stdout": subprocess.DEVNULL, "cwd": tmp_path}
+    with subprocess.Popen(command, **options) as process:
+        os.close(theirs)
+        seen = b""
+        with contextlib.suppress(OSError):  # how Linux tells that the other end is closed
+            while more := os.read(ours, 10_000):
+                seen += more
+    os.close(ours)
+    assert process.returncode == 0
+    assert b"3200/3200" in seen
+
+
+def test_an_interruption_leaves_nothing_behind(run, tmp_path, monkeypatch):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Fit, "sample", interrupted)
+    asked = (*ONE, "--sample", "3200", "--save", "fitted.toml", "--plot", "fit.png")
+    assert run(*asked) == (130, "", "stackbounce: interrupted\n")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_a_file_that_cannot_be_written_is_whole_or_not_there(run, tmp_path, monkeypatch):
+    (tmp_path / "fitted.toml").write_text("before", encoding="utf-8")
+
+    def full(path, _):
+        raise OSError(28, "No space left on device", str(path))
+
+    monkeypatch.setattr("pathlib.Path.replace", full)
+    code, _, err = run(*ONE, "--save", "fitted.toml")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "fitted.toml cannot be written: No space left on device" in err
+    assert [path.read_text("utf-8") for path in tmp_path.iterdir()] == ["before"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (PAIR, "nothing was measured: give --measured"),
+        ((*PAIR, *ONE[4:6]), "nothing is to vary: give --vary"),
+        ((*ONE, "--vary", "contacts.1.stifness"), "did you mean contacts.1.stiffness?"),
+        ((*ONE, "--vary", "gaps.0="), "--vary must be PATH=BOUNDS, got 'gaps.0='"),
+        ((*ONE, "--vary", "gaps.0=1:2", "--vary", "gaps.0"), "each number once, got gaps.0 twice"),
+        ((*ONE, "--vary", "gaps.0=2kg:3kg"), "gaps.0 must be a length"),
+        ((*ONE, "--vary", "gaps.0=0mm:5mm"), "vary has 2 numbers for 1 measured number"),
+        ((*ONE, "--measured", "rebound_ratios.0"), "--measured must be NAME=VALUE"),
+        (
+            (*ONE, "--measured", "rebound_ratios.0=1.6"),
+            "rebound_ratios.0 must be a number with its",
+        ),
+        ((*ONE, "--measured", "rebound_ratio.0=1 ± 1"), "did you mean rebound_ratios?"),
+        ((*ONE, "--measured", "collisions.0=1.5"), "collisions.0 must be a whole number"),
+        ((*ONE, "--measured", "force.0=none.csv"), "none.csv cannot be read: No such file"),
+        (
+            (*ONE, "--tie", "gaps.0=stiffness"),
+            "gaps.0 = 'stiffness' has stiffness, which is neither",
+        ),
+        ((*ONE, "--tie", "gaps.0"), "--tie must be PATH=FORMULA, got 'gaps.0'"),
+        ((*ONE, "--data", "none.csv"), "none.csv cannot be read: No such file or directory"),
+        ((*ONE, "--starts", "0"), "starts must be a whole number from 1"),
+        ((*ONE, "--seed", "-1"), "seed must be a whole number"),
+        ((*ONE, "--sample", "10"), "draws must be a whole number"),
+        ((*ONE, "--plot", "fit.gif"), "--plot must end in .svg, .png, .pdf, got fit.gif"),
+        ((*ONE, "--corner", "fit.png"), "--corner draws what --sample draws: give both"),
+        ((*ONE, "--sample", "3200", "--corner", "a.gif"), "--corner must end in .svg"),
+        ((*ONE, "--save", "fitted"), "--save must end in .toml, got fitted"),
+        (
+            (*ONE, "--save", "no/fitted.toml"),
+            "no/fitted.toml cannot be written: there is no folder",
+        ),
+        (("none.toml", *ONE[4:]), "none.toml cannot be read: No such file or directory"),
+        (("cricket", *ONE[2:]), "cricket"),
+    ],
+)
+def test_bad_input_is_one_line(run, tmp_path, arguments, expected):
+    code, out, err = run(*arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("stackbounce: error: ")
+    assert expected in err
+    assert err.count("\n") == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("arguments", "expected"),
+    [
+        (("--save", "a.toml"), "--save must name a folder for 2 drops, a file each, got a.toml"),
+        (("--measured", "rebound_ratios.0=1 ± 1"), "--measured must be DROP.NAME, such as low."),
+        (("--measured", "lo.rebound_ratios.0=1 ± 1"), "did you mean low?"),
+        (("--vary", "low.gaps.1"), "low.gaps.1 is no number of the drop; did you mean"),
+    ],
+)
+def test_what_is_wrong_with_several_drops(run, tmp_path, arguments, expected):
+    (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
+    asked = (*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness", *arguments)
+    code, out, err = run(*asked)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert expected in err
+
+
+def test_a_table_of_drops_needs_one_drop_without_data(run, tmp_path):
+    (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
+    (tmp_path / "fit.toml").write_text(
+        "height = 1\nmeasured.durations.0 = '5.0 ± 0.1 ms'\n"
+        "[[balls]]\nmass = '56.7 g'\n[[contacts]]\nlaw = 'Spring'\nstiffness = 1e4\n",
+        encoding="utf-8",
+    )
+    code, _, err = run("fit.toml", "--data", "drops.csv")
+    assert code == 2
+    assert "--data tells drops and what was measured of them" in err
+
+
+def test_help_names_every_option_and_loads_nothing_heavy(run):
+    code, out, _ = run("--help")
+    assert code == 0
+    for option in ("--data", "--measured", "--vary", "--tie", "--interval", "--sample", "--save"):
+        assert option in out
+    check = (
+        "import sys; from stackbounce.cli import main; main(['fit', '--help']); "
+        "heavy = {'numpy', 'lmfit', 'xarray', 'matplotlib', 'numba', 'emcee', 'corner', 'scipy'}; "
+        "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", check], capture_output=True, text=True, check=False
+    )
+    assert done.stderr.strip() == ""
+
+
+def test_the_probability_is_told_in_words(run, tmp_path):
+    (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
+    _, out, _ = run(*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness=1kN/m:1.3kN/m")
+    assert "for 1 degree of freedom; were the model right, it would be larger in" in out
+    assert "% of" in out
+
+
+def test_the_same_digits_for_a_value_and_its_limits(run):
+    """Where an interval is shorter on one side, that side says how many digits count."""
+    found = fitted.run(
+        fitted.question(
+            ["basketball", "tennis"],
+            data=None,
+            measured=["rebound_ratios.1=1.64 ± 0.02"],
+            vary=["contacts.1.stiffness=0.7kN/m:2.5kN/m"],
+            tie=[],
+            height="63cm",
+        ),
+        starts=16,
+        seed=0,
+        interval=True,
+        sample=None,
+    )
+    low, high, *_ = found.intervals["contacts.1.stiffness"]
+    _, out, _ = run(*ONE, "--interval", "--starts", "16")
+    ((*_, shown_low, shown_high, _),) = cells(out, "contacts.1.stiffness")
+    assert (shown_low, shown_high) == (f"{low:.0f}", f"{high:.0f}")

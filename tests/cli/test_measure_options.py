@@ -1,0 +1,169 @@
+"""`stackbounce measure`: a contact law, heights, points on the ball, the floor of a track."""
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.errors import InvalidValue
+from stackbounce.measure import analyse, heights, one_law
+from stackbounce.measure.kinds.contact.analysis import known_contact
+from stackbounce.measure.uncertain_numbers import quantity_with_error
+from stackbounce.synthetic.falls import falls
+from stackbounce.synthetic.track import track as tracked
+
+LAB = Path(__file__).parents[2] / "docs" / "lab"
+SPEED = (2.0 * 9.80665) ** 0.5  # m/s, after 1 m
+HEIGHTS = "1.00, 0.64, 0.4096 m"
+
+
+@pytest.fixture
+def run(capfd, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("tennis.wav", "tennis-force.csv"):
+        shutil.copy(LAB / name, tmp_path)
+
+    def run_main(*arguments):
+        assert main(["measure", *arguments, "--json"]) == 0
+        return json.loads(capfd.readouterr().out)
+
+    return run_main
+
+
+def rows(found):
+    return {row["name"]: (row["value"], row["error"]) for row in found}
+
+
+@pytest.mark.parametrize(
+    "law", ["Spring", "hertz", "dashpot", "viscoelastic", "hunt-crossley", "hysteretic"]
+)
+def test_the_law_that_is_saved_has_what_was_measured(run, law):
+    files = ["tennis.wav", "tennis-force.csv", "--mass", "57g", "--height", "1m"]
+    told = run(*files, "--law", law, "--save", "ball.toml")
+    found = rows(told["law"])
+    time, error = found["from contact time"]
+    assert time == rows(told["files"][1]["found"])["contact time"][0]
+    assert found["stiffness"][1] > error  # N/m, and seconds
+    drop = sb.Drop.from_toml("ball.toml")
+    contact = drop.contacts[0]
+    assert type(contact).__name__ == found["law"][0]
+    assert contact.stiffness == found["stiffness"][0]
+    result = sb.simulate(drop)
+    assert float(result.intervals["end"][0]) == pytest.approx(time, rel=1e-6)
+    kept = found["from restitution"][0] if "from restitution" in found else 1.0
+    assert float(result.rebound_ratios[0]) == pytest.approx(kept, abs=1e-6)
+
+
+def test_numbers_alone_give_a_law_with_errors(run):
+    contact = ["--contact-time", "5.0 ± 0.1 ms", "--restitution", "0.75+/-0.02"]
+    told = run(*contact, "--mass", "(57.0±0.5) g", "--law", "hysteretic", "--save", "ball.toml")
+    found = rows(told["law"])
+    law = sb.calibrate(sb.Hysteretic, mass=0.057, contact_time=5e-3, restitution=0.75)
+    assert found["stiffness"][0] == pytest.approx(law.stiffness)
+    relative = found["stiffness"][1] / found["stiffness"][0]
+    assert relative == pytest.approx(2 * 0.1 / 5.0, rel=0.1)  # the time's error counts twice
+    assert sb.Drop.from_toml("ball.toml").contacts == (law,)
+    assert rows(told["files"][0]["found"])["dynamic stiffness"][0] == pytest.approx(22503, rel=1e-4)
+
+
+def test_an_exponent_with_the_law(run):
+    told = run(
+        "--contact-time", "5ms", "--mass", "57g", "--speed", "2", "--law", "power-law exponent=1.3"
+    )
+    law = sb.calibrate(sb.PowerLaw, mass=0.057, contact_time=5e-3, impact_speed=2.0, exponent=1.3)
+    assert rows(told["law"])["stiffness"][0] == pytest.approx(law.stiffness)
+
+
+def test_what_is_known_counts_before_what_was_found(run):
+    told = run("tennis.wav", "--restitution", "0.5", "--law", "rigid")
+    assert rows(told["law"])["restitution"] == (0.5, 0.0)
+
+
+@pytest.mark.parametrize("law", ["dashpot", "hunt-crossley"])
+def test_a_track_tells_restitution_and_speed(law):
+    track = analyse(tracked(falls(1.0, 0.8), noise=1e-4, seed=1))
+    found = one_law(law, track, mass=0.06, contact_time=4e-3)
+    assert sb.restitution(found.law, 0.06, SPEED) == pytest.approx(0.8, abs=3e-3)
+    if law == "hunt-crossley":
+        assert found.given["impact_speed"].nominal_value == pytest.approx(SPEED, abs=5e-3)
+
+
+def test_heights_without_errors_give_a_law_all_the_same():
+    found = one_law("rigid", [heights(1.0, 0.64)])
+    assert found.law == sb.Rigid(0.8)
+
+
+def test_nothing_known_is_no_contact():
+    assert known_contact(contact_time=5e-3).parts() == {}
+
+
+@pytest.mark.parametrize("mark", [",", ";"])
+def test_heights_typed_in(run, mark):
+    told = run("--heights", HEIGHTS.replace(",", mark), "--height-error", "5mm")
+    found = rows(told["files"][0]["found"])
+    assert found["restitution"][0] == pytest.approx(0.8)
+    assert found["drop height"] == (1.0, 0.005)
+    each = run("--heights", "100 cm, 64 ± 0.5 cm, 409.6 mm", "--height-error", "5mm")
+    for name, numbers in rows(each["files"][0]["found"]).items():
+        assert numbers == pytest.approx(found[name])
+
+
+def test_heights_in_a_table(run):
+    Path("heights.csv").write_text("height (cm)\n100\n64\n40.96\n", encoding="utf-8")
+    options = ["--height-error", "5mm", "--measured-to", "bottom,top", "--diameter", "65 mm"]
+    table = run("heights.csv", *options)["files"][0]
+    assert table["found"] == run("--heights", HEIGHTS, *options)["files"][0]["found"]
+    assert rows(table["found"])["restitution of bounce 0"][0] == pytest.approx(0.575**0.5)
+
+
+def test_one_bounce_again_and_again(run):
+    found = rows(run("--heights", "1, 0.63, 0.65, 0.64 m", "--repeated")["files"][0]["found"])
+    assert found["restitution"][0] == pytest.approx(0.8)
+    assert "restitution 2" in found
+
+
+def test_heights_are_drawn_and_saved(run):
+    options = ["--height-error", "5mm", "--plot", "h.svg", "--save", "b.toml", "--mass", "57g"]
+    run("--heights", HEIGHTS, *options)
+    assert Path("h.svg").read_bytes().startswith(b"<?xml")
+    drop = sb.Drop.from_toml("b.toml")
+    assert (drop.height, drop.contacts[0].restitution) == (1.0, pytest.approx(0.8))
+
+
+def test_the_drop_height_of_a_sound_may_be_the_top(run):
+    options = ["--height", "1.066 m", "--measured-to", "top", "--diameter", "66mm"]
+    of_top = rows(run("tennis.wav", *options)["files"][0]["found"])
+    of_bottom = rows(run("tennis.wav", "--height", "1 m")["files"][0]["found"])
+    assert of_top["restitution of bounce 0"] == pytest.approx(of_bottom["restitution of bounce 0"])
+
+
+def test_the_floor_of_a_soft_balls_track():
+    """The centre of a ball that stays down for 30 ms: parabolas meet below the floor."""
+    law = sb.Spring(0.15 * (3.14159265 / 0.03) ** 2)
+    drop = sb.Drop([sb.Ball(0.15, diameter=0.16)], [law], height=0.6, gravity=9.80665)
+    data = tracked(sb.simulate(drop, until=0.6), frame_rate=240, noise=2e-4, seed=1)
+    (without,) = analyse(data)
+    (found,) = analyse(data, floor=0.0, measured_to="centre", diameter=0.16)
+    assert without.balls[0].drop_height.nominal_value > 0.63
+    true = found.balls[0].drop_height
+    assert abs(true.nominal_value - 0.6) < 3.0 * true.std_dev < 3e-3
+    (same,) = analyse(data, floor=0.08)
+    assert same.balls[0].drop_height.nominal_value == true.nominal_value
+
+
+@pytest.mark.parametrize(
+    ("text", "value", "error"),
+    [("1.00 ± 0.01 m", 1.0, 0.01), ("100 cm +/- 5 mm", 1.0, 0.005), ("(1e2±1)cm", 1.0, 0.01)],
+)
+def test_numbers_with_errors(text, value, error):
+    found = quantity_with_error(text, "m", "height")
+    assert (found.nominal_value, found.std_dev) == (value, pytest.approx(error))
+
+
+@pytest.mark.parametrize("text", ["1 ± m", "± 1 m", "1 ± 2 s", "1 ± -1 m", "1 ± 1 ± 1 m"])
+def test_numbers_with_wrong_errors(text):
+    with pytest.raises((InvalidValue, sb.StackbounceError), match="height"):
+        quantity_with_error(text, "m", "height")

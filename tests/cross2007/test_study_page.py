@@ -1,0 +1,124 @@
+"""The study's page: complete, self-contained, linked, whatever numbers came out."""
+
+import json
+import struct
+from html.parser import HTMLParser
+
+import numpy as np
+import pytest
+
+from stackbounce import cross2007
+from stackbounce.cross2007 import paper
+from stackbounce.cross2007.study import basketball, compared, section_v, sensitivity
+from stackbounce.cross2007.study import readings as reading
+from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
+from stackbounce.fitting import Fit
+from stackbounce.fitting.question import read_problem
+from stackbounce.fitting.search import Minimum
+
+FIGURES = ["comparison", "misfits", "delays", "energy", "decisive"]
+
+
+def looked_at(model, data, *_, **__):
+    """Stands for a fit: one trial in the middle, gaps of 5 mm."""
+    problem = read_problem(model.drop, data, model.vary, model.tie, 1e-5)
+    x = np.array(
+        [5e-3 if one.name.endswith("gaps.0") else sum(one.span) / 2 for one in problem.parameters]
+    )
+    x = np.clip(x, problem.spans[:, 0], problem.spans[:, 1])
+    return Fit(problem, [Minimum(x, float(problem.chi_squared(x[None])[0]), True)])
+
+
+@pytest.fixture(scope="module")
+def told():
+    return []
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, told):
+    out = tmp_path_factory.mktemp("study")
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (compared, reading, sensitivity, basketball):
+            patch.setattr(module, "fitted", looked_at)
+        patch.setattr(sensitivity, "again", looked_at)
+        patch.setattr(section_v, "refits", list)
+        patch.setattr("stackbounce.cross2007.study.study.refits", section_v.refits)
+        patch.setattr(paper, "FIGURES", {"6": paper.FIGURES["6"]})
+        patch.setattr(paper, "SECTIONS", paper.SECTIONS[:1])
+        cross2007.write(out, told.append, study=True)
+    return out
+
+
+class Page(HTMLParser):
+    """Collects what a page refers to, and sees that its tags match."""
+
+    def __init__(self):
+        super().__init__()
+        self.open, self.ids, self.loads, self.links, self.text = [], [], [], [], []
+
+    def handle_starttag(self, tag, attrs):
+        attrs = dict(attrs)
+        if tag not in {"meta", "img", "br"}:
+            self.open.append(tag)
+        if "id" in attrs:
+            self.ids.append(attrs["id"])
+        if "src" in attrs:
+            self.loads.append(attrs["src"])
+        if "href" in attrs:
+            self.links.append(attrs["href"])
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.text.append(data)
+
+
+@pytest.fixture(scope="module")
+def page(folder):
+    page = Page()
+    page.feed((folder / "study.html").read_text(encoding="utf-8"))
+    return page
+
+
+def test_its_files_lie_beside_the_reports(folder):
+    for name in FIGURES:
+        assert (folder / "figures" / f"study-{name}.svg").stat().st_size > 1000
+        png = (folder / "figures" / f"study-{name}.png").read_bytes()
+        assert struct.unpack(">II", png[16:24])[0] > 1000
+    assert 'href="study.html"' in (folder / "index.html").read_text(encoding="utf-8")
+
+
+def test_it_loads_nothing_and_its_links_lead_somewhere(page, folder):
+    assert page.open == []
+    assert len(page.loads) == len(FIGURES)
+    assert all(one.startswith("data:image/svg+xml;base64,") for one in page.loads)
+    assert len(set(page.ids)) == len(page.ids)
+    for link in page.links:
+        assert link[1:] in page.ids if link.startswith("#") else (folder / link).exists()
+
+
+def test_every_model_is_there(page, folder):
+    text = " ".join("".join(page.text).split())
+    done = json.loads((folder / "study.json").read_text(encoding="utf-8"))
+    names = {*THEORIES, *NAMES}
+    assert {one["name"] for one in done["models"]} == names
+    for one in done["models"]:
+        assert one["title"] in text
+        assert set(one["pairs"]) == set(done["data"])
+    assert "nan" not in text.lower().replace("resonant", "")
+
+
+def test_it_says_what_it_is_doing(told):
+    assert any("model 'S'" in line for line in told)
+    assert [line for line in told if line.startswith("figure study")] == [
+        f"figure study-{name}" for name in FIGURES
+    ]
+
+
+def test_without_it_nothing_changes(tmp_path, monkeypatch):
+    monkeypatch.setattr(paper, "FIGURES", {})
+    monkeypatch.setattr(paper, "SECTIONS", ())
+    cross2007.write(tmp_path)
+    assert not (tmp_path / "study.html").exists()
+    assert "study.html" not in (tmp_path / "index.html").read_text(encoding="utf-8")

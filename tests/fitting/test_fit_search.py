@@ -1,0 +1,125 @@
+"""Surfaces with kinks and several minima: the best is found from any seed, the same each time."""
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce.fitting.question import read_problem
+from stackbounce.fitting.search import search, starts
+
+STIFFNESS = "contacts.1.stiffness"
+
+
+def stack(lower=2500.0, upper=1000.0, gap=0.0):
+    return sb.Drop(
+        [sb.Ball(0.150), sb.Ball(0.057)],
+        [sb.Spring(lower), sb.Spring(upper)],
+        gaps=[gap],
+        impact_speed=3.5,
+    )
+
+
+def least_on_a_grid(drop, data, stiffnesses):
+    """Return chi squared on a fine grid."""
+    ratios = sb.sweep(drop, {STIFFNESS: stiffnesses}).rebound_ratio.values
+    return sum(((ratios[:, i] - value) / error) ** 2 for i, (value, error) in data.items())
+
+
+def test_all_crossings_of_one_ratio_are_told():
+    """The upper ball's ratio is 1.12 at three stiffnesses: one number cannot decide."""
+    grid = np.geomspace(2800.0, 9500.0, 20_001)
+    chi = least_on_a_grid(stack(), {1: (1.12, 0.002)}, grid)
+    inside = (chi[1:-1] < chi[:-2]) & (chi[1:-1] < chi[2:]) & (chi[1:-1] < 0.1)
+    crossings = grid[1:-1][inside]
+    assert len(crossings) == 3
+    for seed in range(3):
+        found = sb.fit(
+            stack(), {"rebound_ratios.1": (1.12, 0.002)}, {STIFFNESS: (2800.0, 9500.0)}, seed=seed
+        )
+        minima = sorted(found.problem.values(one.x[None])[STIFFNESS][0] for one in found.minima)
+        assert minima == pytest.approx(crossings, rel=1e-3)
+        assert sum("another minimum is as good" in note for note in found.notes) == 2
+
+
+def test_of_equal_minima_the_nearest_to_the_drop_comes_first():
+    for own, seed in [(3000.0, 0), (3000.0, 1), (9000.0, 0), (9000.0, 1)]:
+        found = sb.fit(
+            stack(upper=own),
+            {"rebound_ratios.1": (1.12, 0.002)},
+            {STIFFNESS: (2800.0, 9500.0)},
+            seed=seed,
+        )
+        distances = [abs(np.log(found.problem.values(one.x[None])[STIFFNESS][0] / own))
+                     for one in found.minima]  # fmt: skip
+        assert distances[0] == min(distances)
+
+
+@pytest.mark.parametrize("upper", [1200.0, 4600.0, 6200.0, 15_000.0, 21_000.0, 60_000.0])
+def test_where_contacts_come_and_go_the_best_of_a_grid_is_found(upper):
+    """One to many contacts: chi squared has kinks and many minima from bound to bound."""
+    truth = sb.simulate(stack(upper=upper)).rebound_ratios
+    data = {0: (truth[0] + 0.002, 0.003), 1: (truth[1] - 0.001, 0.006)}
+    grid = np.geomspace(300.0, 1e5, 20_001)
+    least = least_on_a_grid(stack(), data, grid).min()
+    measured = {"rebound_ratios": list(data.values())}
+    for seed in range(2):
+        found = sb.fit(stack(), measured, {STIFFNESS: (300.0, 1e5)}, seed=seed)
+        assert found.chi_squared <= least + 1e-3
+
+
+def test_two_numbers_are_found_from_any_seed():
+    truth = stack(upper=6000.0, gap=0.0015)
+    ratios = sb.simulate(truth).rebound_ratios
+    intervals = sb.simulate(truth).intervals
+    upper = intervals[intervals["contact"] == 1]
+    data = {
+        "rebound_ratios": [(one, 0.005) for one in ratios],
+        "first_touch.1": (upper["start"][0], 2e-5),
+        "last_release.1": (upper["end"][-1], 2e-5),
+    }
+    for seed in range(4):
+        found = sb.fit(stack(), data, {STIFFNESS: (300.0, 1e5), "gaps.0": (0.0, 0.01)}, seed=seed)
+        assert found.best == pytest.approx({STIFFNESS: 6000.0, "gaps.0": 0.0015}, rel=1e-4)
+
+
+def test_the_same_seed_gives_the_same_bits():
+    data = {"rebound_ratios": ["1.0 ± 0.03", "1.5 ± 0.05"], "durations.0": "25 ± 2 ms"}
+    vary = {STIFFNESS: (300.0, 1e5), "contacts.0.stiffness": (500.0, 1e4)}
+    one, other = (sb.fit(stack(), data, vary, seed=7) for _ in range(2))
+    assert [a.x.tobytes() for a in one.minima] == [a.x.tobytes() for a in other.minima]
+    assert one.covariance.values.tobytes() == other.covariance.values.tobytes()
+
+
+def test_how_many_threads_there_are_makes_no_difference(monkeypatch):
+    """4,096 trials are several blocks, which threads share."""
+    data = {"rebound_ratios": ["1.0 ± 0.03", "1.5 ± 0.05"], "durations.0": "25 ± 2 ms"}
+    vary = {STIFFNESS: (300.0, 1e5), "contacts.0.stiffness": (500.0, 1e4)}
+    found = []
+    for threads in (1, 4):
+        monkeypatch.setattr("os.cpu_count", lambda count=threads: count)
+        found.append(sb.fit(stack(), data, vary, starts=4096).minima[0].x.tobytes())
+    assert found[0] == found[1]
+
+
+def test_trials_are_spread_over_all_of_the_bounds():
+    vary = {STIFFNESS: (300.0, 1e5), "gaps.0": (0.0, 0.01)}
+    problem = read_problem(stack(), {"rebound_ratios": [(1, 0.1)] * 2}, vary, None, 1e-9)
+    trials = starts(problem, 256, 0)
+    for k, (low, high) in enumerate(problem.spans):
+        counts, _ = np.histogram(trials[:, k], bins=16, range=(low, high))
+        assert np.all(counts == 16)
+    assert np.array_equal(starts(problem, 100, 0), starts(problem, 128, 0)[:100])
+
+
+def test_a_valley_is_one_minimum():
+    """With a gap of zero only the ratio of the stiffnesses counts: all of a line is as good."""
+    problem = read_problem(
+        stack(),
+        {"rebound_ratios": [(0.6, 0.05), (1.6, 0.05)]},
+        ["contacts.0.stiffness", STIFFNESS],
+        None,
+        1e-9,
+    )
+    for seed in range(3):
+        best, *others = search(problem, np.empty((0, len(problem.parameters))), seed=seed)
+        assert all(one.chi_squared > best.chi_squared + 1.0 for one in others)

@@ -1,0 +1,152 @@
+"""Force records as data: clocks, scales, polarity, and records that cannot be used."""
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import stackbounce as sb
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.fitting.question import read_problem
+from stackbounce.synthetic.waveform import waveform
+
+ONE = sb.Drop([sb.Ball(0.150)], [sb.Spring(2500.0)], impact_speed=3.5)
+TWO = sb.Drop(
+    [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.5
+)
+VARY = {"contacts.0.stiffness": (1500.0, 4000.0)}
+RECORD = waveform(ONE, rate=1e4, noise=0.5, seed=1, before=0.01).force
+TIMES, FORCE = RECORD.time.values, RECORD.values
+
+
+def fitted(record, drop=ONE, vary=VARY):
+    return sb.fit(drop, {"force.0": record}, vary, starts=4)
+
+
+def within(found, name, truth, sigmas=3.0):
+    return abs(found[name].nominal_value - truth) < sigmas * found[name].std_dev
+
+
+def test_a_record_in_newtons_tells_stiffness_and_touch():
+    found = fitted(RECORD)
+    assert found.names == ["contacts.0.stiffness", "touch"]
+    assert within(found, "contacts.0.stiffness", 2500.0)
+    assert found["contacts.0.stiffness"].std_dev < 5.0
+    assert found.units["touch"] == "s"
+    assert found.degrees_of_freedom == len(TIMES) - 3  # stiffness, touch, baseline
+    assert found.probability > 0.01
+    assert found.residuals == []
+    assert found.notes == ()
+
+
+def test_residuals_are_those_of_a_spring_by_hand():
+    problem = read_problem(ONE, {"force.0": (TIMES, FORCE, 0.5)}, VARY, None, 1e-9)
+    start, stiffness = 0.00995, 2450.0
+    omega = np.sqrt(stiffness / 0.150)
+    phase = omega * (TIMES - start)
+    force = stiffness * 3.5 / omega * np.sin(phase) * ((phase > 0.0) & (phase < np.pi))
+    wave = problem.measured[""].waveforms[0]
+    off = wave.force - force
+    trial = np.array([[stiffness, start]])
+    assert problem.residuals(trial)[0] == pytest.approx((off.mean() - off) / 0.5, abs=1e-6)
+
+
+@pytest.mark.parametrize("shift", [0.1, 1234.567])
+def test_the_clock_of_a_record_is_its_own(shift):
+    found, plain = fitted((TIMES + shift, FORCE)), fitted((TIMES, FORCE))
+    assert found.chi_squared == pytest.approx(plain.chi_squared, rel=1e-5)
+    assert found.best["touch"] - shift == pytest.approx(plain.best["touch"], abs=1e-8)
+
+
+def test_volts_have_a_scale_that_is_free():
+    volts = (RECORD * 0.01).assign_attrs(units="V")
+    found = fitted(volts)
+    assert found.degrees_of_freedom == len(TIMES) - 4
+    assert within(found, "contacts.0.stiffness", 2500.0)
+    assert found["contacts.0.stiffness"].std_dev > fitted(RECORD)["contacts.0.stiffness"].std_dev
+    turned = fitted(-volts)
+    assert turned.best == pytest.approx(found.best, rel=1e-9)
+
+
+def test_a_record_of_the_other_sign_in_newtons():
+    assert fitted((TIMES, -FORCE)).best == pytest.approx(fitted((TIMES, FORCE)).best, rel=1e-9)
+
+
+@pytest.mark.parametrize("bad", [np.nan, np.inf])
+def test_samples_that_are_no_numbers_are_left_out(bad):
+    force = FORCE.copy()
+    force[[20, 200]] = bad
+    found = fitted((TIMES, force))
+    assert found.degrees_of_freedom == len(TIMES) - 2 - 3
+    assert within(found, "contacts.0.stiffness", 2500.0)
+
+
+def test_two_records_of_one_drop_with_other_sampling():
+    record = waveform(TWO, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
+    vary = {**VARY, "contacts.1.stiffness": (700.0, 1500.0)}
+    data = {"force.0": record.force, "force.1": record.force_2[1::3]}
+    found = sb.fit(TWO, data, vary, starts=4)
+    assert within(found, "contacts.0.stiffness", 2500.0)
+    assert within(found, "contacts.1.stiffness", 1000.0)
+    assert found.names[-1] == "touch"
+    assert found.probability > 0.01
+
+
+def test_records_whose_clocks_differ_do_not_fit():
+    record = waveform(TWO, rate=1e4, noise=0.5, seed=2, before=0.01, contacts=[0, 1])
+    later = (record.time.values + 5.0, record.force_2.values)
+    found = sb.fit(TWO, {"force.0": record.force, "force.1": later}, VARY, starts=4)
+    assert found.notes[0].startswith("the model does not describe the data")
+
+
+def test_two_drops_have_a_clock_each():
+    other = waveform(ONE, rate=1e4, noise=0.5, seed=3, before=0.02).force
+    found = sb.fit(
+        {"a": ONE, "b": ONE}, {"a": {"force.0": RECORD}, "b": {"force.0": other}}, VARY, starts=4
+    )
+    assert found.names == ["contacts.0.stiffness", "a.touch", "b.touch"]
+    assert found.best["a.touch"] == pytest.approx(0.01, abs=2e-4)
+    assert found.best["b.touch"] == pytest.approx(0.02, abs=2e-4)
+    assert within(found, "contacts.0.stiffness", 2500.0)
+
+
+BEFORE = TIMES < 0.005
+QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
+
+
+@pytest.mark.parametrize(
+    ("value", "kind", "message"),
+    [
+        ((TIMES, QUIET), InvalidValue, "must begin before a contact and show it, got 4"),
+        ((TIMES[150:], FORCE[150:]), InvalidValue, "must begin before a contact and show it, got"),
+        ((TIMES, np.where(BEFORE, 0.0, 1.0)), InvalidValue, "must begin before a contact"),
+        ((TIMES, FORCE * np.nan), InvalidValue, "must"),
+        ((TIMES[1:], FORCE), InvalidValue, "must have a value for each time"),
+        (([], []), InvalidValue, "must hold at least 8 samples"),
+        (([1.0], [1.0]), InvalidValue, "must hold at least 8 samples"),
+        (None, InvalidType, "must be a DataArray over time, or times, forces and their error"),
+        ("a table", InvalidType, "must be a DataArray over time"),
+        (5.0, InvalidType, "must be a DataArray over time"),
+        ((TIMES,), InvalidType, "must be a DataArray over time"),
+        ((TIMES, FORCE, 0.5, 1.0), InvalidType, "must be a DataArray over time"),
+        ((TIMES, FORCE, 0.0), InvalidValue, "'s error must be a positive number, got 0"),
+        ((TIMES, FORCE, -1.0), InvalidValue, "'s error must be a positive number, got -1"),
+        ((TIMES, FORCE, np.nan), InvalidValue, "'s error must be a positive number, got nan"),
+        (xr.DataArray(np.ones((3, 3)), dims=("time", "x")), InvalidValue, "dimension time alone"),
+    ],
+)
+def test_records_that_cannot_be_used(value, kind, message):
+    with pytest.raises(kind, match=rf"^force\.0.*{message}") as caught:
+        fitted(value)
+    assert "\n" not in str(caught.value)
+
+
+def test_a_contact_that_is_not_there():
+    with pytest.raises(InvalidValue, match=r"^force\.1 must end in the number of a contact"):
+        sb.fit(ONE, {"force.1": RECORD}, VARY)
+    with pytest.raises(InvalidValue, match=r"did you mean force\.0\?|force\.0$"):
+        sb.fit(ONE, {"force": RECORD}, VARY)
+
+
+def test_a_clock_is_no_name_for_something_else():
+    with pytest.raises(InvalidValue, match=r"^touch is the clock of a record"):
+        sb.fit(ONE, {"force.0": RECORD}, {"touch": (0.1, 1.0)}, tie={"gravity": "touch"})

@@ -1,0 +1,391 @@
+"""Gaps from touching to separate, stacks in order, and the masses in between."""
+
+import dataclasses
+import itertools
+import math
+import tomllib
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce import plots
+from stackbounce.calibration import between
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.gaps_and_masses.batch import solved
+from stackbounce.gaps_and_masses.separation_limit import separate_from, with_gap
+from stackbounce.model.catalogue import catalogue_ball
+
+
+def pair(lower, upper, laws, **options):
+    return sb.Drop([sb.Ball(lower), sb.Ball(upper)], laws, **({"impact_speed": 1.0} | options))
+
+
+SPRINGS = [sb.Spring(1.0)] * 2
+FAST = {  # a restitution that does not depend on the speed: the textbook is met
+    "springs": pair(2.0, 1.0, [sb.Spring(1.0), sb.Spring(0.3)]),
+    "light below": pair(0.1, 1.0, SPRINGS),
+    "hertz": pair(1.0, 0.5, [sb.Hertz(1.0)] * 2),
+    "dashpot": pair(1.0, 1.0, [sb.Dashpot(1.0, 0.2)] * 2),
+    "hysteretic": pair(1.0, 0.4, [sb.Hysteretic(1.0, restitution=0.8), sb.Spring(0.5)]),
+    "three": sb.Drop([sb.Ball(m) for m in (3.0, 1.5, 0.4)], [sb.Spring(1.0)] * 3, impact_speed=1.0),
+    "row": sb.Drop([sb.Ball(1.0)] * 3, [None, *SPRINGS], velocities=[1.0, 0.0, 0.0]),
+}
+SLOW = {  # a restitution that does
+    "viscoelastic": pair(1.0, 0.5, [sb.Viscoelastic(1.0, 0.1)] * 2),
+    "hunt-crossley": pair(1.0, 0.5, [sb.HuntCrossley(1.0, 1.5, 0.2)] * 2),
+}
+
+
+# from touching to separate
+
+
+@pytest.mark.parametrize("drop", FAST.values(), ids=FAST)
+def test_separate_collisions_are_the_textbooks(drop):
+    ds = sb.transition(drop)
+    beyond = ds.sel(gap=slice(ds.separate_from, None))
+    assert beyond.sizes["gap"] > 5
+    for name in ("rebound_ratio", "collisions"):
+        textbook = ds["textbook_" + name.removeprefix("rebound_")]
+        assert np.allclose(beyond[name], textbook, rtol=0.0, atol=1e-9), name
+    assert ds.textbook_energy == pytest.approx(float(beyond.energy_retained[0]), abs=1e-9)
+
+
+@pytest.mark.parametrize("drop", (FAST | SLOW).values(), ids=FAST | SLOW)
+def test_nothing_changes_from_there_on_and_something_just_before(drop):
+    limit = sb.transition(drop).separate_from
+
+    def intervals(share):
+        result = sb.simulate(with_gap(drop, None, share * limit))
+        return result.rebound_ratios, result.intervals["end"] - result.intervals["start"]
+
+    ratios, lasting = intervals(1.0)
+    for share in (1.5, 50.0):
+        assert intervals(share)[0] == pytest.approx(ratios, abs=1e-9)
+        assert intervals(share)[1] == pytest.approx(lasting, rel=1e-6)
+    assert np.abs(intervals(0.9)[0] - ratios).max() > 1e-9
+
+
+def test_equal_balls_on_equal_springs_are_separate_after_half_a_period():
+    assert sb.transition(pair(1.0, 1.0, SPRINGS)).separate_from == pytest.approx(math.pi, rel=1e-12)
+    drop = pair(4.0, 1.0, [sb.Spring(9.0)] * 2, impact_speed=2.0)  # m2 < m1
+    half = math.pi * math.sqrt(4.0 / 9.0)
+    assert sb.transition(drop).separate_from == pytest.approx(2.0 * half, rel=1e-12)
+
+
+def test_a_dashpot_is_waited_for_until_its_compression_is_gone():
+    """When the floor's force ends the compression goes on at a constant rate for b/k."""
+    law = sb.Dashpot(1.0, 0.2)
+    time = sb.contact_time(law, mass=5.0) + law.damping / law.stiffness
+    limit = sb.transition(pair(5.0, 1.0, [law, sb.Spring(0.01)])).separate_from
+    assert limit == pytest.approx(time, rel=1e-9)  # the upper ball came down at 1 m/s
+
+
+def test_touching_is_the_first_gap():
+    drop = FAST["springs"]
+    first = sb.transition(drop).isel(gap=0)
+    assert float(first.gap) == 0.0
+    assert first.rebound_ratio.values == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
+
+
+def test_every_gap_is_what_simulate_returns():
+    drop = FAST["hysteretic"]
+    ds = sb.transition(drop)
+    for gap in ds.gap.values[::200]:
+        result = sb.simulate(with_gap(drop, None, float(gap)))
+        assert ds.rebound_ratio.sel(gap=gap).values == pytest.approx(result.rebound_ratios)
+        assert ds.first_touch.sel(gap=gap).values == pytest.approx(result.first_touch)
+
+
+@pytest.mark.parametrize("name", ["springs", "light below", "hysteretic", "dashpot"])
+def test_no_change_of_a_count_is_missed(name):
+    drop = FAST[name]
+    ds = sb.transition(drop)
+    even = sb.sweep(drop, {"gaps.0": np.linspace(0.0, float(ds.gap[-1]), 20001)})
+
+    def different(counts):
+        return [row for row, _ in itertools.groupby(map(tuple, counts.values))]
+
+    assert different(ds.collisions) == different(even.collisions)
+    assert len(different(ds.collisions)) == len(ds.changes) + 1
+    bent = np.interp(even["gaps.0"], ds.gap, ds.rebound_ratio.sel(ball=0))
+    assert np.abs(bent - even.rebound_ratio.sel(ball=0)).max() < 5e-3
+
+
+def test_changes_are_known_to_seven_digits():
+    ds = sb.transition(FAST["light below"])
+    assert len(ds.changes) == 8
+    for gap in ds.changes:
+        i = int(np.flatnonzero(ds.gap == gap)[0])
+        assert (ds.collisions[i] != ds.collisions[i - 1]).any()
+        assert gap - float(ds.gap[i - 1]) <= 1e-7 * gap
+
+
+def test_a_change_where_the_lower_ball_stops():
+    """A ball that stops is sent to the floor again if the gap is wider still."""
+    ds = sb.transition(pair(0.150, 0.057, [sb.Spring(2500.0), sb.Spring(1000.0)]))
+    (gap,) = ds.changes
+    assert ds.collisions.sel(gap=gap).values.tolist() == [2, 1]
+    assert float(ds.rebound_ratio.sel(gap=gap, ball=0)) == pytest.approx(0.0, abs=1e-6)
+
+
+def test_collisions_without_end_are_never_separate():
+    laws = [sb.Hysteretic(1.0, restitution=0.5)] * 2
+    ds = sb.transition(pair(1.0, 10.0, laws), stop=100.0)
+    assert ds.separate_from == math.inf
+    assert (ds.textbook_collisions == -1).all()
+    counts = ds.collisions.sum("contact").values
+    assert (np.diff(counts) >= 0).all()
+    assert counts[-1] >= 7
+
+
+def test_one_gap_varies_and_the_others_stay():
+    balls = [sb.Ball(m) for m in (3.0, 1.0, 0.5)]
+    drop = sb.Drop(balls, [sb.Spring(1.0)] * 3, [0.3, 0.2], impact_speed=1.0)
+    ds = sb.transition(drop, 1)
+    gap = float(ds.gap[40])
+    result = sb.simulate(dataclasses.replace(drop, gaps=[0.3, gap]))
+    assert ds.rebound_ratio.values[40] == pytest.approx(result.rebound_ratios, abs=1e-9)
+    far = sb.simulate(dataclasses.replace(drop, gaps=[0.3, 30.0 * ds.separate_from]))
+    assert ds.rebound_ratio.values[-1] == pytest.approx(far.rebound_ratios, abs=1e-9)
+    assert not np.allclose(ds.rebound_ratio[-1], ds.textbook_ratio, atol=1e-2)
+
+
+def test_stop_cuts_the_range():
+    ds = sb.transition(pair(1.0, 1.0, SPRINGS), stop=0.5)
+    assert float(ds.gap[-1]) == 0.5
+    assert ds.separate_from == pytest.approx(math.pi)
+    assert ds.changes == []
+
+
+def test_touches_of_round_off_do_not_count():
+    """The cannon's lower balls come to rest but for round-off: they touch again, much later."""
+    balls = [sb.Ball(m) for m in (0.3, 0.1, 0.05)]
+    drop = sb.Drop(balls, [sb.Hertz(1e9)] * 3, impact_speed=1.0)
+    assert 0.0 < separate_from(drop, None, 1e-4, 1e-12) < 1e-2
+
+
+@pytest.mark.parametrize(
+    ("drop", "options", "message"),
+    [
+        (sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0), {}, "two or more for a gap, got 1"),
+        (pair(1.0, 1.0, [sb.Rigid(1.0)] * 2), {}, "finite ones, such as Spring, got Rigid"),
+        (pair(1.0, 1.0, SPRINGS, gravity=9.81), {}, "gravity must be 0, got 9.81"),
+        (pair(1.0, 1.0, [None, sb.Spring(1.0)]), {}, "contacts that close"),
+        (pair(1.0, 1.0, SPRINGS), {"only": 1}, "only must be a whole number from 0 to 0, got 1"),
+        (pair(1.0, 1.0, SPRINGS), {"stop": -1.0}, "stop must be a positive number of metres"),
+    ],
+)
+def test_what_has_no_transition_is_refused(drop, options, message):
+    with pytest.raises(InvalidValue, match=message):
+        sb.transition(drop, **options)
+
+
+def test_a_transition_of_no_drop_is_a_type_error():
+    with pytest.raises(InvalidType, match="drop must be a Drop"):
+        sb.transition("basketball")
+
+
+# stacks in order
+
+
+def test_stacks_are_as_simulated_and_in_order():
+    ds = sb.highest(["tennis", "B1", "B2"], 2, gaps=[0.001, 0.0], law=sb.Spring, impact_speed=3.0)
+    assert ds.sizes == {"stack": 6, "gap": 2, "ball": 2, "contact": 2}
+    for i, gap in itertools.product(range(6), range(2)):
+        lower, upper = (catalogue_ball(name) for name in ds.balls.values[i])
+        floors = [
+            sb.calibrate(sb.Spring, mass=one.ball.mass, contact_time=one.contact_time)
+            for one in (lower, upper)
+        ]
+        drop = sb.Drop(
+            [lower.ball, upper.ball],
+            [floors[0], between(*floors)],
+            [float(ds.gap[gap])],
+            impact_speed=3.0,
+        )
+        result = sb.simulate(drop)
+        row = ds.isel(stack=i, gap=gap)
+        assert row.rebound_ratio.values == pytest.approx(result.rebound_ratios, abs=1e-12)
+        assert (row.collisions == result.collisions).all()
+        top = result.rebound_ratios[1]
+        assert float(row.height_ratio) == pytest.approx(top**2)
+        masses = [ball.mass for ball in drop.balls]
+        assert float(row.energy_share) == pytest.approx(masses[1] * top**2 / sum(masses))
+    top = ds.rebound_ratio.isel(ball=-1)
+    assert (np.diff(top.isel(gap=0)) <= 0.0).all()
+    for gap in range(2):
+        order = np.argsort(-top.isel(gap=gap).values)
+        assert ds.place.values[order, gap].tolist() == [1, 2, 3, 4, 5, 6]
+
+
+def test_the_best_stack_is_a_scenario():
+    ds = sb.highest(["B1", "B2", "B3"], 3, gaps=[0.002])
+    drop = sb.Drop.from_mapping(tomllib.loads(ds.attrs["best"]))
+    assert [ball.name for ball in drop.balls] == ds.balls.values[0].tolist()
+    result = sb.simulate(drop)
+    assert result.rebound_ratios == pytest.approx(ds.rebound_ratio.values[0, 0], abs=1e-12)
+    assert result.drop.gaps == (0.002, 0.002)
+
+
+def test_balls_of_ones_own_and_of_different_laws():
+    heavy = sb.Drop([sb.Ball(0.5, name="heavy")], [sb.Hysteretic(5e4, restitution=0.9)], height=1.0)
+    light = sb.Drop([sb.Ball(0.05)], [sb.Spring(2e4)], height=1.0)
+    ds = sb.highest([heavy, light, "B2"], 2, gaps=[0.0])
+    names = sorted(map(tuple, ds.balls.values.tolist()))
+    assert names == sorted(itertools.permutations(["heavy", "ball 1", "B2"], 2))
+    row = ds.isel(stack=[list(one) == ["heavy", "ball 1"] for one in ds.balls.values].index(True))
+    drop = sb.Drop(
+        [heavy.balls[0], light.balls[0]],
+        [heavy.contacts[0], between(heavy.contacts[0], light.contacts[0])],
+        impact_speed=ds.impact_speed,
+    )
+    assert row.rebound_ratio.values[0] == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
+
+
+def test_how_many_stacks_there_are():
+    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0]).sizes["stack"] == 6
+    assert sb.highest(["B1", "B2", "B3"], 2, gaps=[0.0], repeat=True).sizes["stack"] == 9
+    assert sb.highest(["B1", "B1", "B2"], 2, gaps=[0.0]).sizes["stack"] == 3  # equal ones once
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ({"balls": ["B1", "B2"], "count": 3}, InvalidValue, "whole number from 2 to 2, got 3"),
+        ({"count": 1}, InvalidValue, "count must be a whole number from 2 to 5, got 1"),
+        ({"balls": ["B1", "B9"]}, InvalidValue, "one of the catalogue, got 'B9'"),
+        ({"balls": "B1"}, InvalidType, "balls must be a list, got 'B1'"),
+        ({"balls": ["B1", 3]}, InvalidType, "balls.1 must be a name of the catalogue or a Drop"),
+        ({"balls": [FAST["springs"]]}, InvalidValue, "balls.0 must be a drop of one ball"),
+        ({"law": sb.Rigid}, InvalidValue, "law must be one with a stiffness"),
+        ({"law": sb.HuntCrossley}, InvalidValue, "basketball and tennis: .*dissipation"),
+        ({"count": 8, "repeat": True}, InvalidValue, "at most 100000 drops, got 390625 of 5 balls"),
+        ({"gaps": []}, InvalidValue, "gaps must be different ones, at least one"),
+        ({"gaps": [0.0, 0.0]}, InvalidValue, "gaps must be different ones"),
+        ({"gaps": [-1.0]}, InvalidValue, "gaps.0 must be a number of metres, 0 or above"),
+        ({"gaps": 0.0}, InvalidType, "gaps must be a list of numbers"),
+        ({"impact_speed": 0.0}, InvalidValue, "impact_speed must be a positive number"),
+    ],
+)
+def test_what_makes_no_stacks_is_refused(arguments, error, message):
+    with pytest.raises(error, match=message):
+        sb.highest(**arguments)
+
+
+def test_many_drops_of_several_kinds_keep_their_order():
+    drops = [
+        pair(1.0, 0.5, SPRINGS),
+        pair(2.0, 0.5, [sb.Hertz(1.0), sb.Spring(2.0)]),
+        pair(1.0, 0.7, SPRINGS),
+        pair(1.0, 0.5, [sb.Hysteretic(1.0, unloading_exponent=3.0), sb.Spring(1.0)]),
+        pair(1.0, 0.5, [sb.Hysteretic(1.0, restitution=0.5), sb.Spring(1.0)]),
+    ]
+    ratios = solved(drops).rebound_ratio.values
+    for row, drop in zip(ratios, drops, strict=True):
+        assert row == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
+
+
+# the masses in between
+
+
+@pytest.mark.parametrize("restitution", [1.0, 0.8])
+@pytest.mark.parametrize("count", [3, 4])
+def test_rigid_balls_are_best_with_geometric_means(count, restitution):
+    balls = [sb.Ball(1.0)] + [sb.Ball(0.5)] * (count - 2) + [sb.Ball(0.01)]
+    best = sb.best_masses(sb.Drop(balls, [sb.Rigid(restitution)] * count, impact_speed=1.0))
+    masses = [ball.mass for ball in best.balls]
+    assert masses == pytest.approx(np.geomspace(1.0, 0.01, count), rel=1e-5)
+    gained = np.prod([(1.0 + restitution) / (1.0 + b / a) for a, b in itertools.pairwise(masses)])
+    assert sb.simulate(best).rebound_ratios[-1] == pytest.approx(
+        (1.0 + restitution) * gained - 1.0, abs=1e-9
+    )
+
+
+@pytest.mark.parametrize("law", [sb.Spring(1e4), sb.Hertz(1e6)])
+def test_no_other_mass_is_better(law):
+    balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
+    drop = sb.Drop(balls, [law] * 3, impact_speed=1.0)
+    best = sb.best_masses(drop)
+    own = sb.simulate(best).rebound_ratios[-1]
+    others = sb.sweep(drop, {"balls.1.mass": np.geomspace(0.01, 1.0, 4001)}).rebound_ratio[:, -1]
+    assert own >= float(others.max())
+    assert own == pytest.approx(float(others.max()), abs=1e-4)
+    assert best.balls[1].mass > 0.2  # and not the geometric mean, 0.1
+
+
+def test_wide_gaps_bring_the_geometric_mean_back():
+    balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
+    drop = sb.Drop(balls, [sb.Spring(1e4)] * 3, [0.1, 0.1], impact_speed=1.0)
+    assert sb.best_masses(drop).balls[1].mass == pytest.approx(0.1, rel=1e-5)
+
+
+def test_contacts_may_depend_on_the_masses():
+    seen = []
+
+    def contacts(balls):
+        seen.append(balls)
+        return [sb.Spring(1e4 * ball.mass) for ball in balls]
+
+    balls = [sb.Ball(1.0), sb.Ball(0.5, diameter=0.1), sb.Ball(0.01)]
+    best = sb.best_masses(sb.Drop(balls, [sb.Spring(1.0)] * 3, impact_speed=1.0), contacts)
+    middle = best.balls[1]
+    assert best.contacts[1].stiffness == 1e4 * middle.mass
+    assert middle.mass / middle.diameter**3 == pytest.approx(0.5 / 0.1**3)
+    assert len(seen) > 100
+
+
+def test_what_is_tried_can_be_said():
+    balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
+    drop = sb.Drop(balls, [sb.Rigid(1.0)] * 3, impact_speed=1.0)
+    assert sb.best_masses(drop, within=(0.2, 0.4)).balls[1].mass == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("masses", "options", "error", "message"),
+    [
+        ([1.0, 0.1], {}, InvalidValue, "balls must be three or more, got 2"),
+        ([1.0, 0.1, 1.0], {}, InvalidValue, "outer masses that differ, unless within is given"),
+        ([1.0, 0.1, 0.1], {"within": (2.0, 1.0)}, InvalidValue, "the smaller first, got 2.0 and"),
+        ([1.0, 0.1, 0.1], {"within": (-2.0, 1.0)}, InvalidValue, "within must be a positive"),
+        ([1.0, 0.1, 0.1], {"within": 3.0}, InvalidType, "within must be two masses, got 3.0"),
+        ([1.0, 0.1, 0.1], {"contacts": [1]}, InvalidType, "contacts must be a function"),
+    ],
+)
+def test_masses_that_make_no_search_are_refused(masses, options, error, message):
+    balls = [sb.Ball(mass) for mass in masses]
+    drop = sb.Drop(balls, [sb.Spring(1e4)] * len(balls), impact_speed=1.0)
+    with pytest.raises(error, match=message):
+        sb.best_masses(drop, **options)
+
+
+# pictures
+
+
+def test_the_picture_of_a_transition_shows_what_there_is():
+    ds = sb.transition(pair(1.0, 1.0, SPRINGS))
+    above, below = plots.transition(ds).axes
+    lower = above.get_lines()[0].get_xydata().T
+    assert np.array_equal(lower, [ds.gap, ds.rebound_ratio.sel(ball=0)])
+    assert np.array_equal(below.get_lines()[1].get_ydata(), ds.collisions.sel(contact=1))
+    assert (above.get_xlim(), below.get_xlabel()) == ((0.0, float(ds.gap[-1])), "gap (m)")
+    (grey,) = above.patches
+    assert grey.get_x() == ds.separate_from
+
+
+def test_the_picture_of_stacks_shows_the_best_above():
+    ds = sb.highest(["B1", "B2", "B3"], 2)
+    (axes,) = plots.highest(ds).axes
+    names = [text.get_text() for text in axes.get_yticklabels()]
+    assert names == [" + ".join(stack) for stack in ds.balls.values]
+    assert axes.get_ylim()[0] > axes.get_ylim()[1]
+    assert np.array_equal(axes.get_lines()[0].get_xdata(), ds.height_ratio.isel(gap=0))
+
+
+def test_pictures_of_something_else_are_refused():
+    for draw in (plots.transition, plots.highest):
+        with pytest.raises(InvalidType, match="data must be a Dataset from"):
+            draw(sb.sweep(pair(1.0, 1.0, SPRINGS), {"balls.0.mass": [1.0, 2.0]}))
+    many = sb.highest(["B1", "B2"], 2, gaps=list(np.linspace(0.0, 0.01, 9)))
+    with pytest.raises(InvalidValue, match="at most 8 gaps, got 9"):
+        plots.highest(many)

@@ -1,0 +1,120 @@
+"""What the files around the package promise."""
+
+import doctest
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+import yaml
+
+import stackbounce
+from stackbounce import measure, plots
+
+ROOT = Path(__file__).parents[2]
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
+
+
+def read(name):
+    return (ROOT / name).read_text(encoding="utf-8")
+
+
+def tracked():
+    if not (ROOT / ".git").exists():
+        pytest.skip("not a git checkout")
+    git = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    names = subprocess.run(git, cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    return [path for name in names.split("\0") if name and (path := ROOT / name).is_file()]
+
+
+def test_one_version():
+    newest = re.search(r"^## \[(\d[^\]]*)\]", read("CHANGELOG.md"), re.MULTILINE)
+    assert newest is not None
+    assert newest[1] == stackbounce.__version__
+    assert yaml.safe_load(read("CITATION.cff"))["version"] == stackbounce.__version__
+
+
+def test_the_paper_is_cited():
+    (paper,) = yaml.safe_load(read("CITATION.cff"))["references"]
+    assert (paper["doi"], paper["volume"], paper["start"]) == ("10.1119/1.2772286", 75, 1009)
+
+
+def test_no_path_of_one_machine_and_no_registry_in_any_file():
+    private = re.compile(
+        r"(?<![\w.-])/(?:work|home|root|Users)/\w|[Cc]:\\Users|pypi\.org|pythonhosted\.org"
+    )
+    found = {
+        f"{path.relative_to(ROOT)}: {match[0]}"
+        for path in tracked()
+        for match in private.finditer(path.read_text(encoding="utf-8", errors="ignore"))
+    }
+    assert not found
+
+
+def test_constraints_are_versions_and_nothing_else():
+    lines = [line for line in read("constraints.txt").splitlines() if not line.startswith("#")]
+    assert lines
+    assert not [line for line in lines if not re.fullmatch(r"[\w.-]+==[\w.]+", line)]
+
+
+def test_readme_begins_with_the_two_commands_and_make_knows_them():
+    commands = re.findall(r"^\$? *make (\w+)", read("README.md"), re.MULTILINE)
+    assert commands[:2] == ["paper", "test"]
+    makefile = read("Makefile")
+    assert all(re.search(rf"^{target}:", makefile, re.MULTILINE) for target in commands)
+
+
+def test_every_public_name_is_documented():
+    api = read("docs/api.md")
+    rooms = set(stackbounce.__all__) | set(measure.__all__) | set(plots.__all__)
+    entries = re.findall(r"^.. auto(?:class|function|exception|data):: (\w+)$", api, re.MULTILINE)
+    assert set(entries) == rooms - {"__version__"}
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_examples_on_pages_come_out_as_written(page):
+    fences = re.findall(
+        r"^```(?:python|pycon)\n(>>> .*?)^```", page.read_text("utf-8"), re.MULTILINE | re.DOTALL
+    )
+    example = doctest.DocTestParser().get_doctest("\n".join(fences), {}, page.name, str(page), 0)
+    flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
+    assert doctest.DocTestRunner(optionflags=flags).run(example).failed == 0
+
+
+@pytest.mark.parametrize(
+    "page",
+    [
+        '<script src="https://cdn.example/x.js"></script>',
+        '<link rel="stylesheet" href="//cdn.example/x.css">',
+        '<img src="http://cdn.example/x.png">',
+        "<style>@font-face { src: url('https://cdn.example/x.woff2') }</style>",
+        '<style>@import "https://cdn.example/x.css";</style>',
+    ],
+)
+def test_a_page_that_fetches_is_seen(page, tmp_path):
+    from offline import fetched
+
+    (tmp_path / "local.html").write_text(
+        '<a href="https://doi.example/1"><img src="_static/x.png"></a><script src="x.js"></script>'
+    )
+    assert not list(fetched(tmp_path))
+    (tmp_path / "page.html").write_text(page)
+    assert [path.name for path, _ in fetched(tmp_path)] == ["page.html"]
+
+
+@pytest.mark.parametrize("latex", [r"\frac{a}", r"\nothing", r"\begin{gathered}a\\b\end{gathered}"])
+def test_a_formula_that_is_not_understood_is_refused(latex):
+    from mathml import mathml
+
+    with pytest.raises(ValueError, match=r"unknown|parts"):
+        mathml(latex, display=True)
+
+
+def test_lines_of_a_formula_are_aligned():
+    from mathml import mathml
+
+    lines = r"a &= b \\ c &= d"
+    assert mathml(lines, display=True).count("<mtr>") == 2
+    assert mathml(lines, display=True) == mathml(
+        rf"\begin{{aligned}} {lines} \end{{aligned}}", display=True
+    )

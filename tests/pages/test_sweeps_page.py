@@ -1,0 +1,90 @@
+"""The page of maps and lines: its commands draw its pictures, and these agree with the paper's."""
+
+import importlib.util
+import re
+import shlex
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.cross2007 import PAPER
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.curves import after_collision, rebound_by_mass, rebound_by_stiffness
+
+DOCS = Path(__file__).parents[2] / "docs"
+TEXT = (DOCS / "sweeps.md").read_text(encoding="utf-8")
+FENCES = re.findall(r"^```console\n\$ (stackbounce .*?)^```", TEXT, re.MULTILINE | re.DOTALL)
+COMMANDS = [shlex.split(fence.replace("\\\n", " "))[1:] for fence in FENCES]
+
+
+@pytest.fixture(scope="module")
+def sweeps():
+    sys.path.insert(0, str(DOCS / "figures"))
+    spec = importlib.util.spec_from_file_location("sweeps", DOCS / "figures" / "sweeps.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return {name: sb.sweep(*what) for name, what in module.SWEEPS.items()}
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("page")
+    files = re.findall(r"^```toml\n# (\S+)\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
+    for name, text in files:
+        (folder / name).write_text(text, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture
+def bench():
+    return Bench(PAPER)
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda words: words[-1])
+def test_a_command_makes_the_data_of_its_picture(command, sweeps, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    assert main(command) == 0
+    store = command[command.index("--out") + 1]
+    xr.testing.assert_equal(xr.open_zarr(store).load(), sweeps[store.removesuffix(".zarr")])
+    assert (folder / command[-1]).stat().st_size > 10_000
+
+
+def test_every_picture_has_its_command():
+    shown = re.findall(r"^\.\. plot:: figures/sweeps.py (\w+)$", TEXT, re.MULTILINE)
+    assert len(COMMANDS) == len(shown) == len(set(shown)) == 8
+
+
+def test_lines_are_those_of_figure_4a(sweeps, bench):
+    ds = sweeps["mass"]
+    masses, ratios = ds["balls.0.mass"].values[::20], ds.rebound_ratio.values[::20]
+    own = rebound_by_mass(bench, masses, bench("models.stiffness_ratio"))
+    assert ratios == pytest.approx(own.T, abs=1e-11)
+
+
+def test_lines_are_those_of_figure_6(sweeps, bench):
+    ds = sweeps["stiffness"]
+    mass_ratio = bench("basketball.mass") / bench("tennis.mass")
+    own = rebound_by_stiffness(bench, mass_ratio, np.geomspace(0.1, 100.0, 241)[::20])
+    ratios = ds.rebound_ratio.values[::20]
+    assert ratios == pytest.approx(own.T, abs=1e-11)
+
+
+def test_lines_are_those_of_figure_2_where_they_meet_once_or_twice(sweeps, bench):
+    ds = sweeps["separate"]
+    for count in (1, 2):
+        own = ds.isel({"balls.0.mass": (ds.collisions.sel(contact=1) == count).values})
+        masses, ratios = own["balls.0.mass"].values, own.rebound_ratio.values
+        after = after_collision(bench, masses[::10], bench("models.restitution"), count)
+        back = -bench("models.restitution") * after[0]  # from the floor, where it went down again
+        after[0] = np.where(after[0] < 0.0, back, after[0])
+        assert ratios[::10] == pytest.approx(after.T, abs=1e-12)
+
+
+def test_a_gap_of_one_millimetre_is_section_v(sweeps):
+    at = sweeps["gap"].sel({"gaps.0": 0.001}, method="nearest").rebound_ratio
+    assert at.values == pytest.approx([0.24, 1.83], abs=0.04)

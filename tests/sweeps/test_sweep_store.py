@@ -1,0 +1,305 @@
+"""Sweeps larger than memory: killed and resumed to the same bytes, on a cluster, lazily."""
+
+import hashlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import dask.array as da
+import numpy as np
+import pytest
+import xarray as xr
+
+import stackbounce as sb
+from stackbounce.sweeps import grid, opened, write
+
+DROP = sb.Drop(
+    [sb.Ball(0.15), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.53
+)
+OVER = ["balls.0.mass=50g:500g:30:log", "gaps.0=0mm:4mm:20"]
+KINDS = [".zarr", ".nc"]
+
+
+class Stopped(Exception):
+    pass
+
+
+def stop(done, _):
+    if done:
+        raise Stopped
+
+
+def digest(store):
+    """Return a hash of every file's name and bytes."""
+    found = hashlib.sha256()
+    for path in [store, *sorted(store.rglob("*"))]:
+        if path.is_file():
+            found.update(f"{path.relative_to(store)}\n".encode() + path.read_bytes())
+    return found.hexdigest()
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def whole(request, tmp_path_factory):
+    if request.param == ".nc":
+        pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
+    path = tmp_path_factory.mktemp("whole") / f"map{request.param}"
+    write(path, DROP, grid(DROP, OVER), block=64)
+    return path, digest(path)
+
+
+def test_a_store_holds_what_sweep_returns(whole):
+    with opened(whole[0]) as data:
+        stored, eager = data.load(), sb.sweep(DROP, grid(DROP, OVER))
+    assert set(stored) == set(eager)
+    assert {name: one.dims for name, one in stored.items()} == {
+        name: one.dims for name, one in eager.items()
+    }
+    assert all(stored[name].dtype == eager[name].dtype for name in eager)
+    assert all(np.array_equal(stored[name], eager[name]) for name in eager)
+    assert all(np.array_equal(stored[name], eager[name]) for name in eager.coords)
+    assert stored.attrs == eager.attrs
+    for name in [*eager, *eager.coords]:
+        assert stored[name].attrs.keys() == eager[name].attrs.keys()
+        assert all(np.all(eager[name].attrs[k] == v) for k, v in stored[name].attrs.items())
+    assert not [path for path in whole[0].parent.iterdir() if path != whole[0]]
+
+
+SCRIPT = """
+import sys, time
+import stackbounce as sb
+from stackbounce.sweeps import grid, write
+sys.path.insert(0, {tests!r})
+from test_sweep_store import DROP, OVER
+def progress(done, total):
+    print(done, flush=True)
+    time.sleep(0.05)
+write({out!r}, DROP, grid(DROP, OVER), block=64, progress=progress)
+"""
+
+
+def test_killed_at_any_moment_it_goes_on_and_ends_with_the_same_bytes(whole, tmp_path):
+    out = tmp_path / whole[0].name
+    script = SCRIPT.format(tests=str(Path(__file__).parent), out=str(out))
+    command = [sys.executable, "-c", script]
+    first = []
+    for patience in (1, 3, 4):  # blocks until the kill
+        with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+            lines = [int(process.stdout.readline()) for _ in range(patience)]
+            time.sleep(0.02 * patience)  # somewhere within the next block
+            process.send_signal(signal.SIGKILL)
+        first.append(lines[0])
+        assert not out.exists()
+    assert first == sorted(first)
+    assert first[-1] > 0
+    last = subprocess.run(command, capture_output=True, text=True, check=True, timeout=120)
+    assert int(last.stdout.split()[0]) >= first[-1]
+    assert digest(out) == whole[1]
+    assert list(tmp_path.iterdir()) == [out]
+
+
+def test_two_workers_and_the_loss_of_one(whole, tmp_path):
+    distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    options = {
+        "n_workers": 2,
+        "threads_per_worker": 1,
+        "processes": True,
+        "dashboard_address": "127.0.0.1:0",  # any free port: None would ask for 8787
+    }
+    killed = []
+    with distributed.LocalCluster(**options) as cluster, distributed.Client(cluster) as client:
+
+        def progress(done, total):
+            if 0 < done < total and not killed:
+                killed.append(next(iter(client.run(os.getpid).values())))
+                os.kill(killed[0], signal.SIGKILL)
+
+        out = write(
+            tmp_path / whole[0].name,
+            DROP,
+            grid(DROP, OVER),
+            client=client,
+            block=64,
+            progress=progress,
+        )
+    assert killed
+    assert digest(out) == whole[1]
+
+
+def test_chunks_of_dask_make_it_lazy():
+    values = grid(DROP, OVER)
+    lazy = {
+        path: xr.DataArray(da.from_array(axis, chunks=7), dims=path)
+        for path, axis in values.items()
+    }
+    ds = sb.sweep(DROP, lazy)
+    assert ds.rebound_ratio.chunks[:2] == ((7, 7, 7, 7, 2), (7, 7, 6))
+    eager = sb.sweep(DROP, values)
+    assert all(np.array_equal(ds[name], eager[name]) for name in eager)
+    bad = sb.sweep(DROP, {"gaps.0": da.from_array(np.array([0.0, -1.0]), chunks=1)})
+    with pytest.raises(sb.StackbounceError, match=r"gaps.0 must be .* \(at gaps.0 = -1\)"):
+        bad.compute()
+
+
+def test_a_complete_store_is_left_alone_and_another_is_refused(whole):
+    calls = []
+    again = write(
+        whole[0], DROP, grid(DROP, OVER), block=64, progress=lambda *done: calls.append(done)
+    )
+    assert again == whole[0]
+    assert calls == [(600, 600)]
+    with pytest.raises(sb.StackbounceError, match="exists, and is not this sweep"):
+        write(whole[0], DROP, grid(DROP, OVER[:1]))
+    with pytest.raises(sb.StackbounceError, match="exists, and is not this sweep"):
+        write(whole[0], DROP, grid(DROP, OVER), block=64, rtol=1e-6)
+    assert digest(whole[0]) == whole[1]
+
+
+def test_part_of_another_sweep_is_not_lost(whole, tmp_path):
+    out = tmp_path / whole[0].name
+    with pytest.raises(Stopped):
+        write(out, DROP, grid(DROP, OVER), block=64, progress=stop)
+    kept = digest(tmp_path)
+    with pytest.raises(sb.StackbounceError, match="is part of another sweep"):
+        write(out, DROP, grid(DROP, OVER[1:]), block=64)
+    assert digest(tmp_path) == kept
+
+
+def test_what_a_kill_leaves_half_written_is_removed(whole, tmp_path):
+    out, blocks = tmp_path / whole[0].name, []
+    for _ in range(3):
+        with pytest.raises(Stopped):
+            write(out, DROP, grid(DROP, OVER), block=64, progress=lambda *now: told(blocks, now))
+        if out.suffix == ".zarr":
+            chunk = tmp_path / "map.zarr.partial" / "status" / "1.0.0123456789abcdef.partial"
+            chunk.write_bytes(b"half a chunk")
+        with (tmp_path / f"{out.name}.progress").open("a") as lines:
+            lines.write("1")  # a line that was being written
+    assert blocks == [0, 60, 60, 120, 120, 180]
+    assert digest(write(out, DROP, grid(DROP, OVER), block=64)) == whole[1]
+
+
+def told(blocks, now):
+    """Note how many drops are done, and stop after a block."""
+    blocks.append(now[0])
+    if len(blocks) % 2 == 0:
+        raise Stopped
+
+
+def test_a_sweep_goes_on_with_the_blocks_it_began_with(whole, tmp_path):
+    out = tmp_path / whole[0].name
+    with pytest.raises(Stopped):
+        write(out, DROP, grid(DROP, OVER), block=64, progress=stop)
+    assert digest(write(out, DROP, grid(DROP, OVER), block=100)) == whole[1]
+
+
+@pytest.mark.parametrize("log", [None, "", "3 2"])
+def test_killed_before_the_file_was_all_there_it_begins_anew(whole, tmp_path, log):
+    out = tmp_path / whole[0].name
+    partial = tmp_path / f"{out.name}.partial"
+    if out.suffix == ".zarr":
+        partial.mkdir()
+        (partial / ".zattrs").write_text("{")
+    else:
+        partial.write_bytes(b"half a file")
+    if log is not None:
+        (tmp_path / f"{out.name}.progress").write_text(log)
+    assert digest(write(out, DROP, grid(DROP, OVER), block=64)) == whole[1]
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_tall_stack_and_no_number_that_varies(tmp_path, kind):
+    if kind == ".nc":
+        pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
+    tall = sb.Drop([sb.Ball(0.01)] * 1500, [sb.Rigid(0.5)] * 1500, impact_speed=1.0)
+    for number, values in enumerate([{}, {"impact_speed": np.array([1.0, 2.0])}]):
+        out = write(tmp_path / f"{number}{kind}", tall, values, event_limit=100)
+        with opened(out) as data:
+            assert data.attrs["drop"] == tall.to_toml()
+            assert np.isfinite(data.rebound_ratio.values).all()
+
+
+def test_a_name_that_is_no_kind_of_file(tmp_path):
+    with pytest.raises(sb.StackbounceError, match=r"must end in .zarr or .nc, got 'map.h5'"):
+        write(tmp_path / "map.h5", DROP, grid(DROP, OVER))
+    assert not list(tmp_path.iterdir())
+
+
+def test_netcdf_that_is_not_installed(tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "h5netcdf", None)
+    with pytest.raises(sb.StackbounceError, match=r"pip install stackbounce\[netcdf\]"):
+        write(tmp_path / "map.nc", DROP, grid(DROP, OVER))
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
+    distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
+    out = tmp_path / whole[0].name
+    command = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--no-dashboard"]
+    command += ["--dashboard-address", "127.0.0.1:0"]
+    command += ["--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(tmp_path / "at")]
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    with subprocess.Popen(command, **quiet) as scheduler:
+        worker = [sys.executable, "-m", "distributed.cli.dask_worker", "--no-dashboard"]
+        worker += ["--scheduler-file", str(tmp_path / "at"), "--nthreads", "1", "--no-nanny"]
+        with subprocess.Popen([*worker, "--local-directory", str(tmp_path)], **quiet) as second:
+            try:
+                client = distributed.Client(scheduler_file=str(tmp_path / "at"), timeout="30s")
+                client.wait_for_workers(1, timeout=30)
+                with pytest.raises(sb.StackbounceError, match="cluster failed; the blocks done"):
+                    write(
+                        out,
+                        DROP,
+                        grid(DROP, OVER),
+                        client=client,
+                        block=32,
+                        progress=lambda done, _: scheduler.kill() if done else None,
+                    )
+                client.close(timeout=1)
+            finally:
+                scheduler.kill()
+                second.kill()
+    begun = []
+    write(out, DROP, grid(DROP, OVER), progress=lambda done, _: begun.append(done))
+    assert begun[0] > 0
+
+
+def test_a_wrong_value_is_told_before_anything_is_written(tmp_path):
+    with pytest.raises(sb.StackbounceError, match=r"balls.0.mass must be .* \(at balls.0.mass 0\)"):
+        write(tmp_path / "map.zarr", DROP, {"balls.0.mass": np.array([0.0, 1.0])})
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    ("text", "values"),
+    [
+        ("balls.0.mass=1:3:3", [1.0, 2.0, 3.0]),
+        ("balls.0.mass=1g,20g", [0.001, 0.02]),
+        ("contacts.0.stiffness=1kN/m:100kN/m:3:log", [1e3, 1e4, 1e5]),
+        ("gaps.0=0mm:4mm:3:lin", [0.0, 0.002, 0.004]),
+    ],
+)
+def test_over_is_read(text, values):
+    ((_, found),) = grid(DROP, [text]).items()
+    assert found == pytest.approx(values, rel=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("texts", "message"),
+    [
+        (["balls.0.mass"], "--over must be PATH="),
+        (["balls.0.mass=1:2"], "--over must be PATH="),
+        (["balls.0.mass=1:2:x"], "--over must be PATH="),
+        (["balls.0.mass=1:2:3:cubic"], "--over must be PATH="),
+        (["balls.0.mass=1:2:0"], "must have from 1 to"),
+        (["gaps.0=0:1:3:log"], "numbers of one sign for :log"),
+        (["balls.0.mass=1m:2m:3"], "balls.0.mass must be a mass"),
+        (["balls.9.mass=1:2:3"], "is no number of this drop"),
+        (["gaps.0=0:1:3", "gaps.0=1"], "gaps.0 twice"),
+    ],
+)
+def test_over_that_cannot_be_read(texts, message):
+    with pytest.raises(sb.StackbounceError, match=message):
+        grid(DROP, texts)
