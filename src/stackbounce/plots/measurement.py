@@ -11,14 +11,14 @@ if TYPE_CHECKING:
 __all__ = ["measured"]
 
 _PICTURES = {
-    "Accelerometer": "measured_acceleration",
-    "Knocks": "measured_sound",
-    "Bounces": "measured_bounces",
-    "FloorGap": "measured_gap",
-    "Heights": "measured_heights",
-    "Tracks": "measured_track",
-    "Waveform": "measured_waveform",
-    "Press": "measured_press",
+    "Accelerometer": "measurements.acceleration",
+    "Knocks": "measurements.sound",
+    "Bounces": "measurements.bounces",
+    "FloorGap": "measurements.gap",
+    "Heights": "measurements.heights",
+    "Tracks": "measurements.track",
+    "Waveform": "measurements.waveform",
+    "Press": "measurements.press",
 }
 
 
