@@ -18,7 +18,7 @@ from stackbounce.run.result import Result
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Bench", "as_call", "propagated"]
+__all__ = ["Bench", "propagate_error", "write_call"]
 
 
 class Bench:
@@ -65,7 +65,7 @@ def _simulated(drop: Drop) -> Result:
     return simulate(drop)
 
 
-def as_call(drop: Drop) -> str:
+def write_call(drop: Drop) -> str:
     """Return the Python text of the library call that simulates a drop.
 
     Parameters
@@ -82,7 +82,7 @@ def as_call(drop: Drop) -> str:
     --------
     >>> from stackbounce.model.ball import Ball
     >>> from stackbounce.model.laws import Rigid
-    >>> as_call(Drop([Ball(0.057)], [Rigid(0.9)], impact_speed=2))
+    >>> write_call(Drop([Ball(0.057)], [Rigid(0.9)], impact_speed=2))
     'sb.simulate(sb.Drop(balls=[sb.Ball(mass=0.057)], contacts=[sb.Rigid(restitution=0.9)], \
 impact_speed=2.0))'
     """
@@ -105,7 +105,7 @@ def _text(value: Any) -> str:
     return f"sb.{type(value).__name__}({', '.join(given)})"
 
 
-def propagated(compute: Callable[[Bench], float], data: Data, keys: list[str]) -> float:
+def propagate_error(compute: Callable[[Bench], float], data: Data, keys: list[str]) -> float:
     """Return the error of a computed number that follows from the errors of its inputs.
 
     Parameters
@@ -125,7 +125,7 @@ def propagated(compute: Callable[[Bench], float], data: Data, keys: list[str]) -
     Examples
     --------
     >>> from stackbounce.cross2007.data import PAPER
-    >>> error = propagated(lambda b: 2.0 * b("tennis.mass"), PAPER, ["tennis.mass"])
+    >>> error = propagate_error(lambda b: 2.0 * b("tennis.mass"), PAPER, ["tennis.mass"])
     >>> round(error, 6)
     0.001
     """

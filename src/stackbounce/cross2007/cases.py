@@ -9,7 +9,7 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import fallen_speed, rigid_pair, spring_pair
 from stackbounce.model import Drop
 
-__all__ = ["Case", "cases"]
+__all__ = ["Case", "list_cases"]
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Case:
 
     Examples
     --------
-    >>> next(cases()).name
+    >>> next(list_cases()).name
     'textbook'
     """
 
@@ -42,12 +42,12 @@ class Case:
     drop: Drop
 
 
-def cases() -> Iterator[Case]:
+def list_cases() -> Iterator[Case]:
     """Yield the cases in the paper's order.
 
     Examples
     --------
-    >>> [case.name for case in cases() if case.group == "Basketball and tennis ball"]
+    >>> [case.name for case in list_cases() if case.group == "Basketball and tennis ball"]
     ['figure-8', 'figure-8-gap', 'figure-9', 'figure-9-other', 'measured-basketball-tennis']
     """
     bench = Bench(PAPER)
@@ -112,7 +112,7 @@ def _figure_8_gap(b: Bench) -> Drop:
 
 
 def _measured(name: str) -> Callable[[Bench], Drop]:
-    return lambda _: datasets.dataset(name).drop
+    return lambda _: datasets.load_dataset(name).drop
 
 
 def _on_b1(make: Callable[[Bench, float], Drop]) -> Callable[[Bench], Drop]:

@@ -7,14 +7,15 @@ the library calls it made and the inputs it read, all observed while it ran.
 
 import ast
 import inspect
+import linecache
 import math
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from typing import Any, TypeAlias
 
-from stackbounce.cross2007.bench import Bench, as_call, propagated
+from stackbounce.cross2007.bench import Bench, propagate_error, write_call
 from stackbounce.cross2007.data import Data
 
 __all__ = [
@@ -27,7 +28,7 @@ __all__ = [
     "Row",
     "Section",
     "half_unit",
-    "run",
+    "run_check",
     "source_of",
 ]
 
@@ -176,19 +177,14 @@ class Section:
 
         return add
 
-    def other(self, reading: str, *, number: str = "") -> Callable[[Compute], Compute]:
-        """Return a decorator that adds another reading to the latest check."""
-
-        def add(compute: Compute) -> Compute:
-            latest = self.checks[-1]
-            more = (reading, number or latest.number, compute)
-            self.checks[-1] = replace(latest, others=(*latest.others, more))
-            return compute
-
-        return add
+    def other(self, reading: str, compute: Compute, *, number: str = "") -> None:
+        """Add another reading to the latest check: what it assumes and how it is computed."""
+        latest = self.checks[-1]
+        more = (reading, number or latest.number, compute)
+        self.checks[-1] = replace(latest, others=(*latest.others, more))
 
 
-def run(check: Check, data: Data) -> Row:
+def run_check(check: Check, data: Data) -> Row:
     """Return the row of a check.
 
     Parameters
@@ -219,7 +215,7 @@ def run(check: Check, data: Data) -> Row:
         reason=check.reason,
         attempts=tuple(attempts),
         source=source_of(check.compute),
-        calls=tuple(dict.fromkeys(as_call(drop) for drop in bench.drops)),
+        calls=tuple(dict.fromkeys(write_call(drop) for drop in bench.drops)),
         inputs=tuple(bench.read),
     )
 
@@ -245,33 +241,73 @@ def half_unit(number: str) -> float:
 
 
 def source_of(function: Callable[..., object]) -> str:
-    """Return the statements of a function, without its name, arguments and docstring.
+    """Return what a function computes as Python text, without its name, arguments and docstring.
 
     Parameters
     ----------
     function : callable
-        Defined in a file.
+        A function or a lambda, the only one that begins on its line of a file.
 
     Returns
     -------
     str
-        Python text; a single ``return`` is reduced to what it returns.
+        A single ``return`` is reduced to what it returns. Names that are taken from an enclosing
+        function are replaced by their values.
 
     Examples
     --------
     >>> source_of(half_unit)
     'float(_last_digit(number) / 2)'
+    >>> def bounce_of(ball):
+    ...     return lambda b: b(f"{ball}.rebound_height")
+    >>> source_of(bounce_of("tennis"))
+    "b('tennis.rebound_height')"
     """
-    tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
-    definition = tree.body[0]
+    fill = _Filled(inspect.getclosurevars(function).nonlocals).visit
+    if function.__name__ == "<lambda>":
+        return ast.unparse(fill(_lambda(function).body))
+    definition = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     assert isinstance(definition, ast.FunctionDef)
     body = definition.body
     if ast.get_docstring(definition) is not None:
         body = body[1:]
     last = body[-1]
     if len(body) == 1 and isinstance(last, ast.Return) and last.value is not None:
-        return ast.unparse(last.value)
-    return "\n".join(ast.unparse(statement) for statement in body)
+        return ast.unparse(fill(last.value))
+    return "\n".join(ast.unparse(fill(statement)) for statement in body)
+
+
+def _lambda(function: Any) -> ast.Lambda:
+    """Return the syntax tree of a lambda."""
+    code = function.__code__
+    module = ast.parse("".join(linecache.getlines(code.co_filename)))
+    (found,) = (
+        node
+        for node in ast.walk(module)
+        if isinstance(node, ast.Lambda) and node.lineno == code.co_firstlineno
+    )
+    return found
+
+
+class _Filled(ast.NodeTransformer):
+    """Replaces names by their values: a function by its own name, anything else by a constant."""
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self.values = values
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        if node.id not in self.values:
+            return node
+        value = self.values[node.id]
+        return ast.Name(value.__name__) if callable(value) else ast.Constant(value)
+
+    def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.expr:
+        self.generic_visit(node)
+        parts = [
+            part.value if isinstance(part, ast.FormattedValue) else part for part in node.values
+        ]
+        texts = [str(part.value) for part in parts if isinstance(part, ast.Constant)]
+        return ast.Constant("".join(texts)) if len(texts) == len(parts) else node
 
 
 def _attempt(check: Check, reading: str, number: str, compute: Compute, data: Data) -> Attempt:
@@ -286,7 +322,7 @@ def _compared(
     bench = Bench(data)
     scale = SCALES[check.unit]
     computed = float(compute(bench)) / scale
-    spread = 0.0 if check.counted else propagated(compute, data, bench.read) / scale
+    spread = 0.0 if check.counted else propagate_error(compute, data, bench.read) / scale
     error = math.hypot(spread, check.stated)
     verdict = _verdict(computed, float(number), _tolerance(check, number), error)
     return computed, error, verdict, bench

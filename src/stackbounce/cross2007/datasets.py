@@ -16,7 +16,7 @@ from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.errors import InvalidValue, nearest
 from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring
 
-__all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "pair"]
+__all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "load_dataset", "load_pair"]
 
 PREFIX = "cross2007/"
 """What a data set's name begins with on the command line."""
@@ -48,7 +48,7 @@ class DataSet(NamedTuple):
     what: str
 
 
-def dataset(name: str) -> DataSet:
+def load_dataset(name: str) -> DataSet:
     """Return a measurement of the paper.
 
     Parameters
@@ -70,7 +70,7 @@ def dataset(name: str) -> DataSet:
     Examples
     --------
     >>> import stackbounce as sb
-    >>> drop, data, vary, what = dataset("B1-B2")
+    >>> drop, data, vary, what = load_dataset("B1-B2")
     >>> data["rebound_ratios"]
     [(0.28, 0.02), (1.91, 0.02)]
     >>> sb.fit(drop, data, vary).names
@@ -82,7 +82,10 @@ def dataset(name: str) -> DataSet:
     return _MADE[short]()
 
 
-def pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
+dataset = load_dataset  # the name in earlier releases
+
+
+def load_pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
     """Return two of the superballs with section V's contacts, and what Table II has of them.
 
     Parameters
@@ -93,7 +96,7 @@ def pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
 
     Examples
     --------
-    >>> drop, data = pair("B1", "B1")
+    >>> drop, data = load_pair("B1", "B1")
     >>> [round(ball.mass, 5) for ball in drop.balls]
     [0.10504, 0.101]
     """
@@ -128,7 +131,7 @@ def _times(key: str) -> dict[str, Any]:
 
 
 def _pair(lower: str, upper: str) -> DataSet:
-    drop, data = pair(lower, upper)
+    drop, data = load_pair(lower, upper)
     vary = {
         "contacts.0.stiffness": _STIFF,
         "contacts.1.stiffness": _STIFF,

@@ -18,7 +18,7 @@ __all__ = [
     "Array",
     "Two",
     "after_meeting",
-    "cut",
+    "bisect",
     "fallen_speed",
     "force_above",
     "hysteretic_pair",
@@ -26,8 +26,8 @@ __all__ = [
     "peak_times",
     "rigid_pair",
     "risen_height",
-    "solved",
     "spring_pair",
+    "truncate",
 ]
 
 Two = tuple[float, float]
@@ -91,12 +91,12 @@ def peak_times(result: Result, contact: int, end: float) -> Array:
     return peaks
 
 
-def cut(value: float, digits: int) -> float:
+def truncate(value: float, digits: int) -> float:
     """Return a number with all decimals after the first `digits` cut off, not rounded.
 
     Examples
     --------
-    >>> cut(0.528, 2), cut(-1.19, 1)
+    >>> truncate(0.528, 2), truncate(-1.19, 1)
     (0.52, -1.1)
     """
     return math.trunc(value * 10.0**digits) / 10.0**digits
@@ -112,14 +112,14 @@ def risen_height(speed: float) -> float:
     return speed**2 / (2.0 * STANDARD_GRAVITY)
 
 
-def solved(function: Callable[[float], float], low: float, high: float) -> float:
+def bisect(function: Callable[[float], float], low: float, high: float) -> float:
     """Return where a function changes sign between `low` and `high`, by bisection.
 
     A function that jumps is followed to its jump. The result is as exact as floats allow.
 
     Examples
     --------
-    >>> round(solved(lambda x: x * x - 2.0, 0.0, 2.0), 12)
+    >>> round(bisect(lambda x: x * x - 2.0, 0.0, 2.0), 12)
     1.414213562373
     """
     rising = function(high) > 0.0

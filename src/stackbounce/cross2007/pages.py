@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     import jinja2
     from markupsafe import Markup
 
-__all__ = ["data_uri", "environment", "nice"]
+__all__ = ["data_uri", "make_environment", "typeset"]
 
 _SIGNS = (
     (r"\b([mvekhrF])_?([0-4]|(?<=r_)[mk])\b", r"\1<sub>\2</sub>"),
@@ -22,7 +22,7 @@ _SIGNS = (
 )
 
 
-def nice(text: str) -> "Markup":
+def typeset(text: str) -> "Markup":
     """A text as HTML, with indices, powers and signs as they are printed."""
     from markupsafe import Markup, escape
 
@@ -37,7 +37,7 @@ def data_uri(svg: bytes) -> str:
     return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
 
 
-def environment() -> "jinja2.Environment":
+def make_environment() -> "jinja2.Environment":
     """Return what renders the report's templates."""
     import jinja2
 
@@ -48,5 +48,5 @@ def environment() -> "jinja2.Environment":
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    found.filters["nice"] = nice
+    found.filters["typeset"] = typeset
     return found

@@ -12,10 +12,10 @@ from pathlib import Path
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Row
 from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.pages import data_uri, environment
-from stackbounce.cross2007.paper import Audit, audit, pictures
-from stackbounce.cross2007.style import Picture, rendered
-from stackbounce.cross2007.tables import Table, table_one, table_two
+from stackbounce.cross2007.pages import data_uri, make_environment
+from stackbounce.cross2007.paper import Audit, audit, draw_figures
+from stackbounce.cross2007.style import Picture, render
+from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
 from stackbounce.errors import FileError
 from stackbounce.version import __version__
 
@@ -57,14 +57,14 @@ def write(
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}
     drawn: list[tuple[Picture, str]] = []
-    for picture in pictures(PAPER, progress):
-        images = rendered(picture.figure)
+    for picture in draw_figures(PAPER, progress):
+        images = render(picture.figure)
         files |= {f"figures/figure-{picture.name}.{end}": data for end, data in images.items()}
         drawn.append((picture, data_uri(images["svg"])))
     progress("tables I and II")
-    tables = [table_one(Bench(PAPER)), table_two(Bench(PAPER))]
+    tables = [make_table_one(Bench(PAPER)), make_table_two(Bench(PAPER))]
     if study:
-        from stackbounce.cross2007.study.page import files as study_files
+        from stackbounce.cross2007.study.page import make_files as study_files
 
         files |= study_files(progress)
     progress(f"writing to {out}")
@@ -146,7 +146,7 @@ def _csv(done: Audit) -> str:
 def _page(
     done: Audit, drawn: list[tuple[Picture, str]], tables: list[Table], *, study: bool
 ) -> str:
-    pages = environment()
+    pages = make_environment()
     pages.filters["digits"] = _digits
     pages.filters["groupby_reason"] = _by_reason
     return pages.get_template("paper.html.j2").render(

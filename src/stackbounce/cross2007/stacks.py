@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.drops import Two, fallen_speed, hysteretic_pair, solved, spring_pair
+from stackbounce.cross2007.drops import Two, bisect, fallen_speed, hysteretic_pair, spring_pair
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import Hysteretic
@@ -22,7 +22,7 @@ __all__ = [
     "small_fit",
     "smallest_fit",
     "stack_masses",
-    "stiffening",
+    "stiffen",
     "superball_speed",
     "twin_pair",
 ]
@@ -129,7 +129,7 @@ def late_twins(bench: Bench) -> Drop:
         end = float(bench.simulate(twin_pair(bench, gap)).last_release[0])
         return end - bench("superballs.twin_duration")
 
-    return twin_pair(bench, solved(late, 2e-3, 2e-2))
+    return twin_pair(bench, bisect(late, 2e-3, 2e-2))
 
 
 def parted_twins(bench: Bench) -> Drop:
@@ -140,7 +140,7 @@ def parted_twins(bench: Bench) -> Drop:
     return twin_pair(bench, speed * bounce)
 
 
-def stiffening(bench: Bench, drop: Drop) -> Drop:
+def stiffen(bench: Bench, drop: Drop) -> Drop:
     """Return a drop of two balls with each spring replaced by Hertz's law, F = k c**1.5.
 
     The new contact lasts as long as the old one, for the lower ball on the floor and for the two

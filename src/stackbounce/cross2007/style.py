@@ -23,12 +23,12 @@ __all__ = [
     "UPPER",
     "Feature",
     "Picture",
-    "axes",
     "bracket",
+    "make_axes",
     "note",
-    "rendered",
-    "styled",
+    "render",
     "tag",
+    "use_style",
 ]
 
 BLACK = "#000000"
@@ -94,7 +94,7 @@ class Picture:
 
 
 @contextmanager
-def styled() -> Iterator[None]:
+def use_style() -> Iterator[None]:
     """Draw in the paper's style within this context."""
     import matplotlib as mpl
 
@@ -104,7 +104,7 @@ def styled() -> Iterator[None]:
         yield
 
 
-def axes(
+def make_axes(
     height: float = 3.0,
     rows: int = 1,
     *,
@@ -183,10 +183,10 @@ def tag(
     )
 
 
-def rendered(figure: "Figure") -> dict[str, bytes]:
+def render(figure: "Figure") -> dict[str, bytes]:
     """Return a figure as the bytes of its files, by ending; equal figures give equal bytes."""
     files = {}
-    with styled():
+    with use_style():
         for ending, options in (
             ("svg", {"metadata": {"Date": None, "Creator": None}}),
             ("png", {"dpi": 300, "metadata": {"Software": None}}),

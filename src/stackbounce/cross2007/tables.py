@@ -10,7 +10,7 @@ from stackbounce.measure.law_constants import dynamic_stiffness
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Table", "table_one", "table_two"]
+__all__ = ["Table", "make_table_one", "make_table_two"]
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Table:
     notes: tuple[str, ...]
 
 
-def table_one(bench: Bench) -> Table:
+def make_table_one(bench: Bench) -> Table:
     """Return Table I: the superballs, with their dynamic stiffness from the contact time.
 
     Parameters
@@ -73,7 +73,7 @@ def table_one(bench: Bench) -> Table:
     return Table("I", "Properties of the superballs", head, tuple(rows), notes)
 
 
-def table_two(bench: Bench) -> Table:
+def make_table_two(bench: Bench) -> Table:
     """Return Table II: mass ratios, and bounce heights as squares of the rebound ratios.
 
     Parameters

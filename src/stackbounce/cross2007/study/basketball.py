@@ -12,13 +12,13 @@ import numpy as np
 
 from stackbounce.calibration import calibrate
 from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.study import given
-from stackbounce.cross2007.study.fitting import fitted
+from stackbounce.cross2007.study import inputs
+from stackbounce.cross2007.study.searches import fit_model
 from stackbounce.cross2007.study.theories import ELASTIC, SHARED
 from stackbounce.fitting import Model
 from stackbounce.model import Ball, Drop, HuntCrossley
 
-__all__ = ["Stack", "stacks"]
+__all__ = ["Stack", "fit_stacks"]
 
 _EXPONENTS = (1.0, 1.5)
 _SOFT = {1.0: (5e2, 2e4), 1.5: (5e3, 2e5)}  # N/m**exponent, of the basketball on the floor
@@ -39,19 +39,19 @@ class Stack(NamedTuple):
     chi_squared: float
 
 
-def stacks() -> list[Stack]:
+def fit_stacks() -> list[Stack]:
     """Return the fits: linear and Hertz's contacts, loss at the floor only or everywhere."""
     return [_fitted(p, where) for where in (ELASTIC, SHARED) for p in _EXPONENTS]
 
 
-def restitution(name: str) -> float:
+def read_restitution(name: str) -> float:
     """Return the restitution of a ball alone, from the heights that the paper tells."""
     return math.sqrt(PAPER[f"{name}.rebound_height"].value / PAPER["stack.drop_height"].value)
 
 
 def _fitted(exponent: float, where: str) -> Stack:
     model, data = _model(exponent, where), _data()
-    found = fitted(model, {"stack": data})
+    found = fit_model(model, {"stack": data})
     lower, upper = (one.fitted for one in found.residuals[:2])
     best = found.best
     own = best["ratio"], best["gaps.0"], (lower, upper)
@@ -60,7 +60,7 @@ def _fitted(exponent: float, where: str) -> Stack:
 
 def _data() -> dict[str, Any]:
     ratios = [
-        (PAPER[f"tennis_on_basketball.{one}"].value, given.ERROR) for one in ("lower", "upper")
+        (PAPER[f"tennis_on_basketball.{one}"].value, inputs.ERROR) for one in ("lower", "upper")
     ]
     return {
         "rebound_ratios": ratios,
@@ -74,7 +74,7 @@ def _model(p: float, where: str) -> Model:
         HuntCrossley,
         mass=PAPER["tennis.mass"].value,
         contact_time=PAPER["tennis.contact_time"].value,
-        restitution=restitution("tennis"),
+        restitution=read_restitution("tennis"),
         impact_speed=speed,
         exponent=p,
     )
@@ -83,7 +83,7 @@ def _model(p: float, where: str) -> Model:
         HuntCrossley,
         mass=1.0,
         contact_time=1.0,
-        restitution=restitution("basketball"),
+        restitution=read_restitution("basketball"),
         impact_speed=speed,
         exponent=p,
     ).dissipation

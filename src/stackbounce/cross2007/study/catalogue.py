@@ -2,7 +2,7 @@
 
 import math
 
-from stackbounce.cross2007.study.given import PRINTED
+from stackbounce.cross2007.study.inputs import PRINTED
 from stackbounce.cross2007.study.theories import ELASTIC, OWN, SHARED, Theory
 from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
 
@@ -72,7 +72,7 @@ THEORIES: dict[str, Theory] = {
         ("e_B1", "e_B2", "e_B3", "exponent", "between", "stiffer"),
     ),
 }
-"""With finite contacts; separate collisions are in `stackbounce.cross2007.study.compared`."""
+"""With finite contacts; separate collisions are in `stackbounce.cross2007.study.comparison`."""
 
 CHOSEN = ("A", "S", "L", "B")
 """Whose predictions are told: the paper's own idea without its fit, and three that do better."""

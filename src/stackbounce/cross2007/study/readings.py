@@ -4,13 +4,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
-from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED, MISPRINT
-from stackbounce.cross2007.study.fitting import fitted
+from stackbounce.cross2007.study.searches import fit_model
 from stackbounce.cross2007.study.theories import SHARED, Theory
 from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
 
-__all__ = ["LAWS", "READINGS", "Reading", "readings"]
+__all__ = ["LAWS", "READINGS", "Reading", "fit_readings"]
 
 READINGS = {
     "as printed": AS_PRINTED,
@@ -38,13 +38,13 @@ class Reading(NamedTuple):
     chi_squared: dict[str, float]
 
 
-def readings(progress: Callable[[str], None] = lambda _: None) -> list[Reading]:
+def fit_readings(progress: Callable[[str], None] = lambda _: None) -> list[Reading]:
     """Return how each reading does under each law."""
     rows = []
     for name, known in READINGS.items():
         progress(f"study: Table I's restitutions {name}")
         found = {
-            law: fitted(replace(theory, known=known).model(), given.MEASURED).chi_squared
+            law: fit_model(replace(theory, known=known).model(), inputs.MEASURED).chi_squared
             for law, theory in LAWS.items()
         }
         rows.append(Reading(name, known, found))

@@ -8,12 +8,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.cross2007.drops import fallen_speed
-from stackbounce.cross2007.study import given
-from stackbounce.cross2007.study.alone import LOSS, Numbers, numbers
+from stackbounce.cross2007.study import inputs
+from stackbounce.cross2007.study.single_ball import LOSS, Numbers, calibrate_numbers
 from stackbounce.fitting import Model
 from stackbounce.model import Drop, HuntCrossley, Hysteretic, Rigid, Viscoelastic
 
-__all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "rigid"]
+__all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "make_rigid_model"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -33,7 +33,7 @@ _BOUNDS = {
 }
 _WIDEST = 0.03  # m: of the gaps that are searched
 _GAP = 4e-3  # m: where a search begins
-_SPEED = fallen_speed(given.HEIGHT)  # m/s: of a ball alone, at which Table I has its numbers
+_SPEED = fallen_speed(inputs.HEIGHT)  # m/s: of a ball alone, at which Table I has its numbers
 
 
 @dataclass(frozen=True)
@@ -79,11 +79,11 @@ class Theory:
     vary: tuple[str, ...] = ()
     exponent: float = 1.5
     reloading: str = "free"
-    heavy: float = given.HEAVY
-    height: float = given.HEIGHT
+    heavy: float = inputs.HEAVY
+    height: float = inputs.HEIGHT
     longer: Mapping[str, float] = field(default_factory=dict)
 
-    def model(self, pairs: tuple[str, ...] = tuple(given.PAIRS)) -> Model:
+    def model(self, pairs: tuple[str, ...] = tuple(inputs.PAIRS)) -> Model:
         """Return what `stackbounce.fitting.compare` takes: drops, what varies, what follows."""
         vary: dict[str, Any] = {name: _BOUNDS[name] for name in self.vary}
         vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in pairs}
@@ -95,22 +95,22 @@ class Theory:
         """Return one pair with a gap in m and values for what is varied."""
         values = self._values(varied or {})
         contacts = [self._law(values, one) for one in self.contacts(values)[key]]
-        return Drop(given.balls(key, self.heavy), contacts, gaps=[gap], height=self.height)
+        return Drop(inputs.make_balls(key, self.heavy), contacts, gaps=[gap], height=self.height)
 
     def contacts(self, values: Mapping[str, Any]) -> dict[str, tuple[Numbers, Numbers]]:
         """Return the numbers of each pair's contacts: the floor's, and that of the balls."""
-        alone = {ball: self.alone(ball, values) for ball in given.PRINTED}
+        alone = {ball: self.alone(ball, values) for ball in inputs.PRINTED}
         return {
             key: (alone[lower], self.between(alone[lower], alone[upper], values))
-            for key, (lower, upper) in given.PAIRS.items()
+            for key, (lower, upper) in inputs.PAIRS.items()
         }
 
     def alone(self, ball: str, values: Mapping[str, Any]) -> Numbers:
         """Return the numbers of a ball's contact with the floor."""
-        mass, time = given.solo(ball, self.heavy)
-        own = given.Solo(mass, time + self.longer.get(ball, 0.0))
+        mass, time = inputs.read_solo(ball, self.heavy)
+        own = inputs.Solo(mass, time + self.longer.get(ball, 0.0))
         p = values["exponent"]
-        found = numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
+        found = calibrate_numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
         if self.law is HuntCrossley:
             found = found._replace(loss=found.loss * values["loss"])
         return found
@@ -184,11 +184,13 @@ class Theory:
         return ties
 
 
-def rigid(*names: str) -> Model:
+def make_rigid_model(*names: str) -> Model:
     """Return separate collisions: with one restitution, ``e``, or ``e_floor`` and ``e_between``."""
     drops = {
-        key: Drop(given.balls(key), [Rigid(0.9), Rigid(0.9)], gaps=[_GAP], height=given.HEIGHT)
-        for key in given.PAIRS
+        key: Drop(
+            inputs.make_balls(key), [Rigid(0.9), Rigid(0.9)], gaps=[_GAP], height=inputs.HEIGHT
+        )
+        for key in inputs.PAIRS
     }
     vary: dict[str, Any] = dict.fromkeys(names, _BOUNDS["e"])
     vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in drops}

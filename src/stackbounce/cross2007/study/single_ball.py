@@ -15,10 +15,10 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from stackbounce.calibration import calibrate
-from stackbounce.cross2007.study.given import Solo
+from stackbounce.cross2007.study.inputs import Solo
 from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
 
-__all__ = ["LOSS", "LOWEST", "Numbers", "numbers"]
+__all__ = ["LOSS", "LOWEST", "Numbers", "calibrate_numbers"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -42,7 +42,9 @@ class Numbers(NamedTuple):
     loss: Array
 
 
-def numbers(law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any) -> Numbers:
+def calibrate_numbers(
+    law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any
+) -> Numbers:
     """Return the numbers of a ball's law, calibrated to its contact time and restitution.
 
     Parameters
@@ -65,7 +67,8 @@ def numbers(law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any)
     >>> ball = Solo(0.105, 4.3e-3)
     >>> law = calibrate(HuntCrossley, mass=0.105, contact_time=4.3e-3, restitution=0.88,
     ...                 impact_speed=2.0, exponent=1.5)
-    >>> abs(float(numbers(HuntCrossley, ball, 2.0, 0.88, 1.5).loss) / law.dissipation - 1.0) < 1e-9
+    >>> loss = float(calibrate_numbers(HuntCrossley, ball, 2.0, 0.88, 1.5).loss)
+    >>> abs(loss / law.dissipation - 1.0) < 1e-9
     True
     """
     p = np.asarray(exponent, dtype=float)

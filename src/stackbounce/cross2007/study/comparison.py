@@ -4,21 +4,21 @@ import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
-from stackbounce.cross2007.study.fitting import fitted
-from stackbounce.cross2007.study.theories import rigid
+from stackbounce.cross2007.study.searches import fit_model
+from stackbounce.cross2007.study.theories import make_rigid_model
 from stackbounce.fitting import Fit, Residual
 from stackbounce.fitting.comparison import Comparison
 from stackbounce.model import Drop
 
-__all__ = ["Compared", "compared"]
+__all__ = ["FittedModels", "fit_models"]
 
 _MISS = 2.0  # errors
 
 
 @dataclass(frozen=True, eq=False)
-class Compared:
+class FittedModels:
     """All models, fitted.
 
     Parameters
@@ -36,24 +36,24 @@ class Compared:
     def of_ratios(self, name: str) -> float:
         """Return chi squared of the ten values of Table II alone."""
         rows = self[name].residuals
-        return sum(one.pull**2 for one in rows if one.name in given.RATIOS)
+        return sum(one.pull**2 for one in rows if one.name in inputs.RATIOS)
 
     def worst(self, name: str) -> list[Residual]:
         """Return the values of Table II that a model misses by more than two errors."""
-        rows = [one for one in self[name].residuals if one.name in given.RATIOS]
+        rows = [one for one in self[name].residuals if one.name in inputs.RATIOS]
         return sorted(
             (one for one in rows if abs(one.pull) > _MISS), key=lambda one: -abs(one.pull)
         )
 
     def within(self, name: str) -> int:
         """Return how many of the ten values lie within the printed error of 0.02."""
-        rows = [one for one in self[name].residuals if one.name in given.RATIOS]
+        rows = [one for one in self[name].residuals if one.name in inputs.RATIOS]
         return sum(abs(one.pull) <= 1.0 for one in rows)
 
     def pairs(self, name: str) -> dict[str, dict[str, float]]:
         """Return each pair's ratios, their pulls, gap in m and delay in s, by a fitted model."""
         found = {}
-        for pair in given.PAIRS:
+        for pair in inputs.PAIRS:
             lower, upper, delay = (one for one in self[name].residuals if one.drop == pair)
             found[pair] = {
                 "e1": lower.fitted,
@@ -84,13 +84,13 @@ class Compared:
         return {**rigid_ones, **{name: one.title for name, one in THEORIES.items()}}
 
 
-def compared(progress: Callable[[str], None] = lambda _: None) -> Compared:
+def fit_models(progress: Callable[[str], None] = lambda _: None) -> FittedModels:
     """Return all models of the catalogue, fitted to all five pairs of superballs together."""
     fits: dict[str, Fit] = {}
     for name, numbers in NAMES.items():
         progress(f"study: model '{name}'")
-        fits[name] = fitted(rigid(*numbers), given.MEASURED)
+        fits[name] = fit_model(make_rigid_model(*numbers), inputs.MEASURED)
     for name, theory in THEORIES.items():
         progress(f"study: model '{name}'")
-        fits[name] = fitted(theory.model(), given.MEASURED)
-    return Compared(Comparison(fits, {}))
+        fits[name] = fit_model(theory.model(), inputs.MEASURED)
+    return FittedModels(Comparison(fits, {}))

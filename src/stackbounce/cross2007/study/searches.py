@@ -14,18 +14,18 @@ from stackbounce.fitting.problem import Problem
 from stackbounce.fitting.question import read_problem
 from stackbounce.fitting.search import Minimum, descend, search
 
-__all__ = ["again", "fitted"]
+__all__ = ["fit_model", "refit"]
 
 _RTOL = 1e-6
 _SCREENED, _FOLLOWED = 32, 3
 
 
-def fitted(model: Model, data: Mapping[str, Any]) -> Fit:
+def fit_model(model: Model, data: Mapping[str, Any]) -> Fit:
     """Return the best fit of a model to pairs of balls."""
     return _apart(model, data, _best)
 
 
-def again(model: Model, data: Mapping[str, Any], near: Fit) -> Fit:
+def refit(model: Model, data: Mapping[str, Any], near: Fit) -> Fit:
     """Return the fit of a model that differs a little from one that is fitted."""
     own = dict(zip(near.names, near.x, strict=True))
 
