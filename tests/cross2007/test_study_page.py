@@ -73,7 +73,7 @@ class Page(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def render_page(folder):
+def page(folder):
     page = Page()
     page.feed((folder / "study.html").read_text(encoding="utf-8"))
     return page

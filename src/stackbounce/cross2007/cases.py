@@ -53,22 +53,24 @@ def list_cases() -> Iterator[Case]:
     bench = Bench(PAPER)
     for group, made in _GROUPS.items():
         for name, title, says, make in made:
-            yield Case(name, group, title, says, _sized(make(bench), name))
+            yield Case(name, group, title, says, _sized(bench, make(bench)))
 
 
-def _sized(drop: Drop, name: str) -> Drop:
-    """Return a drop whose balls have the names and diameters that the paper gives them."""
-    sizes = _BALLS.get(name)
-    if sizes is None:
+def _sized(bench: Bench, drop: Drop) -> Drop:
+    """Return a drop with the paper's names and diameters, if the masses are those of its balls."""
+    known = {bench(f"{name}.mass"): name for name in ("basketball", "tennis", "B1", "B2", "B3")}
+    known[stacks.heavier_b1(bench)] = "B1"
+    names = [known.get(ball.mass) for ball in drop.balls]
+    if None in names:
         return drop
-    twins = len(set(sizes)) < len(sizes)
+    twins = len(set(names)) < len(names)
     balls = [
         replace(
             ball,
-            name=f"{known} {where}" if twins else known,
-            diameter=PAPER[f"{known}.diameter"].value,
+            name=f"{name} {where}" if twins else name,
+            diameter=bench(f"{name}.diameter"),
         )
-        for ball, known, where in zip(drop.balls, sizes, ("below", "above"), strict=True)
+        for ball, name, where in zip(drop.balls, names, ("below", "above"), strict=True)
     ]
     return replace(drop, balls=balls)
 
@@ -243,25 +245,4 @@ _GROUPS: dict[str, tuple[_Made, ...]] = {
             stacks.parted_twins,
         ),
     ),
-}
-_BALLS = {
-    **dict.fromkeys(
-        (
-            "separate",
-            "separate-lossy",
-            "figure-8",
-            "figure-8-gap",
-            "figure-9",
-            "figure-9-other",
-            "measured-basketball-tennis",
-        ),
-        ("basketball", "tennis"),
-    ),
-    "figure-13": ("B1", "B2"),
-    "B3-on-B1": ("B1", "B3"),
-    "B1-on-B2": ("B2", "B1"),
-    "B1-on-B3-early": ("B3", "B1"),
-    "B1-on-B3-late": ("B3", "B1"),
-    "B1-on-B1": ("B1", "B1"),
-    "B1-on-B1-parted": ("B1", "B1"),
 }

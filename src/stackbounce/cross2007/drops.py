@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
-from stackbounce.model.laws import ContactLaw, Hysteretic, Rigid, Spring
+from stackbounce.model.laws import ContactLaw, Rigid, Spring
 from stackbounce.run.result import Result
 
 __all__ = [
@@ -21,7 +21,6 @@ __all__ = [
     "bisect",
     "fallen_speed",
     "force_above",
-    "hysteretic_pair",
     "pair",
     "peak_times",
     "rigid_pair",
@@ -50,14 +49,6 @@ def rigid_pair(
 def spring_pair(masses: Two, stiffnesses: Two, *, speed: float = 1.0, gap: float = 0.0) -> Drop:
     """Return a drop with a simultaneous collision without loss (eqs 5 and 6)."""
     return pair(masses, [Spring(one) for one in stiffnesses], speed=speed, gap=gap)
-
-
-def hysteretic_pair(
-    masses: Two, stiffnesses: Two, exponent: float, *, speed: float, gap: float
-) -> Drop:
-    """Return section V's drop: the floor's contact loses energy, the one between the balls none."""
-    floor = Hysteretic(stiffnesses[0], unloading_exponent=exponent)
-    return pair(masses, [floor, Spring(stiffnesses[1])], speed=speed, gap=gap)
 
 
 def after_meeting(result: Result, count: int) -> Two:

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.drops import Two, bisect, fallen_speed, hysteretic_pair, spring_pair
+from stackbounce.cross2007.drops import Two, bisect, fallen_speed, pair, spring_pair
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import Drop
-from stackbounce.model.laws import Hysteretic
+from stackbounce.model.laws import Hysteretic, Spring
 
 __all__ = [
     "better_fit",
@@ -71,18 +71,21 @@ def gap_for_delay(bench: Bench, drop: Drop, delay: float) -> float:
 
 def small_fit(bench: Bench, heavy: float) -> Drop:
     """Return section V's drop of B2 on B1, the fit of Fig. 13, with a mass for B1 in kg."""
-    stiffnesses = bench("fig13.floor_stiffness"), bench("fig13.ball_stiffness")
-    speed, gap = superball_speed(bench), bench("fig13.gap")
-    masses = heavy, bench("B2.mass")
-    return hysteretic_pair(masses, stiffnesses, bench("V.exponent"), speed=speed, gap=gap)
+    return _section_v(bench, "fig13", heavy, "B2")
 
 
 def smallest_fit(bench: Bench, heavy: float) -> Drop:
     """Return section V's drop of B3 on B1, with a mass for B1 in kg."""
-    stiffnesses = bench("B3_fit.floor_stiffness"), bench("B3_fit.ball_stiffness")
-    speed, gap = superball_speed(bench), bench("B3_fit.gap")
-    masses = heavy, bench("B3.mass")
-    return hysteretic_pair(masses, stiffnesses, bench("V.exponent"), speed=speed, gap=gap)
+    return _section_v(bench, "B3_fit", heavy, "B3")
+
+
+def _section_v(bench: Bench, fit: str, heavy: float, upper: str) -> Drop:
+    """Return a drop on B1 that loses energy at the floor and none between the balls."""
+    stiffnesses = bench(f"{fit}.floor_stiffness"), bench(f"{fit}.ball_stiffness")
+    speed, gap = superball_speed(bench), bench(f"{fit}.gap")
+    masses = heavy, bench(f"{upper}.mass")
+    floor = Hysteretic(stiffnesses[0], unloading_exponent=bench("V.exponent"))
+    return pair(masses, [floor, Spring(stiffnesses[1])], speed=speed, gap=gap)
 
 
 def reversed_pair(bench: Bench, gap: float) -> Drop:

@@ -33,22 +33,22 @@ class FittedModels:
         """The fit of one model."""
         return self.comparison[name]
 
+    def ratios(self, name: str) -> list[Residual]:
+        """Return the residuals of the ten values of Table II, without those of the delays."""
+        return [one for one in self[name].residuals if one.name in inputs.RATIOS]
+
     def of_ratios(self, name: str) -> float:
         """Return chi squared of the ten values of Table II alone."""
-        rows = self[name].residuals
-        return sum(one.pull**2 for one in rows if one.name in inputs.RATIOS)
+        return sum(one.pull**2 for one in self.ratios(name))
 
     def worst(self, name: str) -> list[Residual]:
         """Return the values of Table II that a model misses by more than two errors."""
-        rows = [one for one in self[name].residuals if one.name in inputs.RATIOS]
-        return sorted(
-            (one for one in rows if abs(one.pull) > _MISS), key=lambda one: -abs(one.pull)
-        )
+        missed = [one for one in self.ratios(name) if abs(one.pull) > _MISS]
+        return sorted(missed, key=lambda one: -abs(one.pull))
 
     def within(self, name: str) -> int:
         """Return how many of the ten values lie within the printed error of 0.02."""
-        rows = [one for one in self[name].residuals if one.name in inputs.RATIOS]
-        return sum(abs(one.pull) <= 1.0 for one in rows)
+        return sum(abs(one.pull) <= 1.0 for one in self.ratios(name))
 
     def pairs(self, name: str) -> dict[str, dict[str, float]]:
         """Return each pair's ratios, their pulls, gap in m and delay in s, by a fitted model."""
@@ -86,11 +86,10 @@ class FittedModels:
 
 def fit_models(progress: Callable[[str], None] = lambda _: None) -> FittedModels:
     """Return all models of the catalogue, fitted to all five pairs of superballs together."""
+    models = {name: make_rigid_model(*numbers) for name, numbers in NAMES.items()}
+    models |= {name: theory.model() for name, theory in THEORIES.items()}
     fits: dict[str, Fit] = {}
-    for name, numbers in NAMES.items():
+    for name, model in models.items():
         progress(f"study: model '{name}'")
-        fits[name] = fit_model(make_rigid_model(*numbers), inputs.MEASURED)
-    for name, theory in THEORIES.items():
-        progress(f"study: model '{name}'")
-        fits[name] = fit_model(theory.model(), inputs.MEASURED)
+        fits[name] = fit_model(model, inputs.MEASURED)
     return FittedModels(Comparison(fits, {}))

@@ -90,8 +90,7 @@ def _firm(compared: FittedModels) -> tuple[float, float]:
 
 def _biggest(compared: FittedModels, name: str) -> Residual:
     """Return the value of Table II that a model misses most."""
-    rows = [one for one in compared[name].residuals if one.name in inputs.RATIOS]
-    return max(rows, key=lambda one: abs(one.pull))
+    return max(compared.ratios(name), key=lambda one: abs(one.pull))
 
 
 def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
