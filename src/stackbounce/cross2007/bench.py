@@ -1,8 +1,8 @@
-"""The bench: the paper's data and the library's solver at hand, with a note of what was used.
+"""The bench: access to the paper's data and to the solver, with a record of what was used.
 
 Every row of the audit, every table and every figure is computed on a bench. It records which
-numbers were read and which drops were simulated, so that a row's dependence on the data and the
-library call that made it are observed, not claimed.
+numbers are read and which drops are simulated. The inputs and library calls that a row shows are
+this record.
 """
 
 from collections.abc import Callable
@@ -55,7 +55,7 @@ class Bench:
         return ufloat(self(key), self.data[key].spread)
 
     def simulate(self, drop: Drop) -> Result:
-        """Return what the library's solver makes of a drop."""
+        """Simulate a drop and record it."""
         self.drops.append(drop)
         return _simulated(drop)
 
@@ -71,12 +71,12 @@ def write_call(drop: Drop) -> str:
     Parameters
     ----------
     drop : Drop
-        What was simulated.
+        The simulated drop.
 
     Returns
     -------
     str
-        An expression; evaluated with ``sb`` standing for the package it gives the same result.
+        An expression that gives the same result if ``sb`` is the package.
 
     Examples
     --------
@@ -106,16 +106,16 @@ def _text(value: Any) -> str:
 
 
 def propagate_error(compute: Callable[[Bench], float], data: Data, keys: list[str]) -> float:
-    """Return the error of a computed number that follows from the errors of its inputs.
+    """Return the standard error of a computed number, propagated from the errors of its inputs.
 
     Parameters
     ----------
     compute : callable
-        What makes the number on a bench.
+        Computes the number on a bench.
     data : mapping of str to Input
         The paper's numbers.
     keys : list of str
-        Those that the number depends on.
+        The inputs that the number depends on.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""The paper's cases, ready to be played: every drop that it computes or measures, with a name."""
+"""The paper's cases for the explorer: every drop that it computes or measures, by name."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -19,15 +19,15 @@ class Case:
     Parameters
     ----------
     name : str
-        For machines, such as ``figure-9``.
+        An identifier, such as ``figure-9``.
     group : str
-        What it belongs to.
+        The heading of its group.
     title : str
-        For people.
+        The title on screen.
     says : str
-        What there is to see, in one sentence.
+        One sentence on what the case shows.
     drop : Drop
-        What is dropped.
+        The drop.
 
     Examples
     --------
@@ -76,7 +76,7 @@ def _sized(bench: Bench, drop: Drop) -> Drop:
 
 
 def _section_two(ratio: float, stiffness: float = 1.0) -> Callable[[Bench], Drop]:
-    """Return what makes section II's drop: 0.2 kg above, `ratio` times as much below."""
+    """Return a function that makes section II's drop with 0.2 kg above and a mass ratio."""
 
     def make(b: Bench) -> Drop:
         upper, spring = b("fig5.upper_mass"), b("fig5.ball_stiffness")
@@ -87,7 +87,7 @@ def _section_two(ratio: float, stiffness: float = 1.0) -> Callable[[Bench], Drop
 
 
 def _textbook(restitution: str, ratio: float | None = None) -> Callable[[Bench], Drop]:
-    """Return what makes separate collisions of basketball and tennis ball, or of another ratio."""
+    """Return a function that makes separate collisions of two balls, by default the paper's."""
 
     def make(b: Bench) -> Drop:
         lower, upper = stacks.stack_masses(b)

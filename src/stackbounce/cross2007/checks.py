@@ -1,8 +1,8 @@
-"""The audit: each number that the paper prints, beside what the library makes of it.
+"""The audit's checks: each number that the paper prints, and the function that computes it.
 
-A check says where a number stands, how it is printed, and holds the function that computes it.
-Running the checks on a bench gives the rows: computed value, verdict, the source of the function,
-the library calls it made and the inputs it read, all observed while it ran.
+A check has the place of a number in the paper, its printed form and its function. Running a check
+on a bench gives a row: the computed value, the verdict, the source of the function, and the library
+calls and the inputs that the bench recorded.
 """
 
 import ast
@@ -37,7 +37,7 @@ WITHIN_ERROR = "agrees within error"
 DIFFERS = "differs"
 
 SCALES = {"": 1.0, "%": 1e-2, "ms": 1e-3, "mm": 1e-3, "m": 1.0, "m/s": 1.0, "J": 1.0, "N/m": 1.0}
-"""How much an audit unit is in SI."""
+"""The size of an audit unit in SI units."""
 
 Number: TypeAlias = float | Any
 """A number, of Python or of a numpy array."""
@@ -64,16 +64,15 @@ class Check:
     unit : str
         A key of `SCALES`.
     compute : callable
-        Makes the number, in SI units, on a bench.
+        Computes the number, in SI units, on a bench.
     counted : bool
-        Whether it is a count, which has no tolerance.
+        Whether it is a count, which must be equal.
     stated : float
         The error in `unit` that the paper states for the printed number, or 0.
     reason : str
-        Why it disagrees, or what to know where it agrees.
+        The reason for a difference, or a remark on an agreement.
     others : tuple of (str, str, callable)
-        Other readings: what is assumed, the number in digits that it is compared with, and its
-        computation.
+        Other readings: the assumption, the digits to compare with, and the computation.
     """
 
     id: str
@@ -91,7 +90,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Attempt:
-    """Another reading of a printed number: what it assumes, what it gives, how that compares."""
+    """Another reading of a printed number: its assumption, computed value and verdict."""
 
     reading: str
     number: str
@@ -104,10 +103,10 @@ class Attempt:
 class Row:
     """A printed number beside the computed one; see `Check` for the first five.
 
-    ``number`` is its value, ``tolerance`` half a unit in its last printed digit, ``error`` what the
-    errors of the inputs and of the printed number itself add, both in `unit`; ``source`` is the
-    text of the function that computed it, ``calls`` are the library calls that it made, ``inputs``
-    the data that it read.
+    ``number`` is the printed value and ``tolerance`` half a unit in its last digit. ``error`` is
+    the standard error that follows from the inputs and from the printed number itself, in `unit`.
+    ``source`` is the text of the function that computed the number, ``calls`` are the library calls
+    that it made and ``inputs`` the keys of the data that it read.
     """
 
     id: str
@@ -190,7 +189,7 @@ def run_check(check: Check, data: Data) -> Row:
     Parameters
     ----------
     check : Check
-        What to compute and compare.
+        The printed number and its computation.
     data : mapping of str to Input
         The paper's numbers.
 
@@ -336,7 +335,7 @@ def _verdict(computed: float, number: float, tolerance: float, error: float) -> 
     distance = abs(computed - number)
     if distance <= tolerance * (1.0 + 1e-9):
         return AGREES
-    # an error as large as the number itself would let anything pass
+    # with an error as large as the number itself, every value would pass
     telling = error < abs(number)
     return WITHIN_ERROR if telling and distance <= tolerance + error else DIFFERS
 

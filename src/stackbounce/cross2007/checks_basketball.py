@@ -121,8 +121,8 @@ def _(b: Bench) -> Number:
     "static k1/k2: compression between the balls over that at the floor",
     "1.8",
     reason="All of the compression above the basketball's centre gives more than the printed "
-    "ratio, the basketball's share alone less. With half of the tennis ball's compression, up to "
-    "its centre of mass, it comes out.",
+    "ratio, the basketball's share alone gives less. With half of the tennis ball's compression, "
+    "up to its centre of mass, the printed ratio results.",
 )
 def _(b: Bench) -> Number:
     return (_indentation(b) + b("static.tennis")) / (b("static.basketball") / 2)
@@ -149,9 +149,9 @@ def _(b: Bench) -> Number:
 
 
 _ENDS = (
-    "The floor force fades out gently, so that the end depends on how much of it still counts: "
-    "at a twentieth of the peak the better fit is near 30 ms, at a tenth the alternative. At no "
-    "one threshold do both come within half a millisecond of it; they stay about 1 ms apart."
+    "The floor force decreases gradually, so that the end depends on the threshold: at a twentieth "
+    "of the peak the better fit ends near 30 ms, at a tenth the alternative does. There is no "
+    "threshold at which both are within half a millisecond of 30 ms; they differ by about 1 ms."
 )
 
 
@@ -185,7 +185,8 @@ _add_ends(better_fit)
     "7",
     "ms",
     where="Fig. 8, text",
-    reason="The paper's own calculation has no gap; it only ever says that 2 mm is the most.",
+    reason="The paper's own calculation has no gap; the text only says that the gap was at most "
+    "2 mm.",
 )
 def _(b: Bench) -> Number:
     stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")

@@ -17,7 +17,7 @@ FITS = Section("Sec. V")
 CONCLUSION = Section("Sec. VI")
 
 _SHORTER = 0.913
-"""What d/v0 is multiplied by in the other reading; a fall of 24 cm for 20 cm does the same."""
+"""The factor on d/v0 in the other reading; a fall of 24 cm instead of 20 cm is equivalent."""
 
 _REASON_FIT = (
     "The outcome depends on the large ball's mass and, with linear loading, on gap and impact "

@@ -65,8 +65,8 @@ def _(b: Bench) -> Number:
     "I.tennis_height",
     "tennis ball's bounce off the floor over its drop height",
     "0.55",
-    reason="A usual value, 'about 0.55', beside section III's one bounce, which is 2 % higher. "
-    "It comes nearer if both heights were measured to the ball's centre, a guess.",
+    reason="The printed number is a usual value, 'about 0.55'; section III's one bounce is 2 % "
+    "higher. If both heights were measured to the ball's centre, a guess, the ratio is closer.",
 )
 def _(b: Bench) -> Number:
     return b("tennis.rebound_height") / b("stack.drop_height")
@@ -140,8 +140,8 @@ def _(b: Bench) -> Number:
 
 
 _CUT = (
-    "Cutting is no rule of the paper, which rounds 1.1886, 2.636, 6.366 and 1.127 to 1.19, 2.64, "
-    "6.37 and 1.13."
+    "In general the paper does not cut off digits: it rounds 1.1886, 2.636, 6.366 and 1.127 to "
+    "1.19, 2.64, 6.37 and 1.13."
 )
 
 
@@ -188,7 +188,8 @@ def _more_meetings(b: Bench, restitution: float, count: int) -> float:
     "m1/m2 below which a second ball-ball collision arises, e = 1",
     "m1 < m2",
     number="1",
-    reason="Exact for e = 1; with e = 0.8 it arises a little earlier, which the text leaves out.",
+    reason="Exact for e = 1. With e = 0.8 the threshold is a little higher; the text does not say "
+    "so.",
 )
 def _(b: Bench) -> Number:
     return _more_meetings(b, b("models.lossless"), 2)

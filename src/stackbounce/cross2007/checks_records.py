@@ -1,7 +1,7 @@
-"""The audit's checks of what section IV reads off the force records: durations and delays.
+"""The audit's checks of section IV's force records: durations, delays and counts of peaks.
 
-The paper measured these numbers. Here the models give them for the same drops, so that a reader
-sees how far each model goes; the stiffnesses that the paper does not give are guesses.
+The paper measured these numbers. Here the models compute them for the same drops. Stiffnesses that
+the paper does not give are guesses.
 """
 
 from dataclasses import replace
@@ -55,8 +55,8 @@ def _(b: Bench) -> Number:
     "mm",
     where="Sec. IV, Fig. 10b",
     reason="No agreement: the gap is 2.9 times the printed one. The text has about 2 ms and about "
-    "1 mm for either order, but a lighter lower ball turns round sooner, so that the same delay "
-    "takes a larger gap. It is 1 mm only if 2 ms is the shortest delay that rounds to it.",
+    "1 mm for either order, but a lighter lower ball rebounds sooner, so that the same delay "
+    "requires a larger gap. The gap is 1 mm only if the delay is 1.5 ms, which rounds to 2 ms.",
 )
 def _(b: Bench) -> Number:
     return gap_for_delay(b, reversed_pair(b, 0.0), b("superballs.delay"))
@@ -74,15 +74,15 @@ RECORDS.other(
     "6.0",
     "ms",
     where="Sec. IV, Fig. 10a",
-    reason="A measured duration; the model's fades out softly, and its two stiffnesses leave this "
-    "open.",
+    reason="The printed duration was measured. The model's force decreases gradually, and its two "
+    "stiffnesses do not determine the duration.",
 )
 def _(b: Bench) -> Number:
     return max(b.simulate(small_fit(b, b("B1.mass"))).last_release)
 
 
 def _delayed(b: Bench, drop: Drop) -> Drop:
-    """A drop with the gap that makes the measured delay of 2 ms."""
+    """The drop with the gap for the measured delay of 2 ms."""
     return replace(drop, gaps=(gap_for_delay(b, drop, b("superballs.delay")),))
 
 

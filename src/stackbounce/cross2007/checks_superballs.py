@@ -27,7 +27,7 @@ def _(b: Bench) -> Number:
     "IV.steel_masses",
     "ratio of the steel balls' masses, as the cube of their diameters' ratio",
     "2.815",
-    reason="The masses were weighed, not computed; the diameters, to 0.1 mm, bear them out.",
+    reason="The masses were weighed, not computed; the diameters, to 0.1 mm, agree with them.",
 )
 def _(b: Bench) -> Number:
     return (b("steel.large_diameter") / b("steel.small_diameter")) ** 3
@@ -75,7 +75,7 @@ def _light_on_heavy(b: Bench, heavy: float) -> Result:
 
 
 _REASON_3_68 = (
-    "Table I's 101 g give less. With the mass ratio that Table II prints the height comes within "
+    "Table I's 101 g give less. With the mass ratio that Table II prints, the height agrees within "
     "the error of that ratio."
 )
 
@@ -97,7 +97,7 @@ SUPERBALLS.other(
     "B1's bounce under B2, e = 0.90",
     "4",
     "%",
-    reason="With either mass; here the lower ball leaves upward at once.",
+    reason="Both masses of B1 give it. The lower ball leaves upward after one collision.",
 )
 def _(b: Bench) -> Number:
     return _light_on_heavy(b, b("B1.mass")).rebound_ratios[0] ** 2

@@ -13,7 +13,7 @@ TABLE_ONE = Section("Table I")
 TABLE_TWO = Section("Table II")
 
 WITH_105 = "with B1 = 1.040 x 101 g = 105 g"
-"""The reading of the large ball's mass that Table II's own ratios ask for."""
+"""The reading of the large ball's mass that follows from Table II's mass ratios."""
 
 RATIOS = {
     "B2_on_B1": "4.23",
@@ -49,8 +49,8 @@ _check_stiffness("B3", "2.3e4")
 
 _REASON_MASS = (
     "Table I's 101 g do not give this ratio. Table II has two balls B1 whose masses are as 1.040 "
-    "to 1: if 101 g is the lighter one's, the heavier one has 105 g, and that ball gives it. One "
-    "mass, chosen freely, so brings five numbers in line: these four ratios and 1.040."
+    "to 1: if the lighter one has 101 g, the heavier one has 105 g, and that ball gives the ratio. "
+    "One freely chosen mass thus explains five numbers: these four ratios and 1.040."
 )
 
 
@@ -78,7 +78,7 @@ _check_mass_ratio("B1", "B3")
     RATIOS["B1_on_B1"],
     reason="Table I lists one mass for two balls. If the heavier one is below B2 in the table's "
     "first row and 101 g is the lighter one's, the ratio follows as closely as the masses are "
-    "printed. It is no independent check: 4.23 and 1.040 explain each other.",
+    "printed. It is not an independent check: 4.23 and 1.040 follow from each other.",
 )
 def _(b: Bench) -> Number:
     return b("B2_on_B1.mass_ratio") * b("B2.mass") / b("B1.mass")

@@ -1,4 +1,4 @@
-"""The curves of the paper's figures, as numbers: every value from the library's solver."""
+"""The curves of the paper's figures as arrays, computed by the library's solver."""
 
 import numpy as np
 
@@ -16,7 +16,7 @@ def after_collision(bench: Bench, ratios: Array, restitution: float, count: int)
     Parameters
     ----------
     bench : Bench
-        Where the drops are simulated.
+        Simulates the drops.
     ratios : ndarray
         (R,) mass ratios m1/m2.
     restitution : float

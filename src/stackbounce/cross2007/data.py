@@ -1,10 +1,11 @@
-"""The paper's data: every number that an audit row, a table or a figure starts from.
+"""The paper's data: all input numbers of the audit, the tables and the figures.
 
-Values are in SI units. ``printed`` is the number as the paper gives it, ``spread`` the error that
-the paper states for it or, where it states none or a finer one than its digits can show, half a
-unit in the last printed digit. A spread of 0 marks a number that the paper sets for a calculation:
-Fig. 5's masses and springs, and the restitutions that it puts into eqs 1 to 4. Some of those come
-from a fit; where their rounding matters (71 % with e = 0.92), the audit's row says so.
+Values are in SI units. ``printed`` is the number as the paper gives it. ``spread`` is the error
+that the paper states, or half a unit in the last printed digit if that is larger or no error is
+stated.
+A spread of 0 marks a number that the paper chooses for a calculation: Fig. 5's masses and springs,
+and the restitutions in eqs 1 to 4. Some of these come from a fit; the audit's row says so if their
+rounding matters (71 % with e = 0.92).
 """
 
 from collections.abc import Mapping
@@ -57,9 +58,9 @@ def changed(data: Data, key: str, factor: float) -> Data:
     data : mapping of str to Input
         The data to start from.
     key : str
-        Which number.
+        The number to change.
     factor : float
-        What to multiply it by.
+        The factor.
 
     Returns
     -------

@@ -1,9 +1,9 @@
-"""The paper's measurements, ready to be fitted: ``stackbounce fit cross2007/B1-B2``.
+"""The paper's measurements as data sets for a fit: ``stackbounce fit cross2007/B1-B2``.
 
-A pair is named as in Table II, the bottom ball first. Where the paper states no error for what it
-read off a force record, half a unit in the last digit is taken, and a tenth of a millisecond at
-least, the error that it states for impact durations. Force records and films were not of the same
-drops: times go with the ratios only as far as one drop is like another.
+A pair is named as in Table II, the bottom ball first. The error of a time from a force record is
+half a unit in the last digit, but at least 0.1 ms, the error that the paper states for impact
+durations. The force records and the films are of different drops, so that times and ratios belong
+together only as far as the drops were equal.
 """
 
 from collections.abc import Callable
@@ -28,18 +28,18 @@ _WIDEST = 0.03  # m
 
 
 class DataSet(NamedTuple):
-    """A measurement of the paper, and what is varied in its drop unless something else is told.
+    """A measurement of the paper, with its drop and the numbers that a fit varies by default.
 
     Parameters
     ----------
     drop : Drop
-        What was dropped.
+        The drop.
     data : dict
-        What was measured, as `stackbounce.fit` takes it.
+        The measured values, as `stackbounce.fit` takes them.
     vary : dict
-        What is varied.
+        The numbers that are varied, with their bounds.
     what : str
-        Where the paper has it.
+        The place in the paper.
     """
 
     drop: Drop
@@ -59,8 +59,8 @@ def load_dataset(name: str) -> DataSet:
     Returns
     -------
     DataSet
-        The contacts are section V's: the floor's is linear and loses energy as the lower ball
-        alone does, the one between the balls is a spring.
+        The contacts are those of section V: a linear hysteretic one at the floor, with the
+        restitution of the lower ball alone, and a spring between the balls.
 
     Raises
     ------
@@ -86,13 +86,13 @@ dataset = load_dataset  # the name in earlier releases
 
 
 def load_pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
-    """Return two of the superballs with section V's contacts, and what Table II has of them.
+    """Return a pair of superballs with section V's contacts, and its row of Table II.
 
     Parameters
     ----------
     lower, upper : str
-        ``"B1"``, ``"B2"`` or ``"B3"``. B1 has 105 g, as Table II's mass ratios of 4.23 and 12.3
-        ask for; on another B1 the upper one has Table I's 101 g.
+        ``"B1"``, ``"B2"`` or ``"B3"``. B1 has 105 g, from Table II's mass ratios of 4.23 and 12.3.
+        In the pair of two balls B1 the upper one has Table I's 101 g.
 
     Examples
     --------
@@ -117,7 +117,7 @@ def load_pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
 
 
 def _times(key: str) -> dict[str, Any]:
-    """Return the delay, the duration and the counts that the text has of a pair of superballs."""
+    """Return the delay, the duration and the counts that the text states for a pair."""
     delay, late = _known("superballs.delay"), _known("superballs.late_delay")
     short, long = _known("B2_on_B1.duration"), _known("B1_on_B2.duration")
     found: dict[str, dict[str, Any]] = {

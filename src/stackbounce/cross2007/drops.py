@@ -1,6 +1,6 @@
-"""Drops of two balls, and what is read off their results.
+"""Drops of two balls, and quantities that are computed from their results.
 
-Lower ball first everywhere, as in the library: masses (m1, m2), contacts (floor, ball-ball).
+The lower ball comes first, as in the library: masses (m1, m2), contacts (floor, ball-ball).
 """
 
 import math
@@ -34,7 +34,7 @@ Array = NDArray[np.float64]
 
 
 def pair(masses: Two, contacts: Sequence[ContactLaw], *, speed: float, gap: float = 0.0) -> Drop:
-    """Return the drop of two balls that come down together."""
+    """Return the drop of two balls that fall with the same speed."""
     return Drop([Ball(mass) for mass in masses], contacts, gaps=[gap], impact_speed=speed)
 
 
@@ -83,7 +83,7 @@ def peak_times(result: Result, contact: int, end: float) -> Array:
 
 
 def truncate(value: float, digits: int) -> float:
-    """Return a number with all decimals after the first `digits` cut off, not rounded.
+    """Return a number truncated, not rounded, after `digits` decimals.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def truncate(value: float, digits: int) -> float:
 
 
 def fallen_speed(height: float) -> float:
-    """Return the speed in m/s after a fall from rest, by the library's own rule."""
+    """Return the speed in m/s after a fall from rest, as `Drop` computes it."""
     return Drop([Ball(1.0)], [Rigid(1.0)], height=height).reference_speed
 
 
@@ -106,7 +106,7 @@ def risen_height(speed: float) -> float:
 def bisect(function: Callable[[float], float], low: float, high: float) -> float:
     """Return where a function changes sign between `low` and `high`, by bisection.
 
-    A function that jumps is followed to its jump. The result is as exact as floats allow.
+    For a discontinuous function this is a jump. The result is exact to the last digit of a float.
 
     Examples
     --------

@@ -23,7 +23,7 @@ _POINTS = 401
 
 
 def draw_figure_7(bench: Bench) -> Picture:
-    """Return force against compression, from the points that the text gives."""
+    """Draw force against compression, from the points that the text gives."""
     figure, (ax,) = make_axes()
     force = bench("static.force")
     for key, text, color, place in (
@@ -52,7 +52,7 @@ def draw_figure_7(bench: Bench) -> Picture:
 
 
 def draw_figure_8(bench: Bench) -> Picture:
-    """Return the forces of tennis ball and basketball dropped from 30 cm."""
+    """Draw the forces of tennis ball and basketball dropped from 30 cm."""
     masses = stack_masses(bench)
     stiffnesses = bench("fig9.floor_stiffness"), bench("fig9.ball_stiffness")
     speed = fallen_speed(bench("fig8.drop_height"))
@@ -90,7 +90,7 @@ def draw_figure_8(bench: Bench) -> Picture:
 
 
 def draw_figure_9(bench: Bench) -> Picture:
-    """Return the two-spring solution that the paper sets beside Fig. 8."""
+    """Draw the two-spring solution that the paper sets beside Fig. 8."""
     figure, (ax,) = make_axes()
     result = draw_one_panel(
         bench, ax, better_fit(bench), np.linspace(0.0, 0.040, _POINTS), (7.5, 28.5)

@@ -1,4 +1,4 @@
-"""Figures 2, 4, 5 and 6: what the two models say about two balls."""
+"""Figures 2, 4, 5 and 6: both models of two balls."""
 
 from typing import TYPE_CHECKING
 

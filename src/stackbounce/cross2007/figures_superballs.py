@@ -43,7 +43,7 @@ _HEAVIER = "Mass of B1: 105 g, which Table II's ratios ask for; Table I has 101 
 
 
 def draw_figure_10a(bench: Bench) -> Picture:
-    """Return the forces of B2 on B1."""
+    """Draw the forces of B2 on B1."""
     figure, panels = make_axes(4.2, 2)
     drop = small_fit(bench, heavier_b1(bench))
     result = draw_two_panels(bench, panels, drop, np.linspace(0.0, 0.008, _POINTS))
@@ -64,7 +64,7 @@ def draw_figure_10a(bench: Bench) -> Picture:
 
 
 def draw_figure_10b(bench: Bench) -> Picture:
-    """Return the forces of B1 on B2."""
+    """Draw the forces of B1 on B2."""
     figure, panels = make_axes(4.2, 2)
     drop = reversed_pair(bench, bench("superballs.gap"))
     result = draw_two_panels(bench, panels, drop, np.linspace(0.0, 0.014, _POINTS))
@@ -93,7 +93,7 @@ def draw_figure_10b(bench: Bench) -> Picture:
 
 
 def draw_figure_11a(bench: Bench) -> Picture:
-    """Return the forces of B3 on B1."""
+    """Draw the forces of B3 on B1."""
     figure, panels = make_axes(4.2, 2)
     drop = smallest_fit(bench, heavier_b1(bench))
     result = draw_two_panels(bench, panels, drop, np.linspace(0.0, 0.008, _POINTS))
@@ -113,7 +113,7 @@ def draw_figure_11a(bench: Bench) -> Picture:
 
 
 def draw_figure_11b(bench: Bench) -> Picture:
-    """Return the forces of B1 on B3."""
+    """Draw the forces of B1 on B3."""
     figure, panels = make_axes(4.2, 2)
     result = draw_two_panels(bench, panels, late_pair(bench), np.linspace(0.0, 0.034, 2 * _POINTS))
     number_contacts(panels, result)
@@ -149,7 +149,7 @@ def draw_figure_11b(bench: Bench) -> Picture:
 
 
 def draw_figure_12(bench: Bench) -> Picture:
-    """Return the forces of two large balls, and whether they are in contact."""
+    """Draw the forces of two large balls, and whether they are in contact."""
     figure, panels = make_axes(5.0, 3, ratios=(3, 3, 1.4))
     times = np.linspace(0.0, 0.014, _POINTS)
     late = draw_two_panels(bench, panels[:2], late_twins(bench), times)
@@ -195,7 +195,7 @@ def draw_figure_12(bench: Bench) -> Picture:
 
 
 def draw_figure_13(bench: Bench) -> Picture:
-    """Return section V's calculation for B2 on B1."""
+    """Draw section V's calculation for B2 on B1."""
     figure, (ax,) = make_axes()
     drop = small_fit(bench, heavier_b1(bench))
     result = draw_one_panel(bench, ax, drop, np.linspace(0.0, 0.007, _POINTS), (1.45, 4.7))

@@ -1,4 +1,4 @@
-"""What the force figures share: the curves of a drop, its peaks, and how they are labelled."""
+"""Panels of force against time, with labels: shared by the figures of both experiments."""
 
 from typing import TYPE_CHECKING
 
@@ -21,7 +21,7 @@ _LABELS = ("floor (P1)", "between the balls (P2)")
 def draw_two_panels(
     bench: Bench, panels: "list[Axes]", drop: Drop, times: Array, *, dashed: bool = False
 ) -> Result:
-    """Draw both forces of a drop, the floor's above, each with room over it; return its result."""
+    """Draw both forces of a drop in two panels, the floor's above; return the drop's result."""
     curves, result = sample_forces(bench, drop, times)
     style, width = ("--", 1.0) if dashed else ("-", 1.25)
     for ax, curve, color, label in zip(panels, curves, (FLOOR, UPPER), _LABELS, strict=True):
@@ -36,7 +36,7 @@ def draw_two_panels(
 def draw_one_panel(
     bench: Bench, ax: "Axes", drop: Drop, times: Array, labels: tuple[float, float]
 ) -> Result:
-    """Draw both forces of a drop over each other, labelled at two times in ms."""
+    """Draw both forces of a drop in one panel, labelled at two times in ms; return its result."""
     (floor, between), result = sample_forces(bench, drop, times)
     ms = 1e3 * times
     for curve, color, at, text, side in (
@@ -57,7 +57,7 @@ def draw_one_panel(
 
 
 def number_contacts(panels: "list[Axes]", result: Result) -> None:
-    """Write each contact interval's number, counted over both contacts, over its peak."""
+    """Number the contact intervals of both contacts in order of time, above their peaks."""
     for number, row in enumerate(result.intervals, start=1):
         ax = panels[int(row["contact"])]
         middle = 5e2 * (row["start"] + row["end"])

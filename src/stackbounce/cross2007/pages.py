@@ -1,4 +1,4 @@
-"""How the report's pages are made: templates, and numbers and signs as they are printed."""
+"""The report's pages: the template engine and the typesetting of symbols."""
 
 import base64
 import re
@@ -23,7 +23,7 @@ _SIGNS = (
 
 
 def typeset(text: str) -> "Markup":
-    """A text as HTML, with indices, powers and signs as they are printed."""
+    """Return a text as HTML, with indices, powers and signs typeset."""
     from markupsafe import Markup, escape
 
     html = str(escape(text))
@@ -33,12 +33,12 @@ def typeset(text: str) -> "Markup":
 
 
 def data_uri(svg: bytes) -> str:
-    """Return a picture as an address that holds it."""
+    """Return an SVG picture as a data URI."""
     return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
 
 
 def make_environment() -> "jinja2.Environment":
-    """Return what renders the report's templates."""
+    """Return the template environment of the report's pages."""
     import jinja2
 
     found = jinja2.Environment(

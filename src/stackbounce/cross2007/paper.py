@@ -54,7 +54,7 @@ FIGURES: dict[str, Callable[[Bench], Picture]] = {
     "12": figures_superballs.draw_figure_12,
     "13": figures_superballs.draw_figure_13,
 }
-"""What draws each figure, by the paper's number; 1 and 3 are sketches and have no numbers."""
+"""The functions that draw the figures, by the paper's number; 1 and 3 are sketches."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Audit:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many rows have each verdict."""
+        """The number of rows with each verdict."""
         verdicts = [row.verdict for row in self.rows]
         return {verdict: verdicts.count(verdict) for verdict in (AGREES, WITHIN_ERROR, DIFFERS)}
 
@@ -96,9 +96,9 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     Parameters
     ----------
     data : mapping of str to Input, optional
-        The numbers to compute from, by default those that the paper gives.
+        The input numbers, by default those of the paper.
     progress : callable, optional
-        Is told what is being done, in a line each.
+        Receives a line of text for each step.
 
     Returns
     -------

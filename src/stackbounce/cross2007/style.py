@@ -1,7 +1,7 @@
-"""How the paper's figures look: one place for type, lines and colours.
+"""The style of the paper's figures: type, lines and colours.
 
-Journal width, serif type, black on white. The colours (Okabe and Ito) keep apart for colour-blind
-readers and in grey; line styles and labels at the curves say the same without colour.
+Journal width, serif type, black on white. Colour-blind readers can tell the colours (Okabe and Ito)
+apart, and so can readers of a print in grey; line styles and labels carry the same information.
 """
 
 import io
@@ -70,7 +70,7 @@ _RC: dict[Any, Any] = {
 
 @dataclass(frozen=True)
 class Feature:
-    """What the paper's text reports of a figure, beside what the model shows."""
+    """A feature of a figure: as the paper's text reports it and as the model gives it."""
 
     what: str
     paper: str
@@ -81,8 +81,8 @@ class Feature:
 class Picture:
     """A recomputed figure.
 
-    ``name`` is the paper's number (``"2a"``), ``guesses`` lists what the paper does not tell,
-    ``features`` compares what its text reports.
+    ``name`` is the paper's number (``"2a"``), ``guesses`` are assumptions where the paper gives no
+    value, and ``features`` compares the figure with the text.
     """
 
     name: str
@@ -111,7 +111,7 @@ def make_axes(
     right: float = 0.14,
     ratios: tuple[float, ...] | None = None,
 ) -> tuple["Figure", list["Axes"]]:
-    """Return an empty figure of journal width with axes above each other on one horizontal axis.
+    """Return an empty figure of journal width with stacked axes that share the horizontal axis.
 
     The margins are fixed, in inches, so that the frames of all figures line up; `ratios` are the
     relative heights of the axes.
@@ -134,7 +134,7 @@ def make_axes(
 
 
 def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
-    """Mark a span that the paper reports, over the curves, with its text."""
+    """Mark an interval that the paper reports above the curves, with a text."""
     place = ax.get_xaxis_transform()
     ax.annotate(
         "",
@@ -162,14 +162,14 @@ def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
 
 
 def note(ax: "Axes", text: str) -> None:
-    """Write a remark at the right edge of the axes, below the label of what they show."""
+    """Write a remark at the right edge of the axes, below their label."""
     ax.text(0.98, 0.6, text, transform=ax.transAxes, ha="right", va="top", color=GREY, fontsize=9)
 
 
 def tag(
     ax: "Axes", xs: "Array", ys: "Array", at: float, text: str, color: str, *, above: bool = True
 ) -> None:
-    """Write a curve's label next to the curve, over or under its point at x = `at`."""
+    """Label a curve above or below its point at x = `at`."""
     import numpy as np
 
     ax.annotate(
@@ -184,7 +184,7 @@ def tag(
 
 
 def render(figure: "Figure") -> dict[str, bytes]:
-    """Return a figure as the bytes of its files, by ending; equal figures give equal bytes."""
+    """Return a figure as bytes of an SVG and a PNG file; equal figures give equal bytes."""
     files = {}
     with use_style():
         for ending, options in (

@@ -1,7 +1,7 @@
-"""The sixth row of Table II: the tennis ball on the basketball, by itself.
+"""The sixth row of Table II, the tennis ball on the basketball, fitted separately.
 
-Of the hollow ball nothing is known but its restitution and how long the impact lasts: stiffness,
-ratio of stiffnesses and gap are fitted to three numbers. What is asked is only where the loss is.
+For the hollow ball only the restitution and the impact duration are known. Stiffness, stiffness
+ratio and gap are fitted to three values, with loss at the floor only or in both contacts.
 """
 
 import math
@@ -26,9 +26,10 @@ _RATIOS = (1.0, 6.0)
 
 
 class Stack(NamedTuple):
-    """A model of the basketball's row, fitted: `where` two balls lose, and what came out.
+    """A fit of the basketball's row; `where` says whether the ball-ball contact loses energy.
 
-    `ratio` is that of stiffnesses, floor over balls; `gap` is in m, `chi_squared` of three data.
+    `ratio` is the stiffness ratio, floor over ball-ball; `gap` is in m; `ratios` are the fitted
+    rebound ratios; `chi_squared` is that of three values.
     """
 
     exponent: float
@@ -40,12 +41,12 @@ class Stack(NamedTuple):
 
 
 def fit_stacks() -> list[Stack]:
-    """Return the fits: linear and Hertz's contacts, loss at the floor only or everywhere."""
+    """Fit linear and Hertzian contacts, with loss at the floor only and in both contacts."""
     return [_fitted(p, where) for where in (ELASTIC, SHARED) for p in _EXPONENTS]
 
 
 def read_restitution(name: str) -> float:
-    """Return the restitution of a ball alone, from the heights that the paper tells."""
+    """Return the restitution of a single ball, from the heights that the paper gives."""
     return math.sqrt(PAPER[f"{name}.rebound_height"].value / PAPER["stack.drop_height"].value)
 
 
@@ -78,7 +79,7 @@ def _model(p: float, where: str) -> Model:
         impact_speed=speed,
         exponent=p,
     )
-    # dissipation times speed depends on the restitution alone, so any contact time will do
+    # dissipation times speed depends on the restitution only, so the contact time is arbitrary
     floor = calibrate(
         HuntCrossley,
         mass=1.0,

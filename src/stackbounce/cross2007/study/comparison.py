@@ -19,12 +19,12 @@ _MISS = 2.0  # errors
 
 @dataclass(frozen=True, eq=False)
 class FittedModels:
-    """All models, fitted.
+    """The fits of all models.
 
     Parameters
     ----------
     comparison : Comparison
-        What `stackbounce.fitting.compare` would return.
+        The fits, as `stackbounce.fitting.compare` returns them.
     """
 
     comparison: Comparison
@@ -67,7 +67,7 @@ class FittedModels:
         return found
 
     def shared(self, name: str) -> dict[str, float]:
-        """Return what a model fitted besides the gaps, by name."""
+        """Return the fitted numbers that all pairs share, by name."""
         return {key: value for key, value in self[name].best.items() if not key.endswith("gaps.0")}
 
     def drop(self, name: str, pair: str) -> Drop:
@@ -76,7 +76,7 @@ class FittedModels:
 
     @functools.cached_property
     def titles(self) -> dict[str, str]:
-        """Each model in plain words."""
+        """The title of each model."""
         rigid_ones = {
             "rigid, one": "separate collisions, one restitution",
             "rigid, two": "separate collisions, of the floor and of balls",
@@ -85,7 +85,7 @@ class FittedModels:
 
 
 def fit_models(progress: Callable[[str], None] = lambda _: None) -> FittedModels:
-    """Return all models of the catalogue, fitted to all five pairs of superballs together."""
+    """Fit each model of the catalogue to all five pairs of superballs together."""
     models = {name: make_rigid_model(*numbers) for name, numbers in NAMES.items()}
     models |= {name: theory.model() for name, theory in THEORIES.items()}
     fits: dict[str, Fit] = {}

@@ -1,8 +1,8 @@
-"""What energy alone says, whatever happens between the balls.
+"""A bound on the energy after the impact that holds for any contact between the balls.
 
-A floor contact that loses the share 1 - e**2 of what it stores loses at least that of the lower
-ball's own energy: on the way down the upper ball can only push the lower one further. At most
-``(m1 e**2 + m2)/(m1 + m2)`` of the energy is then left, however the balls meet.
+A floor contact that loses the share 1 - e**2 of its stored energy loses at least this share of the
+lower ball's kinetic energy, because during the compression the upper ball can only add energy to
+it. The energy retained is therefore at most ``(m1 e**2 + m2)/(m1 + m2)`` of the initial energy.
 """
 
 import math
@@ -15,11 +15,11 @@ __all__ = ["EnergyBound", "bound_energy", "kept"]
 
 
 class EnergyBound(NamedTuple):
-    """Shares of the energy that a pair brings: what is left, and what can be left.
+    """The energy that a pair retains and its upper bounds, over the initial energy.
 
-    `printed` and `heights` are the most that Table I allows with its COR taken as restitution and
-    as ratio of heights; `needed` is the least restitution of the lower ball that what is left asks
-    for, with its error (nan where any will do).
+    `printed` and `heights` are the bounds with Table I's COR taken as restitution and as ratio of
+    heights. `needed` is the smallest restitution of the lower ball that is compatible with the
+    measured energy, with its error (nan if any restitution is).
     """
 
     pair: str
@@ -32,12 +32,12 @@ class EnergyBound(NamedTuple):
 
     @property
     def excess(self) -> float:
-        """By how many errors more is left than Table I as printed allows."""
+        """By how many errors the measured energy exceeds the bound from Table I as printed."""
         return (self.measured - self.printed) / self.error
 
 
 def bound_energy(pair: str) -> EnergyBound:
-    """Return what energy says of a pair.
+    """Return the measured energy of a pair and its bounds.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The study's figures of what was fitted: the comparison, the misfits, ratios and delays."""
+"""The study's figures of the fits: criteria, misfits, and ratios against delays."""
 
 import math
 from typing import TYPE_CHECKING
@@ -46,7 +46,7 @@ def name_pair(pair: str) -> str:
 
 
 def draw_comparison(compared: FittedModels) -> Picture:
-    """Return AICc and chi squared of every model."""
+    """Draw AICc and chi squared of every model."""
     scores = compared.comparison.scores[::-1]
     figure = make_wide_figure(0.27 * len(scores) + 0.75)
     ax = figure.subplots()
@@ -75,7 +75,7 @@ def draw_comparison(compared: FittedModels) -> Picture:
 
 
 def draw_misfits(compared: FittedModels) -> Picture:
-    """Return the pulls of every datum under every model, as a map."""
+    """Draw the pulls of all values for every model as a map."""
     pulls = compared.comparison.pulls
     order = [one.model for one in compared.comparison.scores]
     table = pulls.sel(model=order).values
@@ -113,7 +113,7 @@ def _datum(name: str) -> str:
 
 
 def draw_delays(compared: FittedModels) -> Picture:
-    """Return e1 and e2 of each pair against the delay, with what was measured."""
+    """Draw e1 and e2 of each pair against the delay, with the measured values."""
     figure = make_wide_figure(4.0)
     panels = figure.subplots(2, len(inputs.PAIRS), sharex="col")
     figure.subplots_adjust(

@@ -1,4 +1,4 @@
-"""The study's figures of what follows: the bound by energy, and the measurements that decide."""
+"""The study's figures of the energy bound and of the measurements that would decide."""
 
 from typing import TYPE_CHECKING
 
@@ -19,7 +19,7 @@ __all__ = ["draw_decisive", "draw_energy"]
 
 
 def draw_energy(rows: list[EnergyBound]) -> Picture:
-    """Return the energy that is left beside the most that can be."""
+    """Draw the measured energy of each pair beside its bounds."""
     figure = make_wide_figure(2.5, 5.2)
     ax = figure.subplots()
     figure.subplots_adjust(left=0.12, right=0.98, bottom=0.13, top=0.97)
@@ -61,7 +61,7 @@ def _first(k: int, text: str) -> str | None:
 
 
 def draw_decisive(compared: FittedModels) -> Picture:
-    """Return B1's restitution alone, and e1 of B1 on B2 against the gap, by model."""
+    """Draw B1's restitution against drop height, and e1 of B1 on B2 against the gap, by model."""
     figure = make_wide_figure(2.9)
     left, right = figure.subplots(1, 2)
     figure.subplots_adjust(left=0.075, right=0.99, bottom=0.165, top=0.9, wspace=0.22)

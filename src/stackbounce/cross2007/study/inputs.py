@@ -1,7 +1,7 @@
-"""What the study starts from: the superballs, what was measured of their pairs, what is held back.
+"""The study's input: the superballs and the measurements of their pairs.
 
-The five pairs of superballs are fitted together. B1 is the ball of 105 g that Table II's mass
-ratios (4.23, 12.3, 1.040) ask for; only the upper one of two balls B1 has Table I's 101 g.
+The five pairs of superballs are fitted together. B1 has 105 g, from Table II's mass ratios (4.23,
+12.3, 1.040); only the upper ball of the pair of two balls B1 has Table I's 101 g.
 """
 
 from typing import Any, NamedTuple
@@ -37,10 +37,10 @@ PAIRS: dict[str, tuple[str, str]] = {
 """The lower and the upper ball of each pair, in the order of Table II."""
 
 HEAVY = PAPER["B1_on_B1.mass_ratio"].value * PAPER["B1.mass"].value
-"""kg: the heavier B1."""
+"""The mass of the heavier B1 in kg."""
 
 HEIGHT = PAPER["superballs.drop_height"].value
-"""m: the fall."""
+"""The drop height in m."""
 
 PRINTED = {"B1": PAPER["B1.restitution"].value, "B2": 0.90, "B3": 0.90}
 """Table I's column COR, taken as the coefficient of restitution."""
@@ -49,7 +49,7 @@ DELAY = "first_touch.1"
 RATIOS = ("rebound_ratios.0", "rebound_ratios.1")
 
 ERROR = PAPER["B2_on_B1.lower"].spread
-"""Of every value of Table II."""
+"""The error of every value of Table II."""
 
 _TWINS = (3e-3, 2e-3)  # s: from the shortest delay, 1 ms, to just after the lower ball has left
 LATE = (PAPER["superballs.late_delay"].value, PAPER["superballs.delay"].spread)
@@ -64,7 +64,7 @@ class Solo(NamedTuple):
 
 
 def read_solo(ball: str, heavy: float = HEAVY) -> Solo:
-    """Return what Table I tells of a ball; `heavy` is the mass of B1 in kg."""
+    """Return mass and contact time of a ball from Table I; `heavy` is the mass of B1 in kg."""
     mass = heavy if ball == "B1" else PAPER[f"{ball}.mass"].value
     return Solo(mass, PAPER[f"{ball}.contact_time"].value)
 
@@ -92,7 +92,7 @@ them. Of the two delays that were recorded for B1 on B3 it is the shorter one.""
 
 
 def delay_late() -> dict[str, dict[str, Any]]:
-    """Return the same with the longer delay of B1 on B3, 7 ms."""
+    """Return `MEASURED` with the longer delay of B1 on B3, 7 ms."""
     return {**MEASURED, "B1_on_B3": {**MEASURED["B1_on_B3"], DELAY: LATE}}
 
 

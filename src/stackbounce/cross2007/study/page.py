@@ -1,4 +1,4 @@
-"""The study's page, its figures and its numbers as files."""
+"""The files of the study: its page, its figures and its numbers."""
 
 import json
 import math
@@ -31,7 +31,7 @@ def make_files(progress: Callable[[str], None] = lambda _: None) -> dict[str, by
     Parameters
     ----------
     progress : callable, optional
-        Is told what is being done, in a line each.
+        Receives a line of text for each step.
     """
     done = run_study(progress)
     found: dict[str, bytes] = {}
@@ -83,18 +83,18 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
 
 
 def _firm(compared: FittedModels) -> tuple[float, float]:
-    """Return the least and the most restitution of B1 that laws with loss in every contact fit."""
+    """Return the range of B1's fitted restitution over the laws with loss in every contact."""
     found = [compared.shared(name)["e_B1"] for name in ("S, fitted", "V", "H", "L", "L, linear")]
     return min(found), max(found)
 
 
 def _biggest(compared: FittedModels, name: str) -> Residual:
-    """Return the value of Table II that a model misses most."""
+    """Return the residual of Table II with the largest pull."""
     return max(compared.ratios(name), key=lambda one: abs(one.pull))
 
 
 def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
-    """A number with its sign as it is printed.
+    """Format a number with a typographic minus sign.
 
     Examples
     --------
@@ -107,7 +107,7 @@ def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
 
 
 def _misses(rows: list[Residual]) -> str:
-    """What a model gets wrong, in words."""
+    """Format the residuals that a model misses."""
     found = [
         f"{_datum(one)} ({_number(one.pull, 1 if abs(one.pull) < 10 else 0, sign=True)})"
         for one in rows
@@ -134,12 +134,12 @@ _WORDS = {
 
 
 def _fitted(shared: dict[str, float]) -> str:
-    """What a model fitted, in words."""
+    """Format the fitted numbers of a model."""
     return ", ".join(f"{_WORDS[name]} {value:.3g}" for name, value in shared.items()) or "nothing"
 
 
 def _plain(value: Any) -> Any:
-    """Return named tuples as mappings, nan as None, for JSON."""
+    """Return named tuples as dicts and nan as None, for JSON."""
     if hasattr(value, "_asdict"):
         return _plain(value._asdict())
     if isinstance(value, dict):

@@ -1,4 +1,4 @@
-"""What each of the rival models says of measurements that nobody has made."""
+"""Predictions of the competing models for measurements that have not been made."""
 
 from dataclasses import replace
 from typing import NamedTuple, TypeAlias
@@ -25,7 +25,7 @@ _PENDULUMS = "two B1 as pendulums, closing at 2.0 m/s: restitution", ""
 
 
 class Prediction(NamedTuple):
-    """A measurement, its unit, and what each model says of it."""
+    """A measurement, its unit, and the prediction of each model."""
 
     what: str
     unit: str
@@ -33,12 +33,12 @@ class Prediction(NamedTuple):
 
     @property
     def spread(self) -> float:
-        """From the least to the most."""
+        """The difference of the largest and the smallest prediction."""
         return max(self.values.values()) - min(self.values.values())
 
 
 def predict(compared: FittedModels) -> list[Prediction]:
-    """Return what the chosen models say of a few measurements that would tell them apart."""
+    """Predict measurements that would discriminate between the chosen models."""
     speed = fallen_speed(inputs.HEIGHT)
     rows: dict[tuple[str, str], list[float]] = {}
     for name in CHOSEN:

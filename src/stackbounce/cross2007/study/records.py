@@ -1,4 +1,4 @@
-"""What the force records show and no fit was told: durations, and how many peaks."""
+"""Observations of the force records that no fit uses: durations and numbers of peaks."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -19,7 +19,7 @@ _RTOL = 1e-9
 
 
 class Fact(NamedTuple):
-    """A fact of the force records: as printed, and by model in words."""
+    """An observation of the force records: as printed, and as each model gives it."""
 
     what: str
     printed: str
@@ -27,13 +27,13 @@ class Fact(NamedTuple):
 
 
 def simulate_at_delay(compared: FittedModels, name: str, pair: str, delay: float) -> Result:
-    """Return a pair that meets at a delay in s, by a fitted model."""
+    """Simulate a pair by a fitted model, with the gap for a delay in s."""
     drop = compared.drop(name, pair)
     return simulate(replace(drop, gaps=(gap_for_delay(Bench(PAPER), drop, delay),)), rtol=_RTOL)
 
 
 def compare_records(compared: FittedModels) -> list[Fact]:
-    """Return the facts of Figs 10 to 12, as the chosen models have them at the recorded delays."""
+    """Return the observations of Figs 10 to 12 beside the chosen models at the recorded delays."""
     return [
         Fact(
             what,

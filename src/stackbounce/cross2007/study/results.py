@@ -1,4 +1,4 @@
-"""All of the study, computed."""
+"""The results of the study."""
 
 import functools
 from collections.abc import Callable
@@ -31,7 +31,7 @@ _HELD = ("S, fitted", "B")
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """What was found; each part is told where it is made.
+    """All results; each part is documented in its module.
 
     Examples
     --------
@@ -56,7 +56,7 @@ class Study:
 
     @functools.cached_property
     def rows(self) -> list[dict[str, Any]]:
-        """A row per model, the best by AICc first."""
+        """A row for each model, the best by AICc first."""
         own = self.compared
         return [
             {
@@ -75,7 +75,7 @@ class Study:
         ]
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all numbers as plain values, for machines."""
+        """Return all numbers as plain values, for JSON."""
         own = self.compared
         return {
             "stackbounce": __version__,
@@ -105,12 +105,12 @@ class Study:
 
 
 def run_study(progress: Callable[[str], None] = lambda _: None) -> Study:
-    """Return the study of Table II.
+    """Compute the study of Table II.
 
     Parameters
     ----------
     progress : callable, optional
-        Is told what is being done, in a line each.
+        Receives a line of text for each step.
     """
     own = fit_models(progress)
     read = fit_readings(progress)

@@ -1,4 +1,4 @@
-"""Section V's two fits made again: its model, its pairs, with confidence intervals."""
+"""Section V's two fits repeated with its model, and with confidence intervals."""
 
 from dataclasses import replace
 from typing import NamedTuple
@@ -43,9 +43,9 @@ class Refit(NamedTuple):
 
 
 def refit_section_v() -> list[Refit]:
-    """Return both fits: stiffnesses and gap from Table II's row and the times of the records.
+    """Fit stiffnesses and gap of both pairs to Table II's rows and the times of the records.
 
-    B1 has the 105 g that Table II's mass ratios ask for.
+    B1 has 105 g, from Table II's mass ratios.
     """
     return [_refit(pair, *names) for pair, names in _FITS.items()]
 

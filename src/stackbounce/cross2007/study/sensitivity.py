@@ -1,4 +1,4 @@
-"""How much the answer hangs on what was assumed: delays, masses, times, and each pair of values."""
+"""Sensitivity of the result to its assumptions: delays, masses, times, and each pair."""
 
 import math
 from collections.abc import Callable, Mapping
@@ -30,12 +30,12 @@ __all__ = [
 
 _BETWEEN = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0)
 _LOOSE = 1e-3  # s
-_STORY = 0.5  # s: by when all balls have been at their tops
+_STORY = 0.5  # s: all balls have passed their apexes by then
 _LOOSENED = ("A", "S", "B", "S, six")
 
 
 class Held(NamedTuple):
-    """A pair whose ratios were held back: measured e1 and e2, those predicted, and their errors."""
+    """A pair that was left out: measured and predicted e1 and e2, and errors of the predictions."""
 
     pair: str
     measured: tuple[float, float]
@@ -44,7 +44,7 @@ class Held(NamedTuple):
 
     @property
     def pulls(self) -> tuple[float, float]:
-        """Their differences, in the errors of both."""
+        """Predicted minus measured ratios, over their combined errors."""
         first, second = (
             (got - was) / np.hypot(off, inputs.ERROR)
             for got, was, off in zip(self.predicted, self.measured, self.error, strict=True)
@@ -53,7 +53,7 @@ class Held(NamedTuple):
 
 
 def scan_loss(compared: FittedModels, progress: Callable[[str], None]) -> dict[float, float]:
-    """Return chi squared by how many times the balls' own loss is lost between two balls."""
+    """Return chi squared by the factor on the loss between two balls."""
     found = {}
     near = compared["S, fitted"]
     for factor in _BETWEEN:
@@ -65,7 +65,7 @@ def scan_loss(compared: FittedModels, progress: Callable[[str], None]) -> dict[f
 
 
 def vary_assumptions(compared: FittedModels) -> dict[str, dict[str, float]]:
-    """Return chi squared of models A and S where an assumption is another, by what it is."""
+    """Return chi squared of models A and S for each changed assumption."""
     return {
         what: {name: _changed(compared, name, change) for name in ("A", "S")}
         for what, change in _CHANGES.items()
@@ -118,7 +118,7 @@ _CHANGES: dict[str, Callable[[Theory], Theory]] = {
 
 
 def loosen_delays(compared: FittedModels) -> FittedModels:
-    """Return the chosen models fitted with delays that are known to ± 1 ms only."""
+    """Fit models with errors of the delays of at least 1 ms."""
     data: dict[str, Any] = {}
     for key, own in inputs.MEASURED.items():
         value, error = own[inputs.DELAY]
@@ -128,7 +128,7 @@ def loosen_delays(compared: FittedModels) -> FittedModels:
 
 
 def score_late_delay(compared: FittedModels) -> dict[str, float]:
-    """Return chi squared with the longer delay of B1 on B3, 7 ms, all shared numbers kept."""
+    """Return chi squared with the longer delay of B1 on B3, 7 ms, and unchanged shared numbers."""
     return {name: _late(compared, name) for name in _LOOSENED}
 
 
@@ -142,10 +142,10 @@ def _late(compared: FittedModels, name: str) -> float:
 
 
 def score_with_gravity(compared: FittedModels, name: str) -> float:
-    """Return chi squared of the ten values with gravity, gaps kept, ratios from the apexes.
+    """Return chi squared of the ten values with gravity and unchanged gaps, from the apexes.
 
-    Speeds at the end of such a run would not do: two balls B1 part at nearly one speed and touch
-    again in the air.
+    Final speeds cannot be used: two balls B1 separate with nearly equal speeds and touch again in
+    flight.
     """
     pulls = []
     for pair in inputs.PAIRS:
@@ -158,10 +158,10 @@ def score_with_gravity(compared: FittedModels, name: str) -> float:
 
 
 def hold_out(compared: FittedModels, name: str) -> list[Held]:
-    """Return what a model fitted to the four other pairs predicts for the ratios of each.
+    """Predict the ratios of each pair by a model that is fitted to the four other pairs.
 
-    The pair keeps its delay, which sets its gap; an error is the change of a ratio with the
-    delay's error. (`Comparison.left_out` leaves out the delay too and then takes any gap there is.)
+    The pair keeps its delay, which determines its gap. The error of a ratio is its change with the
+    delay's error. (`Comparison.left_out` also leaves out the delay, so that any gap is possible.)
     """
     rows = []
     for key in inputs.PAIRS:
@@ -181,7 +181,7 @@ def _pair(numbers: Any) -> tuple[float, float]:
 
 
 def _ratios(found: Fit, key: str, delay: float) -> Any:
-    """Return e1 and e2 of a pair that meets at a delay in s, by the numbers of a fit."""
+    """Return e1 and e2 of a pair for a delay in s, with the numbers of a fit."""
     problem = found.problem
     k = found.names.index(f"{key}.gaps.0")
     trials = np.tile(found.x, (241, 1))
