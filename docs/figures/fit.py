@@ -4,7 +4,7 @@ from shown import DOCS, show
 
 import stackbounce as sb
 from stackbounce import plots
-from stackbounce.cross2007.datasets import dataset
+from stackbounce.cross2007.datasets import load_dataset
 from stackbounce.fitting import read_drops
 from stackbounce.fitting.files import force_record
 
@@ -33,7 +33,7 @@ def valley():
 
 def models():
     """The usual models of the paper's B2 on B1."""
-    drop, data, _, _ = dataset("B1-B2")
+    drop, data, _, _ = load_dataset("B1-B2")
     show(plots.compared, sb.compare(sb.standard_models(drop, times=True), data))
 
 

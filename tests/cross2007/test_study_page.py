@@ -9,8 +9,7 @@ import pytest
 
 from stackbounce import cross2007
 from stackbounce.cross2007 import paper
-from stackbounce.cross2007.study import basketball, compared, section_v, sensitivity
-from stackbounce.cross2007.study import readings as reading
+from stackbounce.cross2007.study import basketball, comparison, readings, results, sensitivity
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
 from stackbounce.fitting import Fit
 from stackbounce.fitting.question import read_problem
@@ -38,11 +37,10 @@ def told():
 def folder(tmp_path_factory, told):
     out = tmp_path_factory.mktemp("study")
     with pytest.MonkeyPatch.context() as patch:
-        for module in (compared, reading, sensitivity, basketball):
-            patch.setattr(module, "fitted", looked_at)
-        patch.setattr(sensitivity, "again", looked_at)
-        patch.setattr(section_v, "refits", list)
-        patch.setattr("stackbounce.cross2007.study.study.refits", section_v.refits)
+        for module in (comparison, readings, sensitivity, basketball):
+            patch.setattr(module, "fit_model", looked_at)
+        patch.setattr(sensitivity, "refit", looked_at)
+        patch.setattr(results, "refit_section_v", list)
         patch.setattr(paper, "FIGURES", {"6": paper.FIGURES["6"]})
         patch.setattr(paper, "SECTIONS", paper.SECTIONS[:1])
         cross2007.write(out, told.append, study=True)

@@ -9,7 +9,7 @@ import numpy as np
 from stackbounce.cli.scenario import Scenario, is_file
 from stackbounce.cli.show import add_columns, incidence, label, new_table, number
 from stackbounce.errors import InvalidValue, positive, shown
-from stackbounce.gaps_and_masses.masses import geometric_masses, with_masses
+from stackbounce.gaps_and_masses.masses import geometric_masses, replace_masses
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.model.laws import law_named
 from stackbounce.run.driver import simulate
@@ -186,7 +186,7 @@ def limits(text: str) -> tuple[float, float]:
 
 def masses_summary(given: Drop, best: Drop, within: tuple[float, float] | None) -> dict[str, Any]:
     """Return what ``stackbounce masses --json`` prints."""
-    means = with_masses(given, geometric_masses(given)[1:-1])
+    means = replace_masses(given, geometric_masses(given)[1:-1])
     outer = sorted([given.balls[0].mass, given.balls[-1].mass])
     low, high = outer if within is None else within
     ends = [

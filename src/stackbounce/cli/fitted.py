@@ -10,7 +10,7 @@ import numpy as np
 from stackbounce.cli import scenario
 from stackbounce.cli.output import check_scenario, new_table, progress_bar, write_scenario
 from stackbounce.cli.show import number
-from stackbounce.cross2007.datasets import PREFIX, dataset
+from stackbounce.cross2007.datasets import PREFIX, load_dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.fitting import Fit, Interval, Posterior, Question, read_drops, read_question
 from stackbounce.fitting.files import typed
@@ -190,7 +190,7 @@ def tell(console: "Console", done: Fitted) -> None:
 def _asked(what: Sequence[str], changes: dict[str, Any]) -> Question:
     """Return the question of a data set or file, or one drop of which nothing is asked yet."""
     if len(what) == 1 and what[0].startswith(PREFIX) and not Path(what[0]).exists():
-        drop, data, vary, _ = dataset(what[0])
+        drop, data, vary, _ = load_dataset(what[0])
         return Question({"": scenario.change(drop, **changes)}, {"": data}, vary, {})
     if len(what) == 1 and scenario.is_file(what[0]):
         asked = read_question(what[0])

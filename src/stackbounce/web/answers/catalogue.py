@@ -7,7 +7,7 @@ import re
 from typing import Any, get_type_hints
 
 from stackbounce.calibration import calibrate, contact_time, restitution
-from stackbounce.cross2007.cases import cases
+from stackbounce.cross2007.cases import list_cases
 from stackbounce.errors import InvalidValue
 from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, ContactLaw, Drop, Rigid, law_named
@@ -40,7 +40,7 @@ def catalogue(limits: Limits) -> str:
     presets = [
         {"name": one.name, "group": one.group, "title": one.title, "says": one.says}
         | {"drop": one.drop.to_mapping()}
-        for one in cases()
+        for one in list_cases()
     ]
     return as_json(
         {

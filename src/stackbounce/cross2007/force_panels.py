@@ -1,11 +1,11 @@
-"""What the force figures share: the curves of a drop, its peaks, and how they are labelled."""
+"""Panels of force against time, with labels: shared by the figures of both experiments."""
 
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.curves import Array, forces
+from stackbounce.cross2007.curves import Array, sample_forces
 from stackbounce.cross2007.style import FLOOR, GREY, UPPER
 from stackbounce.model.drop import Drop
 from stackbounce.run.result import Result
@@ -13,16 +13,16 @@ from stackbounce.run.result import Result
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["in_ms", "number_contacts", "one_panel", "two_panels"]
+__all__ = ["draw_one_panel", "draw_two_panels", "format_ms", "number_contacts"]
 
 _LABELS = ("floor (P1)", "between the balls (P2)")
 
 
-def two_panels(
+def draw_two_panels(
     bench: Bench, panels: "list[Axes]", drop: Drop, times: Array, *, dashed: bool = False
 ) -> Result:
-    """Draw both forces of a drop, the floor's above, each with room over it; return its result."""
-    curves, result = forces(bench, drop, times)
+    """Draw both forces of a drop in two panels, the floor's above; return the drop's result."""
+    curves, result = sample_forces(bench, drop, times)
     style, width = ("--", 1.0) if dashed else ("-", 1.25)
     for ax, curve, color, label in zip(panels, curves, (FLOOR, UPPER), _LABELS, strict=True):
         ax.plot(1e3 * times, curve, style, color=color, lw=width)
@@ -33,11 +33,11 @@ def two_panels(
     return result
 
 
-def one_panel(
+def draw_one_panel(
     bench: Bench, ax: "Axes", drop: Drop, times: Array, labels: tuple[float, float]
 ) -> Result:
-    """Draw both forces of a drop over each other, labelled at two times in ms."""
-    (floor, between), result = forces(bench, drop, times)
+    """Draw both forces of a drop in one panel, labelled at two times in ms; return its result."""
+    (floor, between), result = sample_forces(bench, drop, times)
     ms = 1e3 * times
     for curve, color, at, text, side in (
         (floor, FLOOR, labels[0], "$F_1$, floor", "right"),
@@ -57,7 +57,7 @@ def one_panel(
 
 
 def number_contacts(panels: "list[Axes]", result: Result) -> None:
-    """Write each contact interval's number, counted over both contacts, over its peak."""
+    """Number the contact intervals of both contacts in order of time, above their peaks."""
     for number, row in enumerate(result.intervals, start=1):
         ax = panels[int(row["contact"])]
         middle = 5e2 * (row["start"] + row["end"])
@@ -73,6 +73,6 @@ def number_contacts(panels: "list[Axes]", result: Result) -> None:
             )
 
 
-def in_ms(seconds: float) -> str:
+def format_ms(seconds: float) -> str:
     """Return a time as text in ms."""
     return f"{1e3 * seconds:.1f} ms"

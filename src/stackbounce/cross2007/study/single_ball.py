@@ -1,9 +1,9 @@
-"""A ball alone -> its law's numbers for many restitutions at once, from `stackbounce.calibrate`.
+"""Parameters of a single ball's contact law, calibrated for many restitutions at once.
 
-A law that is calibrated to mass m, contact time T and impact speed v has, with the unit of length
-v T, the stiffness ``κ m/T**2 (v T)**(1 - p)`` and a loss that goes with T or v by its dimension
-alone. κ and the loss are smooth in restitution and exponent, and are taken from Chebyshev's
-polynomials through calibrated laws.
+By dimensional analysis, a law that is calibrated to mass m, contact time T and impact speed v has
+the stiffness ``κ m/T**2 (v T)**(1 - p)`` and a loss that scales with T or v. κ and the scaled loss
+are smooth functions of restitution and exponent. They are interpolated with Chebyshev polynomials
+through results of `stackbounce.calibrate`.
 """
 
 import functools
@@ -15,15 +15,15 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from stackbounce.calibration import calibrate
-from stackbounce.cross2007.study.given import Solo
+from stackbounce.cross2007.study.inputs import Solo
 from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
 
-__all__ = ["LOSS", "LOWEST", "Numbers", "numbers"]
+__all__ = ["LOSS", "LOWEST", "Numbers", "calibrate_numbers"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 LOWEST = 0.5
-"""The smallest restitution of the tables."""
+"""The smallest restitution of the interpolation."""
 _STEEPEST = 2.0  # the largest exponent
 _TERMS, _POWERS = 16, 8  # of the polynomials, in restitution and exponent
 
@@ -32,18 +32,20 @@ LOSS: dict[Any, str] = {
     Viscoelastic: "dissipative_time",
     Hysteretic: "restitution",
 }
-"""The number of each law that tells its loss."""
+"""The loss parameter of each law."""
 
 
 class Numbers(NamedTuple):
-    """Stiffness in N/m**exponent and the number that tells the loss, each of (n,) trials."""
+    """Stiffness in N/m**exponent and the loss parameter, each of (n,) trials."""
 
     stiffness: Array
     loss: Array
 
 
-def numbers(law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any) -> Numbers:
-    """Return the numbers of a ball's law, calibrated to its contact time and restitution.
+def calibrate_numbers(
+    law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any
+) -> Numbers:
+    """Return the parameters of a ball's law, calibrated to its contact time and restitution.
 
     Parameters
     ----------
@@ -65,7 +67,8 @@ def numbers(law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any)
     >>> ball = Solo(0.105, 4.3e-3)
     >>> law = calibrate(HuntCrossley, mass=0.105, contact_time=4.3e-3, restitution=0.88,
     ...                 impact_speed=2.0, exponent=1.5)
-    >>> abs(float(numbers(HuntCrossley, ball, 2.0, 0.88, 1.5).loss) / law.dissipation - 1.0) < 1e-9
+    >>> loss = float(calibrate_numbers(HuntCrossley, ball, 2.0, 0.88, 1.5).loss)
+    >>> abs(loss / law.dissipation - 1.0) < 1e-9
     True
     """
     p = np.asarray(exponent, dtype=float)
@@ -80,7 +83,7 @@ def numbers(law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any)
 
 
 def _at(law: Any, restitution: Array, exponent: Array) -> tuple[Array, Array]:
-    """Return stiffness and loss of a ball of 1 kg that touches for 1 s at 1 m/s."""
+    """Return κ and the scaled loss: stiffness and loss for 1 kg, 1 s and 1 m/s."""
     x = 2.0 * (restitution - LOWEST) / (1.0 - LOWEST) - 1.0
     if exponent.ndim == 0:
         table = _of_restitution(law, float(exponent))
@@ -88,7 +91,9 @@ def _at(law: Any, restitution: Array, exponent: Array) -> tuple[Array, Array]:
     else:
         y = 2.0 * (exponent - 1.0) / (_STEEPEST - 1.0) - 1.0
         found = [chebyshev.chebval2d(x, y, one) for one in _of_both(law)]
-    top = 1.0 if law is Hysteretic else np.inf  # without loss, rounding must not bring a gain
+    top = (
+        1.0 if law is Hysteretic else np.inf
+    )  # round-off must not make a lossless contact gain energy
     return np.exp(found[0]), np.clip(found[1], 0.0, top)
 
 

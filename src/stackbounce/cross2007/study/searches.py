@@ -1,7 +1,7 @@
-"""How the study fits: the search of `stackbounce.fit`, with fewer descents than a fit of unknowns.
+"""The study's searches: those of `stackbounce.fit`, with fewer local minimisations.
 
-Each trial of the shared numbers has its gaps chosen pair by pair, so that few descents suffice: of
-a few models eight were followed instead of three, and gave the same chi squared.
+Each trial of the shared numbers has its gaps chosen pair by pair, so that few minimisations
+suffice. For a few models eight instead of three gave the same chi squared.
 """
 
 from collections.abc import Callable, Mapping
@@ -14,19 +14,19 @@ from stackbounce.fitting.problem import Problem
 from stackbounce.fitting.question import read_problem
 from stackbounce.fitting.search import Minimum, descend, search
 
-__all__ = ["again", "fitted"]
+__all__ = ["fit_model", "refit"]
 
 _RTOL = 1e-6
 _SCREENED, _FOLLOWED = 32, 3
 
 
-def fitted(model: Model, data: Mapping[str, Any]) -> Fit:
-    """Return the best fit of a model to pairs of balls."""
+def fit_model(model: Model, data: Mapping[str, Any]) -> Fit:
+    """Fit a model to pairs of balls."""
     return _apart(model, data, _best)
 
 
-def again(model: Model, data: Mapping[str, Any], near: Fit) -> Fit:
-    """Return the fit of a model that differs a little from one that is fitted."""
+def refit(model: Model, data: Mapping[str, Any], near: Fit) -> Fit:
+    """Fit a model by one local minimisation that starts from the fit of a similar model."""
     own = dict(zip(near.names, near.x, strict=True))
 
     def nearest(problem: Problem) -> Minimum:
@@ -41,7 +41,7 @@ def _best(problem: Problem) -> Minimum:
 
 
 def _apart(model: Model, data: Mapping[str, Any], solve: Callable[[Problem], Minimum]) -> Fit:
-    """Return a fit, each pair by itself where pairs share nothing that is varied."""
+    """Return a fit; pairs that share no varied number are fitted one by one."""
     problem = read_problem(model.drop, data, model.vary, model.tie, _RTOL)
     own = {key: [one for one in model.vary if one.startswith(f"{key}.")] for key in data}
     if sum(map(len, own.values())) < len(model.vary):

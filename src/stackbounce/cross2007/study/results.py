@@ -1,51 +1,51 @@
-"""All of the study, computed."""
+"""The results of the study."""
 
 import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from stackbounce.cross2007.study import given
-from stackbounce.cross2007.study.basketball import Stack, stacks
-from stackbounce.cross2007.study.compared import Compared, compared
-from stackbounce.cross2007.study.energy import Kept, kept
-from stackbounce.cross2007.study.predictions import Prediction, predictions
-from stackbounce.cross2007.study.readings import Reading, readings
-from stackbounce.cross2007.study.records import Fact, facts
-from stackbounce.cross2007.study.section_v import Refit, refits
+from stackbounce.cross2007.study import inputs
+from stackbounce.cross2007.study.basketball import Stack, fit_stacks
+from stackbounce.cross2007.study.comparison import FittedModels, fit_models
+from stackbounce.cross2007.study.energy import EnergyBound, bound_energy
+from stackbounce.cross2007.study.predictions import Prediction, predict
+from stackbounce.cross2007.study.readings import Reading, fit_readings
+from stackbounce.cross2007.study.records import Fact, compare_records
+from stackbounce.cross2007.study.section_v import Refit, refit_section_v
 from stackbounce.cross2007.study.sensitivity import (
     Held,
-    between,
-    changes,
-    falling,
-    held_out,
-    late,
-    loose,
+    hold_out,
+    loosen_delays,
+    scan_loss,
+    score_late_delay,
+    score_with_gravity,
+    vary_assumptions,
 )
 from stackbounce.version import __version__
 
-__all__ = ["Study", "study"]
+__all__ = ["Study", "run_study"]
 
 _HELD = ("S, fitted", "B")
 
 
 @dataclass(frozen=True, eq=False)
 class Study:
-    """What was found; each part is told where it is made.
+    """All results; each part is documented in its module.
 
     Examples
     --------
-    >>> from stackbounce.cross2007.study.energy import kept
-    >>> kept("B3_on_B1").excess > 6.0
+    >>> from stackbounce.cross2007.study.energy import bound_energy
+    >>> bound_energy("B3_on_B1").excess > 6.0
     True
     """
 
-    compared: Compared
-    kept: list[Kept]
+    compared: FittedModels
+    kept: list[EnergyBound]
     readings: list[Reading]
     between: dict[float, float]
     changes: dict[str, dict[str, float]]
-    loose: Compared
+    loose: FittedModels
     late: dict[str, float]
     falling: float
     held_out: dict[str, list[Held]]
@@ -56,7 +56,7 @@ class Study:
 
     @functools.cached_property
     def rows(self) -> list[dict[str, Any]]:
-        """A row per model, the best by AICc first."""
+        """A row for each model, the best by AICc first."""
         own = self.compared
         return [
             {
@@ -75,11 +75,11 @@ class Study:
         ]
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all numbers as plain values, for machines."""
+        """Return all numbers as plain values, for JSON."""
         own = self.compared
         return {
             "stackbounce": __version__,
-            "data": given.MEASURED,
+            "data": inputs.MEASURED,
             "models": [{**row, "pairs": own.pairs(row["name"])} for row in self.rows],
             "energy": [{**one._asdict(), "excess": one.excess} for one in self.kept],
             "readings": [one._asdict() for one in self.readings],
@@ -104,36 +104,36 @@ class Study:
         }
 
 
-def study(progress: Callable[[str], None] = lambda _: None) -> Study:
-    """Return the study of Table II.
+def run_study(progress: Callable[[str], None] = lambda _: None) -> Study:
+    """Compute the study of Table II.
 
     Parameters
     ----------
     progress : callable, optional
-        Is told what is being done, in a line each.
+        Receives a line of text for each step.
     """
-    own = compared(progress)
-    read = readings(progress)
-    scan = between(own, progress)
+    own = fit_models(progress)
+    read = fit_readings(progress)
+    scan = scan_loss(own, progress)
     progress("study: other assumptions")
-    changed, free, other = changes(own), loose(own), late(own)
+    changed, free, other = vary_assumptions(own), loosen_delays(own), score_late_delay(own)
     progress("study: each pair from the other four")
-    held = {name: held_out(own, name) for name in _HELD}
+    held = {name: hold_out(own, name) for name in _HELD}
     progress("study: force records and measurements that would decide")
-    shown, said = facts(own), predictions(own)
+    shown, said = compare_records(own), predict(own)
     progress("study: the basketball, and section V's fits")
     return Study(
         own,
-        [kept(pair) for pair in given.PAIRS],
+        [bound_energy(pair) for pair in inputs.PAIRS],
         read,
         scan,
         changed,
         free,
         other,
-        falling(own, "S"),
+        score_with_gravity(own, "S"),
         held,
         shown,
         said,
-        stacks(),
-        refits(),
+        fit_stacks(),
+        refit_section_v(),
     )

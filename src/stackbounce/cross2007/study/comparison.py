@@ -4,27 +4,27 @@ import functools
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
-from stackbounce.cross2007.study.fitting import fitted
-from stackbounce.cross2007.study.theories import rigid
+from stackbounce.cross2007.study.searches import fit_model
+from stackbounce.cross2007.study.theories import make_rigid_model
 from stackbounce.fitting import Fit, Residual
 from stackbounce.fitting.comparison import Comparison
 from stackbounce.model import Drop
 
-__all__ = ["Compared", "compared"]
+__all__ = ["FittedModels", "fit_models"]
 
 _MISS = 2.0  # errors
 
 
 @dataclass(frozen=True, eq=False)
-class Compared:
-    """All models, fitted.
+class FittedModels:
+    """The fits of all models.
 
     Parameters
     ----------
     comparison : Comparison
-        What `stackbounce.fitting.compare` would return.
+        The fits, as `stackbounce.fitting.compare` returns them.
     """
 
     comparison: Comparison
@@ -33,27 +33,27 @@ class Compared:
         """The fit of one model."""
         return self.comparison[name]
 
+    def ratios(self, name: str) -> list[Residual]:
+        """Return the residuals of the ten values of Table II, without those of the delays."""
+        return [one for one in self[name].residuals if one.name in inputs.RATIOS]
+
     def of_ratios(self, name: str) -> float:
         """Return chi squared of the ten values of Table II alone."""
-        rows = self[name].residuals
-        return sum(one.pull**2 for one in rows if one.name in given.RATIOS)
+        return sum(one.pull**2 for one in self.ratios(name))
 
     def worst(self, name: str) -> list[Residual]:
         """Return the values of Table II that a model misses by more than two errors."""
-        rows = [one for one in self[name].residuals if one.name in given.RATIOS]
-        return sorted(
-            (one for one in rows if abs(one.pull) > _MISS), key=lambda one: -abs(one.pull)
-        )
+        missed = [one for one in self.ratios(name) if abs(one.pull) > _MISS]
+        return sorted(missed, key=lambda one: -abs(one.pull))
 
     def within(self, name: str) -> int:
         """Return how many of the ten values lie within the printed error of 0.02."""
-        rows = [one for one in self[name].residuals if one.name in given.RATIOS]
-        return sum(abs(one.pull) <= 1.0 for one in rows)
+        return sum(abs(one.pull) <= 1.0 for one in self.ratios(name))
 
     def pairs(self, name: str) -> dict[str, dict[str, float]]:
         """Return each pair's ratios, their pulls, gap in m and delay in s, by a fitted model."""
         found = {}
-        for pair in given.PAIRS:
+        for pair in inputs.PAIRS:
             lower, upper, delay = (one for one in self[name].residuals if one.drop == pair)
             found[pair] = {
                 "e1": lower.fitted,
@@ -67,7 +67,7 @@ class Compared:
         return found
 
     def shared(self, name: str) -> dict[str, float]:
-        """Return what a model fitted besides the gaps, by name."""
+        """Return the fitted numbers that all pairs share, by name."""
         return {key: value for key, value in self[name].best.items() if not key.endswith("gaps.0")}
 
     def drop(self, name: str, pair: str) -> Drop:
@@ -76,7 +76,7 @@ class Compared:
 
     @functools.cached_property
     def titles(self) -> dict[str, str]:
-        """Each model in plain words."""
+        """The title of each model."""
         rigid_ones = {
             "rigid, one": "separate collisions, one restitution",
             "rigid, two": "separate collisions, of the floor and of balls",
@@ -84,13 +84,12 @@ class Compared:
         return {**rigid_ones, **{name: one.title for name, one in THEORIES.items()}}
 
 
-def compared(progress: Callable[[str], None] = lambda _: None) -> Compared:
-    """Return all models of the catalogue, fitted to all five pairs of superballs together."""
+def fit_models(progress: Callable[[str], None] = lambda _: None) -> FittedModels:
+    """Fit each model of the catalogue to all five pairs of superballs together."""
+    models = {name: make_rigid_model(*numbers) for name, numbers in NAMES.items()}
+    models |= {name: theory.model() for name, theory in THEORIES.items()}
     fits: dict[str, Fit] = {}
-    for name, numbers in NAMES.items():
+    for name, model in models.items():
         progress(f"study: model '{name}'")
-        fits[name] = fitted(rigid(*numbers), given.MEASURED)
-    for name, theory in THEORIES.items():
-        progress(f"study: model '{name}'")
-        fits[name] = fitted(theory.model(), given.MEASURED)
-    return Compared(Comparison(fits, {}))
+        fits[name] = fit_model(model, inputs.MEASURED)
+    return FittedModels(Comparison(fits, {}))
