@@ -9,7 +9,7 @@ import numpy as np
 
 from stackbounce.cli import scenario
 from stackbounce.cli.output import check_scenario, new_table, progress_bar, write_scenario
-from stackbounce.cli.show import number
+from stackbounce.cli.tables import number
 from stackbounce.cross2007.datasets import PREFIX, dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.fitting import Fit, Interval, Posterior, Question, read_drops, read_question
