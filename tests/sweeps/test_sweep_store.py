@@ -10,11 +10,11 @@ import time
 import dask.array as da
 import numpy as np
 import pytest
-import slow_sweep
 import xarray as xr
-from slow_sweep import DROP, OVER
 
+import slow_sweep
 import stackbounce as sb
+from slow_sweep import DROP, OVER
 from stackbounce.sweeps import grid, opened, write
 
 KINDS = [".zarr", ".nc"]
@@ -83,6 +83,7 @@ def test_killed_at_any_moment_it_goes_on_and_ends_with_the_same_bytes(whole, tmp
     assert list(tmp_path.iterdir()) == [out]
 
 
+@pytest.mark.slow
 def test_two_workers_and_the_loss_of_one(whole, tmp_path):
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
     options = {
@@ -217,6 +218,7 @@ def test_netcdf_that_is_not_installed(tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
     out = tmp_path / whole[0].name

@@ -8,6 +8,7 @@ import typer
 from stackbounce.cli.options import AsJson, Contact, Gap, Gravity, Height, Plot, Speed
 from stackbounce.cli.output import check_picture, console, draw, print_json
 from stackbounce.errors import InvalidValue
+from stackbounce.extras import need
 
 if TYPE_CHECKING:
     from stackbounce.fitting import Question
@@ -141,6 +142,7 @@ def fit(
     as_json: AsJson = False,
 ) -> None:
     """Find the numbers of a drop that describe what was measured best, with errors."""
+    need("fit", "stackbounce fit")
     from stackbounce.cli import fitted
 
     for option, path in (("--plot", plot), ("--corner", corner)):

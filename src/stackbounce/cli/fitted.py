@@ -14,8 +14,8 @@ from stackbounce.cross2007.datasets import PREFIX, dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.fitting import Fit, Interval, Posterior, Question, read_drops, read_question
 from stackbounce.fitting.files import typed
-from stackbounce.plots.scales import handy, rounded
 from stackbounce.run.paths import numbers_of
+from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

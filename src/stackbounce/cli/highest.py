@@ -65,7 +65,7 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Try all stacks of some balls: which one throws its top ball highest."""
-    from stackbounce import highest, plots
+    from stackbounce import highest
 
     if plot is not None:
         check_picture(plot)
@@ -76,6 +76,8 @@ def run(
     if save is not None:
         write_scenario(data.attrs["best"], save)
     if plot is not None:
+        from stackbounce import plots
+
         draw(lambda: plots.highest(data), plot)
     if as_json:
         print_json(summary(data))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 from stackbounce.errors import FileError, InvalidValue
+from stackbounce.extras import need
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,10 +45,13 @@ def check_picture(path: Path, option: str = "--plot") -> None:
         If the suffix is none of `SUFFIXES`.
     FileError
         If the folder does not exist, or `path` is one.
+    MissingExtra
+        If matplotlib is not installed.
     """
     if path.suffix.lower() not in SUFFIXES:
         raise InvalidValue(f"{option} must end in {', '.join(SUFFIXES)}, got {path}")
     _check_place(path)
+    need("plots", option)
 
 
 def check_scenario(path: Path) -> None:

@@ -40,7 +40,7 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Drop a stack of balls and tell how each one bounces."""
-    from stackbounce import plots, simulate
+    from stackbounce import simulate
     from stackbounce.calibration import separate
     from stackbounce.cli import scenario
     from stackbounce.cli.simulation_tables import print_simulation
@@ -55,6 +55,8 @@ def run(
     result = simulate(chosen.drop, until=end, rtol=rtol)
     textbook = None if chosen.drop.rigid else simulate(separate(chosen.drop))
     if plot is not None:
+        from stackbounce import plots
+
         draw(lambda: plots.bounce(result), plot)
     if as_json:
         print_json(summary(chosen, result, textbook))

@@ -23,6 +23,7 @@ from stackbounce.cli.options import (
 )
 from stackbounce.cli.output import check_picture, console, draw, print_json, progress_bar
 from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.extras import need
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -213,11 +214,9 @@ def _client(address: str | None) -> Iterator[Any]:
     if address is None:
         yield None
         return
-    try:
-        import distributed
-    except ImportError as error:
-        words = "--cluster needs dask's distributed: pip install stackbounce[cluster]"
-        raise InvalidValue(words) from error
+    need("cluster", "--cluster")
+    import distributed
+
     for name in ("distributed", "distributed.client"):  # errors of ours say it in one line
         logging.getLogger(name).setLevel(logging.CRITICAL)
     wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"

@@ -49,7 +49,7 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Open the gaps of a stack, from touching balls to separate collisions."""
-    from stackbounce import plots, transition
+    from stackbounce import transition
     from stackbounce.cli import scenario
     from stackbounce.units import quantity
 
@@ -59,6 +59,8 @@ def run(
     chosen = scenario.read(what, height=height, speed=speed, gaps=gap, contacts=contact)
     data = transition(chosen.drop, only, stop=last, rtol=rtol)
     if plot is not None:
+        from stackbounce import plots
+
         draw(lambda: plots.transition(data), plot)
     if as_json:
         print_json(summary(chosen, data))

@@ -17,6 +17,7 @@ from stackbounce.cross2007.paper import Audit, audit, pictures
 from stackbounce.cross2007.style import Picture, rendered
 from stackbounce.cross2007.tables import Table, table_one, table_two
 from stackbounce.errors import FileError
+from stackbounce.extras import need
 from stackbounce.version import __version__
 
 __all__ = ["write"]
@@ -53,6 +54,7 @@ def write(
     FileError
         If the folder cannot be made or written to; nothing has been computed then.
     """
+    need("paper", "stackbounce paper")
     _make_writable(out)
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}

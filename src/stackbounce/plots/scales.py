@@ -2,24 +2,20 @@
 
 import math
 import re
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from stackbounce.units import handy
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
 
-__all__ = ["Scale", "flat", "handy", "label", "rounded", "scale_of", "shown_in"]
+__all__ = ["Scale", "flat", "label", "scale_of", "shown_in"]
 
-_HANDY = {  # unit: (from this value on, its name, how many of it the unit has), largest first
-    "m": ((0.1, "m", 1.0), (1e-4, "mm", 1e3), (0.0, "µm", 1e6)),
-    "s": ((1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
-    "kg": ((1.0, "kg", 1.0), (1e-3, "g", 1e3), (0.0, "mg", 1e6)),
-}
 _ROUND_OFF = 1e-9  # relative; smaller differences are none
 
 
@@ -101,34 +97,6 @@ def shown_in(axis: "Axis", values: NDArray[Any], unit: str, log: bool = False) -
     if factor != 1.0 or (log and plain):
         axis.set_major_formatter(FuncFormatter(lambda x, _: _tick(x * factor, plain)))
     return name, factor
-
-
-def handy(most: float, unit: str) -> tuple[str, float]:
-    """Return the unit in which numbers up to some size are handy, and what to multiply them by.
-
-    Examples
-    --------
-    >>> handy(0.002, "m"), handy(2500.0, "N/m")
-    (('mm', 1000.0), ('N/m', 1.0))
-    """
-    choices = _HANDY.get(unit, ()) if most > 0.0 else ()
-    return next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
-
-
-def rounded(values: Iterable[float], error: float) -> list[str]:
-    """Return numbers as texts that end where an error of theirs has two digits.
-
-    Examples
-    --------
-    >>> rounded((1048.807, 44.268), 44.268), rounded((0.99459, 0.0123), 0.0123)
-    (['1049', '44'], ['0.995', '0.012'])
-    """
-    if not (math.isfinite(error) and error > 0.0):
-        return [f"{value:.4g}" for value in values]
-    places = 1 - math.floor(math.log10(error))
-    if not -6 < places < 8:
-        return [f"{value:.3g}" for value in values]
-    return [f"{value:.{max(0, places)}f}" for value in values]
 
 
 def flat(values: NDArray[Any]) -> bool:
