@@ -8,6 +8,7 @@ import typer
 from stackbounce.cli.options import AsJson
 from stackbounce.cli.output import console, print_json
 from stackbounce.errors import InvalidValue
+from stackbounce.extras import need
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -31,6 +32,7 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Recompute the paper: its figures, its tables, and an audit of every number in it."""
+    need("paper", "stackbounce paper")
     from stackbounce import cross2007
 
     if not out:  # as a path it would be this folder
