@@ -8,6 +8,7 @@ import typer
 from stackbounce.cli.options import AsJson, Height, Plot, Speed
 from stackbounce.cli.output import check_picture, console, draw, print_json
 from stackbounce.errors import InvalidValue
+from stackbounce.extras import need
 
 __all__ = ["EPILOG", "measure"]
 
@@ -206,6 +207,7 @@ def measure(
     as_json: AsJson = False,
 ) -> None:
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
+    need("measure", "stackbounce measure")
     from stackbounce.cli import measured
 
     if plot is not None:
