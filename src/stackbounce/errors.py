@@ -14,6 +14,7 @@ __all__ = [
     "FileError",
     "InvalidType",
     "InvalidValue",
+    "MissingExtra",
     "ScenarioError",
     "StackbounceError",
     "UnitError",
@@ -50,6 +51,10 @@ class ScenarioError(InvalidValue):
 
 class FileError(StackbounceError, OSError):
     """A file or folder that cannot be read or written."""
+
+
+class MissingExtra(StackbounceError, ImportError):
+    """A library that an extra of the package brings, and that is not installed."""
 
 
 def finite(name: str, value: object, of: str = "") -> float:

@@ -1,7 +1,9 @@
 """Units of user input: "58 mm" -> 0.058. Inside the package all numbers are SI floats."""
 
 import functools
+import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
@@ -11,7 +13,7 @@ from stackbounce.errors import InvalidType, UnitError, finite, shown
 if TYPE_CHECKING:
     import pint
 
-__all__ = ["Unit", "factor", "in_si", "quantity", "unit_of"]
+__all__ = ["Unit", "factor", "handy", "in_si", "quantity", "rounded", "unit_of"]
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
@@ -31,7 +33,13 @@ _KINDS = {
     "Pa": ("a pressure", "210 GPa"),
 }
 
-# The SI units of measured columns, and other spellings of common units.
+_HANDY = {  # unit: (from this value on, its name, how many of it the unit has), largest first
+    "m": ((0.1, "m", 1.0), (1e-4, "mm", 1e3), (0.0, "µm", 1e6)),
+    "s": ((1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
+    "kg": ((1.0, "kg", 1.0), (1e-3, "g", 1e3), (0.0, "mg", 1e6)),
+}
+
+# The SI units that columns of measurements come in, and how programs write the commonest ones.
 _SI = ("s", "m", "N", "V", "1", "m/s", "m/s^2", "kg", "J", "Pa", "Hz", "A", "N/m", "N s", "kg m/s")
 _WRITTEN_OUT = {
     "m/s²": "m/s^2", "m/s/s": "m/s^2", "ms^-2": "m/s^2", "m/s2": "m/s^2", "g0": "standard_gravity",
@@ -204,3 +212,31 @@ def _registry() -> "pint.UnitRegistry[float]":
     import pint
 
     return pint.UnitRegistry()
+
+
+def handy(most: float, unit: str) -> tuple[str, float]:
+    """Return the unit in which numbers up to some size are handy, and what to multiply them by.
+
+    Examples
+    --------
+    >>> handy(0.002, "m"), handy(2500.0, "N/m")
+    (('mm', 1000.0), ('N/m', 1.0))
+    """
+    choices = _HANDY.get(unit, ()) if most > 0.0 else ()
+    return next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
+
+
+def rounded(values: Iterable[float], error: float) -> list[str]:
+    """Return numbers as texts that end where an error of theirs has two digits.
+
+    Examples
+    --------
+    >>> rounded((1048.807, 44.268), 44.268), rounded((0.99459, 0.0123), 0.0123)
+    (['1049', '44'], ['0.995', '0.012'])
+    """
+    if not (math.isfinite(error) and error > 0.0):
+        return [f"{value:.4g}" for value in values]
+    places = 1 - math.floor(math.log10(error))
+    if not -6 < places < 8:
+        return [f"{value:.3g}" for value in values]
+    return [f"{value:.{max(0, places)}f}" for value in values]

@@ -6,6 +6,8 @@ import pytest
 import stackbounce as sb
 from reference.integrate import integrate
 
+pytestmark = pytest.mark.slow
+
 MASSES = [1.0] * 5
 GAPS = [1.8153721755463523, 0.0, 0.0, 1.214885533625822]
 VELOCITIES = [1.0, 0.0, 0.0, 0.0, 0.0]

@@ -192,6 +192,7 @@ def test_a_picture(run, tmp_path, picture):
 
 
 @pytest.mark.skipif(os.name != "posix", reason="a terminal of its own")
+@pytest.mark.slow
 def test_a_terminal_sees_how_far_the_draws_are(tmp_path):
     ours, theirs = os.openpty()
     code = "import sys; from stackbounce.cli import main; sys.exit(main(sys.argv[1:]))"

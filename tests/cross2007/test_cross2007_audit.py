@@ -190,6 +190,7 @@ def test_all_other_inputs_leave_a_row_alone(check):
     assert check.compute(Bench(data)) == before
 
 
+@pytest.mark.slow
 def test_every_input_is_used():
     used = set()
     computed = [compute for check in CHECKS for _, _, compute in check.others]

@@ -80,6 +80,7 @@ def test_it_says_what_it_is_doing(folder, told):
     assert told[-1] == f"writing to {folder}"
 
 
+@pytest.mark.slow
 def test_another_process_writes_the_same_bytes(tmp_path, monkeypatch):
     less = (
         "paper.FIGURES = {name: paper.FIGURES[name] for name in ('6', '12')};"

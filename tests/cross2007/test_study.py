@@ -133,7 +133,12 @@ def test_no_hysteretic_floor_keeps_more_than_the_bound():
 
 @pytest.mark.parametrize(
     ("name", "ten", "whole"),
-    [("S", 18.6, 23.9), ("A", 70.5, 76.4), ("X", 421.4, 429.8), ("Hertz", 947.0, 948.9)],
+    [
+        pytest.param("S", 18.6, 23.9, marks=pytest.mark.slow),
+        ("A", 70.5, 76.4),
+        ("X", 421.4, 429.8),
+        ("Hertz", 947.0, 948.9),
+    ],
 )
 def test_models_with_nothing_fitted(compared, name, ten, whole):
     assert compared.of_ratios(name) == pytest.approx(ten, abs=0.5)
@@ -157,6 +162,7 @@ def test_where_the_loss_is(compared):
         ("B", 25.3, {"e_B1": 0.946, "e_between": 0.827}),
     ],
 )
+@pytest.mark.slow
 def test_models_with_shared_numbers(name, whole, shared):
     found = fit_model(THEORIES[name].model(), inputs.MEASURED)
     assert found.chi_squared == pytest.approx(whole, abs=0.3)

@@ -15,6 +15,8 @@ from stackbounce.fitting import Fit
 from stackbounce.fitting.question import read_problem
 from stackbounce.fitting.search import Minimum
 
+pytestmark = pytest.mark.slow
+
 FIGURES = ["comparison", "misfits", "delays", "energy", "decisive"]
 
 

@@ -98,6 +98,7 @@ def same(one, other, rows=slice(None)):
         assert one[name][rows].tobytes() == other[name].tobytes(), name
 
 
+@pytest.mark.slow
 def test_random_drops():
     drops = sweep(2000, 1)
     assert compare(drops, solve(*drops)) <= 10
@@ -173,7 +174,14 @@ def changes(random, tries):
         yield at, low
 
 
-@pytest.mark.parametrize(("distance", "most"), [(1e-4, 0.2), (1e-7, 0.7), (1e-10, 1.0)])
+@pytest.mark.parametrize(
+    ("distance", "most"),
+    [
+        (1e-4, 0.2),
+        pytest.param(1e-7, 0.7, marks=pytest.mark.slow),
+        pytest.param(1e-10, 1.0, marks=pytest.mark.slow),
+    ],
+)
 def test_where_the_number_of_contacts_changes(distance, most):
     random = np.random.default_rng(3)
     points = [at(here + s * distance) for at, here in changes(random, 60) for s in (-1.0, 1.0)]

@@ -33,6 +33,7 @@ def linear():
     )
 
 
+@pytest.mark.slow
 def test_a_linear_case_has_the_exact_mean_spread_and_correlation():
     found = linear()
     matrix = np.array([[1.0, 0.0], [0.0, 1.0], [0.5, 0.5]])

@@ -129,6 +129,7 @@ def test_a_change_where_the_lower_ball_stops():
     assert float(ds.rebound_ratio.sel(gap=gap, ball=0)) == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_collisions_without_end_are_never_separate():
     laws = [sb.Hysteretic(1.0, restitution=0.5)] * 2
     ds = sb.transition(pair(1.0, 10.0, laws), stop=100.0)

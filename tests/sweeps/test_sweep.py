@@ -228,7 +228,10 @@ def test_other_values_in_the_sweep_change_no_bit():
         assert np.array_equal(alone[name][0], both[name][0]), name
 
 
-@pytest.mark.parametrize("shape", [(3, 5000), (5000, 3), (2, 40, 130), (1, 1, 7000)])
+@pytest.mark.parametrize(
+    "shape",
+    [(3, 5000), (5000, 3), (2, 40, 130), pytest.param((1, 1, 7000), marks=pytest.mark.slow)],
+)
 def test_a_grid_is_cut_into_blocks_that_fit_together(shape):
     drop = sb.Drop(TWO, LAWS["springs"], impact_speed=3.53)
     paths = ["impact_speed", "balls.0.mass", "gaps.0"][-len(shape) :]

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.cli.output import new_table
-from stackbounce.cli.show import number
+from stackbounce.cli.tables import number
 from stackbounce.fitting import Comparison, Question, compare, standard_models
 from stackbounce.fitting.quantities import QUANTITIES
 

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from stackbounce.cli.options import AsJson, Contact, Gap, Gravity, Height, Plot, Speed
-from stackbounce.cli.output import check_picture, console, draw
+from stackbounce.cli.output import check_picture, console, draw, print_json
 from stackbounce.errors import InvalidValue
+from stackbounce.extras import need
 
 if TYPE_CHECKING:
     from stackbounce.fitting import Question
@@ -141,7 +142,8 @@ def fit(
     as_json: AsJson = False,
 ) -> None:
     """Find the numbers of a drop that describe what was measured best, with errors."""
-    from stackbounce.cli import fitted, machine
+    need("fit", "stackbounce fit")
+    from stackbounce.cli import fitted
 
     for option, path in (("--plot", plot), ("--corner", corner)):
         if path is not None:
@@ -183,7 +185,7 @@ def fit(
         draw(lambda: fitted.posterior(done), corner)
     saved = [] if save is None else fitted.save(done, save)
     if as_json:
-        typer.echo(machine.text(fitted.summary(done, saved)))
+        print_json(fitted.summary(done, saved))
         return
     fitted.tell(console(), done)
     if saved:
@@ -196,13 +198,13 @@ def fit(
 def _compare(
     asked: "Question", starts: int | None, seed: int, plot: Path | None, as_json: bool
 ) -> None:
-    from stackbounce.cli import compared, machine
+    from stackbounce.cli import compared
 
     done = compared.run(asked, starts=starts, seed=seed)
     if plot is not None:
         draw(lambda: compared.picture(done), plot)
     if as_json:
-        typer.echo(machine.text(compared.summary(done)))
+        print_json(compared.summary(done))
         return
     compared.tell(console(), done)
     if plot is not None:

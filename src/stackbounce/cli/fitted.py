@@ -9,13 +9,13 @@ import numpy as np
 
 from stackbounce.cli import scenario
 from stackbounce.cli.output import check_scenario, new_table, progress_bar, write_scenario
-from stackbounce.cli.show import number
+from stackbounce.cli.tables import number
 from stackbounce.cross2007.datasets import PREFIX, load_dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.fitting import Fit, Interval, Posterior, Question, read_drops, read_question
 from stackbounce.fitting.files import typed
-from stackbounce.plots.scales import handy, rounded
 from stackbounce.run.paths import numbers_of
+from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

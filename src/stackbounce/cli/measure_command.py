@@ -6,8 +6,9 @@ from typing import Annotated
 import typer
 
 from stackbounce.cli.options import AsJson, Height, Plot, Speed
-from stackbounce.cli.output import check_picture, console, draw
+from stackbounce.cli.output import check_picture, console, draw, print_json
 from stackbounce.errors import InvalidValue
+from stackbounce.extras import need
 
 __all__ = ["EPILOG", "measure"]
 
@@ -206,7 +207,8 @@ def measure(
     as_json: AsJson = False,
 ) -> None:
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
-    from stackbounce.cli import machine, measured
+    need("measure", "stackbounce measure")
+    from stackbounce.cli import measured
 
     if plot is not None:
         check_picture(plot)
@@ -245,7 +247,7 @@ def measure(
     if plot is not None:
         draw(lambda: measured.picture(done), plot)
     if as_json:
-        typer.echo(machine.text(measured.summary(done, found, saved)))
+        print_json(measured.summary(done, found, saved))
         return
     measured.tell(console(), done, found)
     if save is not None:

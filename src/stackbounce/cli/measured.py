@@ -294,7 +294,7 @@ def _row(row: Any) -> dict[str, Any]:
 
 def _written(value: Any) -> tuple[str, str]:
     """Return a value and its error as people write them: the error with two digits that count."""
-    from stackbounce.cli.show import number
+    from stackbounce.cli.tables import number
 
     if isinstance(value, str):
         return value, ""

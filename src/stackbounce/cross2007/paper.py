@@ -19,6 +19,7 @@ from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, run_check
 from stackbounce.cross2007.data import PAPER, Data
 from stackbounce.cross2007.style import Picture, use_style
+from stackbounce.extras import need
 from stackbounce.version import __version__
 
 __all__ = ["FIGURES", "SECTIONS", "Audit", "audit", "draw_figures"]
@@ -110,6 +111,7 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     >>> [row.verdict for row in result.rows if row.id == "II.ten_springs"]
     ['agrees']
     """
+    need("paper", "stackbounce paper")
     rows: list[Row] = []
     for section in SECTIONS:
         progress(f"audit of {section.where}: {len(section.checks)} numbers")

@@ -17,6 +17,7 @@ from stackbounce.cross2007.paper import Audit, audit, draw_figures
 from stackbounce.cross2007.style import Picture, render
 from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
 from stackbounce.errors import FileError
+from stackbounce.extras import need
 from stackbounce.version import __version__
 
 __all__ = ["write"]
@@ -52,6 +53,7 @@ def write(
     FileError
         If the folder cannot be made or written to. This is found before anything is computed.
     """
+    need("paper", "stackbounce paper")
     _make_writable(out)
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}

@@ -24,6 +24,7 @@ comparison ``compare``
 ========== ============================================================================
 """
 
+from stackbounce.extras import need
 from stackbounce.fitting.comparison import Comparison, compare
 from stackbounce.fitting.files import read_question
 from stackbounce.fitting.model import Model
@@ -53,3 +54,5 @@ __all__ = [
     "read_question",
     "standard_models",
 ]
+
+need("fit", "stackbounce fit")

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, positive, shown
+from stackbounce.extras import need
 from stackbounce.gaps_and_masses.batch import solve_drops
 from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.run.driver import run_options
@@ -76,6 +77,7 @@ def best_masses(
     >>> round(sb.best_masses(springs).balls[1].mass, 5)
     0.48518
     """
+    need("masses", "stackbounce masses")
     from scipy.optimize import differential_evolution
 
     run_options(drop, None, 1e-12, 1)

@@ -21,6 +21,7 @@ synthetic/    from the simulator to noisy records
 ============= ========================================================================
 """
 
+from stackbounce.extras import need
 from stackbounce.measure.analyse_file import analyse
 from stackbounce.measure.assembly import one_ball, one_law
 from stackbounce.measure.kinds.acceleration.analysis import accelerometer
@@ -56,3 +57,5 @@ __all__ = [
     "track",
     "waveform",
 ]
+
+need("measure", "stackbounce measure")

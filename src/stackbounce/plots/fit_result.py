@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.plots.chi_squared import draw_map, draw_profile
-from stackbounce.plots.scales import handy, rounded
 from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -2,25 +2,21 @@
 
 import math
 import re
-from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from stackbounce.units import handy
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
 
-__all__ = ["Scale", "handy", "is_flat", "label", "read_scale", "rounded", "show_in_handy_unit"]
+__all__ = ["Scale", "is_flat", "label", "read_scale", "show_in_handy_unit"]
 
-_HANDY = {  # SI unit: (smallest value, name, how many make up the SI unit), largest first
-    "m": ((0.1, "m", 1.0), (1e-4, "mm", 1e3), (0.0, "µm", 1e6)),
-    "s": ((1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
-    "kg": ((1.0, "kg", 1.0), (1e-3, "g", 1e3), (0.0, "mg", 1e6)),
-}
-_ROUND_OFF = 1e-9  # relative; smaller differences are taken as 0
+_ROUND_OFF = 1e-9  # relative; smaller differences are none
 
 
 class Scale(NamedTuple):
@@ -105,36 +101,8 @@ def show_in_handy_unit(
     return name, factor
 
 
-def handy(most: float, unit: str) -> tuple[str, float]:
-    """Return a handy unit for numbers up to `most`, and the factor to multiply them by.
-
-    Examples
-    --------
-    >>> handy(0.002, "m"), handy(2500.0, "N/m")
-    (('mm', 1000.0), ('N/m', 1.0))
-    """
-    choices = _HANDY.get(unit, ()) if most > 0.0 else ()
-    return next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
-
-
-def rounded(values: Iterable[float], error: float) -> list[str]:
-    """Return numbers as texts, rounded to the second digit of their error.
-
-    Examples
-    --------
-    >>> rounded((1048.807, 44.268), 44.268), rounded((0.99459, 0.0123), 0.0123)
-    (['1049', '44'], ['0.995', '0.012'])
-    """
-    if not (math.isfinite(error) and error > 0.0):
-        return [f"{value:.4g}" for value in values]
-    places = 1 - math.floor(math.log10(error))
-    if not -6 < places < 8:
-        return [f"{value:.3g}" for value in values]
-    return [f"{value:.{max(0, places)}f}" for value in values]
-
-
 def is_flat(values: NDArray[Any]) -> bool:
-    """Tell whether all finite values are equal up to round-off.
+    """Return whether values differ by no more than round-off; those not finite do not count.
 
     Examples
     --------

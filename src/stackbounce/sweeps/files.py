@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
+from stackbounce.extras import need
 from stackbounce.run.blocks import Block
 
 if TYPE_CHECKING:
@@ -179,7 +180,9 @@ def format_of(path: Path) -> Format:
     Raises
     ------
     InvalidValue
-        If its suffix is none that is known, or what it needs is not installed.
+        If its suffix is none that is known.
+    MissingExtra
+        If what it needs is not installed.
 
     Examples
     --------
@@ -190,11 +193,5 @@ def format_of(path: Path) -> Format:
     suffix = path.suffix.lower()
     if suffix not in _FORMATS:
         raise InvalidValue(f"a sweep's file must end in .zarr or .nc, got {shown(path.name)}")
-    if suffix == ".nc":
-        try:
-            import h5netcdf  # noqa: F401
-            import h5py  # noqa: F401
-        except ImportError as error:
-            words = "a .nc file needs h5netcdf: pip install stackbounce[netcdf]"
-            raise InvalidValue(words) from error
+    need("netcdf" if suffix == ".nc" else "sweep", f"a {suffix} file")
     return _FORMATS[suffix]

@@ -15,7 +15,7 @@ from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from stackbounce.version import __version__
-from stackbounce.web.worker_pool import prepared
+from stackbounce.web.answers.compile_all import prepared
 
 __all__ = ["ran", "simulation"]
 

@@ -5,39 +5,121 @@ import logging
 import socket
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
-import numpy as np
+import typer
 
-from stackbounce.cli.output import progress_bar
+from stackbounce.cli.options import (
+    AsJson,
+    Contact,
+    Gap,
+    Gravity,
+    Height,
+    Plot,
+    Speed,
+    Tolerance,
+    Until,
+    What,
+)
+from stackbounce.cli.output import check_picture, console, draw, print_json, progress_bar
 from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.model import Drop
-from stackbounce.run.blocks import blocks, sides
-from stackbounce.run.result import Status
-from stackbounce.sweeps import grid, opened, write
+from stackbounce.extras import need
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
     from rich.console import Console
 
-__all__ = ["check_picture", "picture", "run", "summary", "tell"]
+    from stackbounce.model import Drop
 
+__all__ = ["EPILOG", "run"]
+
+EPILOG = (
+    "For example: stackbounce sweep basketball tennis --over balls.0.mass=50g:500g:100:log "
+    "--over gaps.0=0mm:5mm:50 --out map.zarr --plot map.png"
+)
 _BLOCK = 2**18  # drops that are looked at together
 _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
 
 
 def run(
-    drop: Drop, over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
+    what: What,
+    over: Annotated[
+        list[str],
+        typer.Option(
+            metavar="PATH=VALUES",
+            help="A number that varies: balls.0.mass=50g:500g:40 (start, stop, how many), "
+            "contacts.0.stiffness=1kN/m:1MN/m:40:log (in even ratios) or gaps.0=0mm,1mm,5mm; "
+            "once per number. Balls, contacts and gaps count from 0, the lowest.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        Path,
+        typer.Option(
+            metavar="FILE",
+            readable=False,
+            help="File to write all results to: a Zarr store such as map.zarr, or NetCDF such as "
+            "map.nc. Stopped, the same command goes on where it was.",
+            show_default=False,
+        ),
+    ],
+    height: Height = None,
+    speed: Speed = None,
+    gap: Gap = None,
+    contact: Contact = None,
+    gravity: Gravity = None,
+    until: Until = None,
+    rtol: Tolerance = 1e-12,
+    cluster: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Solve on this cluster: its dask scheduler."),
+    ] = None,
+    show: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="What --plot draws: rebound_ratio, collisions, energy_retained, first_touch or "
+            "last_release; of one ball or contact with its number, such as rebound_ratio.0.",
+        ),
+    ] = "rebound_ratio",
+    plot: Plot = None,
+    as_json: AsJson = False,
+) -> None:
+    """Drop a stack for all combinations of other numbers in it, into a Zarr or NetCDF file."""
+    from stackbounce.cli import scenario
+    from stackbounce.units import quantity
+
+    if plot is not None:
+        check_picture(plot)
+    chosen = scenario.read(
+        what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
+    )
+    if plot is not None:
+        _check_shown(chosen.drop, over, show)
+    end = None if until is None else quantity(until, "s", "--until")
+    done = _write(chosen.drop, over, out, cluster=cluster, until=end, rtol=rtol)
+    if plot is not None:
+        draw(lambda: _picture(done, show), plot)
+    if as_json:
+        print_json(summary(done, out))
+    else:
+        print_sweep(console(), done, out, plot)
+
+
+def _write(
+    drop: "Drop", over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
 ) -> "xr.Dataset":
     """Sweep a drop over what ``--over`` names, into a file, showing how far it is; return it."""
+    from stackbounce.sweeps import grid, opened, write
+
     values = grid(drop, over)
     with _client(cluster) as client, progress_bar("drops") as progress:
         write(out, drop, values, client=client, progress=progress, **options)
     return opened(out)
 
 
-def check_picture(drop: Drop, over: Sequence[str], show: str) -> None:
+def _check_shown(drop: "Drop", over: Sequence[str], show: str) -> None:
     """Refuse a picture that could not be drawn, before anything is computed."""
     from stackbounce.plots.sweep_curves import TITLES
 
@@ -55,7 +137,7 @@ def check_picture(drop: Drop, over: Sequence[str], show: str) -> None:
         )
 
 
-def picture(data: "xr.Dataset", show: str) -> "Figure":
+def _picture(data: "xr.Dataset", show: str) -> "Figure":
     """Return the lines or the map of a sweep over one number or two."""
     from stackbounce import plots
 
@@ -66,6 +148,11 @@ def picture(data: "xr.Dataset", show: str) -> "Figure":
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
     """Return what came of a sweep, for machines; a file larger than memory is read in blocks."""
+    import numpy as np
+
+    from stackbounce.run.blocks import blocks, sides
+    from stackbounce.run.result import Status
+
     dims, shape = data.status.dims, data.status.shape
     counts = np.zeros(max(Status) + 1, dtype=int)
     low: dict[str, Any] = dict.fromkeys(_SPOKEN, np.nan)
@@ -89,8 +176,10 @@ def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
     }
 
 
-def tell(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -> None:
+def print_sweep(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -> None:
     """Print what came of a sweep, for people."""
+    from stackbounce.run.result import Status
+
     found = summary(data, out)
     console.print(f"{found['drops']} drops, over")
     for dim, size in found["over"].items():
@@ -113,6 +202,8 @@ def _range(low: float, high: float) -> str:
 
 def _ranges(own: Sequence[Any], low: Any, high: Any) -> dict[str, tuple[float, float]]:
     """Return the smallest and the largest number, of each ball or contact where it has one."""
+    import numpy as np
+
     pairs = zip(np.atleast_1d(low).tolist(), np.atleast_1d(high).tolist(), strict=True)
     return {f"{own[0]} {k}" if own else "": pair for k, pair in enumerate(pairs)}
 
@@ -123,11 +214,9 @@ def _client(address: str | None) -> Iterator[Any]:
     if address is None:
         yield None
         return
-    try:
-        import distributed
-    except ImportError as error:
-        words = "--cluster needs dask's distributed: pip install stackbounce[cluster]"
-        raise InvalidValue(words) from error
+    need("cluster", "--cluster")
+    import distributed
+
     for name in ("distributed", "distributed.client"):  # errors of ours say it in one line
         logging.getLogger(name).setLevel(logging.CRITICAL)
     wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
