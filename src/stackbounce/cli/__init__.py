@@ -8,7 +8,8 @@ from typing import Annotated
 
 import typer
 
-from stackbounce.cli import design_commands, fit_command, measure_command
+from stackbounce.cli import design_commands, fit_command
+from stackbounce.cli import measure as measure_command
 from stackbounce.cli.options import (
     AsJson,
     Contact,

@@ -10,17 +10,6 @@ if TYPE_CHECKING:
 
 __all__ = ["measured"]
 
-_PICTURES = {
-    "Accelerometer": "measured_acceleration",
-    "Knocks": "measured_sound",
-    "Bounces": "measured_bounces",
-    "FloorGap": "measured_gap",
-    "Heights": "measured_heights",
-    "Tracks": "measured_track",
-    "Waveform": "measured_waveform",
-    "Press": "measured_press",
-}
-
 
 def measured(data: Any, found: Any) -> "Figure":
     """Draw what an analysis found on what was measured.
@@ -46,8 +35,8 @@ def measured(data: Any, found: Any) -> "Figure":
     >>> from stackbounce.measure import bounces
     >>> figure = measured(None, bounces([0.0, 0.8, 1.44, 1.952]))
     """
-    name = type(found).__name__
-    if name not in _PICTURES:
+    picture = getattr(found, "picture", None)
+    if not isinstance(picture, str):
         raise InvalidType(f"found must be what an analysis returns, got {shown(found)}")
-    figure: Figure = import_module(f"stackbounce.plots.{_PICTURES[name]}").draw(data, found)
+    figure: Figure = import_module(f"stackbounce.plots.measurements.{picture}").draw(data, found)
     return figure
