@@ -59,8 +59,11 @@ class Kind:
 
     @cached_property
     def options(self) -> tuple[str, ...]:
-        """The options that its analysis takes."""
-        return () if self.analyse is None else keywords_of(self.analyse)
+        """The options that its analyses take."""
+        functions = (self.analyse, self.of_numbers)
+        return tuple(
+            dict.fromkeys(name for one in functions if one is not None for name in keywords_of(one))
+        )
 
 
 def keywords_of(function: Callable[..., Any]) -> tuple[str, ...]:

@@ -5,12 +5,13 @@
 """
 
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
-from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model.laws import LAWS, law_named
 from stackbounce.units import quantity
@@ -331,7 +332,8 @@ def options_for(*to: str) -> dict[str, Option]:
 
 def taken_by(option: Option) -> list[str]:
     """Return the kinds whose analysis takes an option; the reader's are for every file."""
-    return [name for name, kind in KINDS.items() if option.name in kind.options]
+    kinds = {**KINDS, **{kind.name: kind for kind in TYPED}}
+    return [name for name, kind in kinds.items() if option.name in kind.options]
 
 
 def check_options(given: Iterable[str], to: str) -> None:
@@ -350,7 +352,11 @@ def check_options(given: Iterable[str], to: str) -> None:
             raise InvalidType(f"{shown(name)} is no option of {to}; {right}")
 
 
-def read_options(given: Mapping[str, Any], face: Callable[[Option], str]) -> dict[str, Any]:
+def read_options(
+    given: Mapping[str, Any],
+    face: Callable[[Option], str],
+    to: Sequence[str] = ("read", "analyse", "numbers"),
+) -> dict[str, Any]:
     """Return options with values as `read` and `analyse` take them, those that are given.
 
     Parameters
@@ -360,6 +366,8 @@ def read_options(given: Mapping[str, Any], face: Callable[[Option], str]) -> dic
         text are not given.
     face : callable
         From an option to what messages call it.
+    to : sequence of str, optional
+        Whose options are offered.
 
     Raises
     ------
@@ -371,7 +379,7 @@ def read_options(given: Mapping[str, Any], face: Callable[[Option], str]) -> dic
     >>> read_options({"height": "1 m", "law": "power-law exponent=1.3"}, lambda one: one.name)
     {'height': 1.0, 'law': <class 'stackbounce.model.laws.elastic.PowerLaw'>, 'exponent': 1.3}
     """
-    known = {one.name: one for one in OPTIONS}
+    known = options_for(*to)
     found: dict[str, Any] = {}
     for name, value in given.items():
         if name not in known:
@@ -464,9 +472,16 @@ def _columns(value: Any, option: Option, called: str) -> Any:
     return found
 
 
-def _as_it_is(value: Any, option: Option, called: str) -> Any:
-    if option.form == "text" and not isinstance(value, str | int):
+def _text(value: Any, option: Option, called: str) -> str | int:  # noqa: ARG001
+    if not isinstance(value, str | int):
         raise InvalidType(f"{called} must be a text, got {shown(value)}")
+    return value
+
+
+def _file(value: Any, option: Option, called: str) -> Any:  # noqa: ARG001
+    """Return a path, or a name and a content: no text, which in a request would be a path too."""
+    if not isinstance(value, Path | tuple):
+        raise InvalidType(f"{called} must be a file, got {shown(value)}")
     return value
 
 
@@ -477,6 +492,6 @@ _READERS: dict[str, Callable[[Any, Option, str], Any]] = {
     "flag": _flag,
     "points": _points,
     "columns": _columns,
-    "text": _as_it_is,
-    "file": _as_it_is,
+    "text": _text,
+    "file": _file,
 }

@@ -11,8 +11,9 @@ from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.fitting import Fit, fit
 from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Curve
+from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.measurement import Measurement, measure_file
-from stackbounce.measure.options import read_options
+from stackbounce.measure.options import options_for, read_options
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import ran
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 
     from stackbounce.fitting.residuals import Record
 
-__all__ = ["fitted", "measured"]
+__all__ = ["fitted", "measured", "options"]
 
 _Array = NDArray[np.float64]
 _Series = dict[str, Any]
@@ -31,7 +32,23 @@ _SHOWN = 4000  # points of a curve that a page draws, at most
 _AFTER = 1.5  # of a simulated impact that is kept of a record
 
 
-def measured(name: str, content: bytes, options: Mapping[str, Any]) -> str:
+def options() -> str:
+    """Return, as JSON, the kinds of measurement and the options that the page's form offers."""
+    offered = options_for("read", "analyse").values()
+    return as_json(
+        {
+            "kinds": [{"name": kind.name, "says": kind.says} for kind in KINDS.values()],
+            "options": [option.to_mapping() for option in offered],
+        }
+    )
+
+
+def measured(
+    name: str,
+    content: bytes,
+    options: Mapping[str, Any],
+    alone: tuple[str, bytes] | None = None,
+) -> str:
     """Return, as JSON, what a file is, what is found in it, and curves to be drawn.
 
     Parameters
@@ -42,6 +59,8 @@ def measured(name: str, content: bytes, options: Mapping[str, Any]) -> str:
         What is in it.
     options : mapping
         What the file does not say: those of `read` and `analyse`; numbers may carry units.
+    alone : (str, bytes), optional
+        Name and content of a record of the lower ball alone.
 
     Returns
     -------
@@ -54,7 +73,7 @@ def measured(name: str, content: bytes, options: Mapping[str, Any]) -> str:
     StackbounceError
         If it cannot be read, or nothing that it should hold is there.
     """
-    one = _measured(name, content, options)
+    one = _measured(name, content, options, alone)
     return as_json(
         {
             "stackbounce": __version__,
@@ -126,8 +145,14 @@ def fitted(
     )
 
 
-def _measured(name: str, content: bytes, options: Mapping[str, Any]) -> Measurement:
-    known = read_options(options, lambda option: option.name)
+def _measured(
+    name: str,
+    content: bytes,
+    options: Mapping[str, Any],
+    alone: tuple[str, bytes] | None = None,
+) -> Measurement:
+    given = dict(options) if alone is None else {**options, "alone": alone}
+    known = read_options(given, lambda option: option.name, to=("read", "analyse"))
     return measure_file((name, content), known)
 
 
