@@ -13,7 +13,7 @@ from stackbounce.cli import (
     fit_command,
     highest,
     masses,
-    measure_command,
+    measure,
     paper,
     simulate,
     sweep,
@@ -47,7 +47,7 @@ def stackbounce(
 
 app.command("simulate", epilog=simulate.EPILOG)(simulate.run)
 app.command("sweep", epilog=sweep.EPILOG)(sweep.run)
-app.command("measure", epilog=measure_command.EPILOG)(measure_command.measure)
+app.command("measure", epilog=measure.EPILOG)(measure.run)
 app.command("fit", epilog=fit_command.EPILOG)(fit_command.fit)
 app.command("transition", epilog=transition.EPILOG)(transition.run)
 app.command("highest", epilog=highest.EPILOG)(highest.run)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks_tables import HEIGHTS, RATIOS
-from stackbounce.measure.law_constants import dynamic_stiffness
+from stackbounce.measure.constants import dynamic_stiffness
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

@@ -10,7 +10,7 @@ import numpy as np
 from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown, whole
 from stackbounce.fitting.quantities import QUANTITIES, place
 from stackbounce.fitting.waveforms import Waveform, as_waveform
-from stackbounce.measure.uncertain_numbers import quantity_with_error
+from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.units import quantity
 

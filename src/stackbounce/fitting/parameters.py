@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, nearest, positive, shown
 from stackbounce.fitting.formula import OWN_WORDS
-from stackbounce.measure.uncertain_numbers import quantity_with_error
+from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of
 from stackbounce.units import quantity

@@ -10,10 +10,10 @@ from typing import Any, NamedTuple
 from stackbounce.errors import FileError, InvalidType, InvalidValue, nearest, positive, shown
 from stackbounce.fitting.files import force_record
 from stackbounce.fitting.quantities import QUANTITIES, place
+from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.limits import COLUMNS, LINE, content_of, refuse_others
 from stackbounce.measure.reading.text import decode, split
-from stackbounce.measure.uncertain_numbers import quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of
 from stackbounce.units import quantity

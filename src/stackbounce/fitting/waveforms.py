@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
-from stackbounce.measure.kinds.waveform import waveform as analysed
+from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
 from stackbounce.model import Drop
 
 if TYPE_CHECKING:

@@ -6,14 +6,8 @@ from typing import Any
 
 from stackbounce.calibration.inverse import needed_by
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.kinds.acceleration.analysis import Accelerometer
-from stackbounce.measure.kinds.bounces.analysis import Bounces
-from stackbounce.measure.kinds.heights.analysis import Heights
-from stackbounce.measure.kinds.track.analysis import Tracks
-from stackbounce.measure.kinds.waveform.result import Waveform
-from stackbounce.measure.law_constants import LawConstants, law_constants
+from stackbounce.measure.constants import LawConstants, law_constants
 from stackbounce.model import Drop
-from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.model.laws import ContactLaw, law_named
 
 __all__ = ["one_ball", "one_law"]
@@ -109,7 +103,8 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
     kind = law_named(law) if isinstance(law, str) else law
     known: dict[str, Any] = {}
     for one in found:
-        known |= _told_by(one)
+        told = one.told().items()
+        known |= {name: _usable(value) for name, value in told if value is not None}
     known |= {name: value for name, value in given.items() if value is not None}
     needed = needed_by(kind, getattr(known.get("exponent"), "nominal_value", known.get("exponent")))
     missing = [name for name in needed if name not in known]
@@ -121,32 +116,6 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
         raise InvalidValue(f"{kind.__name__} needs what was not found: {', '.join(words)}")
     used = {name: known[name] for name in (*needed, "exponent") if name in known}
     return law_constants(kind, **used)
-
-
-def _told_by(found: Any) -> dict[str, Any]:
-    """Return what an analysis tells of a contact, by the arguments of `law_constants`."""
-    told: dict[str, Any] = {}
-    match found:
-        case Waveform():
-            times = (one.time for one in found.contacts)
-            told["contact_time"] = next((time for time in times if time is not None), None)
-            told["impact_speed"] = found.impact_speed
-        case Bounces():
-            told["restitution"] = found.mean
-            if found.drop_height is not None and not found.inferred:
-                told["impact_speed"] = (2.0 * found.gravity * found.drop_height) ** 0.5
-        case Heights():
-            told["restitution"] = found.mean
-            told["impact_speed"] = (2.0 * STANDARD_GRAVITY * found.drop_height) ** 0.5
-        case Accelerometer():
-            told["restitution"] = found.mean
-            told["impact_speed"] = found.impact_speeds[0] if found.fall is not None else None
-            told["contact_time"] = found.contact_times[0] if found.fall is not None else None
-        case Tracks():
-            told["impact_speed"] = found.balls[0].impact_speeds[0]
-            if len(found.balls) == 1:
-                told["restitution"] = found.balls[0].restitutions[0]
-    return {name: _usable(value) for name, value in told.items() if value is not None}
 
 
 def _usable(value: Any) -> Any:

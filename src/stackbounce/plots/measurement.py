@@ -10,17 +10,6 @@ if TYPE_CHECKING:
 
 __all__ = ["measured"]
 
-_PICTURES = {
-    "Accelerometer": "measurements.acceleration",
-    "Knocks": "measurements.sound",
-    "Bounces": "measurements.bounces",
-    "FloorGap": "measurements.gap",
-    "Heights": "measurements.heights",
-    "Tracks": "measurements.track",
-    "Waveform": "measurements.waveform",
-    "Press": "measurements.press",
-}
-
 
 def measured(data: Any, found: Any) -> "Figure":
     """Draw what an analysis found on what was measured.
@@ -46,8 +35,8 @@ def measured(data: Any, found: Any) -> "Figure":
     >>> from stackbounce.measure import bounces
     >>> figure = measured(None, bounces([0.0, 0.8, 1.44, 1.952]))
     """
-    name = type(found).__name__
-    if name not in _PICTURES:
+    picture = getattr(found, "picture", None)
+    if not isinstance(picture, str):
         raise InvalidType(f"found must be what an analysis returns, got {shown(found)}")
-    figure: Figure = import_module(f"stackbounce.plots.{_PICTURES[name]}").draw(data, found)
+    figure: Figure = import_module(f"stackbounce.plots.measurements.{picture}").draw(data, found)
     return figure

@@ -8,7 +8,7 @@ from stackbounce.measure.kinds.press.branches import Cycle, Record, cycles, reco
 from stackbounce.measure.kinds.press.notes import sentences
 from stackbounce.measure.kinds.press.numbers import result_of, unloading_only
 from stackbounce.measure.kinds.press.result import Press
-from stackbounce.measure.uncertain_numbers import measured
+from stackbounce.measure.quantities import measured
 
 if TYPE_CHECKING:
     import xarray as xr

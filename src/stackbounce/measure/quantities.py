@@ -1,8 +1,8 @@
-"""Numbers with or without an error, as they come in."""
+"""Quantities with errors: how they come in, and how a result lists them."""
 
 import re
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from stackbounce.errors import InvalidValue, non_negative, positive, shown
 from stackbounce.units import quantity
@@ -10,7 +10,15 @@ from stackbounce.units import quantity
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["known_to", "measured", "quantity_with_error"]
+__all__ = ["Row", "known_to", "measured", "quantity_with_error"]
+
+
+class Row(NamedTuple):
+    """A quantity that was found: its name, its value (with an error if it has one) and SI unit."""
+
+    name: str
+    value: "UFloat | float | int | str"
+    unit: str = ""
 
 
 def known_to(value: float, error: float) -> "UFloat":

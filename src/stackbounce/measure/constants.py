@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from stackbounce.calibration import calibrate
 from stackbounce.errors import InvalidValue, between, fraction, positive, shown
-from stackbounce.measure.rows import Row
-from stackbounce.measure.uncertain_numbers import measured
+from stackbounce.measure.quantities import Row, measured
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, law_named
 from stackbounce.units import Unit
 
@@ -83,6 +82,15 @@ class LawConstants:
         units = _units(self.law)
         head = Row("law", type(self.law).__name__)
         return [head, *(Row(n.replace("_", " "), v, units[n]) for n, v in self.constants.items())]
+
+    def all_rows(self) -> list[Row]:
+        """Return the constants and, after them, what they were made of."""
+        units = {"mass": "kg", "contact_time": "s", "impact_speed": "m/s"}
+        made_of = self.given.items()
+        return [
+            *self.rows(),
+            *(Row(f"from {n.replace('_', ' ')}", v, units.get(n, "")) for n, v in made_of),
+        ]
 
     def parts(self) -> dict[str, object]:
         """Return the contact with its nominal values, as a drop's TOML has it."""
