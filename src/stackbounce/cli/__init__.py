@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from stackbounce.cli import design_commands, fit_command, measure_command
+from stackbounce.cli import design_commands, fit, measure_command
 from stackbounce.cli.options import (
     AsJson,
     Contact,
@@ -161,7 +161,7 @@ def sweep(
 
 
 app.command(name="measure", epilog=measure_command.EPILOG)(measure_command.measure)
-app.command(name="fit", epilog=fit_command.EPILOG)(fit_command.fit)
+app.command(name="fit", epilog=fit.EPILOG)(fit.run)
 for _command_of in design_commands.COMMANDS:
     app.command(epilog=design_commands.COMMANDS[_command_of])(_command_of)
 

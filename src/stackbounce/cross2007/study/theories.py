@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.study import given
 from stackbounce.cross2007.study.alone import LOSS, Numbers, numbers
-from stackbounce.fitting import Model
+from stackbounce.fitting import FitProblem, Model
 from stackbounce.model import Drop, HuntCrossley, Hysteretic, Rigid, Viscoelastic
 
 __all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "rigid"]
@@ -83,7 +83,7 @@ class Theory:
     height: float = given.HEIGHT
     longer: Mapping[str, float] = field(default_factory=dict)
 
-    def model(self, pairs: tuple[str, ...] = tuple(given.PAIRS)) -> Model:
+    def model(self, pairs: tuple[str, ...] = tuple(given.PAIRS)) -> FitProblem:
         """Return what `stackbounce.fitting.compare` takes: drops, what varies, what follows."""
         vary: dict[str, Any] = {name: _BOUNDS[name] for name in self.vary}
         vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in pairs}
@@ -184,7 +184,7 @@ class Theory:
         return ties
 
 
-def rigid(*names: str) -> Model:
+def rigid(*names: str) -> FitProblem:
     """Return separate collisions: with one restitution, ``e``, or ``e_floor`` and ``e_between``."""
     drops = {
         key: Drop(given.balls(key), [Rigid(0.9), Rigid(0.9)], gaps=[_GAP], height=given.HEIGHT)
