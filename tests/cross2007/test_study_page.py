@@ -2,6 +2,7 @@
 
 import json
 import struct
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import numpy as np
@@ -12,8 +13,7 @@ from stackbounce.cross2007 import paper
 from stackbounce.cross2007.study import basketball, comparison, readings, results, sensitivity
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
 from stackbounce.fitting import Fit
-from stackbounce.fitting.question import read_problem
-from stackbounce.fitting.search import Minimum
+from stackbounce.fitting.least_squares import Minimum
 
 pytestmark = pytest.mark.slow
 
@@ -22,12 +22,12 @@ FIGURES = ["comparison", "misfits", "delays", "energy", "decisive"]
 
 def looked_at(model, data, *_, **__):
     """Stands for a fit: one trial in the middle, gaps of 5 mm."""
-    problem = read_problem(model.drop, data, model.vary, model.tie, 1e-5)
+    objective = replace(model, data=data, rtol=1e-5).objective
     x = np.array(
-        [5e-3 if one.name.endswith("gaps.0") else sum(one.span) / 2 for one in problem.parameters]
+        [5e-3 if one.name.endswith("gaps.0") else sum(one.span) / 2 for one in objective.parameters]
     )
-    x = np.clip(x, problem.spans[:, 0], problem.spans[:, 1])
-    return Fit(problem, [Minimum(x, float(problem.chi_squared(x[None])[0]), True)])
+    x = np.clip(x, objective.spans[:, 0], objective.spans[:, 1])
+    return Fit(objective, [Minimum(x, float(objective.chi_squared(x[None])[0]), True)])
 
 
 @pytest.fixture(scope="module")

@@ -87,7 +87,7 @@ def test_a_prior_is_all_that_is_known_beforehand(bounds):
     }
     fit = sb.fit(BALL, {"rebound_ratios.0": (0.6, 0.05)}, vary)
     found = fit.sample(DRAWS, seed=2)
-    assert fit.problem.parameters[0].logarithmic == (bounds[0] == 0.02)
+    assert fit.objective.parameters[0].logarithmic == (bounds[0] == 0.02)
     assert found["balls.0.mass"].nominal_value == pytest.approx(0.5, abs=0.006)
     assert found["balls.0.mass"].std_dev == pytest.approx(0.1, rel=0.04)
 

@@ -10,7 +10,7 @@ import typer
 from stackbounce.cli import (
     balls,
     explorer,
-    fit_command,
+    fit,
     highest,
     masses,
     measure,
@@ -48,7 +48,7 @@ def stackbounce(
 app.command("simulate", epilog=simulate.EPILOG)(simulate.run)
 app.command("sweep", epilog=sweep.EPILOG)(sweep.run)
 app.command("measure", epilog=measure.EPILOG)(measure.run)
-app.command("fit", epilog=fit_command.EPILOG)(fit_command.fit)
+app.command("fit", epilog=fit.EPILOG)(fit.run)
 app.command("transition", epilog=transition.EPILOG)(transition.run)
 app.command("highest", epilog=highest.EPILOG)(highest.run)
 app.command("masses", epilog=masses.EPILOG)(masses.run)

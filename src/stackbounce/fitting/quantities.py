@@ -1,4 +1,4 @@
-"""What can be measured of a drop, and what the engine says of it for many drops at once."""
+"""What can be measured of a drop, and how it follows from the engine's results."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
@@ -10,16 +10,25 @@ from stackbounce.engine.batch import Outcomes
 from stackbounce.errors import InvalidValue, nearest
 from stackbounce.model import STANDARD_GRAVITY, Drop
 
-__all__ = ["QUANTITIES", "Quantity", "place"]
+__all__ = ["QUANTITIES", "Quantity", "find_quantity"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 
 class Quantity(NamedTuple):
-    """A quantity: what it belongs to, its SI unit, its meaning, and how it follows.
+    """A quantity that can be measured.
 
-    `part` is ``ball``, ``contact`` or empty for the whole stack; `predict` takes the outcomes of
-    many drops, their impact speeds in m/s and their gravity, and returns (rows, part) numbers.
+    Parameters
+    ----------
+    part : str
+        What has the quantity: ``ball``, ``contact``, or empty for the whole stack.
+    unit : str
+        The SI unit.
+    meaning : str
+        What it is, in words.
+    predict : callable
+        Takes the outcomes of many drops, their impact speeds (drops,) in m/s and gravity (drops,)
+        in m/s**2; returns the quantity (drops, part).
     """
 
     part: str
@@ -67,20 +76,20 @@ QUANTITIES: dict[str, Quantity] = {
         "contact", "", "contact intervals: compared, not fitted", lambda out, _, __: out.collisions
     ),
 }
-"""By name, as in `Result`; one of a ball or contact is ``rebound_ratios.1``."""
+"""By name, as in `Result`; that of one ball or contact is ``rebound_ratios.1``."""
 
 
-def place(drop: Drop, name: str, path: str) -> tuple[str, int]:
+def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:
     """Return the quantity and the index of a name such as ``rebound_ratios.1``.
 
     Parameters
     ----------
     drop : Drop
-        Whose balls and contacts are counted.
+        The drop, for the number of its balls.
     name : str
         A quantity, with the number of its ball or contact unless it belongs to the whole stack.
     path : str
-        What messages call it.
+        The name in messages.
 
     Returns
     -------
@@ -97,13 +106,13 @@ def place(drop: Drop, name: str, path: str) -> tuple[str, int]:
     --------
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
-    >>> place(drop, "rebound_ratios.0", "measured")
+    >>> find_quantity(drop, "rebound_ratios.0", "measured")
     ('rebound_ratios', 0)
     """
     base, dot, index = name.partition(".")
     if base not in QUANTITIES:
         raise InvalidValue(
-            f"{path[:60]} is nothing that is measured; {nearest(base, [*QUANTITIES, 'force.0'])}"
+            f"{path[:60]} is not a measured quantity; {nearest(base, [*QUANTITIES, 'force.0'])}"
         )
     part, last = QUANTITIES[base].part, len(drop.balls) - 1
     if not part:

@@ -6,7 +6,7 @@ from typing import Any
 
 from stackbounce.calibration import calibrate, contact_time
 from stackbounce.errors import InvalidValue
-from stackbounce.fitting.model import Model
+from stackbounce.fitting.problem import FitProblem, Model
 from stackbounce.model import (
     ContactLaw,
     Drop,
@@ -26,7 +26,9 @@ _FLIGHTS = 4.0  # contact times at the impact speed: the widest gap that is look
 _WEAK, _STRONG = 0.05, 0.999  # between which restitutions
 
 
-def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> dict[str, Model]:
+def standard_models(
+    drop: Drop | Mapping[str, Drop], *, times: bool = False
+) -> dict[str, FitProblem]:
     """Return the usual models of a stack, to be compared.
 
     Parameters
@@ -40,7 +42,7 @@ def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> 
 
     Returns
     -------
-    dict of str to Model
+    dict of str to FitProblem
         `Rigid` with one restitution and with one for each contact; `Spring`; `Hysteretic` from a
         linear spring and from Hertz's law; `Hertz` without loss; `Viscoelastic`; `HuntCrossley`.
         Those with finite contacts vary their stiffnesses and gaps, lossy ones one loss that all
@@ -67,20 +69,20 @@ def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> 
             "ones tell no contact time"
         )
 
-    def made(law: Callable[[Drop, int], ContactLaw], *losses: str) -> Model:
+    def made(law: Callable[[Drop, int], ContactLaw], *losses: str) -> FitProblem:
         changed = {
             key: replace(one, contacts=[law(one, i) for i in range(len(one.contacts))])
             for key, one in drops.items()
         }
         vary, tie = _finite(next(iter(changed.values())), times, losses)
-        return Model(_as_given(drop, changed), vary, tie)
+        return Model(changed, vary, tie)
 
     def lossy(kind: Any, **shape: Any) -> Callable[[Drop, int], ContactLaw]:
         return lambda one, i: _alike(one, i, kind, restitution=_LOSSY, **shape)
 
     return {
-        "Rigid, one restitution": _rigid(drop, drops, times, shared=True),
-        "Rigid, one for each contact": _rigid(drop, drops, times, shared=False),
+        "Rigid, one restitution": _rigid(drops, times, shared=True),
+        "Rigid, one for each contact": _rigid(drops, times, shared=False),
         "Spring": made(lambda one, i: _alike(one, i, Spring)),
         "Hertz": made(lambda one, i: _alike(one, i, Hertz)),
         "Hysteretic": made(lossy(Hysteretic), "restitution"),
@@ -90,13 +92,7 @@ def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> 
     }
 
 
-def _as_given(drop: Drop | Mapping[str, Drop], drops: dict[str, Drop]) -> Any:
-    return drops[""] if isinstance(drop, Drop) else drops
-
-
-def _rigid(
-    drop: Drop | Mapping[str, Drop], drops: Mapping[str, Drop], times: bool, *, shared: bool
-) -> Model:
+def _rigid(drops: Mapping[str, Drop], times: bool, *, shared: bool) -> FitProblem:
     changed = {
         key: replace(one, contacts=[Rigid(_LOSSY)] * len(one.contacts))
         for key, one in drops.items()
@@ -107,7 +103,7 @@ def _rigid(
     vary: dict[str, Any] = dict.fromkeys(names, (_WEAK, 1.0))
     if times:  # a gap changes nothing but when the balls meet
         vary |= _gaps(first)
-    return Model(_as_given(drop, changed), vary, tie)
+    return Model(changed, vary, tie)
 
 
 def _gaps(drop: Drop) -> dict[str, Any]:

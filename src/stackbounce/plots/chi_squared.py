@@ -27,9 +27,9 @@ _CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
 def draw_profile(axes: "Axes", fit: Any) -> None:
     """Draw chi squared against the only parameter, with its error and where it has kinks."""
     x = np.linspace(*_extent(fit, 0), _FINE)
-    parameter = fit.problem.parameters[0]
+    parameter = fit.objective.parameters[0]
     values = parameter.value(x)
-    above = fit.problem.chi_squared(x[:, None]) - fit.chi_squared
+    above = fit.objective.chi_squared(x[:, None]) - fit.chi_squared
     _draw_curve(axes, values, above)
     for kink in _kinks(fit, x[:, None]):
         where = kink[1:] != kink[:-1]
@@ -55,8 +55,8 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
     corner.set_axis_off()
     across, up = (np.linspace(*_extent(fit, k), _CELLS) for k in (0, 1))
     trials = np.stack([one.ravel() for one in np.meshgrid(across, up)], axis=1)
-    above = (fit.problem.chi_squared(trials) - fit.chi_squared).reshape(_CELLS, _CELLS)
-    x, y = (one.value(own) for one, own in zip(fit.problem.parameters, (across, up), strict=True))
+    above = (fit.objective.chi_squared(trials) - fit.chi_squared).reshape(_CELLS, _CELLS)
+    x, y = (one.value(own) for one, own in zip(fit.objective.parameters, (across, up), strict=True))
     _draw_bands(axes, x, y, np.maximum(above, 0.0))
     near = above < _BANDS[-1]
     for kink in _kinks(fit, trials[near.ravel()]):
@@ -79,7 +79,7 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
 
 def _extent(fit: Any, k: int) -> tuple[float, float]:
     """Return between which coordinates something is to be seen, inside the bounds."""
-    parameter = fit.problem.parameters[k]
+    parameter = fit.objective.parameters[k]
     low, high = parameter.span
     slope = abs(parameter.slope(float(fit.x[k])))
     reach = _REACH * fit[parameter.name].std_dev / slope
@@ -88,7 +88,7 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
 
 
 def _scale(fit: Any, k: int, values: Array) -> Scale:
-    parameter = fit.problem.parameters[k]
+    parameter = fit.objective.parameters[k]
     log = parameter.logarithmic and values[-1] > 3.0 * values[0]
     return Scale(values, log, [], parameter.unit)
 
@@ -96,8 +96,8 @@ def _scale(fit: Any, k: int, values: Array) -> Scale:
 def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
     """Return for each contact how often it closes in trials, as far as that changes."""
     found = []
-    for key in fit.problem.measured:
-        counts = fit.problem.outcomes(key, trials)[0].collisions
+    for key in fit.objective.measured:
+        counts = fit.objective.outcomes(key, trials)[0].collisions
         found += [one for one in counts.T if np.ptp(one) > 0]
     return found
 
@@ -148,5 +148,5 @@ def _draw_minima(axes: "Axes", fit: Any) -> None:
         zorder=4,
     )
     for one in fit.minima[1:]:
-        place = [p.value(x) for p, x in zip(fit.problem.parameters, one.x, strict=True)]
+        place = [p.value(x) for p, x in zip(fit.objective.parameters, one.x, strict=True)]
         axes.plot(*place, "s", color=_OTHER, markeredgecolor="black", markersize=6, zorder=3)

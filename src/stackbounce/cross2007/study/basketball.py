@@ -15,7 +15,7 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.searches import fit_model
 from stackbounce.cross2007.study.theories import ELASTIC, SHARED
-from stackbounce.fitting import Model
+from stackbounce.fitting import FitProblem, Model
 from stackbounce.model import Ball, Drop, HuntCrossley
 
 __all__ = ["Stack", "fit_stacks"]
@@ -69,7 +69,7 @@ def _data() -> dict[str, Any]:
     }
 
 
-def _model(p: float, where: str) -> Model:
+def _model(p: float, where: str) -> FitProblem:
     speed = PAPER["stack.impact_speed"].value
     tennis = calibrate(
         HuntCrossley,

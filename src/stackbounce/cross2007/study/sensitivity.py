@@ -181,12 +181,11 @@ def _pair(numbers: Any) -> tuple[float, float]:
 
 
 def _ratios(found: Fit, key: str, delay: float) -> Any:
-    """Return e1 and e2 of a pair for a delay in s, with the numbers of a fit."""
-    problem = found.problem
+    """Return e1 and e2 of a pair that meets at a delay in s, by the numbers of a fit."""
     k = found.names.index(f"{key}.gaps.0")
     trials = np.tile(found.x, (241, 1))
     trials[:, k] = np.linspace(0.0, 0.024, len(trials))
-    out, *_ = problem.outcomes(key, trials)
+    out, *_ = found.objective.outcomes(key, trials)
     order = np.argsort(out.first_touch[:, 1])
     touch = out.first_touch[order, 1]
     return np.array([np.interp(delay, touch, out.velocity[order, ball]) for ball in (0, 1)])

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.single_ball import LOSS, Numbers, calibrate_numbers
-from stackbounce.fitting import Model
+from stackbounce.fitting import FitProblem, Model
 from stackbounce.model import Drop, HuntCrossley, Hysteretic, Rigid, Viscoelastic
 
 __all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "make_rigid_model"]
@@ -83,7 +83,7 @@ class Theory:
     height: float = inputs.HEIGHT
     longer: Mapping[str, float] = field(default_factory=dict)
 
-    def model(self, pairs: tuple[str, ...] = tuple(inputs.PAIRS)) -> Model:
+    def model(self, pairs: tuple[str, ...] = tuple(inputs.PAIRS)) -> FitProblem:
         """Return the model for `stackbounce.fitting`: drops, varied numbers and ties."""
         vary: dict[str, Any] = {name: _BOUNDS[name] for name in self.vary}
         vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in pairs}
@@ -184,7 +184,7 @@ class Theory:
         return ties
 
 
-def make_rigid_model(*names: str) -> Model:
+def make_rigid_model(*names: str) -> FitProblem:
     """Return separate collisions: with one restitution, ``e``, or ``e_floor`` and ``e_between``."""
     drops = {
         key: Drop(

@@ -1,7 +1,7 @@
 """The command ``stackbounce fit`` and its options."""
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -11,9 +11,9 @@ from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
-    from stackbounce.fitting import Question
+    from stackbounce.fitting import FitProblem
 
-__all__ = ["EPILOG", "fit"]
+__all__ = ["EPILOG", "run"]
 
 EPILOG = (
     "For example: stackbounce fit basketball tennis --height 63cm --measured "
@@ -25,7 +25,7 @@ What = Annotated[
     list[str],
     typer.Argument(
         metavar="SCENARIO|BALLS",
-        help="A scenario file in TOML, which may also tell what was measured, varied and tied; or "
+        help="A scenario file in TOML, which may also have what was measured, varied and tied; or "
         "balls of the catalogue, the lowest first; or a measurement of the paper, such as "
         "cross2007/B1-B2.",
         show_default=False,
@@ -80,7 +80,7 @@ Interval = Annotated[
 Sample = Annotated[
     int | None,
     typer.Option(
-        metavar="DRAWS", help="Draw so often from the posterior.", rich_help_panel=_SEARCH
+        metavar="DRAWS", help="Draw that often from the posterior.", rich_help_panel=_SEARCH
     ),
 ]
 Compare = Annotated[
@@ -88,20 +88,20 @@ Compare = Annotated[
     typer.Option(
         "--compare",
         help="Fit the usual models (Rigid, Spring, Hertz, Hysteretic, Viscoelastic, HuntCrossley) "
-        "instead and lay them side by side; contacts and gaps of the drop are only where they "
-        "begin.",
+        "instead and lay them side by side; the search starts from the contacts and gaps of the "
+        "drop.",
         rich_help_panel=_SEARCH,
     ),
 ]
 Starts = Annotated[
     int | None,
     typer.Option(
-        metavar="COUNT", help="How many trials are looked at first.", rich_help_panel=_SEARCH
+        metavar="COUNT", help="How many trials are screened first.", rich_help_panel=_SEARCH
     ),
 ]
 Seed = Annotated[
     int,
-    typer.Option(metavar="NUMBER", help="Of trials and draws.", rich_help_panel=_SEARCH),
+    typer.Option(metavar="NUMBER", help="The seed of trials and draws.", rich_help_panel=_SEARCH),
 ]
 Corner = Annotated[
     Path | None,
@@ -120,7 +120,7 @@ Save = Annotated[
 ]
 
 
-def fit(
+def run(
     what: What,
     data: Data = None,
     measured: Measured = None,
@@ -141,26 +141,25 @@ def fit(
     corner: Corner = None,
     as_json: AsJson = False,
 ) -> None:
-    """Find the numbers of a drop that describe what was measured best, with errors."""
+    """Find the numbers of a drop that describe best what was measured, with errors."""
     need("fit", "stackbounce fit")
-    from stackbounce.cli import fitted
+    from stackbounce.cli import fit_results
 
     for option, path in (("--plot", plot), ("--corner", corner)):
         if path is not None:
             check_picture(path, option)
     if corner is not None and sample is None:
-        raise InvalidValue("--corner draws what --sample draws: give both")
-    alone = {
+        raise InvalidValue("--corner draws the posterior of --sample: give both")
+    for option, given in {
         "--vary": vary,
         "--tie": tie,
         "--interval": interval,
         "--sample": sample,
         "--save": save,
-    }
-    for option, given in alone.items():
+    }.items():
         if compare and given:
             raise InvalidValue(f"--compare has models of its own: {option} is for one fit")
-    asked = fitted.question(
+    problem = fit_results.read_problem(
         what,
         data=data,
         measured=measured or [],
@@ -174,20 +173,18 @@ def fit(
         gravity=gravity,
     )
     if compare:
-        _compare(asked, starts, seed, plot, as_json)
+        _compare(problem, starts, seed, plot, as_json)
         return
     if save is not None:
-        fitted.check_save(save, asked)
-    done = fitted.run(asked, starts=starts, seed=seed, interval=interval, sample=sample)
-    if plot is not None:
-        draw(lambda: fitted.picture(done), plot)
-    if corner is not None:
-        draw(lambda: fitted.posterior(done), corner)
-    saved = [] if save is None else fitted.save(done, save)
+        fit_results.check_save(save, problem)
+    done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
+    _draw("fitted", done.fit, plot)
+    _draw("corner", done.posterior, corner)
+    saved = [] if save is None else fit_results.save(done, save)
     if as_json:
-        print_json(fitted.summary(done, saved))
+        print_json(fit_results.as_dict(done, saved))
         return
-    fitted.tell(console(), done)
+    fit_results.print_fit(console(), done)
     if saved:
         typer.echo(f"Fitted: {save}; now: stackbounce simulate {saved[0]}")
     for picture in (plot, corner):
@@ -196,16 +193,23 @@ def fit(
 
 
 def _compare(
-    asked: "Question", starts: int | None, seed: int, plot: Path | None, as_json: bool
+    problem: "FitProblem", starts: int | None, seed: int, plot: Path | None, as_json: bool
 ) -> None:
-    from stackbounce.cli import compared
+    from stackbounce.cli import fit_results
 
-    done = compared.run(asked, starts=starts, seed=seed)
-    if plot is not None:
-        draw(lambda: compared.picture(done), plot)
+    done = fit_results.compare_models(problem, starts=starts, seed=seed)
+    _draw("compared", done, plot)
     if as_json:
-        print_json(compared.summary(done))
+        print_json(fit_results.comparison_as_dict(done))
         return
-    compared.tell(console(), done)
+    fit_results.print_comparison(console(), done)
     if plot is not None:
         typer.echo(f"Picture: {plot}")
+
+
+def _draw(name: str, of: Any, path: Path | None) -> None:
+    """Draw a picture of `stackbounce.plots` into a file, if one is asked for."""
+    from stackbounce import plots
+
+    if path is not None:
+        draw(lambda: getattr(plots, name)(of), path)

@@ -1,4 +1,4 @@
-"""What was measured of one drop: numbers with errors, by name."""
+"""What was measured of one drop: numbers with errors, counts and force records."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown, whole
-from stackbounce.fitting.quantities import QUANTITIES, place
-from stackbounce.fitting.waveforms import Waveform, as_waveform
+from stackbounce.fitting.quantities import QUANTITIES, find_quantity
+from stackbounce.fitting.waveforms import Waveform, read_waveform
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.units import quantity
@@ -26,11 +26,11 @@ class Datum:
     name : str
         Such as ``rebound_ratios.1``.
     quantity : str
-        What it is, of `stackbounce.fitting.quantities.QUANTITIES`.
+        A key of `stackbounce.fitting.quantities.QUANTITIES`.
     index : int
-        Of which ball or contact.
+        The number of its ball or contact.
     value, error : float
-        In SI units; one standard deviation, above 0.
+        In SI units; the error is one standard deviation, above 0.
 
     Examples
     --------
@@ -52,7 +52,7 @@ class Datum:
 
 @dataclass(frozen=True)
 class Count:
-    """How many contact intervals were seen: compared with a fit, not fitted.
+    """The number of contact intervals that were seen: compared with the fit, not fitted.
 
     Examples
     --------
@@ -81,21 +81,19 @@ class Measured:
 
 
 def read_measured(drop: Drop, given: object, path: str = "") -> Measured:
-    """Return what was measured of a drop, checked.
+    """Check what was measured of a drop and return it.
 
     Parameters
     ----------
     drop : Drop
         What was dropped.
     given : mapping
-        By name: ``rebound_ratios``, ``rebound_speeds`` (m/s), ``rebound_heights`` (m) of the balls;
-        ``first_touch``, ``last_release``, ``durations`` (s) of the contacts; ``energy_retained``;
-        ``collisions``; ``force`` of a contact, a waveform. A name may be that of one ball or
-        contact, ``rebound_ratios.1``, with one number, or of all, with a list, None where nothing
-        was measured. A number is a text with its error, ``"1.64 ± 0.02"``, a pair of the two, or a
-        UFloat.
+        By name: the quantities of `QUANTITIES`, and ``force``. A name stands for one ball or
+        contact, ``rebound_ratios.1``, with one number; or for all, with a list that has None where
+        nothing was measured. A number is a text with its error, ``"1.64 ± 0.02"``, a pair of the
+        two, or a UFloat. A force record is given as for `read_waveform`.
     path : str, optional
-        What messages put in front of a name.
+        A prefix of the names in messages.
 
     Returns
     -------
@@ -126,9 +124,9 @@ def read_measured(drop: Drop, given: object, path: str = "") -> Measured:
     for name, value in _one_by_one(drop, given, path):
         shown_as = path + name
         if name.startswith("force."):
-            waveforms.append(as_waveform(drop, name, value, shown_as))
+            waveforms.append(read_waveform(drop, name, value, shown_as))
             continue
-        base, index = place(drop, name, shown_as)
+        base, index = find_quantity(drop, name, shown_as)
         if base == "collisions":
             counts.append(Count(name, index, whole(shown_as, value)))
         else:
