@@ -8,6 +8,7 @@ import typer
 from stackbounce.cli.options import AsJson, Contact, Gap, Gravity, Height, Plot, Speed
 from stackbounce.cli.output import check_picture, console, draw
 from stackbounce.errors import InvalidValue
+from stackbounce.model.laws import usual_laws
 
 if TYPE_CHECKING:
     from stackbounce.fitting import Question
@@ -86,9 +87,8 @@ Compare = Annotated[
     bool,
     typer.Option(
         "--compare",
-        help="Fit the usual models (Rigid, Spring, Hertz, Hysteretic, Viscoelastic, HuntCrossley) "
-        "instead and lay them side by side; contacts and gaps of the drop are only where they "
-        "begin.",
+        help=f"Fit the usual models ({', '.join(usual_laws())}) instead and lay them side by side; "
+        "contacts and gaps of the drop are only where they begin.",
         rich_help_panel=_SEARCH,
     ),
 ]

@@ -8,6 +8,7 @@ import typer
 from stackbounce.cli.options import AsJson, Height, Plot, Speed
 from stackbounce.cli.output import check_picture, console, draw
 from stackbounce.errors import InvalidValue
+from stackbounce.model.laws import LAWS
 
 __all__ = ["EPILOG", "measure"]
 
@@ -62,9 +63,9 @@ Law = Annotated[
     str | None,
     typer.Option(
         metavar="LAW",
-        help="Give the constants of this contact law, and save it: spring, hertz, dashpot, "
-        "viscoelastic, hunt-crossley, hysteretic, rigid, or 'power-law exponent=1.3'. A force "
-        "waveform's touches and releases are then those of this law, with smaller errors.",
+        help=f"Give the constants of this contact law, and save it: {', '.join(LAWS)}; as in "
+        "'PowerLaw exponent=1.3'. A force waveform's touches and releases are then those of this "
+        "law, with smaller errors.",
         rich_help_panel=_BALL,
     ),
 ]

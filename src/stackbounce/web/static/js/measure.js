@@ -65,7 +65,7 @@ export function mount(root, store, api) {
       drop.querySelector("button")?.focus();
     },
   });
-  const form = measureForm(ask);
+  const form = measureForm(ask, api.catalogue());
   const drop = fileDrop(root, (given, known) => {
     file = given;
     if (known) store.set({ drop: known, until: null });

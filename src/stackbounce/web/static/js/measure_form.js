@@ -4,7 +4,6 @@ import { h } from "./dom.js";
 import { choice } from "./fields.js";
 
 const KINDS = ["sound", "knocks", "bounces", "track", "waveform", "acceleration", "press curve", "table"];
-const LAWS = ["Spring", "Hertz", "Dashpot", "Viscoelastic", "HuntCrossley", "Hysteretic", "Rigid"];
 
 /** The options that are typed: name, what it is called, an example, what it does. */
 const FIRST = [
@@ -26,8 +25,8 @@ const MORE = [
   ["run", "Run", "2", "Which of several in the file."],
 ];
 
-/** Return `{element, options()}`; `changed` is called after each change. */
-export function measureForm(changed) {
+/** Return `{element, options()}`; `changed` is called after each change, `catalogue` is the server's to come. */
+export function measureForm(changed, catalogue) {
   const values = {};
   const set = (name) => (value) => {
     values[name] = value;
@@ -48,12 +47,14 @@ export function measureForm(changed) {
   const chosen = (name, label, entries) =>
     choice({ label, groups: [["", entries]], value: "", set: set(name), key: `option-${name}` });
   const plain = (list) => list.map((entry) => [entry, entry]);
+  const law = chosen("law", "Contact law", [["", "none in particular"]]);
+  catalogue.then(({ laws }) => law.querySelector("select").append(...laws.map((one) => h("option", { value: one.law, text: one.law }))));
   const element = h(
     "form",
     { class: "measure-options", "aria-label": "What the file does not say", autocomplete: "off" },
     chosen("holds", "It holds", [["", "as recognised"], ...plain(KINDS)]),
     FIRST.map(typed),
-    chosen("law", "Contact law", [["", "none in particular"], ...plain(LAWS)]),
+    law,
     chosen("measured_to", "Heights are those of the ball’s", [["", "lowest point"], ...plain(["centre", "top"])]),
     h("details", {}, h("summary", { text: "More" }), h("div", { class: "measure-options" }, MORE.map(typed))),
   );
