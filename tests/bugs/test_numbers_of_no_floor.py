@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from stackbounce.engine import prepare
+from stackbounce.engine import codes, prepare
 from stackbounce.engine.stack import new_stack
 
 
@@ -11,7 +11,7 @@ def test_numbers_of_no_floor_do_not_matter():
     for numbers in ((1.0, 1.0, 0.0), (7e3, 1.5, 3.0)):
         stack = new_stack(2)
         k, p, extra = ([number, 1.0] for number in numbers)
-        kind = [prepare.NO_CONTACT, prepare.POWER_LAW]
+        kind = [codes.ABSENT, codes.POWER]
         start = [0.0, 0.0], [-1.0, -2.0], 0.0, 1e-12
         prepare.prepare(stack, [0.1, 0.2], kind, k, p, extra, *start)
         stacks.append(stack)

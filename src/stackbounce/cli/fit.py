@@ -9,6 +9,7 @@ from stackbounce.cli.options import AsJson, Contact, Gap, Gravity, Height, Plot,
 from stackbounce.cli.output import check_picture, console, draw, print_json
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
+from stackbounce.model.laws import usual_laws
 
 if TYPE_CHECKING:
     from stackbounce.fitting import FitProblem
@@ -87,9 +88,8 @@ Compare = Annotated[
     bool,
     typer.Option(
         "--compare",
-        help="Fit the usual models (Rigid, Spring, Hertz, Hysteretic, Viscoelastic, HuntCrossley) "
-        "instead and lay them side by side; the search starts from the contacts and gaps of the "
-        "drop.",
+        help=f"Fit the usual models ({', '.join(usual_laws())}) instead and lay them side by side; "
+        "the search starts from the contacts and gaps of the drop.",
         rich_help_panel=_SEARCH,
     ),
 ]

@@ -10,12 +10,17 @@ EVENT_LIMIT = 5
 INVALID = 6
 ASK = 7  # a fast form of the engine is not sure of a drop: ask the general one
 
-# laws of a contact
+# forms of the force of a contact
 ABSENT = 0  # no floor
 POWER = 1  # F = k c^p, loading and unloading alike
 HYSTERETIC = 2  # F = k c^p loading, k C^p (c/C)^n unloading from the peak C
 LOSSY = 3  # the same, and every reloading loses the share of its work that the first loading lost
 DAMPED = 4  # F = max(0, K c^q (a + b c + d c'))
+# further forms that a contact is told by; `prepare` makes them DAMPED, with these numbers
+DASHPOT = 5  # K = k, q = 0, a = 0, b = 1, d = damping/k
+VISCOELASTIC = 6  # K = k, q = 1/2, a = 0, b = 1, d = 3/2 dissipative time
+HUNT_CROSSLEY = 7  # K = k, q = p, a = 1, b = 0, d = dissipation
+RIGID = 8  # an instantaneous collision
 
 # phases of a contact; from COMPRESSING on it presses and joins its balls to a cluster
 OPEN = 0

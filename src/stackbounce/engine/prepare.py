@@ -1,7 +1,7 @@
 """From a drop's own numbers to a stack at t = 0: what each law's numbers mean to the engine.
 
-A contact is told by four numbers: the kind of its law, k, p, and one more, `extra`: b of a Dashpot,
-A of a Viscoelastic, χ of a HuntCrossley, n of a Hysteretic, e of a Rigid contact.
+A contact is given by four numbers: the form of its force (`codes`), k, p, and one more, `extra`:
+damping b, dissipative time A, dissipation χ, unloading exponent n or restitution e.
 """
 
 import math
@@ -10,9 +10,6 @@ from stackbounce.engine import codes
 from stackbounce.engine.kernel import Floats, Integers, kernel
 from stackbounce.engine.series import ORDER
 from stackbounce.engine.stack import RigidStack, Stack
-
-# kinds of law
-NO_CONTACT, POWER_LAW, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, HYSTERETIC, LOSSY, RIGID = range(8)
 
 _STEP = 0.02  # of the tolerance asked for: what one step of a nonlinear cluster may leave out
 _ROUND_OFF = 1e-16
@@ -75,7 +72,7 @@ def prepare(
 @kernel
 def _take_law(stack: Stack, i: int, kind: int, k: float, p: float, extra: float) -> None:
     """Put the numbers of contact i's law in place; a law that loses nothing is a power law."""
-    if kind == NO_CONTACT:
+    if kind == codes.ABSENT:
         stack.law[i] = codes.ABSENT
         stack.stiffness[i] = stack.exponent[i] = stack.unloading[i] = 1.0  # whatever it was given
         return
@@ -83,15 +80,15 @@ def _take_law(stack: Stack, i: int, kind: int, k: float, p: float, extra: float)
     stack.stiffness[i] = k
     stack.exponent[i] = p
     stack.unloading[i] = p
-    if kind in (HYSTERETIC, LOSSY):
-        stack.law[i] = codes.LOSSY if kind == LOSSY else codes.HYSTERETIC
+    if kind in (codes.HYSTERETIC, codes.LOSSY):
+        stack.law[i] = kind
         stack.unloading[i] = extra
-    elif kind != POWER_LAW and extra > 0.0:
+    elif kind != codes.POWER and extra > 0.0:
         stack.law[i] = codes.DAMPED
-        if kind == DASHPOT:  # k (c + b/k c')
+        if kind == codes.DASHPOT:  # k (c + b/k c')
             stack.gain_slope[i] = 1.0
             stack.gain_rate[i] = extra / k
-        elif kind == VISCOELASTIC:  # k c^1/2 (c + 3/2 A c')
+        elif kind == codes.VISCOELASTIC:  # k c^1/2 (c + 3/2 A c')
             stack.factor_exponent[i] = 0.5
             stack.gain_slope[i] = 1.0
             stack.gain_rate[i] = 1.5 * extra
@@ -133,7 +130,7 @@ def prepare_rigid(
     power = math.frexp(speed)[1]
     unit = 2.0 ** max(-_LARGEST_EXPONENT, min(power, _LARGEST_EXPONENT))
     for i in range(len(stack.mass)):
-        absent = kind[i] == NO_CONTACT
+        absent = kind[i] == codes.ABSENT
         stack.mass[i] = mass[i]
         stack.law[i] = codes.ABSENT if absent else codes.POWER
         stack.restitution[i] = 0.0 if absent else restitution[i]

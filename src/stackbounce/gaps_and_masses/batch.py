@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.model import Drop, Hysteretic
+from stackbounce.model import ContactLaw, Drop
+from stackbounce.model.laws import contact_numbers
 from stackbounce.run.paths import numbers_of
 from stackbounce.sweeps import sweep
 
@@ -67,7 +68,7 @@ def join_sweeps(parts: "Sequence[xr.Dataset]", dim: str) -> "xr.Dataset":
 
 def _kind(drop: Drop) -> tuple[Any, ...]:
     """Return the contact laws of a drop; one sweep can solve only drops with the same laws."""
-    return tuple((type(law), getattr(law, "reloading", None)) for law in drop.contacts)
+    return tuple((type(law), contact_numbers(law)[0]) for law in drop.contacts)
 
 
 def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
@@ -81,7 +82,7 @@ def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
             continue
         parts = [getattr(drop, number.part)[number.index] for drop in drops]
         first = parts[0]
-        if isinstance(first, Hysteretic) and number.field == first.derived:
+        if isinstance(first, ContactLaw) and number.field == first.derived_field():
             continue
         if getattr(first, number.field) is None:
             continue  # a ball's size or material, which does not affect a run

@@ -26,11 +26,7 @@ from stackbounce.model import (
     Ball,
     ContactLaw,
     Drop,
-    Hertz,
     Hysteretic,
-    PowerLaw,
-    Rigid,
-    Spring,
 )
 from stackbounce.model.catalogue import BALLS, catalogue_ball
 from stackbounce.version import __version__
@@ -43,7 +39,6 @@ __all__ = ["Candidate", "build_stack", "highest", "list_candidates"]
 _GAPS = (0.0, 0.001, 0.005)
 _HEIGHT = 1.0  # m
 _MOST = 100_000  # drops
-_LOSSLESS = (Spring, Hertz, PowerLaw)
 
 
 @dataclass(frozen=True)
@@ -52,6 +47,7 @@ class Candidate:
 
     Examples
     --------
+    >>> from stackbounce.model import Spring
     >>> Candidate("B1", Ball(0.101), Spring(54000.0)).contact
     Spring(stiffness=54000.0)
     """
@@ -145,14 +141,15 @@ def list_candidates(
 
     Examples
     --------
+    >>> from stackbounce.model import Spring
     >>> [one.name for one in list_candidates(["b1", "b3"], Spring, 1.0)]
     ['B1', 'B3']
     """
     positive("impact_speed", impact_speed, "m/s")
-    if law is Rigid:
+    if law.rigid:
         raise InvalidValue(
-            "law must be one with a stiffness, such as Spring, got Rigid: what two rigid balls "
-            "lose in a collision does not follow from their bounces on a floor"
+            f"law must be one with a stiffness, such as Spring, got {law.__name__}: what two rigid "
+            "balls lose in a collision does not follow from their bounces on a floor"
         )
     if balls is None:
         balls = [str(entry.ball.name) for entry in BALLS]
@@ -164,7 +161,7 @@ def list_candidates(
 def _candidate(one: object, i: int, law: type[ContactLaw], impact_speed: float) -> Candidate:
     if isinstance(one, Drop):
         contact = one.contacts[0]
-        if len(one.balls) != 1 or contact is None or isinstance(contact, Rigid):
+        if len(one.balls) != 1 or contact is None or contact.rigid:
             raise InvalidValue(
                 f"balls.{i} must be a drop of one ball on a floor of finite stiffness, got "
                 f"{len(one.balls)} on {shown(contact)}"
@@ -179,7 +176,7 @@ def _candidate(one: object, i: int, law: type[ContactLaw], impact_speed: float) 
         "contact_time": entry.contact_time or math.pi * math.sqrt(mass / entry.stiffness),
         "impact_speed": impact_speed,
     }
-    if law not in _LOSSLESS:
+    if law.loss:
         measured["restitution"] = entry.restitution
     return Candidate(str(entry.ball.name), entry.ball, calibrate(law, **measured))
 
@@ -194,6 +191,7 @@ def build_stack(stack: Sequence[Candidate], impact_speed: float) -> Drop:
 
     Examples
     --------
+    >>> from stackbounce.model import Spring
     >>> build_stack(list_candidates(["B1", "B2"], Spring, 1.0), 1.0).balls[1].name
     'B2'
     """

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
-from stackbounce.model import ContactLaw, Dashpot, Drop, Viscoelastic
+from stackbounce.model import Drop
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Status
 
@@ -110,7 +110,7 @@ def _alike(one: NDArray[Any], other: NDArray[Any]) -> bool:
 
 def _latest_end(drop: Drop, narrow: NDArray[Any], wide: NDArray[Any], gap: float) -> float:
     """Return the largest gap at which an event begins when another at the same ball ends."""
-    linger = np.array([_linger(law) for law in drop.contacts])
+    linger = np.array([0.0 if law is None else law.linger for law in drop.contacts])
     contact, start = narrow["contact"], narrow["start"]
     end = narrow["end"] + linger[contact]
     pace = (wide["start"] - start) / gap
@@ -122,17 +122,3 @@ def _latest_end(drop: Drop, narrow: NDArray[Any], wide: NDArray[Any], gap: float
     first, second = np.nonzero(later)
     meets = gap + (end[first] - start[second]) / faster[first, second]
     return max(0.0, float(meets.max()))
-
-
-def _linger(law: ContactLaw | None) -> float:
-    """Return for how many s two balls that fly apart are still compressed without a force.
-
-    The force ends at ``c = -b ċ/k`` and ``c = -1.5 A ċ``, with a constant ċ from then on.
-    """
-    match law:
-        case Dashpot():
-            return law.damping / law.stiffness
-        case Viscoelastic():
-            return 1.5 * law.dissipative_time
-        case _:
-            return 0.0

@@ -4,7 +4,6 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from stackbounce.calibration.inverse import needed_by
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.constants import LawConstants, law_constants
 from stackbounce.model import Drop
@@ -12,7 +11,6 @@ from stackbounce.model.laws import ContactLaw, law_named
 
 __all__ = ["one_ball", "one_law"]
 
-_EXPONENTS = {"Spring": 1.0, "Hertz": 1.5, "PowerLaw": 1.0, "Hysteretic": 1.0}  # where not told
 _HEIGHT = 1.0  # m: from where a ball falls whose drop height is not known
 _SOURCES = {
     "contact_time": "a force waveform",
@@ -106,7 +104,8 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
         told = one.told().items()
         known |= {name: _usable(value) for name, value in told if value is not None}
     known |= {name: value for name, value in given.items() if value is not None}
-    needed = needed_by(kind, getattr(known.get("exponent"), "nominal_value", known.get("exponent")))
+    exponent = known.get("exponent")
+    needed = kind.calibration_needs(getattr(exponent, "nominal_value", exponent))
     missing = [name for name in needed if name not in known]
     if missing:
         words = [
@@ -132,14 +131,14 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         )
     if len(contacts) == 1:
         return dict(contacts[0])
-    rigid = [one for one in contacts if one["law"] == "Rigid"]
-    sprung = [one for one in contacts if one["law"] in _EXPONENTS]
+    rigid = [one for one in contacts if law_named(one["law"]).rigid]
+    sprung = [one for one in contacts if law_named(one["law"]).rate_free]
     if len(contacts) == 2 and len(rigid) == len(sprung) == 1:
         law = sprung[0]
         return {
             "law": "Hysteretic",
             "stiffness": law["stiffness"],
-            "exponent": law.get("exponent", _EXPONENTS[law["law"]]),
+            "exponent": law.get("exponent", law_named(law["law"]).default_exponent() or 1.0),
             "restitution": rigid[0]["restitution"],
         }
     names = ", ".join(one["law"] for one in contacts)

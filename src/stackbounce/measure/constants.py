@@ -2,14 +2,13 @@
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.calibration import calibrate
 from stackbounce.errors import InvalidValue, between, fraction, positive, shown
 from stackbounce.measure.quantities import Row, measured
-from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, law_named
-from stackbounce.units import Unit
+from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -79,7 +78,7 @@ class LawConstants:
 
     def rows(self) -> list[Row]:
         """Return the constants as rows of a table."""
-        units = _units(self.law)
+        units = self.law.units()
         head = Row("law", type(self.law).__name__)
         return [head, *(Row(n.replace("_", " "), v, units[n]) for n, v in self.constants.items())]
 
@@ -94,12 +93,7 @@ class LawConstants:
 
     def parts(self) -> dict[str, object]:
         """Return the contact with its nominal values, as a drop's TOML has it."""
-        skipped = ("derived", getattr(self.law, "derived", ""))
-        names = [field.name for field in fields(self.law) if field.name not in skipped]
-        contact = {name: getattr(self.law, name) for name in names}
-        if contact.get("reloading") == "free":
-            del contact["reloading"]
-        return {"contact": {"law": type(self.law).__name__, **contact}}
+        return {"contact": self.law.to_mapping()}
 
 
 def law_constants(
@@ -171,7 +165,7 @@ def law_constants(
             sources[name] = measured(name, value, _UNITS.get(name, ""), _checks(kind, name))
     at = {name: value.nominal_value for name, value in sources.items()}
     found: Any = calibrate(kind, **at)
-    names = _numbers(found)
+    names = list(found.quantities())  # both of a pair that follow from each other
     constants: dict[str, Any] = {name: getattr(found, name) for name in names}
     for name, source in sources.items():
         if source.std_dev > 0.0:
@@ -200,30 +194,11 @@ def _any(name: str, value: object, of: str) -> float:  # noqa: ARG001
 def _checks(kind: object, name: str) -> Callable[[str, object, str], float]:
     """Return what a number must pass before `calibrate` looks at it."""
     if name == "restitution":
-        zero = getattr(kind, "__name__", "") == "Rigid"
+        zero = getattr(kind, "rigid", False)
         return lambda name, value, _: fraction(name, value, zero=zero)
     if name == "exponent":
         return lambda name, value, _: between(name, value, 1.0, STEEPEST)
     return positive
-
-
-def _numbers(law: Any) -> list[str]:
-    """Return the names of a law's numbers, one of each pair that follow from each other too."""
-    return [field.name for field in fields(law) if isinstance(getattr(law, field.name), float)]
-
-
-def _units(law: ContactLaw) -> dict[str, str]:
-    """Return the unit of each constant, ``exponent`` in it as its number."""
-    exponent = f"{getattr(law, 'exponent', 1.0):g}"
-    found = {}
-    for cls in LAWS.values():
-        if type(law) is cls:
-            for name, hint in cls.__annotations__.items():
-                for note in getattr(hint, "__metadata__", ()):
-                    if isinstance(note, Unit):
-                        symbol = note.symbol.replace("**exponent", f"**{exponent}")
-                        found[name] = symbol.removesuffix("**1")
-    return found
 
 
 def _slopes(
@@ -233,7 +208,7 @@ def _slopes(
     low, high = (at[name] * (1.0 + sign * _STEP) for sign in (-1.0, 1.0))
     if name == "restitution":
         high = min(high, 1.0)
-        if high <= low:  # restitution 0, of Rigid
+        if high <= low:  # restitution 0
             high = low + _STEP
     if name == "exponent":
         low = max(low, 1.0)

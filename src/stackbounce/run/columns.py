@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from stackbounce.engine.batch import Drops
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.model import STANDARD_GRAVITY, Drop, Hysteretic
-from stackbounce.run.driver import contact_numbers
+from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.model.laws import contact_numbers
 from stackbounce.run.paths import Number, drop_at
 
 __all__ = ["Rows", "base_rows", "check", "fill"]
@@ -42,11 +42,7 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
     rows : mapping
         The numbers that vary: they broadcast to (...,).
     """
-    places: dict[str, Any] = {
-        "mass": drops.mass,
-        "stiffness": drops.stiffness,
-        "exponent": drops.exponent,
-    }
+    laws: dict[int, dict[str, Any]] = {}
     for number, values in rows.items():
         if number.part == "gaps":
             drops.gap[..., number.index + 1] = values
@@ -56,33 +52,18 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
             drops.gravity[...] = values
         elif number.field == "impact_speed":
             drops.velocity[...] = -values[..., None]
-        elif number.field in places:
-            places[number.field][..., number.index] = values
-        elif number.part == "contacts" and number.field != "restitution":
-            drops.extra[..., number.index] = values
-    _set_restitutions(drop, rows, drops.exponent, drops.extra)
+        elif number.field == "mass":
+            drops.mass[..., number.index] = values
+        elif number.part == "contacts":
+            laws.setdefault(number.index, {})[number.field] = values
+    for i, varied in laws.items():
+        _, stiffness, exponent, extra = contact_numbers(drop.contacts[i], varied)
+        drops.stiffness[..., i], drops.exponent[..., i] = stiffness, exponent
+        drops.extra[..., i] = extra
     if drop.height is not None:
         height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
         pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)
         drops.velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
-
-
-def _set_restitutions(
-    drop: Drop, rows: Rows, exponent: NDArray[np.float64], extra: NDArray[np.float64]
-) -> None:
-    """Fill in n of each Hysteretic contact that is known by its e: e^2 = (p + 1)/(n + 1)."""
-    for i, law in enumerate(drop.contacts):
-        own = {
-            n.field: values for n, values in rows.items() if (n.part, n.index) == ("contacts", i)
-        }
-        if not isinstance(law, Hysteretic):
-            if "restitution" in own:
-                extra[..., i] = own["restitution"]
-            continue
-        known_by_e = law.derived == "unloading_exponent" and "unloading_exponent" not in own
-        if "restitution" in own or (known_by_e and "exponent" in own):
-            e, p = own.get("restitution", law.restitution), exponent[..., i]
-            extra[..., i] = np.maximum(p, (p + 1.0) / e / e - 1.0)
 
 
 def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> None:

@@ -19,18 +19,8 @@ from stackbounce.engine.stack import (
     new_stack,
 )
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown, whole
-from stackbounce.model import (
-    ContactLaw,
-    Dashpot,
-    Drop,
-    Hertz,
-    HuntCrossley,
-    Hysteretic,
-    PowerLaw,
-    Rigid,
-    Spring,
-    Viscoelastic,
-)
+from stackbounce.model import Drop
+from stackbounce.model.laws import contact_numbers
 from stackbounce.run.result import Result, Status
 
 if TYPE_CHECKING:
@@ -231,30 +221,6 @@ def forces_at(
 
 def _as_it_is(kernel: _Kernel) -> _Kernel:
     return kernel
-
-
-def contact_numbers(law: ContactLaw | None) -> tuple[int, float, float, float]:
-    """Return kind, stiffness, exponent and the last number of a law; see `engine.prepare`."""
-    match law:
-        case Spring(k):
-            return prepare.POWER_LAW, k, 1.0, 0.0
-        case Hertz(k):
-            return prepare.POWER_LAW, k, 1.5, 0.0
-        case PowerLaw(k, p):
-            return prepare.POWER_LAW, k, p, 0.0
-        case Dashpot(k, damping):
-            return prepare.DASHPOT, k, 1.0, damping
-        case Viscoelastic(k, time):
-            return prepare.VISCOELASTIC, k, 1.5, time
-        case HuntCrossley(k, p, dissipation):
-            return prepare.HUNT_CROSSLEY, k, p, dissipation
-        case Hysteretic():
-            kind = prepare.LOSSY if law.reloading == "lossy" else prepare.HYSTERETIC
-            return kind, law.stiffness, law.exponent, law.unloading_exponent
-        case Rigid(restitution):
-            return prepare.RIGID, 1.0, 1.0, restitution
-        case _:
-            return prepare.NO_CONTACT, 1.0, 1.0, 0.0
 
 
 def _prepared(drop: Drop, rtol: float) -> tuple[Any, float]:

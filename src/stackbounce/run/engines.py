@@ -10,9 +10,8 @@ import numpy as np
 
 from stackbounce.engine import codes
 from stackbounce.engine.batch import Drops, Outcomes, run_many, run_many_rigid
-from stackbounce.engine.codes import LOG_COLUMNS
+from stackbounce.engine.codes import LOG_COLUMNS, POWER
 from stackbounce.engine.kernel import compiled
-from stackbounce.engine.prepare import POWER_LAW
 from stackbounce.engine.stack import (
     as_arrays,
     in_one_room,
@@ -22,7 +21,8 @@ from stackbounce.engine.stack import (
 )
 from stackbounce.engine.two_springs import SCRATCH, scratch, two_springs
 from stackbounce.model import Drop
-from stackbounce.run.driver import Options, contact_numbers
+from stackbounce.model.laws import contact_numbers
+from stackbounce.run.driver import Options
 from stackbounce.run.paths import Number
 
 __all__ = ["Engine", "engine_for", "ready"]
@@ -45,7 +45,7 @@ def engine_for(drop: Drop, numbers: Iterable[Number], options: Options) -> Engin
     """
     if drop.rigid:
         return _run_rigid
-    linear = all(contact_numbers(law)[::2] == (POWER_LAW, 1.0) for law in drop.contacts)
+    linear = all(contact_numbers(law)[::2] == (POWER, 1.0) for law in drop.contacts)
     together = len(set(drop.start_velocities)) == 1 and drop.start_velocities[0] < 0.0
     free = any(n.part == "velocities" or n.field in ("exponent", "gravity") for n in numbers)
     whole = options.until == math.inf and options.event_limit >= _UNLIMITED

@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
-from stackbounce.model.laws.table import FORMULAS
 from stackbounce.run.batch import solve
 from stackbounce.run.columns import check
 from stackbounce.run.driver import Options, run_options
@@ -208,7 +207,7 @@ def run_block(
 
 def _provenance(drop: Drop, numbers: Sequence[Number], options: Options) -> dict[str, Any]:
     """Return what made the results: no times of day, so that the same sweep is the same file."""
-    laws = {type(law).__name__: FORMULAS[type(law)] for law in drop.contacts if law is not None}
+    laws = {type(law).__name__: law.formula for law in drop.contacts if law is not None}
     return {
         "stackbounce": __version__,
         "drop": drop.to_toml(),

@@ -140,7 +140,9 @@ Contact = Annotated[
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 _Name = Annotated[str, Field(max_length=100)]
-_Law = Annotated[str, Field(max_length=40, json_schema_extra={"enum": list(LAWS)})]
+_Law = Annotated[
+    str, Field(max_length=40, json_schema_extra=lambda schema: schema.update(enum=list(LAWS)))
+]
 
 ExportKind = Literal["csv", "toml", "python", "svg", "png"]
 """What a drop can be written to."""

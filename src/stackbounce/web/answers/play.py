@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.calibration import separate
 from stackbounce.errors import StackbounceError
 from stackbounce.json_values import as_json
-from stackbounce.model import STANDARD_GRAVITY, Drop, Rigid
+from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
@@ -136,6 +136,6 @@ def _separate(drop: Drop, until: float | None, times: _Times, events: int) -> di
         return {"error": str(error)}
     laws = textbook.contacts
     return _numbers(result) | {
-        "restitutions": [one.restitution if isinstance(one, Rigid) else None for one in laws],
+        "restitutions": [None if one is None else one.restitution for one in laws],
         "position": _short(place),
     }

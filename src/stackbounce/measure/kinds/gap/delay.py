@@ -206,16 +206,14 @@ def _checked(
             f"{', '.join(given) or 'none'}"
         )
     m = known("mass", mass, "kilograms")
-    if m is None and (stiffness is not None or (contact is not None and not _rigid(contact))):
+    if m is None and (
+        stiffness is not None or (contact is not None and not getattr(contact, "rigid", False))
+    ):
         raise InvalidValue(f"mass must be given with {given[0]}, got {shown(mass)}")
     k, tau = known("stiffness", stiffness, "N/m"), known("contact_time", contact_time, "seconds")
     if k is not None and m is not None:
         tau = math.pi * (m / k) ** 0.5
     return known(name, value), known("impact_speed", speed, "m/s"), tau
-
-
-def _rigid(contact: Any) -> bool:
-    return type(contact).__name__ == "Rigid"
 
 
 def _spring_gap(t: float, v: float, tau: float, e: float) -> float:

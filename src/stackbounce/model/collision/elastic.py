@@ -1,12 +1,13 @@
-"""One ball on a power law: the measure of length and time for all other laws.
+"""One ball on a power law without loss: it gives the units of length and time for all other laws.
 
 A collision at speed v compresses ``F = k c**p`` to its peak C at most, and C/v is the unit in which
-this package's modules give contact times.
+the laws give contact times.
 """
 
 import math
+from collections.abc import Mapping
 
-__all__ = ["duration", "hysteretic_duration", "peak_compression", "stiffness"]
+__all__ = ["duration", "hysteretic_duration", "measured_stiffness", "peak_compression"]
 
 
 def duration(p: float) -> float:
@@ -62,8 +63,15 @@ def peak_compression(k: float, p: float, mass: float, speed: float) -> float:
     return peak
 
 
-def stiffness(peak: float, p: float, mass: float, speed: float) -> float:
-    """Return k in N/m**p of a contact with the peak compression C, see `peak_compression`.
+def measured_stiffness(given: Mapping[str, float], duration: float) -> float:
+    """Return k in N/m**p of a contact that takes `duration` in units of C/v.
+
+    Parameters
+    ----------
+    given : mapping of str to float
+        ``mass`` in kg, ``contact_time`` in s, ``impact_speed`` in m/s and ``exponent``.
+    duration : float
+        The measured contact time in units of C/v.
 
     Raises
     ------
@@ -72,8 +80,11 @@ def stiffness(peak: float, p: float, mass: float, speed: float) -> float:
 
     Examples
     --------
-    >>> round(stiffness(0.1, 1.0, 1.0, 2.0), 9)
+    >>> given = {"mass": 1.0, "contact_time": 0.1, "impact_speed": 2.0, "exponent": 1.0}
+    >>> round(measured_stiffness(given, 2.0), 9)  # C is 0.1 m
     400.0
     """
-    k: float = 0.5 * (p + 1.0) * mass * (speed / peak) ** 2 / peak ** (p - 1.0)
+    p, speed = given["exponent"], given["impact_speed"]
+    peak = given["contact_time"] * speed / duration
+    k: float = 0.5 * (p + 1.0) * given["mass"] * (speed / peak) ** 2 / peak ** (p - 1.0)
     return k

@@ -1,18 +1,14 @@
-"""Two contacts pressing on each other, as one."""
+"""Two contacts in series as one law."""
 
 import math
-from dataclasses import replace
 from typing import Any, TypeVar
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.model.laws.lossy import Dashpot, HuntCrossley
-from stackbounce.model.laws.rigid import Rigid
-from stackbounce.model.laws.table import LAWS, ContactLaw
+from stackbounce.model.laws.law import ContactLaw
 
 __all__ = ["series"]
 
 _Law = TypeVar("_Law", bound=ContactLaw)
-_SHARED = ("exponent", "dissipative_time", "unloading_exponent", "reloading")
 _AGREE = 1e-12  # numbers that agree so well differ by round-off
 
 
@@ -59,32 +55,22 @@ def series(law_a: _Law, law_b: _Law) -> _Law:
     HuntCrossley(stiffness=1000000.0, exponent=1.0, dissipation=0.05)
     """
     _check_classes(law_a, law_b)
-    a: Any = law_a
-    b: Any = law_b
-    for name in _SHARED:
-        if hasattr(a, name):
-            _check_same(type(a), name, getattr(a, name), getattr(b, name))
-    ratio = (a.stiffness / b.stiffness) ** (1.0 / a.exponent)  # c2/c1
+    ours, theirs = law_a.series_constants(), law_b.series_constants()
+    for name, one in ours.items():
+        _check_same(type(law_a), name, one, theirs[name])
+    p = law_a.exponent
+    ratio = (law_a.stiffness / law_b.stiffness) ** (1.0 / p)  # c2/c1
     share_a, share_b = 1.0 / (1.0 + ratio), ratio / (1.0 + ratio)
-    k = min(a.stiffness, b.stiffness) * max(share_a, share_b) ** a.exponent  # the softer gives more
-    changes = {"stiffness": k}
-    if isinstance(law_a, Dashpot):
-        delays = (a.damping / a.stiffness, b.damping / b.stiffness)
-        _check_same(Dashpot, "damping/stiffness", *delays)
-        changes["damping"] = k * delays[0]
-    if isinstance(law_a, HuntCrossley):
-        name = "dissipation/stiffness**(1/exponent)"
-        rates = [law.dissipation / law.stiffness ** (1.0 / law.exponent) for law in (a, b)]
-        _check_same(HuntCrossley, name, *rates)
-        changes["dissipation"] = a.dissipation * share_a
-    return replace(law_a, **changes)
+    # the softer law takes the larger share
+    k = min(law_a.stiffness, law_b.stiffness) * max(share_a, share_b) ** p
+    return law_a.replaced(law_a.series_changes(k, share_a))
 
 
 def _check_classes(law_a: object, law_b: object) -> None:
     for name, law in (("law_a", law_a), ("law_b", law_b)):
-        if not isinstance(law, tuple(LAWS.values())):
+        if not isinstance(law, ContactLaw):
             raise InvalidType(f"{name} must be a contact law, got {shown(law)}")
-        if isinstance(law, Rigid):
+        if law.rigid:
             raise InvalidValue(f"{name} must be a law with a compression, got {shown(law)}")
     if type(law_a) is not type(law_b):
         got = f"{type(law_a).__name__} and {type(law_b).__name__}"

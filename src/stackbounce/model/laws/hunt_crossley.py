@@ -1,4 +1,4 @@
-"""One ball on Hunt and Crossley's law: the restitution in closed form, the contact time a sum.
+"""Hunt and Crossley's law: the restitution in closed form, the contact time as an integral.
 
 With ``d = χ v`` and ``u = ċ/v``, ``m v**2 u du = -k c**p (1 + d u) dc`` gives
 
@@ -19,17 +19,115 @@ D. E. Orin, IEEE Trans. Syst. Man Cybern. A 29, 566 (1999).
 import functools
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Self
 
-from stackbounce.calibration import elastic
-from stackbounce.calibration.quadrature import integral
-from stackbounce.calibration.roots import root
+from stackbounce.engine import codes
+from stackbounce.errors import non_negative
+from stackbounce.model.collision import elastic
+from stackbounce.model.collision.quadrature import integral
+from stackbounce.model.collision.roots import root
+from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, Given, Quantity, stiffness_in
+from stackbounce.model.laws.registry import register
 
-__all__ = ["LARGEST", "dissipation", "duration", "restitution"]
+__all__ = ["LARGEST", "HuntCrossley", "dissipation", "duration", "restitution"]
 
 LARGEST = 1e300
 """Of d, for all functions here."""
 _SMALL = 1.0  # the size up to which E(x) is summed
 _FACTORS = tuple(1.0 / math.factorial(n) for n in range(2, 22))
+
+
+@register
+@dataclass(frozen=True)
+class HuntCrossley(ContactLaw):
+    """A power law with a damping that grows as the force does.
+
+    ``F = max(0, k c**p (1 + χ ċ))`` while the compression c is above 0, else 0. A contact of two
+    bodies ends when force and compression are back at zero, since they part more slowly than 1/χ;
+    ``k c**(p + 1)/(p + 1)`` counts as stored.
+
+    Parameters
+    ----------
+    stiffness : float
+        k, in N/m**exponent, above 0.
+    exponent : float
+        p, from 1 to 1e6; 1.5 for spheres.
+    dissipation : float
+        χ, in s/m, 0 or above.
+
+    Raises
+    ------
+    InvalidValue
+        If `stiffness` is not positive and finite, `exponent` is out of its range, or `dissipation`
+        is negative or not finite.
+    InvalidType
+        If one of them is no number.
+
+    Notes
+    -----
+    Source: K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975). They write λ = k χ.
+
+    Examples
+    --------
+    >>> HuntCrossley(3e6, 1.5, dissipation=0.15)
+    HuntCrossley(stiffness=3000000.0, exponent=1.5, dissipation=0.15)
+    """
+
+    says = "A power law with a damping that grows as the force does."
+    formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
+    source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
+    form = codes.HUNT_CROSSLEY
+    extra = "dissipation"
+    loss = "dissipation"
+    loss_depends_on = ("speed",)
+    usual_exponent = 1.5
+    usual_models: ClassVar = {"HuntCrossley": {}}
+
+    stiffness: Annotated[float, stiffness_in("N/m**exponent")]
+    exponent: Annotated[float, EXPONENT]
+    dissipation: Annotated[
+        float, Quantity("s/m", lambda n, v: non_negative(n, v, "s/m"), (0.2, 1e-3, 10.0))
+    ]
+
+    def restitution_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+        """Return e, which follows from ``d = χ v``."""
+        return restitution(self._loss_at(speed))
+
+    def duration_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+        """Return the contact time in units of C/v."""
+        return duration(self._loss_at(speed), self.exponent)
+
+    def _loss_at(self, speed: float) -> float:
+        d = self.dissipation * speed
+        if d > LARGEST:
+            raise OverflowError
+        return d
+
+    @classmethod
+    def calibrated(cls, given: Given) -> Self:
+        """Return the law that has a measured restitution and contact time."""
+        p, d = given["exponent"], dissipation(given["restitution"])
+        k = elastic.measured_stiffness(given, duration(d, p))
+        return cls(k, p, d / given["impact_speed"])
+
+    @classmethod
+    def flanks(
+        cls,
+        exponent: float | None,
+        law: ContactLaw | None = None,  # noqa: ARG003
+    ) -> tuple[Flank, Flank]:
+        """Return the flanks: a loss bends the release otherwise than by a power."""
+        return Flank(exponent or 1.0, exponent or 1.5, exact=True), Flank(1.0, 2.5)
+
+    def series_constants(self) -> dict[str, float]:
+        """Return what two laws in series must have in common."""
+        rate = self.dissipation / self.stiffness ** (1.0 / self.exponent)
+        return super().series_constants() | {"dissipation/stiffness**(1/exponent)": rate}
+
+    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
+        """Return stiffness and dissipation of two in series: ``χ1 f``."""
+        return {"stiffness": stiffness, "dissipation": self.dissipation * share}
 
 
 def restitution(d: float) -> float:
