@@ -17,7 +17,7 @@ import numpy as np
 
 import stackbounce as sb
 from benchmarks.by_scipy import rebound
-from stackbounce.engine.kernel import compiled, kernel
+from stackbounce.engine.compiler import compile_kernel, kernel
 
 LAWS: dict[str, dict[str, Any]] = {
     "Hertz": {"law": "Hertz"},
@@ -90,7 +90,7 @@ def rigid(progress: Callable[[str], None]) -> Rigid:
     swept = sb.sweep(drop, values)
     (spent,) = _timed(partial(sb.sweep, drop, values))
     count = int(np.maximum(swept.collisions.values, 0).sum())
-    divide = compiled(divisions)
+    divide = compile_kernel(divisions)
     divide(10)
     begin = process_time()
     divide(DIVISIONS)

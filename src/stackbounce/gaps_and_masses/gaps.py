@@ -11,7 +11,8 @@ from stackbounce.errors import InvalidValue, positive, shown, whole
 from stackbounce.gaps_and_masses.batch import joined
 from stackbounce.gaps_and_masses.separation_limit import distance, separate_from, with_gap
 from stackbounce.model import Drop
-from stackbounce.run.driver import run_options, simulate
+from stackbounce.run.driver import simulate
+from stackbounce.run.options import run_options
 from stackbounce.sweeps import sweep
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, positive, shown
 from stackbounce.gaps_and_masses.batch import solved
 from stackbounce.model import Ball, ContactLaw, Drop
-from stackbounce.run.driver import run_options
+from stackbounce.run.options import run_options
 
 __all__ = ["Contacts", "best_masses", "geometric_masses", "with_masses"]
 

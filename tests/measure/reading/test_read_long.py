@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import stackbounce as sb
-from stackbounce.engine.kernel import compiled
+from stackbounce.engine.compiler import compile_kernel
 from stackbounce.measure.reading import numbers
 from stackbounce.measure.reading.grid import POWERS, grid
 
@@ -52,13 +52,13 @@ def test_what_is_no_grid_is_left_to_others(text):
     raw = np.frombuffer(text.encode(), dtype=np.uint8)
     arguments = (ord(","), ord("."), 100, np.arange(2), POWERS, np.empty((9, 2)))
     assert grid(raw, *arguments) == -1
-    assert compiled(grid)(raw, *arguments) == -1
+    assert compile_kernel(grid)(raw, *arguments) == -1
 
 
 def test_no_row_is_written_beyond_the_last_one():
     raw = np.frombuffer(b"1\n2\n3", dtype=np.uint8)
     arguments = (ord(","), ord("."), 100, np.arange(1), POWERS, np.empty((2, 1)))
-    assert compiled(grid)(raw, *arguments) == -1
+    assert compile_kernel(grid)(raw, *arguments) == -1
     assert grid(raw, *arguments) == -1
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.kernel import kernel
+from stackbounce.engine.compiler import kernel
 
 __all__ = ["POWERS", "grid"]
 

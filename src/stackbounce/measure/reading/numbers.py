@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.kernel import compiled
+from stackbounce.engine.compiler import compile_kernel
 from stackbounce.errors import FileError
 from stackbounce.measure.reading.grid import POWERS, grid
 from stackbounce.measure.reading.limits import CELLS, LINE
@@ -73,7 +73,7 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
     start = text.starts[first]
     most = min(text.content.count("\n", start) + 1, CELLS // len(used) + 1)
     values = np.empty((len(used), most)).T  # a column is one piece; what stays empty costs nothing
-    plain = compiled(grid) if len(text.content) - start > _CHUNK else None  # worth a second
+    plain = compile_kernel(grid) if len(text.content) - start > _CHUNK else None  # worth a second
     count, odd = 0, 0
     for chunk in _chunks(text.content, start):
         if not chunk or chunk.isspace():
