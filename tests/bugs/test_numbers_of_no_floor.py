@@ -1,4 +1,4 @@
-"""What stands in the place of a floor that is not there made linear drops follow looser rules."""
+"""The placeholder numbers of an absent floor gave linear drops the tolerances of nonlinear ones."""
 
 import numpy as np
 

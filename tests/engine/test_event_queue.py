@@ -1,4 +1,4 @@
-"""The queue of times gives the earliest slot, at a tie the lowest, whatever came before."""
+"""The event queue gives the earliest slot, the lowest of equal ones, after any changes."""
 
 from random import Random
 
