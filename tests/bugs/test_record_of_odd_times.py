@@ -1,4 +1,4 @@
-"""A record whose times are not exact in binary lost samples when its clock was moved and back."""
+"""A record whose times are not exact in binary lost samples when its times were shifted."""
 
 import numpy as np
 

@@ -20,7 +20,8 @@ from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
 from stackbounce.run.batch import solve
 from stackbounce.run.columns import Rows, base_rows, check, fill
-from stackbounce.run.driver import Options, forces_at
+from stackbounce.run.driver import forces_at
+from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, numbers_of
 from stackbounce.run.result import Status
 
@@ -186,7 +187,12 @@ class Objective:
         bad = ~np.isin(out.status, _DONE)
         if np.any(bad):
             self.unsolved.update(Status(code).name for code in out.status[bad])
-            for array in (out.velocity, out.first_touch, out.last_release, out.energy):
+            for array in (
+                out.rebound_ratio,
+                out.first_touch,
+                out.last_release,
+                out.energy_retained,
+            ):
                 array[bad] = np.nan
         drops = base_rows(drop, len(x))
         fill(drops, drop, rows)

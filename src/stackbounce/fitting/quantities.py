@@ -38,7 +38,7 @@ class Quantity(NamedTuple):
 
 
 def _height(out: Outcomes, speed: Array, gravity: Array) -> Any:
-    velocity = out.velocity * speed[:, None]
+    velocity = out.rebound_ratio * speed[:, None]
     pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
     return velocity * np.abs(velocity) / (2.0 * pull[:, None])
 
@@ -53,13 +53,13 @@ QUANTITIES: dict[str, Quantity] = {
         "ball",
         "",
         "velocity after the impact over the impact speed",
-        lambda out, _, __: out.velocity,
+        lambda out, _, __: out.rebound_ratio,
     ),
     "rebound_speeds": Quantity(
         "ball",
         "m/s",
         "velocity after the impact, up-positive",
-        lambda out, speed, _: out.velocity * speed[:, None],
+        lambda out, speed, _: out.rebound_ratio * speed[:, None],
     ),
     "rebound_heights": Quantity("ball", "m", "how far a ball rises at that speed", _height),
     "first_touch": Quantity(
@@ -70,7 +70,7 @@ QUANTITIES: dict[str, Quantity] = {
     ),
     "durations": Quantity("contact", "s", "from first touch to last release", _duration),
     "energy_retained": Quantity(
-        "", "", "kinetic energy afterwards over that before", lambda out, _, __: out.energy
+        "", "", "kinetic energy afterwards over that before", lambda out, _, __: out.energy_retained
     ),
     "collisions": Quantity(
         "contact", "", "contact intervals: compared, not fitted", lambda out, _, __: out.collisions

@@ -15,7 +15,8 @@ from stackbounce.gaps_and_masses.separation_limit import (
     replace_gaps,
 )
 from stackbounce.model import Drop
-from stackbounce.run.driver import run_options, simulate
+from stackbounce.run.driver import simulate
+from stackbounce.run.options import run_options
 from stackbounce.sweeps import sweep
 
 if TYPE_CHECKING:

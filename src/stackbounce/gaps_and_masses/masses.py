@@ -11,7 +11,7 @@ from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, posi
 from stackbounce.extras import need
 from stackbounce.gaps_and_masses.batch import solve_drops
 from stackbounce.model import Ball, ContactLaw, Drop
-from stackbounce.run.driver import run_options
+from stackbounce.run.options import run_options
 
 __all__ = ["Contacts", "best_masses", "geometric_masses", "replace_masses"]
 

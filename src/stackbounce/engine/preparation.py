@@ -1,23 +1,32 @@
-"""From a drop's own numbers to a stack at t = 0: what each law's numbers mean to the engine.
+"""From the numbers of a drop to a stack at t = 0.
 
-A contact is given by four numbers: the form of its force (`codes`), k, p, and one more, `extra`:
+A contact is given by four numbers: the form of its force (`codes`), k, p, and the law parameter:
 damping b, dissipative time A, dissipation χ, unloading exponent n or restitution e.
 """
 
 import math
 
 from stackbounce.engine import codes
-from stackbounce.engine.kernel import Floats, Integers, kernel
+from stackbounce.engine.compiler import Floats, Integers, kernel
 from stackbounce.engine.series import ORDER
+from stackbounce.engine.slots import (
+    GRAVITY,
+    LINEARISED_WORK,
+    NONLINEAR,
+    SERIES_ORDER,
+    SPEED,
+    TOLERANCE,
+    UNIT,
+)
 from stackbounce.engine.stack import RigidStack, Stack
 
-_STEP = 0.02  # of the tolerance asked for: what one step of a nonlinear cluster may leave out
+_STEP = 0.02  # of rtol: the error of one step of a nonlinear cluster
 _ROUND_OFF = 1e-16
 _LEAST_ORDER = 6
-_FAINT = 1e-2  # of that again: work of a typical contact below which a power law's chord will do
-_FAINTEST = 1e-18
-_LARGEST_EXPONENT = 600  # of a unit of speed, as a power of two
-_LONGEST_EXPONENT = 200  # of a unit of time
+_LINEARISED_SHARE = 1e-2  # of that again, see LINEARISED_WORK
+_LEAST_LINEARISED_WORK = 1e-18
+_LARGEST_EXPONENT = 600  # of 2 in the unit of speed
+_LONGEST_EXPONENT = 200  # of 2 in the unit of time
 
 
 @kernel
@@ -27,16 +36,16 @@ def prepare(
     kind: Integers,
     stiffness: Floats,
     exponent: Floats,
-    extra: Floats,
+    law_parameter: Floats,
     gap: Floats,
     velocity: Floats,
     gravity: float,
     rtol: float,
 ) -> float:
-    """Fill an empty stack on finite contacts, gap[0] being 0; return its unit of time in s.
+    """Fill an empty stack with finite contacts, gap[0] being 0; return its unit of time in s.
 
-    That is the power of two nearest to the shortest contact time: in this unit no power series
-    leaves the range of numbers, and nothing is rounded by it.
+    The unit is the power of two nearest to the shortest contact time. In it no power series leaves
+    the range of floating-point numbers, and the conversion rounds nothing.
     """
     size = len(stack.mass)
     speed, shortest = 0.0, math.inf
@@ -44,12 +53,12 @@ def prepare(
         speed = max(speed, abs(velocity[i]))
     for i in range(size):
         stack.mass[i] = mass[i]
-        _take_law(stack, i, kind[i], stiffness[i], exponent[i], extra[i])
+        _take_law(stack, i, kind[i], stiffness[i], exponent[i], law_parameter[i])
         stack.scale[i] = _typical_compression(stack, i, speed)
         if stack.law[i] != codes.ABSENT:
             shortest = min(shortest, stack.scale[i] / speed)
         if stack.unloading[i] != 1.0 or stack.factor_exponent[i] != 0.0:
-            stack.setting[1] = 1
+            stack.setting[NONLINEAR] = 1
     unit = 1.0
     if 0.0 < shortest < math.inf:
         power = round(math.log2(shortest))
@@ -60,21 +69,21 @@ def prepare(
         stack.velocity[i] = velocity[i] * unit
         stack.compression[i] = -gap[i]
     tolerance = max(_STEP * rtol, _ROUND_OFF)
-    stack.number[0] = gravity * unit**2
-    stack.number[1] = speed * unit
-    stack.number[2] = tolerance
-    stack.number[3] = max(tolerance * _FAINT, _FAINTEST)
+    stack.number[GRAVITY] = gravity * unit**2
+    stack.number[SPEED] = speed * unit
+    stack.number[TOLERANCE] = tolerance
+    stack.number[LINEARISED_WORK] = max(tolerance * _LINEARISED_SHARE, _LEAST_LINEARISED_WORK)
     order = round(1.0 - 0.7 * math.log(tolerance))
-    stack.setting[0] = min(ORDER, max(_LEAST_ORDER, order))
+    stack.setting[SERIES_ORDER] = min(ORDER, max(_LEAST_ORDER, order))
     return unit
 
 
 @kernel
-def _take_law(stack: Stack, i: int, kind: int, k: float, p: float, extra: float) -> None:
-    """Put the numbers of contact i's law in place; a law that loses nothing is a power law."""
+def _take_law(stack: Stack, i: int, kind: int, k: float, p: float, law_parameter: float) -> None:
+    """Set the numbers of contact i's law; a law without loss becomes a power law."""
     if kind == codes.ABSENT:
         stack.law[i] = codes.ABSENT
-        stack.stiffness[i] = stack.exponent[i] = stack.unloading[i] = 1.0  # whatever it was given
+        stack.stiffness[i] = stack.exponent[i] = stack.unloading[i] = 1.0  # placeholders
         return
     stack.law[i] = codes.POWER
     stack.stiffness[i] = k
@@ -82,25 +91,25 @@ def _take_law(stack: Stack, i: int, kind: int, k: float, p: float, extra: float)
     stack.unloading[i] = p
     if kind in (codes.HYSTERETIC, codes.LOSSY):
         stack.law[i] = kind
-        stack.unloading[i] = extra
-    elif kind != codes.POWER and extra > 0.0:
+        stack.unloading[i] = law_parameter
+    elif kind != codes.POWER and law_parameter > 0.0:
         stack.law[i] = codes.DAMPED
         if kind == codes.DASHPOT:  # k (c + b/k c')
             stack.gain_slope[i] = 1.0
-            stack.gain_rate[i] = extra / k
+            stack.gain_rate[i] = law_parameter / k
         elif kind == codes.VISCOELASTIC:  # k c^1/2 (c + 3/2 A c')
             stack.factor_exponent[i] = 0.5
             stack.gain_slope[i] = 1.0
-            stack.gain_rate[i] = 1.5 * extra
+            stack.gain_rate[i] = 1.5 * law_parameter
         else:  # k c^p (1 + χ c')
             stack.factor_exponent[i] = p
             stack.gain_constant[i] = 1.0
-            stack.gain_rate[i] = extra
+            stack.gain_rate[i] = law_parameter
 
 
 @kernel
 def _typical_compression(stack: Stack, i: int, speed: float) -> float:
-    """Return the compression of contact i at which it alone would hold the energy m v^2/2."""
+    """Return the compression at which contact i alone would hold the energy m v^2/2."""
     mass, p = stack.mass[i], stack.exponent[i]
     if i > 0:
         mass = stack.mass[i - 1] * mass / (stack.mass[i - 1] + mass)
@@ -114,15 +123,19 @@ def prepare_rigid(
     stack: RigidStack,
     mass: Floats,
     kind: Integers,
+    stiffness: Floats,  # noqa: ARG001 - no number of a rigid contact
+    exponent: Floats,  # noqa: ARG001
     restitution: Floats,
     gap: Floats,
     velocity: Floats,
     gravity: float,
-) -> None:
-    """Fill an empty stack of rigid balls, gap[0] being 0.
+    rtol: float,  # noqa: ARG001 - collisions are exact
+) -> float:
+    """Fill an empty stack of rigid balls, gap[0] being 0; return its unit of time, 1 s.
 
-    Lengths and speeds are in units of a power of two near the impact speed, which rounds nothing
-    and keeps squares of speeds in the range of numbers.
+    Lengths and speeds are in units of a power of two near the impact speed. This rounds nothing and
+    keeps squares of speeds in the range of floating-point numbers. The arguments are those of
+    `prepare`.
     """
     speed = 0.0
     for v in velocity:
@@ -136,5 +149,6 @@ def prepare_rigid(
         stack.restitution[i] = 0.0 if absent else restitution[i]
         stack.velocity[i] = velocity[i] / unit
         stack.compression[i] = -gap[i] / unit
-    stack.number[0] = unit
-    stack.number[3] = gravity / unit
+    stack.number[UNIT] = unit
+    stack.number[GRAVITY] = gravity / unit
+    return 1.0

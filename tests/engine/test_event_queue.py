@@ -1,17 +1,17 @@
-"""The queue of times gives the earliest slot, at a tie the lowest, whatever came before."""
+"""The event queue gives the earliest slot, the lowest of equal ones, after any changes."""
 
 from random import Random
 
 import pytest
 
-from stackbounce.engine.event_queue import clear, schedule
+from stackbounce.engine.event_queue import clear_queue, schedule
 
 
 @pytest.mark.parametrize("size", [1, 2, 3, 10, 33])
 def test_the_earliest_slot_comes_first(size):
     random = Random(size)
     due, heap, place = [0.0] * size, [0] * size, [0] * size
-    clear(due, heap, place)
+    clear_queue(due, heap, place)
     times = [float("inf")] * size
     for _ in range(500):
         slot = random.randrange(size)

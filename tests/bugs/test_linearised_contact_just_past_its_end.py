@@ -1,4 +1,4 @@
-"""A damped contact, compressed by less than nothing for a moment, led to a step back in time."""
+"""A damped contact with a compression just below 0 made a step back in time."""
 
 import stackbounce as sb
 

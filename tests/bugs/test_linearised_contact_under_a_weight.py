@@ -1,4 +1,4 @@
-"""A power law's chord near c = 0, swinging about a static state far away, lost all its digits."""
+"""A chord that oscillated about a distant static state lost all digits near c = 0."""
 
 import pytest
 
