@@ -1,5 +1,6 @@
 """What every command answers: numbers as JSON, tables for people, and the files it saves."""
 
+import itertools
 import json
 import shlex
 from collections.abc import Sequence
@@ -62,7 +63,7 @@ def _numbers(line: str) -> dict[str, Any]:
 def _written(arguments: Sequence[str]) -> dict[str, Any]:
     """Return the contents of the files that a command saved."""
     written: dict[str, Any] = {}
-    for option, value in zip(arguments, arguments[1:], strict=False):
+    for option, value in itertools.pairwise(arguments):
         path = Path(value)
         if option == "--save":
             files = sorted(path.iterdir()) if path.is_dir() else [path]

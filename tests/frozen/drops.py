@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 
 import stackbounce as sb
+from frozen.values import summary
 from fuzz.draw import BALLS, RIGID_EVERY, drops_of
 from fuzz.replay import drop_of, options_of
-from frozen.values import summary
 
 SEED = 2007
 BATCHES = len(BALLS) * RIGID_EVERY  # after which every height was drawn, of both kinds

@@ -74,6 +74,7 @@ def fill(place: Path) -> None:
     alone = sb.Drop(gap.balls[:1], gap.contacts[:1], height=0.2)
     (place / "ball.csv").write_text(force_record(alone, 2), encoding="utf-8")
     (place / "rolls.csv").write_text(track_of_one(), encoding="utf-8")
+    (place / "acceleration.csv").write_text(shaken(), encoding="utf-8")
 
 
 def made() -> dict[str, bytes]:
@@ -97,15 +98,29 @@ def force_record(drop: sb.Drop, seed: int) -> str:
 
 
 def track_of_one() -> str:
-    """Return the track of a ball that falls, bounces twice and stays on the floor for long."""
-    law = sb.Dashpot(600.0, 1.5)
+    """Return the track of a soft ball that falls and bounces, as long as it clearly flies."""
+    law = sb.Dashpot(2500.0, 2.0)
     drop = sb.Drop([sb.Ball(0.1)], [law], height=0.5, gravity=9.81)
-    times = np.arange(0.0, 1.5, 1.0 / 240.0)
-    late = np.maximum(times - 0.25, 0.0)
-    place = sb.simulate(drop, until=2.0).sample(late).position.values[0]
-    early = times < 0.25
-    place[early] = -drop.reference_speed * (times[early] - 0.25)
-    place[early] -= 0.5 * 9.81 * (times[early] - 0.25) ** 2
+    result = sb.simulate(drop, until=0.8)
+    times = np.arange(0.0, 1.0, 1.0 / 240.0)
+    early = np.minimum(times - 0.25, 0.0)
+    place = result.sample(np.maximum(times - 0.25, 0.0)).position.values[0]
+    place -= drop.reference_speed * early + 0.5 * 9.81 * early**2
     place += np.random.default_rng(3).normal(0.0, 3e-4, len(times))
     rows = [f"{t:.6f},{y:.6f}" for t, y in zip(times, place, strict=True)]
     return "\n".join(["t (s),y (m)", *rows, ""])
+
+
+def shaken() -> str:
+    """Return the acceleration of a falling phone, with two bounces, as its program writes it."""
+    times = np.arange(0.0, 1.8, 2e-3)
+    felt = np.full(len(times), 9.81)
+    for begin, end in ((0.3, 0.7), (0.71, 1.03), (1.04, 1.29)):
+        felt[(begin <= times) & (times < end)] = 0.0
+    for begin, peak in ((0.7, 900.0), (1.03, 700.0), (1.29, 550.0)):
+        pulse = np.sin(np.pi * np.clip((times - begin) / 0.01, 0.0, 1.0))
+        felt = np.where(pulse > 1e-9, peak * pulse, felt)
+    felt += np.random.default_rng(4).normal(0.0, 0.05, len(times))
+    rows = [f"{t:.4f},0.0,{a:.3f},0.0,{abs(a):.3f}" for t, a in zip(times, felt, strict=True)]
+    axes = ",".join(f"Acceleration {axis} (m/s^2)" for axis in "xyz")
+    return "\n".join([f"Time (s),{axes},Absolute acceleration (m/s^2)", *rows, ""])

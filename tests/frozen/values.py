@@ -4,7 +4,7 @@ import hashlib
 import math
 import numbers
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -48,12 +48,28 @@ def _leaves(path: str, value: Any) -> Iterator[tuple[str, Any]]:
         if len(value) > LONG and all(_is_number(one) for one in value):
             yield path, summary(value)
             return
+        rows = _columns(value)
+        if rows:
+            yield from _leaves(f"{path}/*", rows)
+            return
         for index, one in enumerate(value):
             yield from _leaves(f"{path}/{index}", one)
         if not value:
             yield path, "[]"
     else:
         yield path, _plain(value)
+
+
+def _columns(rows: Sequence[Any]) -> dict[str, Any]:
+    """Return the columns of a long table of numbers; nothing of what is none."""
+    if len(rows) <= LONG or not all(isinstance(row, dict | list | tuple) for row in rows):
+        return {}
+    named = [row if isinstance(row, dict) else dict(enumerate(row)) for row in rows]
+    if any(row.keys() != named[0].keys() for row in named):
+        return {}
+    if not all(_is_number(one) for row in named for one in row.values()):
+        return {}
+    return {str(key): [row[key] for row in named] for key in named[0]}
 
 
 def _is_number(value: Any) -> bool:
@@ -87,8 +103,8 @@ def summary(values: Any) -> dict[str, Any]:
     Returns
     -------
     dict of str to Any
-        `count` and how many are `missing`; the sha256 of the `bits` and that of ten `digits`; `low`,
-        `high` and `sum`; `mixed` is a sum with weights, which tells the order.
+        `count` and how many are `missing`; the sha256 of the `bits` and that of ten `digits`;
+        `low`, `high` and `sum`; `mixed` is a sum with weights, which tells the order.
     """
     array = np.array([math.nan if one is None else one for one in values], dtype=float)
     finite = np.where(np.isfinite(array), array, 0.0)
