@@ -12,7 +12,8 @@ from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import analyse
 from stackbounce.measure.kinds import KINDS, TYPED
-from stackbounce.measure.options import OPTIONS, options_for, read_options, taken_by
+from stackbounce.measure.option_values import read_options
+from stackbounce.measure.options import OPTIONS, options_for, taken_by
 from stackbounce.web.answers import records
 
 PAGE = Path(__file__).parents[2] / "docs" / "measure.md"
