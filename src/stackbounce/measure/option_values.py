@@ -24,8 +24,8 @@ def read_options(
     Parameters
     ----------
     given : mapping
-        Values by the options' names, texts with units or what they stand for. None and the empty
-        text are not given.
+        Values by the options' names: texts with units, or the values that they stand for. None and
+        the empty text count as not given.
     face : callable
         From an option to what messages call it.
     to : sequence of str, optional

@@ -43,7 +43,7 @@ class Option:
         What its value is: a number with a unit, a number that may have an error (``measured``),
         several lengths, a flag, points of the ball, a contact law, a file, columns, a text.
     label : str
-        In the page's form.
+        In the page's form and the documentation.
     says : str
         What it tells, for help.
     example : str
@@ -177,7 +177,7 @@ _TABLE: dict[str, tuple[Option, ...]] = {
         Option(
             "heights",
             "lengths",
-            "",
+            "Heights",
             "Instead of a file: the drop's and those of the bounces, '1.00, 0.62, 0.39 m'.",
             example="1.00, 0.62, 0.39 m",
             unit="m",
