@@ -18,6 +18,7 @@ release = version = __version__
 extensions = [
     "matplotlib.sphinxext.plot_directive",
     "mathml",
+    "measure_options",
     "myst_parser",
     "numpydoc",
     "offline",

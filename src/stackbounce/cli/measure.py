@@ -18,7 +18,8 @@ from stackbounce.cli.output import (
 )
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
-from stackbounce.measure.options import OPTIONS, Option, read_options
+from stackbounce.measure.option_values import read_options
+from stackbounce.measure.options import OPTIONS, Option
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -103,7 +104,7 @@ def _parameter(option: Option) -> inspect.Parameter:
     kinds: dict[str, Any] = {"flag": bool, "file": Path | None, "columns": list[str] | None}
     told = typer.Option(
         option.on_command_line,
-        metavar=option.metavar or None,
+        metavar=None if option.form == "flag" else option.value_name,
         help=option.says,
         rich_help_panel=option.panel or None,
         readable=option.form != "file",

@@ -1,18 +1,19 @@
 """From the files that people have to parameters with uncertainties.
 
-============ =================================================================
-reading/     files -> Dataset
-kinds/       a folder for each kind of measurement: analysis, result, notes
-kind         what the house knows of a kind; `kinds.KINDS` lists all
-finding      the shape that all results share
-options      every option once, for all faces
-analysis     the right analysis for what a file holds
-measurement  a file or typed numbers, and what was found, for all faces
-constants    contact time and restitution -> stiffness, constants of any law
-assembly     results -> a law, a ball to drop
-quantities   numbers with errors; a row of a table
-statistics/  regression, change points, AR noise
-============ =================================================================
+============= ================================================================
+reading/      files -> Dataset
+kinds/        a folder for each kind of measurement: analysis, result, notes
+kind          the record of a kind; `kinds.KINDS` lists all
+finding       the shape that all results share
+options       the table of options, for all faces
+option_values texts that a face gives -> values that the analyses take
+analysis      the right analysis for what a file holds
+measurement   a file or typed numbers, and what was found, for all faces
+constants     contact time and restitution -> stiffness, constants of any law
+assembly      results -> a law, a ball to drop
+quantities    numbers with errors; a row of a table
+statistics/   regression, change points, AR noise
+============= ================================================================
 """
 
 from importlib import import_module

@@ -16,39 +16,39 @@ __all__ = ["analyse"]
 
 
 def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
-    r"""Return what is found in a measurement by the analysis, or analyses, that fit its kind.
+    r"""Return the results of the analyses that belong to the kind of a measurement.
 
     Parameters
     ----------
     data : xarray.Dataset
         As `read` gives it.
     mass : float or ufloat, optional
-        The ball's, in kg: makes a stiffness of a contact time.
+        Of the ball, in kg: a contact time then gives a stiffness.
     diameter : float or ufloat, optional
-        The ball's, in m; needed where `measured_to` is not its bottom.
+        Of the ball, in m; needed where `measured_to` is not its bottom.
     contact_time, restitution : float or ufloat, optional
-        Of the lower ball alone, in s and as a number, for the gap of a stack.
+        Of the lower ball alone, in s and dimensionless, for the gap of a stack.
     law : ContactLaw, its class or its name, optional
-        Of the contact that a force waveform shows: its touch and release are the surer.
+        Of the contact in a force waveform; touch and release then have smaller errors.
     exponent : float, optional
-        Of the loading curve of a law that has one to choose.
+        Of the loading curve, where the law leaves it open.
     height_error : float, optional
         Of each height in a table, in m.
     repeated : bool, optional
-        Whether a table's heights after the first are one bounce's, from drop after drop.
+        Whether a table's heights after the first are those of the first bounce in repeated drops.
     measured_to : {"bottom", "centre", "top"} or a pair of them, optional
-        The point of the ball that `height` and a table's heights are those of, and that a track
-        follows; a pair has the drop height's first and then the bounces'.
+        The point of the ball at which `height` and a table's heights were read, and that a track
+        follows; a pair has the point for the drop height first, then that for the bounces.
     height : float or ufloat, optional
         From where the ball fell, in m: gives the restitution of the first bounce.
     speed : float or ufloat, optional
         Impact speed in m/s: calibrates the impulse of a force waveform.
     floor : float, optional
-        Of a track of one ball: how high the floor is, in m as tracked.
+        Level of the floor in a track of one ball, in m as tracked.
     alone : xarray.Dataset, optional
-        The floor's force under the lower ball alone, for that under a stack: tells the gap.
+        The floor's force under the lower ball alone; with that under the stack it gives the gap.
     time_constant : float, optional
-        Of a piezo sensor's droop, in s, which is then undone.
+        Of a piezo sensor's droop, in s, which is then corrected.
     gravity : float, optional
         In m/s**2.
 

@@ -1,4 +1,4 @@
-"""From what was found in one or more files to a contact law, and the ball that `simulate` drops."""
+"""Results of one or more files -> a contact law, or the ball that `simulate` drops."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -25,9 +25,8 @@ def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
     Parameters
     ----------
     parts : sequence of mapping
-        What each analysis found, as its ``parts()`` tells: ``ball``, ``contact``, ``height``,
-        ``impact_speed``. A contact of known stiffness and one of known restitution make one that
-        is `Hysteretic`.
+        The ``parts()`` of each result: ``ball``, ``contact``, ``height``, ``impact_speed``. A
+        contact of known stiffness and one of known restitution are combined to a `Hysteretic` one.
     **ball
         What is known of the ball otherwise: mass in kg, diameter in m, name.
 
@@ -39,7 +38,7 @@ def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
     Raises
     ------
     InvalidValue
-        If no contact was found, or several that do not go together, or the mass is not known.
+        If no contact was found, several cannot be combined, or the mass is not known.
 
     Examples
     --------
@@ -65,20 +64,17 @@ def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
 
 
 def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> LawConstants:
-    """Return the law of a class that the ball's contact has, by all that was found of it.
+    """Return the contact law of a given class that fits all results.
 
     Parameters
     ----------
     law : type or str
         The law's class or its name, such as ``"HuntCrossley"``.
     found : sequence
-        What the analyses returned. Taken are the contact time of a `Waveform`; the mean restitution
-        of `Bounces`, `Heights` and an `Accelerometer`, and that of the first bounce of a `Tracks`
-        of one ball; the impact speed that a `Tracks` has or the one that belongs to a drop height.
-        Where two tell the same, the later one counts.
+        What the analyses returned; each result's ``told()`` names the contact time, restitution
+        and impact speed that it has. Where two results have the same one, the later counts.
     **given
-        What is known otherwise, and counts before what was found: the arguments of
-        `law_constants`.
+        Other arguments of `law_constants`, which take precedence over the results.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""From a contact time to the dynamic stiffness, or to the constants of any law."""
+"""A contact time -> the dynamic stiffness, or the constants of any law."""
 
 import math
 from collections.abc import Callable, Mapping

@@ -87,7 +87,7 @@ def measure_file(file: File, options: Mapping[str, Any]) -> Measurement:
     file : Path or (str, bytes)
         Its path, or its name and its content.
     options : mapping
-        Those of `read` and `analyse`, as `stackbounce.measure.options.read_options` returns them;
+        Those of `read` and `analyse`, as `read_options` returns them;
         `alone` is a file.
 
     Raises

@@ -1,4 +1,4 @@
-"""What was measured, and what was found in it: one picture for each kind of analysis."""
+"""The picture of a result, drawn by the module that the result names."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any

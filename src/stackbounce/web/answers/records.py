@@ -13,7 +13,8 @@ from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Curve
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.measurement import Measurement, measure_file
-from stackbounce.measure.options import options_for, read_options
+from stackbounce.measure.option_values import read_options
+from stackbounce.measure.options import options_for
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import ran

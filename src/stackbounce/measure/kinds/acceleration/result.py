@@ -19,7 +19,7 @@ __all__ = ["Accelerometer"]
 
 @dataclass(frozen=True, eq=False)
 class Accelerometer(Finding):
-    """What an accelerometer tells that fell and bounced; made by `accelerometer`.
+    """The fall and the bounces of an accelerometer; made by `accelerometer`.
 
     Attributes
     ----------
@@ -34,17 +34,19 @@ class Accelerometer(Finding):
     impact_speeds : tuple of ufloat
         Of the bounces that have a restitution, in m/s.
     restitutions : tuple of ufloat
-        Of each bounce between two flights, or the fall and a flight. Neighbours share a flight.
+        Of each bounce between two flights, or between the fall and a flight. Neighbours share a
+        flight, so their errors are correlated.
     mean : ufloat or None
-        The restitution that all of them together have.
+        The one restitution that leads from the first impact speed to the last rebound speed.
     contact_times : tuple of (ufloat or None)
         Of the bounces, in s; None where the sampling is too coarse.
     peaks : tuple of float
         The largest acceleration in each bounce, in m/s².
     notes : tuple of str
-        What should be known about it, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     times, values : ndarray
-        (n,) of the record: s, and the size of the acceleration in m/s², about 0 in flight.
+        (n,) the record's times in s, and the magnitude of the acceleration in m/s², about 0 in
+        flight.
     spans : tuple of (float, float)
         Of the fall and the flights, in s.
     """

@@ -17,7 +17,7 @@ __all__ = ["Bounces"]
 
 @dataclass(frozen=True)
 class Bounces(Finding):
-    """What the times of bounces tell.
+    """Restitutions from the times of bounces; made by `bounces`.
 
     Attributes
     ----------
@@ -30,21 +30,23 @@ class Bounces(Finding):
     impact_speeds : tuple of ufloat
         Of these bounces, in m/s.
     restitutions : tuple of ufloat
-        Of these bounces. Neighbours share a flight: their errors go together.
+        Of these bounces. Neighbours share a flight, so their errors are correlated.
     mean : ufloat
-        Their mean, each counted by its error, as if there were one restitution.
+        Their weighted mean, which supposes that restitution does not depend on speed.
     laws : tuple of RestitutionLaw
-        Its fall with speed, linear and as a power law; empty for fewer than three restitutions.
+        The fits of its fall with speed, a line and a power law; empty for fewer than three
+        restitutions.
     drop_height : ufloat or float or None
-        In m: as given, or inferred.
+        In m, as given or inferred.
     inferred : bool
         Whether the drop height is inferred from the mean energy kept, as phyphox does.
     scatter : float
-        By how much restitutions differ from bounce to bounce beyond the errors of their times.
+        Excess scatter of the restitutions: standard deviation from bounce to bounce beyond the
+        errors of the times.
     gravity : float
         In m/s**2.
     notes : tuple of str
-        What should be known about it, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     """
 
     picture: ClassVar[str] = "bounces"

@@ -1,4 +1,4 @@
-"""A contact time and a restitution that are known, as if an analysis had found them."""
+"""A known contact time and restitution, as a result like those of the analyses."""
 
 from typing import Any
 
@@ -11,7 +11,7 @@ __all__ = ["known_contact"]
 
 
 def known_contact(*, contact_time: Any = None, restitution: Any = None, mass: Any = None) -> Known:
-    """Return what a contact time, a restitution or both tell of a contact with the floor.
+    """Return a contact with the floor from a contact time, a restitution or both.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ __all__ = ["Known"]
 
 @dataclass(frozen=True)
 class Known(Finding):
-    """What is known of a ball's contact with the floor without a file; made by `known_contact`.
+    """A contact with the floor as typed, without a file; made by `known_contact`.
 
     Attributes
     ----------

@@ -18,24 +18,24 @@ __all__ = ["FloorGap", "SensorGap"]
 
 @dataclass(frozen=True, eq=False)
 class FloorGap(Finding):
-    """When a second ball came, and from how far; made by `floor_gap`.
+    """The delay and the gap of two balls from the floor's force; made by `floor_gap`.
 
     Parameters
     ----------
     delay : UFloat or None
-        From the floor's first touch to that of the balls, in s; None where only limits can be told.
+        From the floor's first touch to that of the balls, in s; None where only limits are known.
     gap : UFloat or None
-        Between the balls as they fell, in m; None where only limits can be told.
+        Between the balls as they fell, in m; None where only limits are known.
     delay_limits, gap_limits : (float, float)
-        Between which they lie, in s and m: two errors each way, or what can be told without a kink.
+        Limits in s and m: two standard errors each way, or those without a change point.
     gain : float
-        The force under the stack over that of the lower ball alone, before the second ball came.
+        Ratio of the stack's force to the lower ball's alone, before the balls touch.
     notes : tuple of str
         What should be known about it, a sentence each.
     stack, alone : Waveform
         The two records.
     kink : Kink
-        Where they part.
+        The change point at which the two forces part.
     """
 
     picture: ClassVar[str] = "gap"
@@ -61,7 +61,7 @@ class FloorGap(Finding):
 
 @dataclass(frozen=True)
 class SensorGap(Finding):
-    """When the sensor between the balls felt their touch; made by `sensor_gap`.
+    """The delay and the gap of two balls from two sensors; made by `sensor_gap`.
 
     Attributes
     ----------

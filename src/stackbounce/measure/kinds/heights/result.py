@@ -17,7 +17,7 @@ __all__ = ["Heights"]
 
 @dataclass(frozen=True)
 class Heights(Finding):
-    """What bounce heights tell.
+    """Restitutions from the heights of bounces; made by `heights`.
 
     Attributes
     ----------
@@ -26,13 +26,13 @@ class Heights(Finding):
     bounce_heights : tuple of ufloat
         Of its lowest point, in m.
     restitutions : tuple of ufloat
-        Of each bounce. Neighbours share a height: their errors go together.
+        Of each bounce. Neighbours share a height, so their errors are correlated.
     mean : ufloat
-        The restitution that all of them together have, from the drop to the last height.
+        The one restitution that leads from the drop height to the last height.
     repeated : bool
-        Whether the heights are one bounce measured again and again.
+        Whether the heights are those of the first bounce in repeated drops.
     notes : tuple of str
-        What should be known about it, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     """
 
     picture: ClassVar[str] = "heights"

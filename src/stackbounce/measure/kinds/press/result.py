@@ -1,4 +1,4 @@
-"""What a press curve tells."""
+"""The result of the analysis of a press curve."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
@@ -95,7 +95,7 @@ class Press(Finding):
     others : tuple of Press
         The other cycles that have a loading.
     notes : tuple of str
-        What is worth knowing, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     """
 
     picture: ClassVar[str] = "press"

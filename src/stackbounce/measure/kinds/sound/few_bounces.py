@@ -1,4 +1,4 @@
-"""What a sound of too few bounces for a restitution tells all the same."""
+"""Flights and apex heights of a recording with too few bounces for a restitution."""
 
 from stackbounce.errors import positive
 from stackbounce.measure.kinds.sound.result import FewBounces, Knocks
@@ -8,7 +8,7 @@ __all__ = ["few_bounces"]
 
 
 def few_bounces(heard: Knocks, *, gravity: float = STANDARD_GRAVITY) -> FewBounces:
-    """Return what knocks tell of which no two neighbouring flights are known.
+    """Return the flights of knocks among which no two neighbouring flights are known.
 
     A flight of time T rises to ``g T**2/8``.
 

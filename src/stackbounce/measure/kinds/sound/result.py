@@ -18,7 +18,7 @@ __all__ = ["Dropped", "FewBounces", "Knocks"]
 
 @dataclass(frozen=True)
 class Dropped:
-    """A sound that was heard and is no bounce of the series: when (s), and why it was left out."""
+    """A sound outside the series of bounces: its time in s, and why it was left out."""
 
     time: float
     why: str
@@ -31,7 +31,7 @@ class Knocks(Finding):
     Attributes
     ----------
     times : tuple of ufloat
-        When each begins, in s.
+        Onset of each, in s.
     loudness : ndarray
         (N,) amplitude over 10 ms without hum, relative to the loudest.
     missed : tuple of int
@@ -41,7 +41,7 @@ class Knocks(Finding):
     rate : float
         Samples per second.
     notes : tuple of str
-        What should be known about it, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     """
 
     picture: ClassVar[str] = "sound"
@@ -64,7 +64,7 @@ class Knocks(Finding):
 
 @dataclass(frozen=True)
 class FewBounces(Finding):
-    """Flights that have no neighbour, so that no restitution follows from them.
+    """Flights without a neighbouring flight, which give no restitution.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class FewBounces(Finding):
     apex_heights : tuple of (ufloat or None)
         How high the ball rose in them, in m.
     notes : tuple of str
-        What could not be found, and what is needed for it.
+        What was not found, and what is needed to find it.
     """
 
     flights: "tuple[UFloat | None, ...]"

@@ -48,7 +48,7 @@ class Track:
     bounces : tuple of int
         After which flights it bounces.
     notes : tuple of str
-        What should be known about it, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     """
 
     name: str
@@ -69,7 +69,7 @@ class Track:
 
 @dataclass(frozen=True)
 class Tracks(Finding):
-    """What a track tells of one ball or more.
+    """The drop and the bounces of one ball or more; made by `track`.
 
     Attributes
     ----------
@@ -85,9 +85,9 @@ class Tracks(Finding):
     axis : str
         The one that is up: x, y, -x or -y.
     tilt : float
-        By which angle it is off the vertical, in radians; corrected where it was found.
+        Angle between this axis and the vertical, in radians; corrected where it was found.
     notes : tuple of str
-        What should be known about it, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     """
 
     picture: ClassVar[str] = "track"

@@ -1,4 +1,4 @@
-"""What was found in a force record."""
+"""The result of the analysis of a force record."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, ClassVar
