@@ -148,4 +148,4 @@ def test_other_minima_are_told():
     found = sb.fit(
         stack, {"rebound_ratios.1": (1.12, 0.002)}, {"contacts.1.stiffness": (2800.0, 9500.0)}
     )
-    assert "the fit has other minima, which the draws may leave out" in found.sample(1280).notes
+    assert "the fit has other minima, which the draws may not reach" in found.sample(1280).notes

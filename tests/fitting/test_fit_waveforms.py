@@ -152,5 +152,5 @@ def test_a_contact_that_is_not_there():
 
 
 def test_a_clock_is_no_name_for_something_else():
-    with pytest.raises(InvalidValue, match=r"^touch is the clock of a record"):
+    with pytest.raises(InvalidValue, match=r"^touch is the time of first touch in a force record"):
         sb.fit(ONE, {"force.0": RECORD}, {"touch": (0.1, 1.0)}, tie={"gravity": "touch"})

@@ -170,13 +170,10 @@ def _with_error(value: object, base: str, path: str) -> tuple[float, float]:
         pair = quantity_with_error(value, unit, path)
     if hasattr(pair, "nominal_value"):
         pair = (pair.nominal_value, pair.std_dev)
-    right = f"a number with its error, such as '{_EXAMPLE.get(unit, '1.64 ± 0.02')}'"
+    right = f"a number with its error, such as '{QUANTITIES[base].example}'"
     if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
         raise InvalidValue(f"{path} must be {right}, got {shown(value)}")
     number, error = (quantity(one, unit, path) for one in pair)
     if not (error > 0.0 and math.isfinite(error)):
         raise InvalidValue(f"{path} must be {right}, got {shown(value)}")
     return finite(path, number), positive(path, error)
-
-
-_EXAMPLE = {"m": "1.72 ± 0.03 m", "m/s": "5.8 ± 0.1 m/s", "s": "2.0 ± 0.5 ms"}

@@ -26,6 +26,8 @@ class Quantity(NamedTuple):
         The SI unit.
     meaning : str
         What it is, in words.
+    example : str
+        How a measured value is written, with its error.
     predict : callable
         Takes the outcomes of many drops, their impact speeds (drops,) in m/s and gravity (drops,)
         in m/s**2; returns the quantity (drops, part).
@@ -34,46 +36,60 @@ class Quantity(NamedTuple):
     part: str
     unit: str
     meaning: str
+    example: str
     predict: Callable[[Outcomes, Array, Array], Any]
 
 
-def _height(out: Outcomes, speed: Array, gravity: Array) -> Any:
-    velocity = out.rebound_ratio * speed[:, None]
+def _speeds(out: Outcomes, speed: Array, _: Array) -> Any:
+    return out.rebound_ratio * speed[:, None]
+
+
+def _heights(out: Outcomes, speed: Array, gravity: Array) -> Any:
+    velocity = _speeds(out, speed, gravity)
     pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
     return velocity * np.abs(velocity) / (2.0 * pull[:, None])
-
-
-def _duration(out: Outcomes, speed: Array, gravity: Array) -> Any:
-    del speed, gravity
-    return out.last_release - out.first_touch
 
 
 QUANTITIES: dict[str, Quantity] = {
     "rebound_ratios": Quantity(
         "ball",
         "",
-        "velocity after the impact over the impact speed",
-        lambda out, _, __: out.rebound_ratio,
+        "velocity after over impact speed",
+        "1.64 ± 0.02",
+        lambda out, *_: out.rebound_ratio,
     ),
     "rebound_speeds": Quantity(
-        "ball",
-        "m/s",
-        "velocity after the impact, up-positive",
-        lambda out, speed, _: out.rebound_ratio * speed[:, None],
+        "ball", "m/s", "velocity after the impact, up-positive", "5.8 ± 0.1 m/s", _speeds
     ),
-    "rebound_heights": Quantity("ball", "m", "how far a ball rises at that speed", _height),
+    "rebound_heights": Quantity(
+        "ball", "m", "how far a ball rises at that speed", "1.72 ± 0.03 m", _heights
+    ),
     "first_touch": Quantity(
-        "contact", "s", "when the contact first closes", lambda out, _, __: out.first_touch
+        "contact", "s", "when it first closes", "2.0 ± 0.5 ms", lambda out, *_: out.first_touch
     ),
     "last_release": Quantity(
-        "contact", "s", "when the contact last opens", lambda out, _, __: out.last_release
+        "contact", "s", "when it last opens", "2.0 ± 0.5 ms", lambda out, *_: out.last_release
     ),
-    "durations": Quantity("contact", "s", "from first touch to last release", _duration),
+    "durations": Quantity(
+        "contact",
+        "s",
+        "from first touch to last release",
+        "2.0 ± 0.5 ms",
+        lambda out, *_: out.last_release - out.first_touch,
+    ),
     "energy_retained": Quantity(
-        "", "", "kinetic energy afterwards over that before", lambda out, _, __: out.energy_retained
+        "",
+        "",
+        "kinetic energy after over before",
+        "0.64 ± 0.02",
+        lambda out, *_: out.energy_retained,
     ),
     "collisions": Quantity(
-        "contact", "", "contact intervals: compared, not fitted", lambda out, _, __: out.collisions
+        "contact",
+        "",
+        "contact intervals: compared, not fitted",
+        "2",
+        lambda out, *_: out.collisions,
     ),
 }
 """By name, as in `Result`; that of one ball or contact is ``rebound_ratios.1``."""

@@ -272,11 +272,7 @@ class Fit:
         return {
             **self._provenance,
             "values": {
-                name: {
-                    "value": one.nominal_value,
-                    "error": one.std_dev,
-                    "unit": self.units[name],
-                }
+                name: {"value": one.nominal_value, "error": one.std_dev, "unit": self.units[name]}
                 for name, one in self.values.items()
             },
             "chi_squared": self.chi_squared,

@@ -1,4 +1,4 @@
-"""Chi squared around its least: against one parameter, and as a map over two."""
+"""Chi squared around its minimum: against one parameter, and as a map over two."""
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -16,16 +16,16 @@ __all__ = ["draw_map", "draw_profile"]
 
 Array: TypeAlias = NDArray[np.float64]
 
-_REACH = 4.0  # errors on both sides
-_WORTH = 9.0  # of chi squared above the least: other minima below are shown
-_FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of a map's side, of a profile
-_TOP = 10.0  # of a profile
+_REACH = 4.0  # standard errors drawn on both sides
+_WORTH = 9.0  # other minima are drawn if chi squared is less than this above the minimum
+_FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of each side of a map, of a profile
+_TOP = 10.0  # upper end of a profile's axis
 _BANDS = (0.0, 1.0, 4.0, 9.0, 16.0, 25.0, 100.0)
 _CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
 
 
 def draw_profile(axes: "Axes", fit: Any) -> None:
-    """Draw chi squared against the only parameter, with its error and where it has kinks."""
+    """Draw chi squared against the only parameter, with its error and the kinks."""
     x = np.linspace(*_extent(fit, 0), _FINE)
     parameter = fit.objective.parameters[0]
     values = parameter.value(x)
@@ -45,7 +45,7 @@ def draw_profile(axes: "Axes", fit: Any) -> None:
     axes.set_xlim(values[0], values[-1])
     axes.set_ylim(0.0, _TOP)
     label(axes, "x", parameter.name, _scale(fit, 0, values))
-    axes.set_ylabel("chi squared above its least")
+    axes.set_ylabel("chi squared above its minimum")
 
 
 def draw_map(figure: "SubFigure", fit: Any) -> None:
@@ -78,7 +78,7 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
 
 
 def _extent(fit: Any, k: int) -> tuple[float, float]:
-    """Return between which coordinates something is to be seen, inside the bounds."""
+    """Return the range of coordinates that is drawn: around the minima, within the bounds."""
     parameter = fit.objective.parameters[k]
     low, high = parameter.span
     slope = abs(parameter.slope(float(fit.x[k])))
@@ -94,7 +94,7 @@ def _scale(fit: Any, k: int, values: Array) -> Scale:
 
 
 def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
-    """Return for each contact how often it closes in trials, as far as that changes."""
+    """Return the numbers of contact intervals in trials, of each contact in which they differ."""
     found = []
     for key in fit.objective.measured:
         counts = fit.objective.outcomes(key, trials)[0].collisions
@@ -103,7 +103,7 @@ def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
 
 
 def _draw_curve(axes: "Axes", values: Array, above: Array, *, turned: bool = False) -> None:
-    """Draw a profile, with lines where it stands for one and for two standard deviations."""
+    """Draw a profile, with lines at one and at two standard deviations."""
     line, plot = (axes.axvline, (above, values)) if turned else (axes.axhline, (values, above))
     for rise, text in ((1.0, "1 σ"), (4.0, "2 σ")):
         line(rise, color="#404040", linestyle="--", linewidth=0.8)
@@ -126,7 +126,7 @@ def _draw_bands(axes: "Axes", x: Array, y: Array, above: Array) -> None:
 
 
 def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
-    """Draw lines between regions of other counts; nan far from the least."""
+    """Draw lines between regions with different counts; counts are nan far from the minimum."""
     own = np.unique(counts[np.isfinite(counts)])
     levels = (0.5 * (own[1:] + own[:-1])).tolist()
     look: Any = {"colors": _KINK, "linewidths": 0.9, "linestyles": ":"}
@@ -134,7 +134,7 @@ def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
 
 
 def _draw_minima(axes: "Axes", fit: Any) -> None:
-    """Mark the best trial with its errors, and the other minima."""
+    """Mark the best values with their errors, and the other minima."""
     first, second = (fit[name] for name in fit.names)
     axes.errorbar(
         first.nominal_value,
