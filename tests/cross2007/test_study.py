@@ -65,7 +65,7 @@ def test_laws_of_a_ball_alone_are_those_of_calibrate(law, exponents):
         for exponent in (p, np.full(6, p)):  # a table in the restitution, and one in both
             found = single_ball.calibrate_numbers(law, ball, 1.7, kept_, exponent)
             stiffness = [one.stiffness for one in own]
-            loss = [getattr(one, single_ball.LOSS[law]) for one in own]
+            loss = [getattr(one, law.loss) for one in own]
             np.testing.assert_allclose(found.stiffness, stiffness, rtol=1e-7)
             np.testing.assert_allclose(found.loss, loss, rtol=1e-6, atol=1e-9)
 

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from stackbounce.calibration import calibrate
 from stackbounce.cross2007.study.inputs import Solo
-from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
+from stackbounce.model import ContactLaw
 
-__all__ = ["LOSS", "LOWEST", "Numbers", "calibrate_numbers"]
+__all__ = ["LOWEST", "Numbers", "calibrate_numbers", "loss_unit"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -26,13 +26,6 @@ LOWEST = 0.5
 """The smallest restitution of the interpolation."""
 _STEEPEST = 2.0  # the largest exponent
 _TERMS, _POWERS = 16, 8  # of the polynomials, in restitution and exponent
-
-LOSS: dict[Any, str] = {
-    HuntCrossley: "dissipation",
-    Viscoelastic: "dissipative_time",
-    Hysteretic: "restitution",
-}
-"""The loss parameter of each law."""
 
 
 class Numbers(NamedTuple):
@@ -64,6 +57,7 @@ def calibrate_numbers(
 
     Examples
     --------
+    >>> from stackbounce.model import HuntCrossley
     >>> ball = Solo(0.105, 4.3e-3)
     >>> law = calibrate(HuntCrossley, mass=0.105, contact_time=4.3e-3, restitution=0.88,
     ...                 impact_speed=2.0, exponent=1.5)
@@ -75,11 +69,24 @@ def calibrate_numbers(
     unit, loss = _at(law, np.asarray(restitution, dtype=float), p)
     mass, time = ball
     stiffness = unit * mass / time**2 * (speed * time) ** (1.0 - p)
-    if law is HuntCrossley:
-        loss = loss / speed
-    elif law is Viscoelastic:
-        loss = loss * time
+    match loss_unit(law):
+        case "s/m":
+            loss = loss / speed
+        case "s":
+            loss = loss * time
     return Numbers(stiffness, loss)
+
+
+def loss_unit(law: type[ContactLaw]) -> str:
+    """Return the SI unit of the number that tells a law's loss.
+
+    Examples
+    --------
+    >>> from stackbounce.model import HuntCrossley
+    >>> loss_unit(HuntCrossley)
+    's/m'
+    """
+    return law.quantities()[law.loss].symbol
 
 
 def _at(law: Any, restitution: Array, exponent: Array) -> tuple[Array, Array]:
@@ -91,18 +98,17 @@ def _at(law: Any, restitution: Array, exponent: Array) -> tuple[Array, Array]:
     else:
         y = 2.0 * (exponent - 1.0) / (_STEEPEST - 1.0) - 1.0
         found = [chebyshev.chebval2d(x, y, one) for one in _of_both(law)]
-    top = (
-        1.0 if law is Hysteretic else np.inf
-    )  # round-off must not make a lossless contact gain energy
+    # without loss, rounding must not bring a gain
+    top = 1.0 if law.loss == "restitution" else np.inf
     return np.exp(found[0]), np.clip(found[1], 0.0, top)
 
 
 def _law(law: Any, restitution: float, exponent: float) -> tuple[float, float]:
-    options = {} if law is Viscoelastic else {"exponent": exponent}
+    options = {"exponent": exponent} if law.fixed_exponent() is None else {}
     made: Any = calibrate(
         law, mass=1.0, contact_time=1.0, restitution=restitution, impact_speed=1.0, **options
     )
-    return float(np.log(made.stiffness)), float(getattr(made, LOSS[law]))
+    return float(np.log(made.stiffness)), float(getattr(made, law.loss))
 
 
 @functools.cache

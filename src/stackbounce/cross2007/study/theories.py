@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.study import inputs
-from stackbounce.cross2007.study.single_ball import LOSS, Numbers, calibrate_numbers
+from stackbounce.cross2007.study.single_ball import Numbers, calibrate_numbers, loss_unit
 from stackbounce.fitting import FitProblem, Model
-from stackbounce.model import Drop, HuntCrossley, Hysteretic, Rigid, Viscoelastic
+from stackbounce.model import Drop, Rigid
 
 __all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "make_rigid_model"]
 
@@ -66,6 +66,7 @@ class Theory:
 
     Examples
     --------
+    >>> from stackbounce.model import HuntCrossley
     >>> theory = Theory("nothing fitted", HuntCrossley, SHARED, {"e_B1": 0.88, "e_B2": 0.95})
     >>> floor, between = theory.drop("B2_on_B1").contacts
     >>> round(floor.stiffness / between.stiffness, 2)
@@ -111,7 +112,7 @@ class Theory:
         own = inputs.Solo(mass, time + self.longer.get(ball, 0.0))
         p = values["exponent"]
         found = calibrate_numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
-        if self.law is HuntCrossley:
+        if loss_unit(self.law) == "s/m":
             found = found._replace(loss=found.loss * values["loss"])
         return found
 
@@ -131,25 +132,24 @@ class Theory:
         """Return the loss between two balls; the lower one has the share f of the compression."""
         if self.where == OWN:
             return np.asarray(values["e_between"])
-        if self.law is Hysteretic:  # shares of the energy, as `stackbounce.calibration.between`
+        if self.law.loss == "restitution":  # shares of the energy, as `calibration.between`
             elastic = self.where == ELASTIC
             return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
         if self.where == ELASTIC:
             return np.zeros_like(f)
-        if self.law is Viscoelastic:
-            return np.asarray(values["between"] * (f * lower + (1.0 - f) * upper))
-        # Hunt and Crossley's loss is proportional to the compression rate, of which each ball has
-        # its share, and to the work, of which it has the same share
-        return np.asarray(values["between"] * (f**2 * lower + (1.0 - f) ** 2 * upper))
+        # A ball has its share of the work. A loss per speed also counts its share of the speed.
+        power = 2 if loss_unit(self.law) == "s/m" else 1
+        share = f**power * lower + (1.0 - f) ** power * upper
+        return np.asarray(values["between"] * share)
 
     def _law(self, values: Mapping[str, Any], own: Numbers) -> Any:
         options: dict[str, Any] = {
             "stiffness": float(own.stiffness),
-            LOSS[self.law]: float(own.loss),
+            self.law.loss: float(own.loss),
         }
-        if self.law is not Viscoelastic:
+        if self.law.fixed_exponent() is None:
             options["exponent"] = float(values["exponent"])
-        if self.law is Hysteretic:
+        if self.reloading != "free":
             options["reloading"] = self.reloading
         return self.law(**options)
 
@@ -177,7 +177,7 @@ class Theory:
         ties: dict[str, Any] = {}
         for key in pairs:
             for i in (0, 1):
-                for name, path in (("stiffness", "stiffness"), ("loss", LOSS[self.law])):
+                for name, path in (("stiffness", "stiffness"), ("loss", self.law.loss)):
                     ties[f"{key}.contacts.{i}.{path}"] = tie(key, i, name)
                 if "exponent" in self.vary:
                     ties[f"{key}.contacts.{i}.exponent"] = "exponent"

@@ -22,7 +22,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
-from stackbounce.model.laws.law import ContactLaw, Flank, Given, Quantity, stiffness_in
+from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, Quantity, stiffness_in
 from stackbounce.model.laws.registry import register
 
 __all__ = ["Dashpot", "damping_ratio", "duration", "restitution"]
@@ -77,11 +77,11 @@ class Dashpot(ContactLaw):
         Quantity("N s/m", lambda n, v: non_negative(n, v, "N s/m"), (2.0, 1e-2, 1e3)),
     ]
 
-    def restitution_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def restitution_at(self, mass: float, speed: float) -> float:
         """Return e, which follows from the damping ratio ``ζ = b/(2 sqrt(k m))``."""
         return restitution(self._damping_ratio(mass))
 
-    def duration_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v."""
         return duration(self._damping_ratio(mass))
 
@@ -102,11 +102,7 @@ class Dashpot(ContactLaw):
         return self.damping / self.stiffness
 
     @classmethod
-    def flanks(
-        cls,
-        exponent: float | None,  # noqa: ARG003
-        law: ContactLaw | None = None,  # noqa: ARG003
-    ) -> tuple[Flank, Flank]:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
         """Return a touch that begins with a jump of the force, and a linear release."""
         return Flank(0.01, 0.3, "jump"), Flank(1.0, 1.0)
 
@@ -114,7 +110,7 @@ class Dashpot(ContactLaw):
         """Return what two dashpots in series must have in common."""
         return super().series_constants() | {"damping/stiffness": self.damping / self.stiffness}
 
-    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:  # noqa: ARG002
+    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
         """Return stiffness and damping of two in series: b/k stays."""
         return {"stiffness": stiffness, "damping": stiffness * (self.damping / self.stiffness)}
 

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Self
 
 from stackbounce.engine import codes
 from stackbounce.model.collision import elastic
-from stackbounce.model.laws.law import ContactLaw, Flank, Given
+from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given
 
 if TYPE_CHECKING:
     from stackbounce.model.laws.hysteretic import Hysteretic
@@ -20,11 +20,11 @@ class ElasticLaw(ContactLaw):
     form = codes.POWER
     rate_free = True
 
-    def restitution_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def restitution_at(self, mass: float, speed: float) -> float:
         """Return 1."""
         return 1.0
 
-    def duration_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v."""
         return elastic.duration(self.exponent)
 
@@ -38,11 +38,7 @@ class ElasticLaw(ContactLaw):
         return cls(**numbers)
 
     @classmethod
-    def flanks(
-        cls,
-        exponent: float | None,
-        law: ContactLaw | None = None,  # noqa: ARG003
-    ) -> tuple[Flank, Flank]:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
         """Return the same power for touch and release."""
         either = Flank(exponent or 1.0, exponent or _STEEPEST_FLANK, exact=True)
         return either, either

@@ -27,7 +27,15 @@ from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.quadrature import integral
 from stackbounce.model.collision.roots import root
-from stackbounce.model.laws.law import EXPONENT, ContactLaw, Flank, Given, Quantity, stiffness_in
+from stackbounce.model.laws.law import (
+    EXPONENT,
+    ContactLaw,
+    Flank,
+    Flanks,
+    Given,
+    Quantity,
+    stiffness_in,
+)
 from stackbounce.model.laws.registry import register
 
 __all__ = ["LARGEST", "HuntCrossley", "dissipation", "duration", "restitution"]
@@ -90,11 +98,11 @@ class HuntCrossley(ContactLaw):
         float, Quantity("s/m", lambda n, v: non_negative(n, v, "s/m"), (0.2, 1e-3, 10.0))
     ]
 
-    def restitution_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def restitution_at(self, mass: float, speed: float) -> float:
         """Return e, which follows from ``d = χ v``."""
         return restitution(self._loss_at(speed))
 
-    def duration_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v."""
         return duration(self._loss_at(speed), self.exponent)
 
@@ -112,11 +120,7 @@ class HuntCrossley(ContactLaw):
         return cls(k, p, d / given["impact_speed"])
 
     @classmethod
-    def flanks(
-        cls,
-        exponent: float | None,
-        law: ContactLaw | None = None,  # noqa: ARG003
-    ) -> tuple[Flank, Flank]:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
         """Return the flanks: a loss bends the release otherwise than by a power."""
         return Flank(exponent or 1.0, exponent or 1.5, exact=True), Flank(1.0, 2.5)
 

@@ -13,6 +13,7 @@ from stackbounce.model.laws.law import (
     STEEPEST,
     ContactLaw,
     Flank,
+    Flanks,
     Given,
     Quantity,
     stiffness_in,
@@ -156,11 +157,11 @@ class Hysteretic(ContactLaw):
             n = np.maximum(p, (p + 1.0) / e / e - 1.0)
         return form, k, p, n
 
-    def restitution_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution, which is the same for all collisions."""
         return self.restitution
 
-    def duration_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v."""
         return elastic.hysteretic_duration(self.exponent, self.unloading_exponent, self.restitution)
 
@@ -173,7 +174,7 @@ class Hysteretic(ContactLaw):
         return cls(k, exponent=p, restitution=e)
 
     @classmethod
-    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> tuple[Flank, Flank]:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
         """Return the flanks: the release is never harder than the touch."""
         touch = Flank(exponent or 1.0, exponent or 1.5, exact=True)
         if law is None:

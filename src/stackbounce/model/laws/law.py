@@ -28,6 +28,7 @@ __all__ = [
     "STEEPEST",
     "ContactLaw",
     "Flank",
+    "Flanks",
     "Given",
     "Quantity",
     "contact_numbers",
@@ -83,6 +84,10 @@ class Flank(NamedTuple):
     most: float
     kind: Literal["power", "jump", "root", "fade"] = "power"
     exact: bool = False
+
+
+Flanks: TypeAlias = tuple[Flank, Flank]
+"""Touch and release."""
 
 
 class ContactLaw:
@@ -244,7 +249,7 @@ class ContactLaw:
         return "speed" in cls.loss_depends_on or exponent != 1.0
 
     @classmethod
-    def calibrated(cls, given: Given) -> Self:  # noqa: ARG003
+    def calibrated(cls, given: Given) -> Self:
         """Return the law that has what was measured; all that is needed is given.
 
         Raises
@@ -264,11 +269,7 @@ class ContactLaw:
     # force records
 
     @classmethod
-    def flanks(
-        cls,
-        exponent: float | None,  # noqa: ARG003
-        law: "ContactLaw | None" = None,  # noqa: ARG003
-    ) -> tuple[Flank, Flank] | None:
+    def flanks(cls, exponent: float | None, law: "ContactLaw | None" = None) -> Flanks | None:
         """Return what touch and release of a force record can be; None if nothing is known.
 
         Parameters
@@ -286,7 +287,7 @@ class ContactLaw:
         """Return what two laws must have in common so that both in series are of their class."""
         return {"exponent": self.exponent}
 
-    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:  # noqa: ARG002
+    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
         """Return those numbers of two laws in series that differ from this one's.
 
         Parameters

@@ -58,16 +58,16 @@ class Rigid(ContactLaw):
         """Nothing."""
         return ()
 
-    def restitution_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution, which is the same for all collisions."""
         return self.restitution
 
-    def contact_time_at(self, mass: float, speed: float) -> float:  # noqa: ARG002
+    def contact_time_at(self, mass: float, speed: float) -> float:
         """Return 0."""
         return 0.0
 
     @classmethod
-    def calibration_needs(cls, exponent: float | None = None) -> list[str]:  # noqa: ARG003
+    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
         """Return the one number that is needed."""
         return ["restitution"]
 

@@ -16,7 +16,7 @@ from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
-from stackbounce.model.laws.law import ContactLaw, Flank, Given, Quantity, stiffness_in
+from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, Quantity, stiffness_in
 from stackbounce.model.laws.registry import register
 
 __all__ = ["Viscoelastic", "duration", "restitution", "squared_speed"]
@@ -109,11 +109,7 @@ class Viscoelastic(ContactLaw):
         return 1.5 * self.dissipative_time
 
     @classmethod
-    def flanks(
-        cls,
-        exponent: float | None,  # noqa: ARG003
-        law: ContactLaw | None = None,  # noqa: ARG003
-    ) -> tuple[Flank, Flank]:
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
         """Return a touch as the root of the time, and a release that begins to fade."""
         return Flank(0.01, 0.3, "root"), Flank(0.01, 0.3, "fade")
 
