@@ -5,7 +5,7 @@ from stackbounce.measure.reading.layouts import Layout, columns_of, first_row, l
 from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.text import Text
 
-_EXPERIMENTS = {
+_EXPERIMENTS: dict[tuple[str, ...], str] = {
     ("event time", "interval"): "acoustic stopwatch",
     ("time", "recording"): "audio scope",
     ("time", "acceleration x"): "acceleration with g",
