@@ -9,7 +9,7 @@ numbers  the rows below -> an array, by pandas where they are plain
 headings "Run 1: Time (ms)" -> name, unit, run
 roles    names and units -> what a column is
 layouts  which program wrote a table, and where its columns are
-scopes   the same for oscilloscopes
+formats/ a file for each program whose tables are recognised
 dataset  columns -> the Dataset of what they hold
 series   its rows in time: runs, gaps, repeats
 bounces  the table of phyphox's (in)elastic collision
