@@ -27,15 +27,15 @@ if TYPE_CHECKING:
     from stackbounce.measure.constants import dynamic_stiffness, law_constants
     from stackbounce.measure.kinds.acceleration.analysis import accelerometer
     from stackbounce.measure.kinds.bounces.analysis import bounces
-    from stackbounce.measure.kinds.gap.delay import gap_from_delay
-    from stackbounce.measure.kinds.gap.floor_gap import floor_gap
-    from stackbounce.measure.kinds.gap.sensor_gap import sensor_gap
     from stackbounce.measure.kinds.heights.analysis import heights
     from stackbounce.measure.kinds.press.analysis import press
     from stackbounce.measure.kinds.press.series import series_stiffness, split_series
     from stackbounce.measure.kinds.sound.analysis import knocks
     from stackbounce.measure.kinds.track.analysis import track
     from stackbounce.measure.kinds.waveform.analysis import waveform
+    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay
+    from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
+    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
     from stackbounce.measure.reading import read
 
 __all__ = [
@@ -65,8 +65,8 @@ _HOMES = {
     "analyse": "analysis",
     "bounces": "kinds.bounces.analysis",
     "dynamic_stiffness": "constants",
-    "floor_gap": "kinds.gap.floor_gap",
-    "gap_from_delay": "kinds.gap.delay",
+    "floor_gap": "kinds.waveform.gap.floor_gap",
+    "gap_from_delay": "kinds.waveform.gap.delay",
     "heights": "kinds.heights.analysis",
     "knocks": "kinds.sound.analysis",
     "law_constants": "constants",
@@ -74,7 +74,7 @@ _HOMES = {
     "one_law": "assembly",
     "press": "kinds.press.analysis",
     "read": "reading",
-    "sensor_gap": "kinds.gap.sensor_gap",
+    "sensor_gap": "kinds.waveform.gap.sensor_gap",
     "series_stiffness": "kinds.press.series",
     "split_series": "kinds.press.series",
     "track": "kinds.track.analysis",

@@ -6,10 +6,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
+from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import laws_of, straight
 from stackbounce.measure.kinds.bounces.result import Bounces
-from stackbounce.measure.kinds.sound.result import Knocks
-from stackbounce.measure.kinds.sound.sequence import missed_between
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 

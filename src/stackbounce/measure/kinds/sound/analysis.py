@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
 from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding, whitened
 from stackbounce.measure.kinds.sound.onset import onsets
-from stackbounce.measure.kinds.sound.result import Dropped, Knocks
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 
 __all__ = ["knocks"]

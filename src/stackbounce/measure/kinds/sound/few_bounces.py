@@ -1,7 +1,8 @@
 """Flights and apex heights of a recording with too few bounces for a restitution."""
 
 from stackbounce.errors import positive
-from stackbounce.measure.kinds.sound.result import FewBounces, Knocks
+from stackbounce.measure.kinds.bounces.knocks import Knocks
+from stackbounce.measure.kinds.sound.result import FewBounces
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["few_bounces"]

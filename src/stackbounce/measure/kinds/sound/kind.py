@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from stackbounce.measure.finding import Finding
-    from stackbounce.measure.kinds.sound.result import Knocks
+    from stackbounce.measure.kinds.bounces.knocks import Knocks
 
 __all__ = ["SOUND"]
 

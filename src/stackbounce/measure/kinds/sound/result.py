@@ -1,10 +1,7 @@
-"""What was found in a recording."""
+"""What a recording with too few bounces tells."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, ClassVar
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING
 
 from stackbounce.measure.finding import Finding
 from stackbounce.measure.quantities import Row
@@ -13,53 +10,7 @@ if TYPE_CHECKING:
     from uncertainties import UFloat
 
 
-__all__ = ["Dropped", "FewBounces", "Knocks"]
-
-
-@dataclass(frozen=True)
-class Dropped:
-    """A sound outside the series of bounces: its time in s, and why it was left out."""
-
-    time: float
-    why: str
-
-
-@dataclass(frozen=True)
-class Knocks(Finding):
-    """The knocks of one ball's bounces.
-
-    Attributes
-    ----------
-    times : tuple of ufloat
-        Onset of each, in s.
-    loudness : ndarray
-        (N,) amplitude over 10 ms without hum, relative to the loudest.
-    missed : tuple of int
-        How many bounces are missing after each but the last.
-    dropped : tuple of Dropped
-        Sounds that were left out: echoes, second sounds of one impact, others.
-    rate : float
-        Samples per second.
-    notes : tuple of str
-        What a reader of the numbers should know, a sentence each.
-    """
-
-    picture: ClassVar[str] = "sound"
-
-    times: "tuple[UFloat, ...]"
-    loudness: NDArray[np.float64]
-    missed: tuple[int, ...]
-    dropped: tuple[Dropped, ...]
-    rate: float
-    notes: tuple[str, ...]
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = [Row("knocks", len(self.times)), Row("sounds left out", len(self.dropped))]
-        for k, (time, loudness) in enumerate(zip(self.times, self.loudness, strict=True)):
-            rows.append(Row(f"time of knock {k}", time, "s"))
-            rows.append(Row(f"loudness of knock {k}", float(loudness)))
-        return rows
+__all__ = ["FewBounces"]
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from stackbounce.measure.finding import Finding
-    from stackbounce.measure.kinds.gap.result import SensorGap
+    from stackbounce.measure.kinds.waveform.gap.result import SensorGap
 
 __all__ = ["WAVEFORM"]
 
@@ -32,9 +32,9 @@ def _analyse(
     gravity: float = STANDARD_GRAVITY,
 ) -> "tuple[Finding, ...]":
     """Analyse a force, and the gap between two balls where a second record tells it."""
-    from stackbounce.measure.kinds.gap.floor_gap import floor_gap
     from stackbounce.measure.kinds.heights.analysis import fallen
     from stackbounce.measure.kinds.waveform.analysis import waveform
+    from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
 
     height = fallen(height, measured_to, diameter)
     known: Any = {"time_constant": time_constant, "law": law, "exponent": exponent}
@@ -50,7 +50,7 @@ def _analyse(
 
 def _by_two_sensors(data: "xr.Dataset", speed: Any, contact_time: Any) -> "tuple[SensorGap, ...]":
     """Return the gap of two balls if the record's second channel feels them touch."""
-    from stackbounce.measure.kinds.gap.sensor_gap import sensor_gap
+    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
 
     try:
         return (sensor_gap(data, impact_speed=speed, contact_time=contact_time),)

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, fraction
-from stackbounce.measure.kinds.gap.result import FloorGap
 from stackbounce.measure.kinds.waveform.analysis import waveform
+from stackbounce.measure.kinds.waveform.gap.result import FloorGap
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.quantities import measured
 from stackbounce.measure.statistics.change_point import Kink, find_kink

@@ -3,8 +3,8 @@
 from typing import Any
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.kinds.gap.delay import delay, gap_from_delay
-from stackbounce.measure.kinds.gap.result import SensorGap
+from stackbounce.measure.kinds.waveform.gap.delay import delay, gap_from_delay
+from stackbounce.measure.kinds.waveform.gap.result import SensorGap
 
 __all__ = ["sensor_gap"]
 
