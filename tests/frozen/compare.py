@@ -1,4 +1,9 @@
-"""Differences between what was and what is."""
+"""Differences between what was and what is.
+
+Some analyses are not the same to the last bit from run to run: `uncertainties` adds up covariances
+in the order of a set of objects, that is of their places in memory. So values are compared in units
+of their errors where these are larger.
+"""
 
 import math
 import re
@@ -56,7 +61,7 @@ def _differences(before: dict[str, Any], now: dict[str, Any], exact: bool) -> It
             if old != new:
                 yield _texts(path, old, new)
         elif _is_number(old) and _is_number(new):
-            if not same(old, new, exact):
+            if not same(old, new, exact, _size(path, before)):
                 yield Difference(path, repr(old), repr(new), _relative(old, new))
         elif type(old) is not type(new) or old != new:
             yield Difference(path, _short(old), _short(new), "another kind of value")
@@ -64,6 +69,13 @@ def _differences(before: dict[str, Any], now: dict[str, Any], exact: bool) -> It
 
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _size(path: str, table: dict[str, Any]) -> float:
+    """Return the error that stands beside a value: digits far below it are round-off."""
+    owner, _, name = path.rpartition("/")
+    error = table.get(f"{owner}/error") if name == "value" else None
+    return float(error) if isinstance(error, int | float) and math.isfinite(error) else 0.0
 
 
 def same(old: float, new: float, exact: bool, size: float = 0.0) -> bool:

@@ -55,4 +55,7 @@ def _seeds(kind: str, trial: Callable[..., Any]) -> dict[str, Any]:
 
 def _quantities(found: Iterable[tuple[str, Any, float]]) -> dict[str, Any]:
     """Return the estimate, its error, and the truth of each quantity."""
-    return {name: [one.nominal_value, one.std_dev, truth] for name, one, truth in found}
+    return {
+        name: {"value": one.nominal_value, "error": one.std_dev, "truth": truth}
+        for name, one, truth in found
+    }
