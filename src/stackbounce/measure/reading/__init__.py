@@ -2,8 +2,8 @@
 
 ======== ======================================================================
 reader   the one function: a path -> a Dataset
-options  what the caller tells of a file
-limits   what is refused before it can hurt: size, folders, other kinds of file
+options  the options of `read`, and their effect on columns
+limits   limits on what is read: size, folders, other kinds of file
 text     bytes -> text -> delimiter, decimal mark, the cells of the first lines
 numbers  the rows below -> an array, by pandas where they are plain
 headings "Run 1: Time (ms)" -> name, unit, run

@@ -23,7 +23,7 @@ INFERRED = (
 def bounces(columns: Sequence[Column], values: NDArray[np.float64]) -> "xr.Dataset":
     """Return the knocks that were heard, and what phyphox derived of them.
 
-    Without a knock k, phyphox derives height k and energy k from the time that has passed by then:
+    If it heard no knock k, phyphox computes height k and energy k from the time since knock k - 1;
     these are left out.
 
     Parameters

@@ -28,7 +28,7 @@ class Layout:
     format : str
         The program, or the kind of table.
     why : str
-        What in the content told.
+        By what in the content it was recognised.
     columns : tuple of Column
         Those of interest.
     first : int
@@ -53,7 +53,7 @@ class Layout:
 _Recognise: TypeAlias = Callable[[Text], Layout | None]
 
 LAYOUTS: list[_Recognise] = []
-"""What recognises the table of a program, in the order in which they are asked."""
+"""The functions that recognise the table of a program, in the order in which they are tried."""
 
 
 def layout(recognise: _Recognise) -> _Recognise:

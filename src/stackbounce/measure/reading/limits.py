@@ -1,4 +1,4 @@
-"""What is refused before it can hurt: folders, devices, files too large, files of another kind."""
+"""Limits on what is read: no folders or devices, no file too large, no file of another kind."""
 
 import os
 import stat
@@ -20,7 +20,7 @@ COLUMNS = 1000
 LINE = 2**20
 """Characters in a line, at most."""
 
-# How files begin that are often at hand instead: (where, what, what it is, what to do).
+# First bytes of other kinds of files: (offset, bytes, what it is, what to do).
 _OTHERS = (
     (4, b"ftyp", "a video or a sound in MPEG-4", "track a video first, or save the sound as WAV"),
     (0, b"ID3", "an MP3 sound", "save it as WAV"),
@@ -78,7 +78,7 @@ def content_of(path: object) -> tuple[str, bytearray]:
 
 
 def refuse_others(content: bytearray) -> None:
-    """Refuse the kinds of files that are often at hand instead of a table or a sound."""
+    """Raise `FileError` for known kinds of files that are neither a table nor a WAV sound."""
     begin = content[:64].removeprefix(b"\xef\xbb\xbf").lstrip()
     for where, what, kind, remedy in _OTHERS:
         if begin[where:].startswith(what):

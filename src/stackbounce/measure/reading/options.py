@@ -1,4 +1,4 @@
-"""What the caller tells of a file, and what that makes of its columns."""
+"""The options of `read`, and how they change the columns of a file."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -16,7 +16,7 @@ _Key = str | int
 
 @dataclass(frozen=True)
 class Told:
-    """What the caller tells."""
+    """The options of `read`, checked."""
 
     holds: str | None = None
     table: str | None = None
@@ -51,7 +51,7 @@ def told_by(
 
 
 def _mapping(option: str, given: object) -> dict[_Key, str]:
-    """Return columns and what is told of each."""
+    """Return an option that maps columns to text, checked."""
     if given is None:
         return {}
     if not isinstance(given, Mapping):
@@ -65,7 +65,7 @@ def _mapping(option: str, given: object) -> dict[_Key, str]:
 
 
 def as_told(columns: Sequence[Column], told: Told) -> list[Column]:
-    """Return columns with the names and units that the caller tells."""
+    """Return columns with the names and units of the options."""
     found = list(columns)
     for option, mapping in (("units", told.units), ("names", told.names)):
         for key, value in mapping.items():

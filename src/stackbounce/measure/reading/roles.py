@@ -30,7 +30,7 @@ _WANTED = {  # the SI units that a column in a role can have
     "sound": "V Pa 1", "x": "m", "y": "m",
 }  # fmt: skip
 _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
-_BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # times, but not when
+_BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
 _ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
 G = 9.80665
@@ -75,7 +75,7 @@ class Column:
         return self.named or self.role or slug(self.heading.name or f"column {self.index + 1}")
 
     def called(self, name: str, unit: str | None) -> "Column":
-        """Return it with another name or unit, as the caller tells."""
+        """Return the column with another name or unit, by an option of `read`."""
         said = self.heading if unit is None else replace(self.heading, unit=unit)
         role, factor, symbol, doubt = _role(name or self.heading.name, said.unit, self.role)
         if name:

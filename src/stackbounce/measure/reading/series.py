@@ -8,22 +8,22 @@ from stackbounce.errors import InvalidValue, shown
 __all__ = ["in_time", "step_of"]
 
 _RUNS = 50
-"""Runs below each other, at most: with more, the column is no time."""
+"""Runs below each other, at most: with more, the column does not hold times."""
 
 
 def in_time(
     time: NDArray[np.float64], run: object, *, gaps: bool
 ) -> tuple[NDArray[np.intp] | slice, list[str]]:
-    """Return the rows of one run, whose times never run backwards, and what is unsure.
+    """Return the rows of one run, in which time never decreases, and what is unsure.
 
     Parameters
     ----------
     time : numpy.ndarray
-        Times in s, NaN where there is none: such a row is none.
+        Times in s; rows where it is NaN are left out.
     run : object
         The run that is wanted, counted from 1, or None: the first.
     gaps : bool
-        Whether missing rows are worth a word.
+        Whether missing rows are told.
 
     Raises
     ------

@@ -12,7 +12,7 @@ from stackbounce.measure.reading.limits import COLUMNS, LINE
 __all__ = ["MISSING", "Text", "decode", "number", "split", "tabulate"]
 
 HEAD = 200
-"""Lines that are looked at to tell what a table is."""
+"""Lines from which the layout of a table is recognised."""
 
 _DELIMITERS = "\t;, "
 MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "-", "--", "---", "null", "none", "*"])
@@ -26,7 +26,7 @@ _CONTROL = re.compile(r"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
 
 @dataclass(frozen=True)
 class Text:
-    """A table as text, with what its first lines tell.
+    """A table as text, with its delimiter and decimal mark.
 
     Parameters
     ----------
@@ -41,7 +41,7 @@ class Text:
     starts : list of int
         Where each of these begins in `content`.
     doubts : list of str, optional
-        What is unsure about that.
+        What is unsure about delimiter and decimal mark.
     """
 
     content: str
@@ -59,9 +59,9 @@ class Text:
 
 
 def decode(content: bytearray) -> str:
-    """Return bytes as text with plain line ends; the encoding is told by a mark or tried.
+    """Return bytes as text with plain line ends; the encoding follows from its mark or is tried.
 
-    The bytes are given up (emptied), so that a large file is not held twice.
+    The bytes are emptied, so that a large file is not in memory twice.
 
     Raises
     ------
@@ -155,12 +155,12 @@ def _thousands(decimal: str) -> re.Pattern[str]:
 
 
 def tabulate(content: str, decimal: str | None = None) -> Text:
-    """Tell the delimiter and the decimal mark of a table by its first lines.
+    """Find the delimiter and the decimal mark of a table in its first lines.
 
     Raises
     ------
     FileError
-        If a line is endless, there are too many columns, or there is no row of numbers.
+        If a line is too long, there are too many columns, or there is no row of numbers.
     """
     if decimal not in (None, ".", ","):
         raise InvalidValue(f'decimal must be "." or ",", got {shown(decimal)}')

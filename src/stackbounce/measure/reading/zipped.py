@@ -1,4 +1,4 @@
-"""The tables of a zip archive, unpacked in memory and never beyond a limit."""
+"""The tables of a zip archive, unpacked in memory up to a limit."""
 
 import io
 import zipfile
@@ -18,7 +18,7 @@ _ENDINGS = (".csv", ".tsv", ".txt", ".dat")
 def members(content: bytearray) -> tuple[dict[str, bytes], bool]:
     """Return the tables of an archive by their names, and whether phyphox wrote it.
 
-    Names are names only: nothing is written anywhere. Archives inside are left alone.
+    Nothing is written to disk. Archives inside the archive are ignored.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def _tables(archive: zipfile.ZipFile) -> tuple[dict[str, bytes], bool]:
 
 
 def _unzip(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, left: int) -> bytes:
-    """Return the bytes of an entry, at most so many as are left, whatever it says of its size."""
+    """Return the bytes of an entry, at most `left` of them, whatever size its header says."""
     with archive.open(entry) as file:
         content = file.read(left + 1)
     if len(content) > left:

@@ -1,4 +1,4 @@
-"""Where the floor's force under a stack departs from that under its lowest ball alone."""
+"""The change point at which one curve departs from another: the force under a stack of balls."""
 
 import math
 from typing import NamedTuple
@@ -10,36 +10,37 @@ __all__ = ["Kink", "find_kink"]
 
 Array = NDArray[np.float64]
 
-_EVEN = 0.06  # of the contact time, over which noise is averaged for a slope or a largest value
-_PART = 0.6  # of the largest departure: up to where it is followed
-_LATEST = 0.9  # of the contact time alone, after which forces are too small to tell
-_TIMES = 110  # of a departure that are tried
-# A departure's power of the time since then, and its bend until the end of what is followed, with
-# their errors and their change over the contact time alone: over floors that are springs, Hertz's,
-# hysteretic or viscous, restitutions from 0.7, second balls of 0.08 to 0.6 times the mass, and
-# stiffnesses of theirs that make contacts 0.6 to 1.1 times as long as the floor's.
+_EVEN = 0.06  # of the contact time: width of averages before a slope or a maximum is taken
+_PART = 0.6  # of the largest departure: the fit ends there
+_LATEST = 0.9  # of the contact time of the lowest ball alone: later forces are too small
+_TIMES = 110  # change points on the grid
+# Priors of the departure's exponent and bend: mean, change over the contact time, and standard
+# deviation. They are those of simulated stacks with floors that are springs, Hertz's, hysteretic or
+# viscous, restitutions from 0.7, upper masses of 0.08 to 0.6 of the lower one, and contacts between
+# the balls that last 0.6 to 1.1 times as long as the floor's.
 _POWERS, _POWER, _POWER_CHANGE, _POWER_ERROR = np.linspace(2.0, 4.8, 9), 4.4, -2.15, 0.4
 _BENDS, _BEND, _BEND_CHANGE, _BEND_ERROR = np.linspace(-0.85, 0.15, 6), -0.78, 0.69, 0.16
-_SAME = 0.02  # relative: how well two drops from one height repeat each other's force
+_SAME = 0.02  # relative: how well the force repeats in two drops from one height
 _ROUNDS = 2
-_TAIL = (0.6, 1.25)  # of the contact time alone: where a second ball shows most
-_MATCHED, _DOUBTLESS = 0.005, 5.0  # how well the gain is known, relative; in errors
-_SEEN = 25.0  # χ² that a departure must explain
+_TAIL = (0.6, 1.25)  # of the contact time alone: where a second ball changes the force most
+_MATCHED, _DOUBTLESS = 0.005, 5.0  # relative error of the gain; significance in errors
+_SEEN = 25.0  # decrease of χ² that a departure must give
 
 
 class Kink(NamedTuple):
-    """When the forces part, in s since the stack's first touch, and what it follows from.
+    """The change point, in s since the stack's first touch, and the fit it comes from.
 
     Parameters
     ----------
     time, error : float
-        NaN where they do not part.
+        Of the change point; NaN where there is none.
     shift, gain : float
-        By which the force alone was moved, in s, and multiplied, to be that of the stack.
+        By which the force under the lowest ball alone was shifted, in s, and multiplied, to match
+        that under the stack.
     until : float
-        Up to where it was followed, in s since the touch.
+        The end of the fit, in s since the touch.
     pressed : bool
-        Whether the stack pressed harder at all than the lowest ball alone, late in its contact.
+        Whether the force under the stack is the larger one late in the contact.
     """
 
     time: float
@@ -62,7 +63,7 @@ def find_kink(
     alone : (ndarray, ndarray)
         The same of the record of the lowest ball alone.
     noise : float
-        Of the difference of the two, for one sample of the stack's.
+        Of the difference of the two, for one sample of the stack's record.
     lasting : float
         The contact time alone, in s.
 
@@ -72,11 +73,11 @@ def find_kink(
 
     Notes
     -----
-    While the second ball is not there both forces are the same, but for the moment of the touch
-    and the height of the fall. When it comes, its force grows like ``u**p`` with the time u since
-    then; twice integrated, the displacement of the lower ball and thereby the floor's force depart
-    like ``u**(p + 2)`` at first, less steeply later. Each time, power and bend that may be is
-    tried; gain, shift and size are linear. The time is the mean over all, weighted by likelihood.
+    Until the second ball touches, both forces are the same up to a shift in time and a gain. Then
+    its force grows like ``u**p`` with the time u since its touch. Integrated twice, the
+    displacement of the lower ball, and with it the floor's force, departs like ``u**(p + 2)`` at
+    first and less steeply later. All change points, exponents and bends of a grid are tried; gain,
+    shift and size are linear. The change point is the posterior mean over the grid.
     """
     from scipy.signal import savgol_filter
 
@@ -98,7 +99,7 @@ def find_kink(
 
 
 def _pressed(share: Array, force: Array, like: Array, noise: float) -> bool:
-    """Tell whether a force is larger than another late in the contact, beyond doubt."""
+    """Tell whether a force is significantly larger than another late in the contact."""
     late = (share > _TAIL[0]) & (share < _TAIL[1])
     error = math.hypot(noise / math.sqrt(max(late.sum(), 1)), _MATCHED * float(like[late].mean()))
     return float((force - like)[late].mean()) > _DOUBTLESS * error
@@ -117,7 +118,7 @@ def _until(times: Array, departure: Array, lasting: float) -> float:
 def _search(
     times: Array, force: Array, known: Array, noise: float, ends: tuple[float, float]
 ) -> tuple[float, float, float, float]:
-    """Try all departures; return the time and its error, gain, and shift times gain."""
+    """Return the change point and its error, the gain, and shift times gain, of the whole grid."""
     rows = np.concatenate([known / noise, [[1.0 / _SAME, 0.0]]])
     base, _ = np.linalg.qr(rows)
     right = np.append(force / noise, 1.0 / _SAME)
@@ -154,12 +155,12 @@ def _search(
 
 
 def _padded(columns: Array) -> Array:
-    """Return columns with a row of zeros, in which the gain's prior has its own."""
+    """Return columns with a row of zeros, which stands for the prior of the gain."""
     return np.concatenate([columns, np.zeros((1, columns.shape[1]))])
 
 
 def _beside(base: Array, columns: Array) -> Array:
-    """Return what of columns no gain and no shift can make."""
+    """Return the part of columns that is orthogonal to gain and shift."""
     padded = _padded(columns)
     beside: Array = padded - base @ (base.T @ padded)
     return beside

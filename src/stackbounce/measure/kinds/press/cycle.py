@@ -122,8 +122,8 @@ def _covariance(
 ) -> Array:
     """Return the covariance of rows, from the residuals of both branches, one after the other.
 
-    They have one noise if their residuals are about as large; else one of the two does not fit as
-    well as the other, and each has its own.
+    Branches with residuals of about the same size share one noise model; otherwise one of them fits
+    worse, and each has a noise model of its own.
     """
     up, back = fits
     count = len(up.residual)

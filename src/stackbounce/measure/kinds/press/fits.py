@@ -1,7 +1,7 @@
-"""The curves of a press record: least squares, and how each number follows from the noise.
+"""Power laws fitted to a press record by least squares, with the sensitivity to each point's noise.
 
-Every number found is to first order a linear function of the noise of the points. Its weights are
-carried along as a row, so that all errors and correlations come from one covariance of the noise.
+To first order every number found is a linear function of the noise of the points. Its weights are
+kept as a row, so that all errors and correlations follow from one covariance of the noise.
 """
 
 from dataclasses import dataclass

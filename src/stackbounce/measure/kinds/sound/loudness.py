@@ -1,4 +1,4 @@
-"""Where a recording becomes suddenly louder."""
+"""Sudden rises of a recording's loudness, and the quantisation and whitening before it."""
 
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ _AFTER, _BEFORE, _GUARD = 4, 16, 1  # hops whose loudness is compared, and betwe
 _ORDER = 24  # of the linear prediction that removes noise
 _LEAST_RISE = 3.0  # of the energy
 _MOST = 250  # rises that are looked at
-_LEVELS = 2**18  # samples whose values tell how they are rounded
+_LEVELS = 2**18  # samples that tell the quantisation step
 
 
 class Rises(NamedTuple):
@@ -30,10 +30,9 @@ class Rises(NamedTuple):
 
 
 def rounding(samples: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Return the variance of the error that rounding to its bits makes, (channels,).
+    """Return the variance of the quantisation error, (channels,).
 
-    It is a twelfth of the square of the step, which is the least distance of two values. A silence
-    of zeros hides it, but what rises out of such a silence by a step or two is no sound.
+    It is s²/12 for the step s, the smallest distance of two values.
 
     Examples
     --------
@@ -75,10 +74,10 @@ def find_rises(
     rate : float
         Samples per second.
     threshold : float, optional
-        By which factor the amplitude must rise within 2 ms; by default so that steady noise does so
-        in one recording of a hundred, and at least by 1.7.
+        The factor by which the amplitude must rise within 2 ms. By default stationary noise does so
+        in one recording of a hundred, and the factor is at least 1.7.
     rounded : float
-        Variance of a sample's error of rounding: the least noise that there is.
+        Variance of the quantisation error of a sample: the smallest possible noise.
 
     Returns
     -------

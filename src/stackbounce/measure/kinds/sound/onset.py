@@ -1,4 +1,4 @@
-"""When exactly each knock of one ball begins."""
+"""The onset of each knock of one ball, and its error."""
 
 import math
 from typing import NamedTuple, TypeAlias
@@ -9,20 +9,20 @@ from numpy.typing import NDArray
 __all__ = ["onsets"]
 
 _RISES = (0.0, 0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3)  # s in which a knock may rise
-_FAR, _NEAR = 1.5e-3, 0.65e-3  # s to both sides of where a knock is thought to begin
-_MOST = 64  # samples to both sides together: at higher rates they are thinned out
-_KNOWN = 5.0  # errors that `_NEAR` must be
-_QUIET, _GUARD = 8e-3, 0.5e-3  # s before it that tell the noise, and between
-_LOUD = 2e-3  # s after it that tell how loud it is
-_COLOR = 4e-3  # s after it that tell its color
-_LEAST = 1e-3  # of the noise: the least power of a knock
-_ONE_SIGMA = (0.15865525, 0.84134475)  # what lies below one sigma to both sides
+_FAR, _NEAR = 1.5e-3, 0.65e-3  # s on both sides of the presumed onset
+_MOST = 64  # samples on both sides together: at higher rates neighbours are averaged
+_KNOWN = 5.0  # an onset is refined within `_NEAR` if its error is so many times smaller
+_QUIET, _GUARD = 8e-3, 0.5e-3  # s before the knock for the noise, and s between the two
+_LOUD = 2e-3  # s after the onset for the power of the knock
+_COLOR = 4e-3  # s after the onset for the autocorrelation
+_LEAST = 1e-3  # of the noise: the smallest power of a knock
+_ONE_SIGMA = (0.15865525, 0.84134475)  # probabilities at one sigma below and above the mean
 
 Array: TypeAlias = NDArray[np.float64]
 
 
 class _Knock(NamedTuple):
-    """Samples around a knock, powers of noise and after it, and its color (autocorrelation)."""
+    """Samples around a knock, the powers of the noise and of the knock, its autocorrelation."""
 
     first: int
     values: Array
@@ -34,25 +34,26 @@ class _Knock(NamedTuple):
 def onsets(
     white: NDArray[np.float32], rate: float, about: Array, rounded: Array
 ) -> tuple[Array, Array]:
-    """Return when the knocks of one ball begin, and the errors of that.
+    """Return the onsets of the knocks of one ball, and their errors.
 
-    A knock is a random wave of some color, which rises like ``1 - exp(-t/a)`` out of white noise.
-    One ball on one floor sounds alike each time: the color (autocorrelation) is half the knock's
-    own and half the mean of all, and the rise a is the same for all, the likeliest of a list; one
-    that is off shifts all alike, which no flight sees. The time is the mean of its posterior; the
-    error is the standard deviation, or half of the middle 68.3 % where far tails make that less.
+    A knock is modelled as autocorrelated Gaussian noise that rises like ``1 - exp(-t/a)`` out of
+    white noise. All knocks of a ball on a floor sound alike. The autocorrelation is therefore the
+    mean of the knock's own and of the average over all knocks, and all have the rise time a that is
+    the most likely of a list. A wrong rise time shifts all onsets by the same amount, which does
+    not change the flights. The onset is the mean of its posterior. Its error is the standard
+    deviation, or half the width of the central 68.3 % if that is smaller.
 
     Parameters
     ----------
     white : ndarray
-        (channels, N), as of `loudness.whitened`. The channel is taken in which
-        the knocks are clearest: two often hold the same, or hear it at different times.
+        (channels, N), as of `loudness.whitened`. Only the channel with the clearest knocks is used,
+        as sound reaches two microphones at different times.
     rate : float
         Samples per second.
     about : ndarray
-        (K,) when they begin, within 1 ms, in s.
+        (K,) approximate onsets, within 1 ms, in s.
     rounded : ndarray
-        (channels,) variance of a sample's error of rounding: the least noise that there is.
+        (channels,) variance of the quantisation error of a sample: the smallest possible noise.
 
     Returns
     -------
@@ -61,9 +62,9 @@ def onsets(
 
     Notes
     -----
-    The samples of a wave go together: who takes each for a new one finds an onset too late, and too
-    small an error, wherever a wave begins slowly. So the likelihood is that of a Gaussian process,
-    ``power g_i g_j R_(i-j) + noise δ_ij`` from the onset on (g the rise, R the color).
+    Samples are autocorrelated. Assuming independence biases the onset of a slow wave late and makes
+    its error too small. The likelihood is therefore that of a Gaussian process with the covariance
+    ``power g_i g_j R_(i-j) + noise δ_ij`` from the onset on (g is the rise, R the autocorrelation).
 
     Examples
     --------
@@ -76,7 +77,7 @@ def onsets(
     best = _clearest(white, rate, about, rounded) if len(white) > 1 else 0
     errors = np.full(len(about), np.inf)
     far = 2.0 * _FAR * rate
-    # The better an onset is known, the better loudness and color, which are of what follows it.
+    # Power and autocorrelation are measured after the onset, and improve with it.
     for reach in (_FAR, _FAR, _NEAR) if far > _MOST else (_FAR, _FAR):
         thin = math.ceil(2.0 * reach * rate / _MOST)
         knocks = [_knock(white[best], at, rate, reach, thin, rounded[best]) for at in about]
@@ -112,12 +113,12 @@ def _knock(
 
 
 def _rounding(noise: float, variance: float) -> float:
-    """Return as how much noise errors of rounding count.
+    """Return the variance that quantisation adds to the noise.
 
-    Where noise of a variance σ² makes them independent of the signal it is their own, s²/12 of a
-    step s. Without it those of a slow wave go together, and reach half a step. In between the share
-    that goes with the signal is ``exp(-4 π² σ²/s²)`` (B. Widrow, I. Kollár, "Quantization Noise",
-    2008).
+    With noise of a variance σ² above a step s the quantisation errors are independent of the signal
+    and have a variance of s²/12. Without noise those of a slow wave are correlated, and reach half
+    a step. In between the correlated share is ``exp(-4 π² σ²/s²)`` (B. Widrow, I. Kollár,
+    "Quantization Noise", 2008).
     """
     if variance == 0.0:
         return 0.0
@@ -125,7 +126,7 @@ def _rounding(noise: float, variance: float) -> float:
 
 
 def _part(values: NDArray[np.float32], start: int, stop: int, thin: int) -> Array:
-    """Return means of `thin` samples each, and zeros where there are none."""
+    """Return means of `thin` samples each, and zeros outside of the recording."""
     inside = values[max(start * thin, 0) : max(stop * thin, 0)].astype(np.float64)
     before = max(-start * thin, 0)
     after = (stop - start) * thin - before - len(inside)
@@ -162,7 +163,7 @@ def _logs(knock: _Knock, color: Array, rate: float) -> Array:
     power = np.maximum(power, _LEAST * knock.noise)
     wave = np.sqrt(power)[:, None] * grown[:, :count]
     covariances = toeplitz(color) * wave[:, :, None] * wave[:, None] + knock.noise * np.eye(count)
-    # The root of a leading part of a matrix is the leading part of its root: one for all onsets.
+    # A leading block of a Cholesky factor factors the leading block: one serves all onsets.
     roots = np.linalg.cholesky(covariances)
     later = np.add.outer(np.arange(count), np.arange(count))  # sample, onset
     inside = later < count

@@ -1,4 +1,4 @@
-"""Heights against time -> flights (parabolas of one common acceleration) and what is between."""
+"""Heights against time -> free flights: parabolas of one common acceleration."""
 
 from typing import NamedTuple
 
@@ -9,9 +9,9 @@ from stackbounce.measure.statistics.ar_noise import fit_with_ar_noise
 
 __all__ = ["Flight", "Flights", "find_flights", "fit_flights", "unexplained"]
 
-_PRICE = 14.0  # of a further piece, in variances
-_SPEED = 9.0  # of a flight's speed, which a rest does not have
-_STRAY = 9.0  # of a point that belongs to no piece
+_PRICE = 14.0  # penalty of a piece, in variances
+_SPEED = 9.0  # penalty of a flight's speed, a parameter that a rest does not have
+_STRAY = 9.0  # penalty of a point that belongs to no piece
 _STRAY_POINT, _FLIGHT, _REST = range(3)  # kinds of pieces
 _LEAST = 3  # points of a flight
 _LONGEST = 3000  # points of a piece
@@ -62,8 +62,9 @@ def find_flights(
 ) -> list[Flight]:
     """Return the free flights in a track.
 
-    The track is cut into flights, rests and stray points so that the sum of squares and of prices
-    is least (R. Bellman's dynamic programming).
+    The track is cut into flights, rests and stray points at the change points that make the sum of
+    squared residuals and of penalties, one for each piece, smallest (R. Bellman's dynamic
+    programming).
 
     Parameters
     ----------
@@ -103,7 +104,7 @@ def unexplained(
     sigma: float,
     accelerations: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """Return how badly flights of each acceleration explain a track; see `find_flights`.
+    """Return the cost of the best cut of a track for each acceleration; see `find_flights`.
 
     Parameters
     ----------
@@ -115,7 +116,7 @@ def unexplained(
     Returns
     -------
     ndarray
-        (K,) sums of squares and prices, in variances.
+        (K,) sums of squared residuals and penalties, in variances.
     """
     return _cut(times, heights, sigma, np.asarray(accelerations))[0]
 
@@ -126,16 +127,16 @@ def _cut(
     sigma: float,
     accelerations: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.intp]]:
-    """Return the cost of the best cut of a track for each acceleration, and the first one's pieces.
+    """Return the cost of the best cut for each acceleration, and the pieces for the first one.
 
-    These are told for the points before each end: where the last piece starts, and its kind.
+    The pieces are given by the last one before each point: where it starts, and its kind.
     """
     count = len(times)
     x = times - times.mean()
     y = (heights - heights.mean()) / sigma
     flown = y + 0.5 * accelerations[:, None] * x**2 / sigma
     flown -= flown.mean(axis=1, keepdims=True)
-    # Running sums: of x, x², y, y² (one row), and of what is left of flights, times x, squared.
+    # Running sums of x, x², y, y² (one row), and of the residuals of flights, times x, squared.
     single = _running(np.stack([x, x * x, y, y * y]))
     many = _running(np.stack([flown, x * flown, flown * flown]))
     best = np.zeros((len(flown), count + 1))

@@ -1,4 +1,4 @@
-"""Where the record is quiet: its level, its drift, its hum, its noise."""
+"""The quiet parts of a record: level, drift, hum of the mains, noise."""
 
 import math
 from dataclasses import dataclass
@@ -26,7 +26,7 @@ _ENOUGH = 24  # quiet samples for a fit with hum
 
 @dataclass(frozen=True, eq=False)
 class Quiet:
-    """The baseline of a record, and what scatters around it.
+    """The baseline of a record, and the noise around it.
 
     Parameters
     ----------
@@ -35,8 +35,8 @@ class Quiet:
     noise : float
         Standard deviation of one sample.
     density : float
-        Standard deviation of one sample that, if all were independent, would give averages their
-        true error: `noise` times the root of the correlation of neighbours.
+        Standard deviation of independent samples whose averages would have the same error: `noise`
+        times the root of `correlation_factor`.
     error : float
         Of the baseline's level, one standard deviation.
     hum : float
@@ -54,9 +54,9 @@ class Quiet:
 
 
 def first_guess(record: Record) -> tuple[float, float]:
-    """Return level and noise of the quiet part before anything is known of the contacts.
+    """Return a first estimate of level and noise of the quiet part, without knowing the contacts.
 
-    The level is the middle of the shortest range that holds a quarter of all values.
+    The level is the median of the shortest interval that holds a quarter of all values.
     """
     values = record.values
     level = _densest(values)
@@ -120,7 +120,7 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
 
 
 def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
-    """Return the noise of one sample and of averages, see `Quiet`, from what a fit left.
+    """Return the noise of one sample and of averages, see `Quiet`, from the residuals of a fit.
 
     Parameters
     ----------
@@ -172,7 +172,7 @@ def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
 
 
 def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
-    """Tell whether a fit where it is quiet says enough of what is between."""
+    """Tell whether a fit to the quiet samples is well determined between them."""
     normal = columns[quiet].T @ columns[quiet] / quiet.sum()
     some = columns[:: max(1, len(columns) // 500)]
     errors = np.sum(some * (some @ np.linalg.pinv(normal, hermitian=True)), axis=1)
@@ -192,7 +192,7 @@ def _fitted(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
 
 
 def _robust(rest: Array, quantum: float) -> float:
-    """Return the standard deviation without what stands out."""
+    """Return the standard deviation without outliers."""
     scale = float(np.quantile(np.abs(rest), _ONE)) + 0.5 * quantum
     for _ in range(_CLIPS):
         inside = rest[np.abs(rest) <= _CLIP * scale]
@@ -203,10 +203,10 @@ def _robust(rest: Array, quantum: float) -> float:
 
 
 def _floor(record: Record) -> float:
-    """Return the least noise: that of the converter, or round-off."""
+    """Return the smallest possible noise: that of quantisation, or round-off."""
     return max(record.quantum / math.sqrt(12.0), 1e-6 * float(np.ptp(record.values)), 1e-300)
 
 
 def stuck(quantum: float, noise: float) -> float:
-    """Return a level's error by a converter whose steps the noise does not smear out."""
+    """Return the quantisation error of a level, if the noise is below half a step."""
     return quantum / math.sqrt(12.0) if noise < 0.5 * quantum else 0.0

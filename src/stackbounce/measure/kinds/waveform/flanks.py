@@ -1,9 +1,9 @@
-"""When a contact began or ended: its flank followed down through the noise.
+"""Touch and release of a contact, by a fit of its flanks.
 
-A threshold is crossed too late by an amount that depends on the threshold. Here the rise itself is
-fitted, by the curve of a shape (`shapes`). The start, the shape's
-unknown, all else of the curve and the level before the touch are unknown, and the error of the
-start holds what the others leave open.
+A threshold is crossed too late, by an amount that depends on the threshold. Therefore the rise is
+fitted by the curve of a shape (`shapes`). The start, the shape's unknown, the other coefficients of
+the curve and the level before the touch are free, and the error of the start is marginalised over
+all of them.
 """
 
 from dataclasses import dataclass, replace
@@ -41,7 +41,7 @@ class Flank:
     times, force : ndarray
         The fitted curve, for a picture: in s and in the record's unit.
     misfit : float
-        Root of chi squared per degree of freedom; the error holds it if it exceeds 1.
+        Root of chi squared per degree of freedom; above 1 it multiplies the errors.
     """
 
     time: float
@@ -208,8 +208,8 @@ def _closer(
 ) -> tuple[Array, Array]:
     """Return a finer grid around the weight on a coarse one.
 
-    Each exponent has starts of its own: the larger it is, the earlier the touch, and where noise is
-    low the weight lies on a line between the two that is much thinner than it is long.
+    Start and exponent are correlated: the larger the exponent, the earlier the start. At low noise
+    the posterior is a narrow ridge, so each exponent has its own grid of starts.
     """
     best = score.max(axis=1)
     own = np.exp(score - best[:, None])
@@ -235,9 +235,9 @@ def _moments(grid: Array, weight: Array) -> tuple[float, float]:
 
 
 def _half(grid: Array, weight: Array) -> float:
-    """Return half of the range that holds 68 %, which exceeds the spread for a jump.
+    """Return half the width of the central 68 %, which exceeds the standard deviation for a jump.
 
-    A jump between two samples is as probable anywhere between them.
+    The posterior of a jump is uniform between two samples.
     """
     order = np.argsort(grid, axis=None)
     share, places = weight.ravel()[order], grid.ravel()[order]
@@ -250,8 +250,8 @@ def _scan(
 ) -> tuple[Array, float, tuple[float, float, Array]]:
     """Return the logarithm of the probability of each pair of start and unknown.
 
-    For each pair the curve is linear in all else, which is integrated over. Also chi squared of the
-    best pair, and what its curve needs.
+    For each pair the curve is linear in its other coefficients, which are integrated out. Also
+    return chi squared of the best pair, and its start, unknown and coefficients.
     """
     where = points.times if points.edges is None else points.edges
     u = (where - starts[:, :, None]) / points.unit
