@@ -1,4 +1,4 @@
-"""How restitution falls with speed: two laws, fitted to values whose errors go together."""
+"""How restitution falls with speed: two laws, fitted to values with correlated errors."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -29,7 +29,7 @@ class RestitutionLaw:
         The restitution at no speed (linear), or at 1 m/s (power law).
     slope : ufloat
         In s/m (linear), or the exponent (power law); above 0 where the restitution falls. The
-        errors of the two go together, as `uncertainties` knows.
+        errors of the two are correlated, as `uncertainties` knows.
     chi_squared : float
         Of the fit, with `freedom` degrees of freedom.
     freedom : int
