@@ -60,7 +60,7 @@ def bounces(
 
     Notes
     -----
-    Air is left out. The slope is fitted by generalised least squares to errors that go together;
+    Air is left out. The slope is fitted by generalised least squares with correlated errors;
     error bars that were estimated from few bounces are widened by Student's t.
 
     Examples

@@ -28,8 +28,8 @@ class RestitutionLaw:
     coefficient : ufloat
         The restitution at no speed (linear), or at 1 m/s (power law).
     slope : ufloat
-        In s/m (linear), or the exponent (power law); above 0 where the restitution falls. Its
-        error is correlated with that of the coefficient, as `uncertainties` knows.
+        In s/m (linear), or the exponent (power law); above 0 where the restitution falls. The
+        errors of the two are correlated, as `uncertainties` knows.
     chi_squared : float
         Of the fit, with `freedom` degrees of freedom.
     freedom : int
