@@ -83,8 +83,8 @@ def highest(
         str,
         typer.Option(
             metavar="LAW",
-            help="Of the catalogue's contacts, with the ball's contact time and restitution: "
-            "hysteretic, or spring or hertz, without loss.",
+            help="Of the catalogue's contacts, with the ball's contact time and restitution, as "
+            "spring, which loses nothing.",
         ),
     ] = "hysteretic",
     height: Height = None,
