@@ -9,7 +9,8 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 INSTALL := $(PIP) install --quiet --quiet --constraint constraints.txt
 DROPS ?= 1000000
 SEED ?= 1
-# Two stamps: `make paper` needs only what the package needs to run; the other targets add the developers' tools.
+PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
+# Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.
 RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
@@ -27,20 +28,19 @@ paper: $(RUNTIME)  ## recompute the paper: figures, tables and audit, in build/p
 app: $(RUNTIME)  ## open the explorer in the browser
 	@$(BIN)/stackbounce app
 
-test: $(DEV)  ## run the tests, those of the page in Chromium
-	@tests/web/browser/chromium.sh
-	@$(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
+test: $(DEV)  ## run the fast tests of every kind, in under four minutes on two cores
+	@$(PYTEST) -m 'not slow'
 
-coverage: $(DEV)  ## hold all error bars to their claim (make test: some of them); half an hour
-	@STACKBOUNCE_COVERAGE=all $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal \
-	  tests/measure/test_coverage_*.py tests/fit/test_coverage_fit.py
+coverage: $(DEV)  ## hold all error bars to their claim (make check: some of them); half an hour
+	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py
 
 bench: $(DEV)  ## growth, accuracy and speed, also of other solvers (extra: bench), in build/bench
 	@$(BIN)/python -m benchmarks --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
 
-check: lint types imports docs  ## everything: lint, types, import rules, documentation, tests
-	@$(MAKE) --no-print-directory test
+check: lint types imports docs  ## everything: lint, types, import rules, documentation, all tests, in Chromium too
+	@tests/web/browser/chromium.sh
+	@$(PYTEST)
 
 fuzz: $(DEV)  ## random drops in great number: make fuzz DROPS=1000000 SEED=1
 	@cd tests && ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
@@ -94,5 +94,5 @@ $(RUNTIME): pyproject.toml constraints.txt
 	  { echo "Python's venv module does not work here (on Debian or Ubuntu: apt install python3-venv)" >&2; exit 1; }
 	@echo "Installing stackbounce into $(VENV)"
 	@$(INSTALL) editables hatchling
-	@$(INSTALL) --no-build-isolation --editable .
+	@$(INSTALL) --no-build-isolation --editable '.[all]'
 	@touch $@

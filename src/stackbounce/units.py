@@ -1,7 +1,9 @@
-"""Units at the border: "58 mm" -> 0.058. Inside, everything is SI and a plain float."""
+"""Units of user input: "58 mm" -> 0.058. Inside the package all numbers are SI floats."""
 
 import functools
+import math
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from decimal import Decimal
 from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
@@ -11,11 +13,11 @@ from stackbounce.errors import InvalidType, UnitError, finite, shown
 if TYPE_CHECKING:
     import pint
 
-__all__ = ["Unit", "factor", "in_si", "quantity", "unit_of"]
+__all__ = ["Unit", "factor", "handy", "in_si", "quantity", "rounded", "unit_of"]
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
-# What is handed to pint: names with small powers, nothing that could be a long computation.
+# What pint may parse: names with small powers, so that no input causes a long computation.
 _TERM = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d(?:\.\d{1,3})?)?"
 _UNIT = re.compile(rf"%|{_TERM}(?:\s*[*/·\s]\s*{_TERM}){{0,5}}")
 _KINDS = {
@@ -31,6 +33,12 @@ _KINDS = {
     "Pa": ("a pressure", "210 GPa"),
 }
 
+_HANDY = {  # unit: (from this value on, its name, how many of it the unit has), largest first
+    "m": ((0.1, "m", 1.0), (1e-4, "mm", 1e3), (0.0, "µm", 1e6)),
+    "s": ((1.0, "s", 1.0), (1e-3, "ms", 1e3), (0.0, "µs", 1e6)),
+    "kg": ((1.0, "kg", 1.0), (1e-3, "g", 1e3), (0.0, "mg", 1e6)),
+}
+
 # The SI units that columns of measurements come in, and how programs write the commonest ones.
 _SI = ("s", "m", "N", "V", "1", "m/s", "m/s^2", "kg", "J", "Pa", "Hz", "A", "N/m", "N s", "kg m/s")
 _WRITTEN_OUT = {
@@ -39,7 +47,7 @@ _WRITTEN_OUT = {
     "msec": "ms", "us": "µs", "μs": "µs", "μm": "µm", "μV": "µV",
     "Volt": "V", "Volts": "V", "volt": "V", "volts": "V", "newton": "N", "Newton": "N", "lbs": "lb",
 }  # fmt: skip
-_PIXEL = re.compile(r"px|pix|pixels?|dots?", re.IGNORECASE)  # a length on paper to pint
+_PIXEL = re.compile(r"px|pix|pixels?|dots?", re.IGNORECASE)  # pint takes these for lengths on paper
 _PREFIXES = {"k": 1e3, "": 1.0, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
 _COMMON = {f"{p}{unit}": (size, unit) for p, size in _PREFIXES.items() for unit in "smNV"} | {
     "m/s": (1.0, "m/s"),
@@ -84,12 +92,12 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     Parameters
     ----------
     value : float or str
-        A number (or a string with nothing but a number), taken to be in `unit` already, or a
-        string with a number and a unit, such as ``"58 mm"`` or ``"9.81 m/s^2"``.
+        A number or a string of a number, in `unit`, or a string of a number and a unit, such as
+        ``"58 mm"`` or ``"9.81 m/s^2"``.
     unit : str
-        The SI unit that is wanted, such as ``"m"``; empty for a pure number.
+        The SI unit of the result, such as ``"m"``; empty for a pure number.
     name : str, optional
-        What the value is called; messages begin with it.
+        The name of the value; messages begin with it.
 
     Returns
     -------
@@ -103,7 +111,7 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     InvalidValue
         If it is NaN or infinite.
     UnitError
-        If the string cannot be read, or its unit is unknown or does not fit.
+        If the string cannot be parsed, or its unit is unknown or of another dimension.
 
     Examples
     --------
@@ -124,12 +132,12 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     if not written:
         return finite(name, float(number), unit)
     factor = _factor(written, unit, _message(name, value, unit))
-    # In decimals, so that "24.8 g" is 0.0248 to the last digit.
+    # decimal arithmetic, so that "24.8 g" is exactly 0.0248
     return finite(name, float(Decimal(number) * Decimal(repr(factor))), unit)
 
 
 def factor(written: str, unit: str, name: str = "value") -> float:
-    """Return how much of an SI unit one of another unit is; see `quantity`.
+    """Return the factor that converts a unit to an SI unit; see `quantity`.
 
     Examples
     --------
@@ -141,21 +149,21 @@ def factor(written: str, unit: str, name: str = "value") -> float:
 
 @functools.lru_cache(maxsize=1000)
 def in_si(written: str, *, common: bool = False) -> tuple[float, str] | None:
-    """Return how much of which SI unit one of a unit is, whatever it measures.
+    """Return the factor and the SI unit of a unit of any dimension.
 
     Parameters
     ----------
     written : str
-        The unit, as the header of a column has it.
+        The unit, as in the header of a column.
     common : bool, optional
-        Know only those units that measurements of bounces are written in: seconds, metres, newtons
-        and volts with their prefixes, where any letter could be meant as a unit or not.
+        Accept only the usual units of bounce measurements: seconds, metres, newtons and volts with
+        prefixes. This is for headers in which a letter need not be a unit.
 
     Returns
     -------
     tuple of float and str, or None
-        None where no unit is written that is known and proportional to an SI unit: a pixel and a
-        degree Celsius are not.
+        None for an unknown unit and for one that is not proportional to an SI unit, such as a pixel
+        or a degree Celsius.
 
     Examples
     --------
@@ -204,3 +212,31 @@ def _registry() -> "pint.UnitRegistry[float]":
     import pint
 
     return pint.UnitRegistry()
+
+
+def handy(most: float, unit: str) -> tuple[str, float]:
+    """Return the unit in which numbers up to some size are handy, and what to multiply them by.
+
+    Examples
+    --------
+    >>> handy(0.002, "m"), handy(2500.0, "N/m")
+    (('mm', 1000.0), ('N/m', 1.0))
+    """
+    choices = _HANDY.get(unit, ()) if most > 0.0 else ()
+    return next(((name, by) for start, name, by in choices if most >= start), (unit, 1.0))
+
+
+def rounded(values: Iterable[float], error: float) -> list[str]:
+    """Return numbers as texts that end where an error of theirs has two digits.
+
+    Examples
+    --------
+    >>> rounded((1048.807, 44.268), 44.268), rounded((0.99459, 0.0123), 0.0123)
+    (['1049', '44'], ['0.995', '0.012'])
+    """
+    if not (math.isfinite(error) and error > 0.0):
+        return [f"{value:.4g}" for value in values]
+    places = 1 - math.floor(math.log10(error))
+    if not -6 < places < 8:
+        return [f"{value:.3g}" for value in values]
+    return [f"{value:.{max(0, places)}f}" for value in values]

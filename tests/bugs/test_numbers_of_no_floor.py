@@ -1,8 +1,8 @@
-"""What stands in the place of a floor that is not there made linear drops follow looser rules."""
+"""The placeholder numbers of an absent floor gave linear drops the tolerances of nonlinear ones."""
 
 import numpy as np
 
-from stackbounce.engine import codes, prepare
+from stackbounce.engine import codes, preparation
 from stackbounce.engine.stack import new_stack
 
 
@@ -13,7 +13,7 @@ def test_numbers_of_no_floor_do_not_matter():
         k, p, extra = ([number, 1.0] for number in numbers)
         kind = [codes.ABSENT, codes.POWER]
         start = [0.0, 0.0], [-1.0, -2.0], 0.0, 1e-12
-        prepare.prepare(stack, [0.1, 0.2], kind, k, p, extra, *start)
+        preparation.prepare(stack, [0.1, 0.2], kind, k, p, extra, *start)
         stacks.append(stack)
     for name, one, other in zip(stacks[0]._fields, *stacks, strict=True):
         np.testing.assert_array_equal(one, other, err_msg=name)

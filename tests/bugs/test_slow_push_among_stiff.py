@@ -1,10 +1,12 @@
-"""The chord below which c^p was replaced was too long where soft neighbours press slowly."""
+"""The chord that replaces c^p near 0 was too long where soft neighbours press slowly."""
 
 import numpy as np
 import pytest
 
 import stackbounce as sb
 from reference.integrate import integrate
+
+pytestmark = pytest.mark.slow
 
 MASSES = [1.0] * 5
 GAPS = [1.8153721755463523, 0.0, 0.0, 1.214885533625822]

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 import stackbounce as sb
 from stackbounce import cross2007, plots
 from stackbounce.calibration import separate
-from stackbounce.cli import app, main, output, show
+from stackbounce.cli import app, main, output, tables
 from stackbounce.cli.scenario import read, read_contact
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import LAWS
@@ -587,8 +587,8 @@ def test_contacts_in_words():
     )
     law = sb.Hysteretic(2000.0, exponent=1.5, restitution=0.5)
     text = "Hysteretic, stiffness 2000 N/m^1.5, exponent 1.5, restitution 0.5"
-    assert show.law_text(law) == text
-    assert show.law_text(None) == "none"
+    assert tables.law_text(law) == text
+    assert tables.law_text(None) == "none"
 
 
 @pytest.mark.parametrize(
@@ -622,7 +622,7 @@ def test_contacts_in_words():
 )  # fmt: skip
 def test_every_law_is_read_and_told(words, law, text):
     assert read_contact(words, "x") == law
-    assert show.law_text(law) == text
+    assert tables.law_text(law) == text
 
 
 def test_help_names_every_law(run):
@@ -661,7 +661,7 @@ def test_errors_of_the_parts_are_ours():
     ],
 )  # fmt: skip
 def test_numbers_for_people(value, text):
-    assert show.number(value) == text.removesuffix(".")
+    assert tables.number(value) == text.removesuffix(".")
 
 
 # sweep

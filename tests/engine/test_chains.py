@@ -1,4 +1,4 @@
-"""Rows of equal balls, the first of which strikes the others: known results."""
+"""Rows of equal balls, of which the first strikes the others: known results."""
 
 import functools
 import math
@@ -141,6 +141,7 @@ def test_solitary_wave_is_five_beads_wide():
     assert np.sort(beads)[-6] < 1e-4 * height
 
 
+@pytest.mark.slow
 def test_solitary_wave_goes_with_the_fifth_root_of_the_speed():
     speeds = np.array([1e-3, 1.0, 1e3])
     pace = [wave(speed)[0] for speed in speeds]

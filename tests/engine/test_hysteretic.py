@@ -100,6 +100,7 @@ def maxima(values):
     return int(np.sum((inner > values[:-2]) & (inner >= values[2:])))
 
 
+@pytest.mark.slow
 def test_several_cycles_in_one_interval_follow_the_rule():
     """Reloading goes up the unloading curve to the old peak, then along the loading curve."""
     seen = 0

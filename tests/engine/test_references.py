@@ -75,6 +75,7 @@ def test_taylor_series_agree_with_one_ball_in_closed_form(law):
         assert abs(getattr(interval, name) / getattr(exact, name) - 1) < mpf(10) ** -20
 
 
+@pytest.mark.slow
 def test_hertz_published():
     """Two balls of one material, R2/R1 = 0.5: k2/k1 = sqrt(r/(1+r))/2, masses as r**3."""
     laws = [hysteretic.Law(1, 1.5), hysteretic.Law(mp.sqrt(mpf(1) / 3) / 2, 1.5)]

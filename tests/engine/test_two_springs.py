@@ -6,8 +6,8 @@ import pytest
 import stackbounce as sb
 from reference import make_data, springs
 from stackbounce.engine import codes
-from stackbounce.engine.kernel import compiled
-from stackbounce.engine.two_springs import SCRATCH, scratch, two_springs
+from stackbounce.engine.compiler import compile_kernel
+from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
 
 SPEED = 1e-12
 TIME = 1e-11
@@ -24,8 +24,8 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
         "last_release": np.empty((n, 2)),
         "status": np.empty(n, np.int64),
     }
-    run = two_springs if plain else compiled(two_springs)
-    room = [0.0] * SCRATCH if plain else scratch()
+    run = run_two_springs if plain else compile_kernel(run_two_springs)
+    room = [0.0] * SCRATCH if plain else new_scratch()
     run(mass, stiffness, gap, speed, event_limit, *(out[name] for name in NAMES), room)
     ratio = out["velocity"] / np.asarray(speed)[:, None]
     out["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
@@ -98,6 +98,7 @@ def same(one, other, rows=slice(None)):
         assert one[name][rows].tobytes() == other[name].tobytes(), name
 
 
+@pytest.mark.slow
 def test_random_drops():
     drops = sweep(2000, 1)
     assert compare(drops, solve(*drops)) <= 10
@@ -173,7 +174,14 @@ def changes(random, tries):
         yield at, low
 
 
-@pytest.mark.parametrize(("distance", "most"), [(1e-4, 0.2), (1e-7, 0.7), (1e-10, 1.0)])
+@pytest.mark.parametrize(
+    ("distance", "most"),
+    [
+        (1e-4, 0.2),
+        pytest.param(1e-7, 0.7, marks=pytest.mark.slow),
+        pytest.param(1e-10, 1.0, marks=pytest.mark.slow),
+    ],
+)
 def test_where_the_number_of_contacts_changes(distance, most):
     random = np.random.default_rng(3)
     points = [at(here + s * distance) for at, here in changes(random, 60) for s in (-1.0, 1.0)]
@@ -261,5 +269,5 @@ def test_event_limit():
 
 
 def test_scratch_begins_on_a_cache_line():
-    assert all(room.ctypes.data % 64 == 0 for room in (scratch(), scratch(), scratch()))
-    assert scratch().shape == (SCRATCH,)
+    assert all(room.ctypes.data % 64 == 0 for room in (new_scratch(), new_scratch(), new_scratch()))
+    assert new_scratch().shape == (SCRATCH,)

@@ -35,6 +35,7 @@ def compared():
     return sb.compare({name: usual[name] for name in some}, _seen(drops))
 
 
+@pytest.mark.slow
 def test_the_true_model_is_found(compared):
     assert next(score.model for score in compared.scores) == "Hysteretic"
     best = compared["Hysteretic"]

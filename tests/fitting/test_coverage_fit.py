@@ -8,6 +8,8 @@ from benchmarks.coverage.shares import shares
 
 from coverage_cases import chosen
 
+pytestmark = pytest.mark.slow
+
 FEW = chosen(CASES, "two springs with a gap", "Hysteretic")
 """All intervals and draws are left to `python -m benchmarks.coverage`."""
 

@@ -21,6 +21,7 @@ def total():
     return tally
 
 
+@pytest.mark.slow
 def test_nothing_is_wrong(total):
     assert total.drops == 50 * ALL
     assert not total.violations

@@ -6,6 +6,8 @@ from benchmarks.coverage.shares import shares
 
 from coverage_cases import chosen
 
+pytestmark = pytest.mark.slow
+
 SEEDS = range(210)
 FEW = chosen(
     CASES,

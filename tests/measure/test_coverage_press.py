@@ -7,6 +7,8 @@ from benchmarks.coverage.press import CASES
 
 from coverage_cases import chosen
 
+pytestmark = pytest.mark.slow
+
 SEEDS = 200
 FEW = chosen(
     CASES,

@@ -6,6 +6,8 @@ from benchmarks.coverage.sound import CASES
 
 from coverage_cases import chosen
 
+pytestmark = pytest.mark.slow
+
 SEEDS = range(400)
 FEW = chosen(
     CASES,

@@ -6,6 +6,8 @@ from benchmarks.coverage.track import CASES
 
 from coverage_cases import chosen
 
+pytestmark = pytest.mark.slow
+
 SEEDS = range(400)  # of 200 chance alone would put one quantity in fifty outside
 FEW = chosen(
     CASES,

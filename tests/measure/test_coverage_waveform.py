@@ -6,6 +6,8 @@ from benchmarks.coverage.waveform import CASES, TOLD
 
 from coverage_cases import chosen
 
+pytestmark = pytest.mark.slow
+
 SEEDS, FEWER = range(220), range(100)
 FEW = chosen(
     CASES,

@@ -69,6 +69,7 @@ def test_fast_bounces_at_the_end():
     assert as_true(knocks(sound(fall, seed=2)), fall)
 
 
+@pytest.mark.slow
 def test_two_hundred_knocks():
     fall = falls(0.05, 0.985, bounces=200)
     found = knocks(sound(fall, noise=0.0005, seed=1))
@@ -139,6 +140,7 @@ def test_what_is_no_recording(data, options, error, words):
         knocks(data, **options)
 
 
+@pytest.mark.slow
 def test_ten_minutes_take_seconds():
     noise = np.random.default_rng(1).normal(0.0, 0.002, 600 * 48000).astype(np.float32)
     short = sound(FALL, seed=1).sound.values

@@ -9,7 +9,7 @@ from uncertainties import ufloat
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.plots.measurements.waveform import draw
 from stackbounce.synthetic.waveform import waveform as record_of
 
@@ -120,6 +120,7 @@ def test_separate_collisions_are_separate_contacts():
         assert near(contact.impulse, row["impulse"])
 
 
+@pytest.mark.slow
 def test_a_hundred_bounces():
     began = time.perf_counter()
     found = waveform(pulses(100))
@@ -131,6 +132,7 @@ def test_a_hundred_bounces():
     assert "further contacts, not listed" in [row.name for row in found.rows()]
 
 
+@pytest.mark.slow
 def test_a_million_samples_are_fast():
     data = pulses(3, rate=1.4e7, noise=5.0)
     assert len(data[0]) > 900_000

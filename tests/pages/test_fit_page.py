@@ -34,6 +34,7 @@ def steps():
     return found
 
 
+@pytest.mark.slow
 def test_the_commands_in_turn_print_what_is_shown(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
     asked = steps()

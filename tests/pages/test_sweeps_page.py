@@ -1,9 +1,8 @@
 """The page of maps and lines: its commands draw its pictures, and these agree with the paper's."""
 
-import importlib.util
 import re
+import runpy
 import shlex
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -24,11 +23,8 @@ COMMANDS = [shlex.split(fence.replace("\\\n", " "))[1:] for fence in FENCES]
 
 @pytest.fixture(scope="module")
 def sweeps():
-    sys.path.insert(0, str(DOCS / "figures"))
-    spec = importlib.util.spec_from_file_location("sweeps", DOCS / "figures" / "sweeps.py")
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return {name: sb.sweep(*what) for name, what in module.SWEEPS.items()}
+    module = runpy.run_path(str(DOCS / "figures" / "sweeps.py"))
+    return {name: sb.sweep(*what) for name, what in module["SWEEPS"].items()}
 
 
 @pytest.fixture(scope="module")

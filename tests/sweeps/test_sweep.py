@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import stackbounce as sb
-from stackbounce.run import engines
+from stackbounce.engine import compiler
 from stackbounce.run.paths import drop_at, number_at
 
 TWO = [sb.Ball(0.15), sb.Ball(0.057)]
@@ -228,7 +228,10 @@ def test_other_values_in_the_sweep_change_no_bit():
         assert np.array_equal(alone[name][0], both[name][0]), name
 
 
-@pytest.mark.parametrize("shape", [(3, 5000), (5000, 3), (2, 40, 130), (1, 1, 7000)])
+@pytest.mark.parametrize(
+    "shape",
+    [(3, 5000), (5000, 3), (2, 40, 130), pytest.param((1, 1, 7000), marks=pytest.mark.slow)],
+)
 def test_a_grid_is_cut_into_blocks_that_fit_together(shape):
     drop = sb.Drop(TWO, LAWS["springs"], impact_speed=3.53)
     paths = ["impact_speed", "balls.0.mass", "gaps.0"][-len(shape) :]
@@ -257,12 +260,12 @@ def test_tall_stacks_keep_the_energy_that_simulate_says():
 def test_threads_compile_in_turns(monkeypatch):
     inside = []
 
-    def slow(kernel):
-        inside.append(kernel)
+    def slow(function):
+        inside.append(function)
         time.sleep(0.01)
-        assert inside.pop() is kernel
+        assert inside.pop() is function
         return not inside
 
-    monkeypatch.setattr(engines, "compiled", slow)
+    monkeypatch.setattr(compiler, "_compiled", slow)
     with ThreadPoolExecutor(4) as pool:
-        assert all(pool.map(engines.ready, range(8)))
+        assert all(pool.map(compiler.compile_kernel, range(8)))

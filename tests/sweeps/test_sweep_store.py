@@ -6,20 +6,17 @@ import signal
 import subprocess
 import sys
 import time
-from pathlib import Path
 
 import dask.array as da
 import numpy as np
 import pytest
 import xarray as xr
 
+import slow_sweep
 import stackbounce as sb
+from slow_sweep import DROP, OVER
 from stackbounce.sweeps import grid, opened, write
 
-DROP = sb.Drop(
-    [sb.Ball(0.15), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.53
-)
-OVER = ["balls.0.mass=50g:500g:30:log", "gaps.0=0mm:4mm:20"]
 KINDS = [".zarr", ".nc"]
 
 
@@ -67,23 +64,9 @@ def test_a_store_holds_what_sweep_returns(whole):
     assert not [path for path in whole[0].parent.iterdir() if path != whole[0]]
 
 
-SCRIPT = """
-import sys, time
-import stackbounce as sb
-from stackbounce.sweeps import grid, write
-sys.path.insert(0, {tests!r})
-from test_sweep_store import DROP, OVER
-def progress(done, total):
-    print(done, flush=True)
-    time.sleep(0.05)
-write({out!r}, DROP, grid(DROP, OVER), block=64, progress=progress)
-"""
-
-
 def test_killed_at_any_moment_it_goes_on_and_ends_with_the_same_bytes(whole, tmp_path):
     out = tmp_path / whole[0].name
-    script = SCRIPT.format(tests=str(Path(__file__).parent), out=str(out))
-    command = [sys.executable, "-c", script]
+    command = [sys.executable, slow_sweep.__file__, str(out)]
     first = []
     for patience in (1, 3, 4):  # blocks until the kill
         with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
@@ -100,6 +83,7 @@ def test_killed_at_any_moment_it_goes_on_and_ends_with_the_same_bytes(whole, tmp
     assert list(tmp_path.iterdir()) == [out]
 
 
+@pytest.mark.slow
 def test_two_workers_and_the_loss_of_one(whole, tmp_path):
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
     options = {
@@ -234,6 +218,7 @@ def test_netcdf_that_is_not_installed(tmp_path, monkeypatch):
     assert not list(tmp_path.iterdir())
 
 
+@pytest.mark.slow
 def test_a_cluster_that_is_lost_says_so_and_nothing_is_lost(whole, tmp_path):
     distributed = pytest.importorskip("distributed", reason="the extra 'cluster' is not installed")
     out = tmp_path / whole[0].name

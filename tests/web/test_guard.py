@@ -12,7 +12,8 @@ import pytest
 import uvicorn
 
 from stackbounce.errors import InvalidValue
-from stackbounce.web import LIMITS, timeouts, worker_pool
+from stackbounce.web import LIMITS, timeouts
+from stackbounce.web.answers import compile_all
 from stackbounce.web.guard import Guard
 from stackbounce.web.worker_pool import Busy, TooLong, Workers
 
@@ -229,10 +230,10 @@ def test_processes_that_were_ended_while_idle_are_made_anew(workers):
 
 
 def test_the_process_that_compiles_may_be_ended(monkeypatch):
-    monkeypatch.setattr(worker_pool, "_COMPILING", 0.1)
+    monkeypatch.setattr(compile_all, "_COMPILING", 0.1)
     held, ready = threading.Lock(), threading.Event()
     held.acquire()  # by a process that is no more
-    worker_pool._prepare(held, ready)
+    compile_all.prepare(held, ready)
     assert ready.is_set()
     assert held.locked()
 

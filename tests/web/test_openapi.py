@@ -11,6 +11,8 @@ from schemathesis.specs.openapi.checks import (
     status_code_conformance,
 )
 
+pytestmark = pytest.mark.slow
+
 CHECKS = [
     not_a_server_error,
     status_code_conformance,
@@ -27,6 +29,7 @@ OPERATIONS = [
     ("POST", "/api/map"),
     ("POST", "/api/map/paths"),
     ("POST", "/api/export/{kind}"),
+    ("GET", "/api/measure/options"),
     ("POST", "/api/measure"),
     ("POST", "/api/fit"),
 ]

@@ -17,6 +17,7 @@ __all__ = [
     "Save",
     "Speed",
     "Tolerance",
+    "Until",
     "What",
 ]
 
@@ -51,6 +52,10 @@ Contact = Annotated[
 Gravity = Annotated[
     str | None,
     typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
+]
+Until = Annotated[
+    str | None,
+    typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
 ]
 Tolerance = Annotated[
     float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")

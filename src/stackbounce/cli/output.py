@@ -6,7 +6,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import typer
+
 from stackbounce.errors import FileError, InvalidValue
+from stackbounce.extras import need
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -19,7 +22,10 @@ __all__ = [
     "check_scenario",
     "console",
     "draw",
+    "json_text",
     "new_table",
+    "print_best_files",
+    "print_json",
     "progress_bar",
     "write_scenario",
 ]
@@ -39,10 +45,13 @@ def check_picture(path: Path, option: str = "--plot") -> None:
         If the suffix is none of `SUFFIXES`.
     FileError
         If the folder does not exist, or `path` is one.
+    MissingExtra
+        If matplotlib is not installed.
     """
     if path.suffix.lower() not in SUFFIXES:
         raise InvalidValue(f"{option} must end in {', '.join(SUFFIXES)}, got {path}")
     _check_place(path)
+    need("plots", option)
 
 
 def check_scenario(path: Path) -> None:
@@ -137,3 +146,31 @@ def progress_bar(what: str) -> Iterator[Any]:
     with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
         task = bar.add_task(what, total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)
+
+
+def json_text(value: object) -> str:
+    """Return `value` as ``--json`` prints it: SI units, null for what is not finite.
+
+    Examples
+    --------
+    >>> print(json_text({"peak_force": float("inf")}))
+    {
+      "peak_force": null
+    }
+    """
+    from stackbounce.json_values import as_json
+
+    return as_json(value, indent=2)
+
+
+def print_json(value: object) -> None:
+    """Print dicts, lists, dataclasses, arrays, strings and numbers as JSON."""
+    typer.echo(json_text(value))
+
+
+def print_best_files(save: Path | None, plot: Path | None = None) -> None:
+    """Print where the best stack and the picture are."""
+    if save is not None:
+        typer.echo(f"Best stack: {save}; now: stackbounce simulate {save}")
+    if plot is not None:
+        typer.echo(f"Picture: {plot}")

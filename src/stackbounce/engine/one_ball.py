@@ -4,8 +4,9 @@ import math
 
 from stackbounce.engine import codes
 from stackbounce.engine.motion import velocity_at
-from stackbounce.engine.prepare import prepare
-from stackbounce.engine.simultaneous import advance, start
+from stackbounce.engine.preparation import prepare
+from stackbounce.engine.simultaneous import advance_contacts, begin_contacts
+from stackbounce.engine.slots import LAST_EVENT
 from stackbounce.engine.stack import new_samples, new_stack
 
 _TOLERANCE = 1e-12
@@ -36,14 +37,16 @@ def bounce(
     >>> round(e, 9), round(time / math.pi, 9)
     (1.0, 0.1)
     """
-    form, k, p, extra = numbers
+    form, k, p, law_parameter = numbers
     stack = new_stack(1)
     log = [0.0] * (_ROWS * codes.LOG_COLUMNS)
-    unit = prepare(stack, [mass], [form], [k], [p], [extra], [0.0], [-speed], 0.0, _TOLERANCE)
-    start(stack)
-    status = advance(stack, math.inf, _EVENTS, log, new_samples([], 1))
+    unit = prepare(
+        stack, [mass], [form], [k], [p], [law_parameter], [0.0], [-speed], 0.0, _TOLERANCE
+    )
+    begin_contacts(stack)
+    status = advance_contacts(stack, math.inf, _EVENTS, log, new_samples([], 1))
     if status != codes.FINISHED:
         raise ArithmeticError
     rows = [log[at : at + codes.LOG_COLUMNS] for at in range(0, len(log), codes.LOG_COLUMNS)]
     ends = [row[codes.TIME] * unit for row in rows if row[codes.KIND] == codes.RELEASE]
-    return velocity_at(stack, 0, stack.clock[0]) / unit / speed, max(ends, default=0.0)
+    return velocity_at(stack, 0, stack.clock[LAST_EVENT]) / unit / speed, max(ends, default=0.0)

@@ -6,7 +6,7 @@ from typing import Any
 
 from stackbounce.calibration import calibrate, contact_time
 from stackbounce.errors import InvalidValue
-from stackbounce.fitting.model import Model
+from stackbounce.fitting.problem import FitProblem, Model
 from stackbounce.model import LAWS, ContactLaw, Drop, Rigid
 
 __all__ = ["standard_models"]
@@ -17,7 +17,9 @@ _FLIGHTS = 4.0  # contact times at the impact speed: the widest gap that is look
 _WEAK, _STRONG = 0.05, 0.999  # between which restitutions
 
 
-def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> dict[str, Model]:
+def standard_models(
+    drop: Drop | Mapping[str, Drop], *, times: bool = False
+) -> dict[str, FitProblem]:
     """Return the usual models of a stack, to be compared.
 
     Parameters
@@ -31,7 +33,7 @@ def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> 
 
     Returns
     -------
-    dict of str to Model
+    dict of str to FitProblem
         `Rigid` with one restitution and with one for each contact, then the `usual_models` of all
         laws: those without loss first, then those whose loss does not depend on the rate.
         Those with finite contacts vary their stiffnesses and gaps, lossy ones one loss that all
@@ -59,22 +61,21 @@ def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> 
         )
 
     models = {
-        "Rigid, one restitution": _rigid(drop, drops, times, shared=True),
-        "Rigid, one for each contact": _rigid(drop, drops, times, shared=False),
+        "Rigid, one restitution": _rigid(drops, times, shared=True),
+        "Rigid, one for each contact": _rigid(drops, times, shared=False),
     }
     for law in sorted(LAWS.values(), key=lambda law: (bool(law.loss), not law.rate_free)):
         for name, numbers in law.usual_models.items():
-            models[name] = _made(drop, drops, times, law, numbers)
+            models[name] = _made(drops, times, law, numbers)
     return models
 
 
 def _made(
-    drop: Drop | Mapping[str, Drop],
     drops: Mapping[str, Drop],
     times: bool,
     law: type[ContactLaw],
     numbers: Mapping[str, float],
-) -> Model:
+) -> FitProblem:
     """Return the model with all contacts of one finite law that last as long as the true ones."""
     given = {"restitution": _LOSSY, **numbers} if law.loss else numbers
     changed = {
@@ -82,16 +83,10 @@ def _made(
         for key, one in drops.items()
     }
     vary, tie = _finite(next(iter(changed.values())), times, law.loss)
-    return Model(_as_given(drop, changed), vary, tie)
+    return Model(changed, vary, tie)
 
 
-def _as_given(drop: Drop | Mapping[str, Drop], drops: dict[str, Drop]) -> Any:
-    return drops[""] if isinstance(drop, Drop) else drops
-
-
-def _rigid(
-    drop: Drop | Mapping[str, Drop], drops: Mapping[str, Drop], times: bool, *, shared: bool
-) -> Model:
+def _rigid(drops: Mapping[str, Drop], times: bool, *, shared: bool) -> FitProblem:
     changed = {
         key: replace(one, contacts=[Rigid(_LOSSY)] * len(one.contacts))
         for key, one in drops.items()
@@ -102,7 +97,7 @@ def _rigid(
     vary: dict[str, Any] = dict.fromkeys(names, (_WEAK, 1.0))
     if times:  # a gap changes nothing but when the balls meet
         vary |= _gaps(first)
-    return Model(_as_given(drop, changed), vary, tie)
+    return Model(changed, vary, tie)
 
 
 def _gaps(drop: Drop) -> dict[str, Any]:

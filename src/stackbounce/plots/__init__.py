@@ -1,5 +1,6 @@
-"""Pictures: bounces, sweeps, designs, what a measurement, a fit or a comparison found."""
+"""Pictures of bounces, sweeps, stacks, measurements, fits and model comparisons."""
 
+from stackbounce.extras import need
 from stackbounce.plots.fit_result import fitted
 from stackbounce.plots.impact import bounce
 from stackbounce.plots.measurement import measured
@@ -19,3 +20,5 @@ __all__ = [
     "measured",
     "transition",
 ]
+
+need("plots", "a picture")

@@ -14,6 +14,9 @@ static/   the page: HTML, CSS, plain ES modules, and uPlot
 ========= ====================================================================
 """
 
+from stackbounce.extras import need
 from stackbounce.web.limits import LIMITS, Limits
 
 __all__ = ["LIMITS", "Limits"]
+
+need("web", "stackbounce app")

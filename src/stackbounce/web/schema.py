@@ -339,6 +339,13 @@ class Curve(BaseModel):
     values: list[float]
 
 
+class MeasureOptions(BaseModel):
+    """Kinds of measurement, and the options that a file may need, in a form's order."""
+
+    kinds: list[_Json]
+    options: list[_Json]
+
+
 class Measured(BaseModel):
     """What a file is, and what was found in it."""
 

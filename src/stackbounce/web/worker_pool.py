@@ -3,14 +3,14 @@
 import asyncio
 import concurrent.futures
 import multiprocessing
-import threading
 from collections.abc import Callable
 from typing import Any
 
 from stackbounce.errors import StackbounceError
+from stackbounce.web.answers.compile_all import begin, prepared
 from stackbounce.web.limits import Limits
 
-__all__ = ["Busy", "TooLong", "Workers", "prepared"]
+__all__ = ["Busy", "TooLong", "Workers"]
 
 
 class Busy(StackbounceError):
@@ -51,7 +51,7 @@ class Workers:
 
         return ProcessPool(
             self._limits.workers,
-            initializer=_begin,
+            initializer=begin,
             initargs=(self._context.Lock(), self._ready),
             context=self._context,
         )
@@ -122,48 +122,3 @@ class Workers:
             ) from None
         finally:
             self._under_way -= 1
-
-
-_LOADING = 10.0  # s, that a process may take to load what another one has compiled
-
-_COMPILING = 180.0  # s, after which the process that compiles is taken for ended
-
-_prepared = threading.Event()
-_elsewhere: list[Any] = []  # the event that tells that some process has compiled the kernels
-
-
-def prepared(*, wait: bool = False) -> bool:
-    """Tell, in a process that computes, whether the compiled kernels are at hand.
-
-    Parameters
-    ----------
-    wait : bool, optional
-        For them to be loaded, if another process has compiled them already.
-
-    Returns
-    -------
-    bool
-    """
-    if wait and any(event.is_set() for event in _elsewhere):
-        _prepared.wait(_LOADING)
-    return _prepared.is_set()
-
-
-def _begin(one_at_a_time: Any, ready: Any) -> None:
-    """Begin a process: load the kernels while the first jobs run as plain Python."""
-    _elsewhere.append(ready)
-    threading.Thread(target=_prepare, args=(one_at_a_time, ready), daemon=True).start()
-
-
-def _prepare(one_at_a_time: Any, ready: Any) -> None:
-    from stackbounce.web.answers.compile_all import warm
-
-    # The first process compiles, others find it in numba's cache; if it was ended, the next does.
-    first = one_at_a_time.acquire(timeout=_COMPILING)
-    try:
-        warm()
-    finally:
-        if first:
-            one_at_a_time.release()
-    _prepared.set()
-    ready.set()

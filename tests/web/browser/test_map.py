@@ -7,6 +7,8 @@ import pytest
 
 import stackbounce as sb
 
+pytestmark = pytest.mark.slow
+
 LEFT, RIGHT, TOP, BOTTOM = 58, 14, 48, 44  # px around the field of the map
 PHONE = {"viewport": {"width": 360, "height": 780}, "has_touch": True}
 

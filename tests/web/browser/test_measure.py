@@ -5,6 +5,8 @@ import pytest
 
 from stackbounce.web import LIMITS
 
+pytestmark = pytest.mark.slow
+
 
 def opened(visit):
     page = visit.open("#view=measure")

@@ -8,6 +8,8 @@ import pytest
 
 import stackbounce as sb
 
+pytestmark = pytest.mark.slow
+
 POSITIONS = "[...document.querySelectorAll('[data-ball]')].map((ball) => +ball.dataset.position)"
 
 

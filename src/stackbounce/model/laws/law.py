@@ -106,7 +106,7 @@ class ContactLaw:
     """Where it was published."""
     form: ClassVar[int]
     """The engine's code for the form of the force."""
-    extra: ClassVar[str] = ""
+    law_parameter: ClassVar[str] = ""
     """The field that is the last of the engine's numbers of a contact."""
     rigid: ClassVar[bool] = False
     """Whether a collision takes no time."""
@@ -205,7 +205,7 @@ class ContactLaw:
         known = {"stiffness": 1.0, "exponent": 1.0, "": 0.0}
         numbers = [
             varied.get(name, getattr(self, name, known.get(name)))
-            for name in ("stiffness", "exponent", self.extra)
+            for name in ("stiffness", "exponent", self.law_parameter)
         ]
         return self.form, numbers[0], numbers[1], numbers[2]
 

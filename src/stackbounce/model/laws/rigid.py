@@ -46,7 +46,7 @@ class Rigid(ContactLaw):
     formula = "v' = -restitution v"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4"
     form = codes.RIGID
-    extra = "restitution"
+    law_parameter = "restitution"
     rigid = True
     exact = True
     loss = "restitution"

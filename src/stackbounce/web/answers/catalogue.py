@@ -5,7 +5,7 @@ import functools
 from typing import Any
 
 from stackbounce.calibration import calibrate, contact_time, restitution
-from stackbounce.cross2007.cases import cases
+from stackbounce.cross2007.cases import list_cases
 from stackbounce.errors import InvalidValue
 from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, ContactLaw, Drop, law_named
@@ -24,7 +24,7 @@ def catalogue(limits: Limits) -> str:
     presets = [
         {"name": one.name, "group": one.group, "title": one.title, "says": one.says}
         | {"drop": one.drop.to_mapping()}
-        for one in cases()
+        for one in list_cases()
     ]
     return as_json(
         {

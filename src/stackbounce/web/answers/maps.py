@@ -14,7 +14,7 @@ from stackbounce.run.paths import number_at, numbers_of
 from stackbounce.run.result import Status
 from stackbounce.sweeps import sweep
 from stackbounce.version import __version__
-from stackbounce.web.worker_pool import prepared
+from stackbounce.web.answers.compile_all import prepared
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -17,7 +17,7 @@ from stackbounce.errors import InvalidValue, fraction, shown
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Waveform
 from stackbounce.measure.kinds.waveform.sensor import known
-from stackbounce.measure.uncertain_numbers import known_to
+from stackbounce.measure.quantities import known_to
 from stackbounce.model import Ball, Drop
 from stackbounce.run.driver import simulate
 

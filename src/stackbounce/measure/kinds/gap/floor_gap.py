@@ -1,75 +1,29 @@
 """The gap between two falling balls from the force on the floor, with and without the upper one."""
 
 import math
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, fraction
-from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.measure.kinds.gap.result import FloorGap
+from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
-from stackbounce.measure.rows import Row
+from stackbounce.measure.quantities import measured
 from stackbounce.measure.statistics.change_point import Kink, find_kink
-from stackbounce.measure.uncertain_numbers import measured
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from uncertainties import UFloat
+    pass
 
-__all__ = ["FloorGap", "floor_gap"]
+__all__ = ["floor_gap"]
 
 _UNKNOWN = (0.75, 0.144)  # restitution: anything from 0.5 to 1
 _SAME = 0.04  # relative, by which two drops from one height may differ
 _EARLY, _LATE = 0.33, 0.6  # of the contact time alone: a kink at which balls that touch from the
 # start may show, and from when on a second ball may stay unseen
 _NEXT = 8.0  # contact times within which a second contact belongs to the same impact
-
-
-@dataclass(frozen=True, eq=False)
-class FloorGap:
-    """When a second ball came, and from how far; made by `floor_gap`.
-
-    Parameters
-    ----------
-    delay : UFloat or None
-        From the floor's first touch to that of the balls, in s; None where only limits can be told.
-    gap : UFloat or None
-        Between the balls as they fell, in m; None where only limits can be told.
-    delay_limits, gap_limits : (float, float)
-        Between which they lie, in s and m: two errors each way, or what can be told without a kink.
-    gain : float
-        The force under the stack over that of the lower ball alone, before the second ball came.
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    stack, alone : Waveform
-        The two records.
-    kink : Kink
-        Where they part.
-    """
-
-    delay: "UFloat | None"
-    gap: "UFloat | None"
-    delay_limits: tuple[float, float]
-    gap_limits: tuple[float, float]
-    gain: float
-    notes: tuple[str, ...]
-    stack: Waveform = field(repr=False)
-    alone: Waveform = field(repr=False)
-    kink: Kink = field(repr=False)
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = [
-            Row("gap between the balls", _limited(self.gap, self.gap_limits), "m"),
-            Row("delay of their touch", _limited(self.delay, self.delay_limits), "s"),
-        ]
-        return [*rows, Row("force over that of the ball alone", self.gain)]
-
-    def parts(self) -> dict[str, object]:
-        """Return nothing: one ball, as a drop's TOML has it here, has no gap."""
-        return {}
 
 
 def floor_gap(
@@ -173,18 +127,6 @@ class _Fall(NamedTuple):
         flown = max(time - self.lasting, 0.0)
         down = float(np.interp(time - flown, self.times, self.twice))
         return down + float(self.once[-1]) * flown
-
-
-def _limited(value: Any, limits: tuple[float, float]) -> Any:
-    """Return a value, or its limits as words."""
-    low, high = limits
-    if value is not None:
-        return value
-    if math.isinf(high):
-        return "unknown"
-    if low <= 0.0:
-        return f"below {high:.2g}"
-    return f"{low:.2g} to {high:.2g}"
 
 
 def _ufloat(value: float, error: float) -> Any:

@@ -1,44 +1,12 @@
 """The delay and the gap of two balls by two sensors: one on the floor, one between the balls."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.gap.delay import delay, gap_from_delay
-from stackbounce.measure.rows import Row
+from stackbounce.measure.kinds.gap.result import SensorGap
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
-
-__all__ = ["SensorGap", "sensor_gap"]
-
-
-@dataclass(frozen=True)
-class SensorGap:
-    """When the sensor between the balls felt their touch; made by `sensor_gap`.
-
-    Attributes
-    ----------
-    delay : UFloat
-        From the floor's first touch to that of the balls, in s.
-    gap : UFloat or None
-        Between the balls as they fell, in m; None where speed or contact time are not known.
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    """
-
-    delay: "UFloat"
-    gap: "UFloat | None"
-    notes: tuple[str, ...]
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = [] if self.gap is None else [Row("gap between the balls", self.gap, "m")]
-        return [*rows, Row("delay of their touch", self.delay, "s")]
-
-    def parts(self) -> dict[str, object]:
-        """Return nothing: one ball, as a drop's TOML has it here, has no gap."""
-        return {}
+__all__ = ["sensor_gap"]
 
 
 def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None) -> SensorGap:

@@ -1,0 +1,60 @@
+"""``stackbounce app``: the explorer in the browser."""
+
+import os
+from typing import Annotated
+
+import typer
+
+from stackbounce.cli.options import AsJson
+from stackbounce.cli.output import json_text
+
+__all__ = ["EPILOG", "run"]
+
+EPILOG = "For a class: stackbounce app --host 0.0.0.0"
+
+
+def run(
+    host: Annotated[
+        str,
+        typer.Option(
+            metavar="ADDRESS",
+            help="Where to listen: on this machine alone by default; 0.0.0.0 for a class.",
+        ),
+    ] = "127.0.0.1",
+    port: Annotated[
+        int | None,
+        typer.Option(
+            metavar="PORT",
+            help="By default the first free one from 8050; 0 for any.",
+            show_default=False,
+        ),
+    ] = None,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open the page in the browser.")
+    ] = True,
+    workers: Annotated[
+        int | None,
+        typer.Option(
+            metavar="COUNT",
+            help="Processes that compute; by default one for each core, 2 to 8.",
+            show_default=False,
+        ),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Open the explorer in the browser: see it happen, slowly."""
+    import dataclasses
+
+    from stackbounce.errors import whole
+    from stackbounce.version import __version__
+    from stackbounce.web import LIMITS
+    from stackbounce.web.serve import serve
+
+    def tell(address: str) -> None:
+        told = json_text({"stackbounce": __version__, "address": address})
+        typer.echo(told if as_json else f"The explorer: {address} (Ctrl+C ends it)")
+
+    cores = min(max(os.cpu_count() or 1, 2), 8)
+    count = cores if workers is None else whole("--workers", workers, 1, 64)
+    limits = dataclasses.replace(LIMITS, workers=count)
+    serve(host, port, limits, browser=browser, tell=tell)

@@ -1,0 +1,168 @@
+"""``stackbounce highest``: which stack of some balls throws its top ball highest."""
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stackbounce.cli.options import AsJson, Height, Plot, Save, Speed
+from stackbounce.cli.output import (
+    check_picture,
+    check_scenario,
+    console,
+    draw,
+    print_best_files,
+    print_json,
+    write_scenario,
+)
+from stackbounce.errors import InvalidValue, positive
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from rich.console import Console
+
+__all__ = ["EPILOG", "run"]
+
+EPILOG = "For example: stackbounce highest --balls 3 --gap 0 --gap 2mm --plot stacks.svg"
+
+
+def run(
+    what: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[BALL]...",
+            help="Balls of the catalogue, or scenario files of one ball each, as measure --save "
+            "writes them; by default the whole catalogue.",
+            show_default=False,
+        ),
+    ] = None,
+    balls: Annotated[int, typer.Option(metavar="NUMBER", help="Balls in a stack.")] = 3,
+    repeat: Annotated[
+        bool, typer.Option("--repeat", help="Take each ball any number of times.")
+    ] = False,
+    gap: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="LENGTH",
+            help="Gap between all neighbours, once for each that is tried; the order is that of "
+            "the first; by default 0, 1 mm and 5 mm.",
+        ),
+    ] = None,
+    law: Annotated[
+        str,
+        typer.Option(
+            metavar="LAW",
+            help="Of the catalogue's contacts, with the ball's contact time and restitution: "
+            "hysteretic, or spring, which loses nothing.",
+        ),
+    ] = "hysteretic",
+    height: Height = None,
+    speed: Speed = None,
+    rows: Annotated[int, typer.Option(metavar="NUMBER", help="Stacks to print.", min=1)] = 10,
+    save: Save = None,
+    plot: Plot = None,
+    as_json: AsJson = False,
+) -> None:
+    """Try all stacks of some balls: which one throws its top ball highest."""
+    from stackbounce import highest
+
+    if plot is not None:
+        check_picture(plot)
+    if save is not None:
+        check_scenario(save)
+    given = _candidates(what, law=law, gaps=gap, height=height, speed=speed)
+    data = highest(count=balls, repeat=repeat, **given)
+    if save is not None:
+        write_scenario(data.attrs["best"], save)
+    if plot is not None:
+        from stackbounce import plots
+
+        draw(lambda: plots.highest(data), plot)
+    if as_json:
+        print_json(summary(data))
+        return
+    print_stacks(console(), data, rows)
+    print_best_files(save, plot)
+
+
+def _candidates(
+    what: Sequence[str] | None,
+    *,
+    law: str,
+    gaps: Sequence[str] | None,
+    height: str | None,
+    speed: str | None,
+) -> dict[str, Any]:
+    """Return what `stackbounce.highest` is given."""
+    from stackbounce.cli.scenario import is_file
+    from stackbounce.model import STANDARD_GRAVITY, Drop
+    from stackbounce.model.laws import law_named
+    from stackbounce.units import quantity
+
+    given: dict[str, Any] = {"law": law_named(law)}
+    if what:
+        given["balls"] = [Drop.from_toml(one) if is_file(one) else one for one in what]
+    if gaps:
+        given["gaps"] = [quantity(gap, "m", "--gap") for gap in gaps]
+    if height is not None and speed is not None:
+        raise InvalidValue("--height and --speed: only one of the two can be given, got both")
+    if height is not None:
+        fallen = positive("--height", quantity(height, "m", "--height"), "metres")
+        given["impact_speed"] = math.sqrt(2.0 * STANDARD_GRAVITY * fallen)
+    if speed is not None:
+        given["impact_speed"] = quantity(speed, "m/s", "--speed")
+    return given
+
+
+def summary(data: "xr.Dataset") -> dict[str, Any]:
+    """Return what ``stackbounce highest --json`` prints."""
+    names = ("place", "rebound_ratio", "height_ratio", "energy_share", "energy_retained")
+    stacks = []
+    for i in range(data.sizes["stack"]):
+        row = data.isel(stack=i)
+        stacks.append(
+            {"balls": row["balls"].values, "collisions": row["collisions"].values}
+            | {name: row[name].values for name in names}
+        )
+    return {**data.attrs, "gap": data["gap"].values, "stacks": stacks}
+
+
+def print_stacks(console: "Console", data: "xr.Dataset", rows: int) -> None:
+    """Print the first stacks in order, for people, and what the gap does to the order."""
+    import numpy as np
+
+    from stackbounce.cli.tables import add_columns, new_table, number
+
+    speed = data.attrs["impact_speed"]
+    count, gaps = data.sizes["stack"], 1e3 * data["gap"].values
+    shown_rows = min(rows, count)
+    console.print(f"The best {shown_rows} of {count} stacks, at {number(speed)} m/s", style="bold")
+    table = new_table(f"Top ball, with gaps of {number(gaps[0])} mm")
+    table.add_column("\nballs, the lowest first")
+    add_columns(table, ("ratio\nv/v0", "bounce\n/drop", "share of\nenergy"))
+    add_columns(
+        table,
+        [f"{'place, bounce' if k == 1 else ''}\n{gap:.4g} mm" for k, gap in enumerate(gaps)][1:],
+    )
+    for i in range(shown_rows):
+        row = data.isel(stack=i)
+        others = [
+            f"{int(place)}, {number(float(height))}"
+            for place, height in zip(row["place"].values, row["height_ratio"].values, strict=True)
+        ]
+        table.add_row(
+            " + ".join(map(str, row["balls"].values)),
+            number(float(row["rebound_ratio"][0, -1])),
+            number(float(row["height_ratio"][0])),
+            f"{100.0 * float(row['energy_share'][0]):.1f} %",
+            *others[1:],
+        )
+    console.print(table)
+    first = data["balls"].values[data["place"].values.argmin(axis=0)]
+    for gap, names in zip(gaps[1:], first[1:], strict=True):
+        if list(names) != list(first[0]):
+            console.print(f"With gaps of {gap:.4g} mm {' + '.join(names)} is first.")
+    unfinished = int((~np.isfinite(data["rebound_ratio"].values[..., -1])).sum())
+    if unfinished:
+        console.print(f"{unfinished} drops could not be finished.")

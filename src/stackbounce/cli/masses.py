@@ -1,0 +1,138 @@
+"""``stackbounce masses``: the masses in between that throw the top ball highest."""
+
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stackbounce.cli.options import AsJson, Contact, Gap, Height, Save, Speed, What
+from stackbounce.cli.output import (
+    check_scenario,
+    console,
+    print_best_files,
+    print_json,
+    write_scenario,
+)
+from stackbounce.errors import InvalidValue, shown
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from stackbounce.cli.scenario import Scenario
+    from stackbounce.model import Drop
+
+__all__ = ["EPILOG", "run"]
+
+EPILOG = "For example: stackbounce masses basketball tennis B3 --save best.toml"
+_AT_THE_END = 1e-3  # relative
+
+
+def run(
+    what: What,
+    within: Annotated[
+        str | None,
+        typer.Option(
+            metavar="MASS:MASS",
+            help="The smallest and the largest mass that are tried, such as 10g:1kg; by default "
+            "those of the lowest and the top ball.",
+        ),
+    ] = None,
+    height: Height = None,
+    speed: Speed = None,
+    gap: Gap = None,
+    contact: Contact = None,
+    save: Save = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find the masses between the lowest and the top ball that throw the top one highest."""
+    from stackbounce import best_masses
+    from stackbounce.cli import scenario
+
+    if save is not None:
+        check_scenario(save)
+    tried = None if within is None else limits(within)
+    chosen = scenario.read(what, height=height, speed=speed, gaps=gap, contacts=contact)
+    best = best_masses(chosen.drop, within=tried)
+    if save is not None:
+        write_scenario(best.to_toml(), save)
+    found = summary(chosen.drop, best, tried)
+    if as_json:
+        print_json(found)
+        return
+    print_masses(console(), chosen, found)
+    print_best_files(save)
+
+
+def limits(text: str) -> tuple[float, float]:
+    """Return the masses that ``--within`` names.
+
+    Examples
+    --------
+    >>> limits("10g:1kg")
+    (0.01, 1.0)
+    """
+    from stackbounce.units import quantity
+
+    low, colon, high = text.partition(":")
+    if not colon:
+        raise InvalidValue(f"--within must be MASS:MASS, such as 10g:1kg, got {shown(text)}")
+    return quantity(low, "kg", "--within"), quantity(high, "kg", "--within")
+
+
+def summary(given: "Drop", best: "Drop", within: tuple[float, float] | None) -> dict[str, Any]:
+    """Return what ``stackbounce masses --json`` prints."""
+    from stackbounce.gaps_and_masses.masses import geometric_masses, replace_masses
+    from stackbounce.version import __version__
+
+    means = replace_masses(given, geometric_masses(given)[1:-1])
+    outer = sorted([given.balls[0].mass, given.balls[-1].mass])
+    low, high = outer if within is None else within
+    ends = [
+        i
+        for i, ball in enumerate(best.balls[1:-1], start=1)
+        if min(ball.mass / low, high / ball.mass) < 1.0 + _AT_THE_END
+    ]
+    stacks = {"best": best, "given": given, "geometric_means": means}
+    return {
+        "stackbounce": __version__,
+        "drop": best.to_mapping(),
+        "within": [low, high],
+        "at_the_end": ends,
+        **{name: _outcome(drop) for name, drop in stacks.items()},
+    }
+
+
+def print_masses(console: "Console", scenario: "Scenario", found: dict[str, Any]) -> None:
+    """Print the best masses, for people, beside those given and the geometric means."""
+    from stackbounce.cli.tables import add_columns, incidence, label, new_table, number
+
+    console.print(incidence(scenario), style="bold")
+    table = new_table("Masses in g, the lowest first, and the top ball")
+    table.add_column("")
+    balls = scenario.drop.balls
+    add_columns(table, [label(ball.name, i) for i, ball in enumerate(balls)])
+    add_columns(table, ("v/v0", "bounce/drop"))
+    for name in ("best", "given", "geometric_means"):
+        one = found[name]
+        top = float(one["rebound_ratios"][-1])
+        heights = [number(top), number(max(top, 0.0) ** 2)]
+        words = name.replace("_", " ")
+        table.add_row(words, *(number(1e3 * mass) for mass in one["masses"]), *heights)
+    console.print(table)
+    low, high = found["within"]
+    for i in found["at_the_end"]:
+        console.print(
+            f"{label(balls[i].name, i)} lies at the end of what was tried, {low:.6g} kg to "
+            f"{high:.6g} kg: the best mass is beyond (--within)"
+        )
+
+
+def _outcome(drop: "Drop") -> dict[str, Any]:
+    from stackbounce import simulate
+
+    result = simulate(drop)
+    return {
+        "masses": [ball.mass for ball in drop.balls],
+        "rebound_ratios": result.rebound_ratios,
+        "collisions": result.collisions,
+        "energy_retained": result.energy_retained,
+    }

@@ -1,0 +1,237 @@
+"""``stackbounce sweep``: a grid into a file, with its progress, and what came of it."""
+
+import contextlib
+import logging
+import socket
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, cast
+
+import typer
+
+from stackbounce.cli.options import (
+    AsJson,
+    Contact,
+    Gap,
+    Gravity,
+    Height,
+    Plot,
+    Speed,
+    Tolerance,
+    Until,
+    What,
+)
+from stackbounce.cli.output import check_picture, console, draw, print_json, progress_bar
+from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.extras import need
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from matplotlib.figure import Figure
+    from rich.console import Console
+
+    from stackbounce.model import Drop
+
+__all__ = ["EPILOG", "run"]
+
+EPILOG = (
+    "For example: stackbounce sweep basketball tennis --over balls.0.mass=50g:500g:100:log "
+    "--over gaps.0=0mm:5mm:50 --out map.zarr --plot map.png"
+)
+_BLOCK = 2**18  # drops that are looked at together
+_SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
+
+
+def run(
+    what: What,
+    over: Annotated[
+        list[str],
+        typer.Option(
+            metavar="PATH=VALUES",
+            help="A number that varies: balls.0.mass=50g:500g:40 (start, stop, how many), "
+            "contacts.0.stiffness=1kN/m:1MN/m:40:log (in even ratios) or gaps.0=0mm,1mm,5mm; "
+            "once per number. Balls, contacts and gaps count from 0, the lowest.",
+            show_default=False,
+        ),
+    ],
+    out: Annotated[
+        Path,
+        typer.Option(
+            metavar="FILE",
+            readable=False,
+            help="File to write all results to: a Zarr store such as map.zarr, or NetCDF such as "
+            "map.nc. Stopped, the same command goes on where it was.",
+            show_default=False,
+        ),
+    ],
+    height: Height = None,
+    speed: Speed = None,
+    gap: Gap = None,
+    contact: Contact = None,
+    gravity: Gravity = None,
+    until: Until = None,
+    rtol: Tolerance = 1e-12,
+    cluster: Annotated[
+        str | None,
+        typer.Option(metavar="ADDRESS", help="Solve on this cluster: its dask scheduler."),
+    ] = None,
+    show: Annotated[
+        str,
+        typer.Option(
+            metavar="NAME",
+            help="What --plot draws: rebound_ratio, collisions, energy_retained, first_touch or "
+            "last_release; of one ball or contact with its number, such as rebound_ratio.0.",
+        ),
+    ] = "rebound_ratio",
+    plot: Plot = None,
+    as_json: AsJson = False,
+) -> None:
+    """Drop a stack for all combinations of other numbers in it, into a Zarr or NetCDF file."""
+    from stackbounce.cli import scenario
+    from stackbounce.units import quantity
+
+    if plot is not None:
+        check_picture(plot)
+    chosen = scenario.read(
+        what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
+    )
+    if plot is not None:
+        _check_shown(chosen.drop, over, show)
+    end = None if until is None else quantity(until, "s", "--until")
+    done = _write(chosen.drop, over, out, cluster=cluster, until=end, rtol=rtol)
+    if plot is not None:
+        draw(lambda: _picture(done, show), plot)
+    if as_json:
+        print_json(summary(done, out))
+    else:
+        print_sweep(console(), done, out, plot)
+
+
+def _write(
+    drop: "Drop", over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
+) -> "xr.Dataset":
+    """Sweep a drop over what ``--over`` names, into a file, showing how far it is; return it."""
+    from stackbounce.sweeps import grid, opened, write
+
+    values = grid(drop, over)
+    with _client(cluster) as client, progress_bar("drops") as progress:
+        write(out, drop, values, client=client, progress=progress, **options)
+    return opened(out)
+
+
+def _check_shown(drop: "Drop", over: Sequence[str], show: str) -> None:
+    """Refuse a picture that could not be drawn, before anything is computed."""
+    from stackbounce.plots.sweep_curves import TITLES
+
+    if len(over) not in (1, 2):
+        raise InvalidValue(f"--plot needs one or two numbers that vary, got {len(over)}")
+    name, dot, which = show.partition(".")
+    if name not in TITLES:
+        raise InvalidValue(f"--show must name a result, got {shown(name)}; {nearest(name, TITLES)}")
+    most = len(drop.balls) - 1
+    if dot and name == "energy_retained":
+        raise InvalidValue(f"--show {name} is of the whole stack, got {shown(show)}")
+    if dot and not (which.isdecimal() and int(which) <= most):
+        raise InvalidValue(
+            f"--show {name}. must end in a ball or contact from 0 to {most}, got {shown(show)}"
+        )
+
+
+def _picture(data: "xr.Dataset", show: str) -> "Figure":
+    """Return the lines or the map of a sweep over one number or two."""
+    from stackbounce import plots
+
+    name, dot, which = show.partition(".")
+    draw: Any = plots.lines if len(data.status.dims) == 1 else plots.heatmap
+    return cast("Figure", draw(data.load(), name, **({"index": int(which)} if dot else {})))
+
+
+def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
+    """Return what came of a sweep, for machines; a file larger than memory is read in blocks."""
+    import numpy as np
+
+    from stackbounce.run.blocks import blocks, sides
+    from stackbounce.run.result import Status
+
+    dims, shape = data.status.dims, data.status.shape
+    counts = np.zeros(max(Status) + 1, dtype=int)
+    low: dict[str, Any] = dict.fromkeys(_SPOKEN, np.nan)
+    high = low.copy()
+    for block in blocks(shape, sides(shape, _BLOCK)):
+        part = data.isel(dict(zip(dims, block, strict=True)))
+        counts += np.bincount(part.status.values.ravel(), minlength=len(counts))
+        for name in _SPOKEN:
+            values = part[name].values
+            rows = values.reshape(-1, *values.shape[len(dims) :])
+            low[name] = np.fmin(low[name], np.fmin.reduce(rows))
+            high[name] = np.fmax(high[name], np.fmax.reduce(rows))
+    return {
+        "store": str(out),
+        "drops": data.status.size,
+        "over": {str(dim): data.sizes[dim] for dim in dims},
+        "status": {status.name: int(counts[status]) for status in Status if counts[status]},
+        "ranges": {
+            name: _ranges(data[name].dims[len(dims) :], low[name], high[name]) for name in _SPOKEN
+        },
+    }
+
+
+def print_sweep(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -> None:
+    """Print what came of a sweep, for people."""
+    from stackbounce.run.result import Status
+
+    found = summary(data, out)
+    console.print(f"{found['drops']} drops, over")
+    for dim, size in found["over"].items():
+        values, unit = data[dim].values, data[dim].attrs.get("units", "")
+        console.print(f"  {dim}: {size}, {_range(values.min(), values.max())} {unit}".rstrip())
+    for name, ranges in found["ranges"].items():
+        for part, (low, high) in ranges.items():
+            console.print(f"  {name} {part}".rstrip() + f": {_range(low, high)}")
+    for name, count in found["status"].items():
+        console.print(f"  {count} {name}: {Status[name].advice}")
+    console.print(f"Written: {out}")
+    if plot is not None:
+        console.print(f"Picture: {plot}")
+
+
+def _range(low: float, high: float) -> str:
+    one, other = f"{low:.6g}", f"{high:.6g}"
+    return one if one == other else f"{one} to {other}"
+
+
+def _ranges(own: Sequence[Any], low: Any, high: Any) -> dict[str, tuple[float, float]]:
+    """Return the smallest and the largest number, of each ball or contact where it has one."""
+    import numpy as np
+
+    pairs = zip(np.atleast_1d(low).tolist(), np.atleast_1d(high).tolist(), strict=True)
+    return {f"{own[0]} {k}" if own else "": pair for k, pair in enumerate(pairs)}
+
+
+@contextlib.contextmanager
+def _client(address: str | None) -> Iterator[Any]:
+    """Connect to a cluster, if any."""
+    if address is None:
+        yield None
+        return
+    need("cluster", "--cluster")
+    import distributed
+
+    for name in ("distributed", "distributed.client"):  # errors of ours say it in one line
+        logging.getLogger(name).setLevel(logging.CRITICAL)
+    wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
+    connect: Any = distributed.Client
+    try:
+        _knock(address)
+        client = connect(address, timeout="10s")
+    except (OSError, ValueError) as error:
+        raise InvalidValue(wrong) from error
+    with client:
+        yield client
+
+
+def _knock(address: str) -> None:
+    """Raise OSError or ValueError where nobody listens: a client would try again for long."""
+    host, _, port = address.rpartition("://")[2].rpartition(":")
+    with socket.create_connection((host, int(port)), timeout=5.0):
+        pass

@@ -1,0 +1,117 @@
+"""A plain install does what the core does, and names the extra that anything else needs."""
+
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+import pytest
+
+from stackbounce.errors import MissingExtra
+from stackbounce.extras import EXTRAS, need
+
+PROJECT = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text("utf-8"))[
+    "project"
+]
+BROUGHT = sorted({module for modules in EXTRAS.values() for module in modules} - {"pydantic"})
+PLAIN = f"import sys; sys.modules |= dict.fromkeys({BROUGHT}); "
+COMMAND = PLAIN + "from stackbounce.cli import main; sys.exit(main(sys.argv[1:]))"
+
+
+def plain(code, *arguments, folder="."):
+    """Run Python where no extra is installed."""
+    command = [sys.executable, "-c", code, *arguments]
+    return subprocess.run(command, capture_output=True, text=True, check=False, cwd=folder)
+
+
+def brought(extra):
+    """Return the modules that pyproject.toml gives an extra, with those of the extras in it."""
+    found = set()
+    for text in PROJECT["optional-dependencies"][extra]:
+        name, _, inner = text.rstrip("]").partition("[")
+        if name == "stackbounce":
+            found |= {module for one in inner.split(",") for module in brought(one)}
+        else:
+            found.add(name.partition(">")[0].replace("-", "_"))
+    return found
+
+
+@pytest.mark.parametrize("extra", EXTRAS)
+def test_an_extra_brings_what_it_says(extra):
+    assert brought(extra) == set(EXTRAS[extra])
+    assert brought(extra) <= brought("all") <= brought("dev")
+
+
+def test_everything_is_in_all():
+    others = set(PROJECT["optional-dependencies"]) - {"all", "dev", "bench"}
+    assert others == set(EXTRAS)
+
+
+def test_a_missing_extra_is_named(monkeypatch):
+    need("fit", "stackbounce fit")
+    monkeypatch.setitem(sys.modules, "lmfit", None)
+    with pytest.raises(MissingExtra, match=r"^a fit needs lmfit: pip install 'stackbounce\[fit\]'"):
+        need("fit", "a fit")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["balls"],
+        ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"],
+        ["transition", "basketball", "tennis"],
+        ["highest", "--balls", "2"],
+        *([command, "--help"] for command in ("measure", "fit", "paper", "app", "sweep")),
+    ],
+    ids=" ".join,
+)
+def test_a_plain_install_runs(arguments):
+    run = plain(COMMAND, *arguments)
+    assert (run.returncode, run.stderr) == (0, "")
+
+
+def test_a_plain_install_sweeps():
+    run = plain(
+        PLAIN + "import stackbounce as sb; "
+        "drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0); "
+        "ds = sb.sweep(drop, {'balls.0.mass': [1.0, 2.0]}); "
+        "sb.simulate(drop).sample([0.0, 1.0]); sb.separate(drop); "
+        "print(ds.collisions.values.ravel())"
+    )
+    assert (run.stdout, run.stderr) == ("[1 1]\n", "")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "extra", "what"),
+    [
+        (["measure", "sound.wav"], "measure", "stackbounce measure"),
+        (["fit", "drop.toml"], "fit", "stackbounce fit"),
+        (["masses", "basketball", "tennis", "B3"], "masses", "stackbounce masses"),
+        (["paper", "--out", "paper"], "paper", "stackbounce paper"),
+        (["app"], "web", "stackbounce app"),
+        (["simulate", "B1", "--plot", "b1.png"], "plots", "--plot"),
+        (["sweep", "B1", "--over", "balls.0.mass=1,2", "--out", "a.nc"], "netcdf", "a .nc file"),
+        (["sweep", "B1", "--over", "balls.0.mass=1,2", "--out", "a.zarr"], "sweep", "a .zarr file"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_a_command_names_the_extra_it_needs(arguments, extra, what, tmp_path):
+    run = plain(COMMAND, *arguments, folder=tmp_path)
+    missing = ", ".join(module for module in EXTRAS[extra] if module in BROUGHT)
+    words = f"{what} needs {missing}: pip install 'stackbounce[{extra}]'"
+    assert run.stderr == f"stackbounce: error: {words}\n"
+    assert (run.returncode, run.stdout, list(tmp_path.iterdir())) == (2, "", [])
+
+
+@pytest.mark.parametrize(
+    ("code", "extra"),
+    [
+        ("import stackbounce as sb; sb.read('sound.wav')", "measure"),
+        ("from stackbounce.plots import bounce", "plots"),
+        ("from stackbounce.web.serve import serve", "web"),
+    ],
+)
+def test_a_function_names_the_extra_it_needs(code, extra):
+    run = plain(PLAIN + code)
+    assert run.stderr.endswith(f": pip install 'stackbounce[{extra}]'\n")
+    assert "stackbounce.errors.MissingExtra: " in run.stderr

@@ -1,0 +1,22 @@
+"""A sweep that waits after each block: ``python slow_sweep.py FILE`` is killed by its test."""
+
+import sys
+import time
+
+import stackbounce as sb
+from stackbounce.sweeps import grid, write
+
+DROP = sb.Drop(
+    [sb.Ball(0.15), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.53
+)
+OVER = ["balls.0.mass=50g:500g:30:log", "gaps.0=0mm:4mm:20"]
+
+
+def wait(done, _):
+    """Print how many drops are done, and wait."""
+    print(done, flush=True)  # noqa: T201
+    time.sleep(0.05)
+
+
+if __name__ == "__main__":
+    write(sys.argv[1], DROP, grid(DROP, OVER), block=64, progress=wait)
