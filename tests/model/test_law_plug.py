@@ -11,7 +11,7 @@ import pytest
 import stackbounce as sb
 from stackbounce.cli import main, tables
 from stackbounce.fitting import Model
-from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named
 from stackbounce.model.laws.elastic import ElasticLaw
