@@ -43,4 +43,5 @@ def between(law_a: ContactLaw, law_b: ContactLaw) -> ContactLaw:
         a, b = law_a.as_hysteretic(), law_b.as_hysteretic()
         if a is None or b is None or (a.exponent, a.reloading) != (b.exponent, b.reloading):
             raise
-    return a.pressed_on(b)
+    both: ContactLaw = a.pressed_on(b)
+    return both

@@ -54,7 +54,7 @@ def run(
         typer.Option(
             metavar="LAW",
             help="Of the catalogue's contacts, with the ball's contact time and restitution: "
-            "hysteretic, or spring or hertz, without loss.",
+            "hysteretic, or spring, which loses nothing.",
         ),
     ] = "hysteretic",
     height: Height = None,

@@ -98,7 +98,7 @@ def _at(law: Any, restitution: Array, exponent: Array) -> tuple[Array, Array]:
     else:
         y = 2.0 * (exponent - 1.0) / (_STEEPEST - 1.0) - 1.0
         found = [chebyshev.chebval2d(x, y, one) for one in _of_both(law)]
-    # without loss, rounding must not bring a gain
+    # round-off must not make a lossless contact gain energy
     top = 1.0 if law.loss == "restitution" else np.inf
     return np.exp(found[0]), np.clip(found[1], 0.0, top)
 

@@ -137,7 +137,8 @@ class Theory:
             return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
         if self.where == ELASTIC:
             return np.zeros_like(f)
-        # A ball has its share of the work. A loss per speed also counts its share of the speed.
+        # A ball has its share of the work; a loss proportional to the compression rate also counts
+        # its share of the rate.
         power = 2 if loss_unit(self.law) == "s/m" else 1
         share = f**power * lower + (1.0 - f) ** power * upper
         return np.asarray(values["between"] * share)

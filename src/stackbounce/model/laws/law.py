@@ -20,9 +20,6 @@ from stackbounce.errors import InvalidValue, between, positive
 from stackbounce.model.collision import elastic
 from stackbounce.units import Unit, unit_of
 
-if TYPE_CHECKING:
-    from stackbounce.model.laws.hysteretic import Hysteretic
-
 __all__ = [
     "EXPONENT",
     "STEEPEST",
@@ -299,7 +296,7 @@ class ContactLaw:
         """
         return {"stiffness": stiffness}
 
-    def as_hysteretic(self) -> "Hysteretic | None":
+    def as_hysteretic(self) -> "ContactLaw | None":
         """Return the law as a `Hysteretic` one with the same force; None where there is none."""
         return None
 
