@@ -6,7 +6,7 @@ import pytest
 import stackbounce as sb
 from stackbounce import plots
 from stackbounce.errors import InvalidValue
-from stackbounce.plots.scales import rounded
+from stackbounce.units import rounded
 
 BALLS = [sb.Ball(0.15), sb.Ball(0.057)]
 DROP = sb.Drop(BALLS, [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.53)
