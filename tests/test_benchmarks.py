@@ -88,6 +88,7 @@ def test_a_missing_peer_is_skipped_with_a_word(small):
     assert {len(row) for row in counts} == {5}
 
 
+@pytest.mark.slow
 def test_starts_are_told_next_to_numpy():
     starts = startup.measure(quiet, rounds=2)
     assert [start.name for start in starts] == list(startup.STARTS)
@@ -98,6 +99,7 @@ def test_starts_are_told_next_to_numpy():
     assert len(figures.startup(starts).axes[0].patches) == 2 * len(starts)
 
 
+@pytest.mark.slow
 def test_other_laws_are_told_next_to_scipy_at_equal_error(monkeypatch):
     monkeypatch.setattr(laws, "THEIRS", (1e-6,))
     monkeypatch.setattr(laws, "ROUNDS", 1)
