@@ -13,7 +13,7 @@ from benchmarks.laws import Entry as LawEntry
 from benchmarks.race import PEERS, Entry
 from benchmarks.startup import Start
 from benchmarks.work_precision import DROPS, FAMILIES, TOLERANCES, Spread, Work
-from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, styled
+from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, use_style
 
 GREEN, PURPLE = "#009E73", "#AA4499"
 WIDE = 7.2  # inches
@@ -43,7 +43,7 @@ LINEUP = dict(
 
 def growth(costs: list[Cost]) -> Figure:
     """Draw time per contact interval, and the size of a cluster, against the number of balls."""
-    with styled():
+    with use_style():
         figure = Figure(figsize=(WIDE, 3.3))
         time, size = figure.subplots(1, 2)
         for shape in SHAPES:
@@ -89,7 +89,7 @@ def _name_all(figure: Figure, lines: Any, names: Any, **look: Any) -> None:
 
 def accuracy(spreads: list[Spread]) -> Figure:
     """Draw the errors of the velocities against the tolerance asked for."""
-    with styled():
+    with use_style():
         figure = Figure(figsize=(5.2, 3.8))
         ax = figure.subplots()
         every = [s for s in spreads if s.family == "all"]
@@ -132,7 +132,7 @@ def _seen(values: Iterable[float]) -> np.ndarray:
 
 def work(runs: list[Work]) -> Figure:
     """Draw the error of two drops against the time that they take."""
-    with styled():
+    with use_style():
         figure = Figure(figsize=(WIDE, 3.3))
         panels = figure.subplots(1, 2, sharex=True, sharey=True)
         for ax, drop in zip(panels, DROPS, strict=True):
@@ -160,7 +160,7 @@ def work(runs: list[Work]) -> Figure:
 
 def laws(entries: list[LawEntry]) -> Figure:
     """Draw how much faster a sweep is than `solve_ivp`, against the error of that."""
-    with styled():
+    with use_style():
         figure = Figure(figsize=(0.6 * WIDE, 3.3))
         ax = figure.subplots()
         for law, (mark, color) in zip(
@@ -180,7 +180,7 @@ def laws(entries: list[LawEntry]) -> Figure:
 
 def peers(entries: list[Entry]) -> Figure:
     """Draw errors against time, median to worst, and the shares of wrong counts."""
-    with styled():
+    with use_style():
         figure = Figure(figsize=(WIDE, 3.6))
         work, wrong = figure.subplots(1, 2)
         shown = [entry for entry in entries if entry.rounds]
@@ -215,7 +215,7 @@ def peers(entries: list[Entry]) -> Figure:
 
 def startup(starts: list[Start]) -> Figure:
     """Draw what each start takes in units of numpy's import."""
-    with styled():
+    with use_style():
         figure = Figure(figsize=(5.2, 2.4))
         ax = figure.subplots()
         for place, start in enumerate(starts):

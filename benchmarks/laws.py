@@ -1,9 +1,9 @@
-"""Sweeps of two balls on nonlinear contacts next to `solve_ivp`, and rigid ones next to a division.
+"""Sweeps of two balls: nonlinear contacts beside `solve_ivp`, rigid ones beside a division.
 
-Random drops, half of them with a gap. The truth is this package's at its smallest tolerance, which
-`tests/test_laws.py` holds to 30 digits. Ours run at tolerances four to a decade, so that the error
-told next to that of `solve_ivp` is no larger and little smaller. Times are processor times, the
-shortest of some rounds, in each of which both take their turn; compilation is left out.
+Random drops, half of them with a gap. The reference is this package at its smallest tolerance,
+which `tests/engine/test_laws.py` compares with 30 digits. Our runs use four tolerances per decade,
+so that our error shown beside that of `solve_ivp` is no larger and hardly smaller. Times are
+processor times without compilation: the shortest of some rounds, in which both take turns.
 """
 
 import math
@@ -17,7 +17,7 @@ import numpy as np
 
 import stackbounce as sb
 from benchmarks.by_scipy import rebound
-from stackbounce.engine.kernel import compiled, kernel
+from stackbounce.engine.compiler import compile_kernel, kernel
 
 LAWS: dict[str, dict[str, Any]] = {
     "Hertz": {"law": "Hertz"},
@@ -90,7 +90,7 @@ def rigid(progress: Callable[[str], None]) -> Rigid:
     swept = sb.sweep(drop, values)
     (spent,) = _timed(partial(sb.sweep, drop, values))
     count = int(np.maximum(swept.collisions.values, 0).sum())
-    divide = compiled(divisions)
+    divide = compile_kernel(divisions)
     divide(10)
     begin = process_time()
     divide(DIVISIONS)

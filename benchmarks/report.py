@@ -14,7 +14,7 @@ from matplotlib.figure import Figure
 
 from benchmarks import figures, growth, laws, race, startup, work_precision
 from benchmarks.peers import common
-from stackbounce.cross2007.style import rendered
+from stackbounce.cross2007.style import render
 
 PACKAGES = ("stackbounce", "numpy", "numba", "scipy")
 NOT_INSTALLED = "not installed"
@@ -275,7 +275,7 @@ def peer_counts(entries: list[race.Entry], sets: int) -> list[list[str]]:
 def _section(
     name: str, title: str, caption: str, figure: Figure, tables: Iterable[Table]
 ) -> Section:
-    files = rendered(figure)
+    files = render(figure)
     return Section(name, title, caption, files["svg"], files["png"], list(tables))
 
 

@@ -13,8 +13,8 @@ from rich.console import Console
 
 from benchmarks.random_drops import random
 from stackbounce.engine import codes
-from stackbounce.engine.kernel import compiled
-from stackbounce.engine.two_springs import scratch, two_springs
+from stackbounce.engine.compiler import compile_kernel
+from stackbounce.engine.two_springs import new_scratch, run_two_springs
 
 _LIMIT = 10**6
 
@@ -26,7 +26,7 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     pairs = [np.empty((count, 2)) for _ in range(3)]
     collisions, status = np.empty((count, 2), np.int64), np.empty(count, np.int64)
     out = pairs[0], collisions, *pairs[1:], status
-    solve, room = compiled(two_springs), scratch()
+    solve, room = compile_kernel(run_two_springs), new_scratch()
 
     def call() -> None:
         solve(*given, _LIMIT, *out, room)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import matplotlib as mpl
 
-from stackbounce.cross2007.style import styled
+from stackbounce.cross2007.style import use_style
 from stackbounce.version import __version__
 
 sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
@@ -18,6 +18,7 @@ release = version = __version__
 extensions = [
     "matplotlib.sphinxext.plot_directive",
     "mathml",
+    "measure_options",
     "myst_parser",
     "numpydoc",
     "offline",
@@ -48,7 +49,7 @@ math_eqref_format = "({number})"
 plot_formats = [("svg", 200)]  # dots per inch of maps
 plot_html_show_formats = False
 plot_apply_rcparams = True
-with styled():
+with use_style():
     plot_rcparams = {k: v for k, v in mpl.rcParams.items() if v != mpl.rcParamsDefault[k]}
 
 html_theme = "furo"

@@ -5,7 +5,7 @@ from functools import cache, partial
 from typing import Any
 
 import stackbounce as sb
-from stackbounce.measure.kinds.gap.floor_gap import floor_gap
+from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
 from stackbounce.synthetic.waveform import waveform as record_of
 
 __all__ = ["CASES", "runs"]

@@ -4,9 +4,9 @@ from shown import DOCS, show
 
 import stackbounce as sb
 from stackbounce import plots
-from stackbounce.cross2007.datasets import dataset
+from stackbounce.cross2007.datasets import load_dataset
 from stackbounce.fitting import read_drops
-from stackbounce.fitting.files import force_record
+from stackbounce.fitting.files import read_force_record
 
 BASKETBALL, TENNIS = sb.Ball(0.150, name="basketball"), sb.Ball(0.057, name="tennis")
 
@@ -21,7 +21,7 @@ def _two():
 def force():
     """The force of the tennis ball on the sensor."""
     law = sb.Hysteretic(1e4, restitution=0.9)
-    record = force_record("force.0", "tennis-force.csv", DOCS / "lab")
+    record = read_force_record("force.0", "tennis-force.csv", DOCS / "lab")
     vary = {"contacts.0.stiffness": None, "contacts.0.restitution": (0.5, 1.0)}
     show(plots.fitted, sb.fit(sb.Drop([TENNIS], [law], height=1.0), {"force.0": record}, vary))
 
@@ -33,7 +33,7 @@ def valley():
 
 def models():
     """The usual models of the paper's B2 on B1."""
-    drop, data, _, _ = dataset("B1-B2")
+    drop, data, _, _ = load_dataset("B1-B2")
     show(plots.compared, sb.compare(sb.standard_models(drop, times=True), data))
 
 

@@ -3,8 +3,8 @@
 from shown import show
 
 import stackbounce as sb
-from stackbounce.measure.kinds.gap.floor_gap import floor_gap
-from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.measure.kinds.waveform.analysis import waveform
+from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
 from stackbounce.plots.measurements.gap import draw as draw_gap
 from stackbounce.plots.measurements.waveform import draw
 from stackbounce.synthetic.waveform import waveform as record_of

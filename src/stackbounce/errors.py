@@ -1,8 +1,8 @@
-"""The package's exceptions, each also a builtin one, and the validators that raise them.
+"""The package's exceptions, which also derive from builtin ones, and the validators.
 
-A message is one line: what was wrong, what was got, what would be right. It begins with the name
-of what was wrong, so that a reader of files can put the path in front of it
-(``mass must be …`` becomes ``balls.1.mass must be …``).
+A message is one line: the name of the argument, what would be right, and what was got. It begins
+with the name, so that the reader of a file can prefix the path (``mass must be …`` becomes
+``balls.1.mass must be …``).
 """
 
 import difflib
@@ -34,7 +34,7 @@ class StackbounceError(Exception):
 
 
 class InvalidValue(StackbounceError, ValueError):
-    """A value of the right type that makes no sense, such as a negative mass."""
+    """A value of the right type that is not allowed, such as a negative mass."""
 
 
 class InvalidType(StackbounceError, TypeError):
@@ -46,7 +46,7 @@ class UnitError(InvalidValue):
 
 
 class ScenarioError(InvalidValue):
-    """A scenario (TOML file or mapping) that cannot be read."""
+    """A scenario (TOML file or mapping) that is not valid."""
 
 
 class FileError(StackbounceError, OSError):
@@ -63,7 +63,7 @@ def finite(name: str, value: object, of: str = "") -> float:
     Parameters
     ----------
     name : str
-        What the value is called; the message begins with it.
+        The name of the value; the message begins with it.
     value : object
         An int, a float or a numpy scalar; a bool, a string or None is refused.
     of : str, optional
@@ -145,9 +145,9 @@ def whole(name: str, value: object, low: int = 0, high: float = math.inf) -> int
     Raises
     ------
     InvalidType
-        If `value` is not an integer (a bool, a string and 2.0 are none).
+        If `value` is not an integer; a bool, a string and 2.0 are refused.
     InvalidValue
-        If it lies outside.
+        If it lies outside of the range.
 
     Examples
     --------
@@ -164,7 +164,7 @@ def whole(name: str, value: object, low: int = 0, high: float = math.inf) -> int
 
 
 def nearest(name: object, known: Iterable[str]) -> str:
-    """Return the words that end a message about an unknown name: the nearest one, and all of them.
+    """Return the end of a message about an unknown name: the closest match and all known names.
 
     Examples
     --------
@@ -180,14 +180,14 @@ def nearest(name: object, known: Iterable[str]) -> str:
 
 
 def shown(value: object) -> str:
-    """Return `value` as a message shows it: on one line, not too long, and whatever it is.
+    """Return any value as a short text on one line, for a message.
 
     Examples
     --------
     >>> shown("150 g")
     "'150 g'"
     """
-    try:  # an int can have too many digits, and another class's text can fail in any way
+    try:  # an int can have too many digits, and a `__repr__` can raise anything
         text = " ".join((str if _is(Real, value) else repr)(value).split())
     except Exception:
         text = f"<unprintable {type(value).__name__} object>"
@@ -203,7 +203,7 @@ def _range(low: float, high: float) -> str:
 
 
 def _is(kind: type, value: object) -> bool:
-    """Tell whether `value` is a number of a kind; a bool and numpy's timedelta64 are none."""
+    """Tell whether `value` is a number of a kind; a bool and numpy's timedelta64 are not."""
     number = isinstance(value, kind) and not isinstance(value, bool)
     return number and getattr(getattr(value, "dtype", None), "kind", "f") in "iuf"
 

@@ -6,7 +6,7 @@ from stackbounce.errors import MissingExtra
 
 __all__ = ["EXTRAS", "need"]
 
-_MEASURE = ("scipy", "uncertainties")
+_MEASURE = ("pandas", "scipy", "uncertainties")
 _FIT = (*_MEASURE, "emcee", "lmfit")
 _PLOTS = ("corner", "matplotlib")
 _PAPER = (*_FIT, *_PLOTS, "jinja2")

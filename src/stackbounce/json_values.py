@@ -1,4 +1,4 @@
-"""Values as JSON has them: lists and numbers, null for what is not finite."""
+"""Values for JSON: lists and plain numbers, with null for numbers that are not finite."""
 
 import dataclasses
 import json

@@ -1,4 +1,4 @@
-"""Units at the border: "58 mm" -> 0.058. Inside, everything is SI and a plain float."""
+"""Units of user input: "58 mm" -> 0.058. Inside the package all numbers are SI floats."""
 
 import functools
 import math
@@ -17,7 +17,7 @@ __all__ = ["Unit", "factor", "handy", "in_si", "quantity", "rounded", "unit_of"]
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
-# What is handed to pint: names with small powers, nothing that could be a long computation.
+# What pint may parse: names with small powers, so that no input causes a long computation.
 _TERM = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d(?:\.\d{1,3})?)?"
 _UNIT = re.compile(rf"%|{_TERM}(?:\s*[*/·\s]\s*{_TERM}){{0,5}}")
 _KINDS = {
@@ -47,7 +47,7 @@ _WRITTEN_OUT = {
     "msec": "ms", "us": "µs", "μs": "µs", "μm": "µm", "μV": "µV",
     "Volt": "V", "Volts": "V", "volt": "V", "volts": "V", "newton": "N", "Newton": "N", "lbs": "lb",
 }  # fmt: skip
-_PIXEL = re.compile(r"px|pix|pixels?|dots?", re.IGNORECASE)  # a length on paper to pint
+_PIXEL = re.compile(r"px|pix|pixels?|dots?", re.IGNORECASE)  # pint takes these for lengths on paper
 _PREFIXES = {"k": 1e3, "": 1.0, "c": 1e-2, "m": 1e-3, "µ": 1e-6, "n": 1e-9}
 _COMMON = {f"{p}{unit}": (size, unit) for p, size in _PREFIXES.items() for unit in "smNV"} | {
     "m/s": (1.0, "m/s"),
@@ -92,12 +92,12 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     Parameters
     ----------
     value : float or str
-        A number (or a string with nothing but a number), taken to be in `unit` already, or a
-        string with a number and a unit, such as ``"58 mm"`` or ``"9.81 m/s^2"``.
+        A number or a string of a number, in `unit`, or a string of a number and a unit, such as
+        ``"58 mm"`` or ``"9.81 m/s^2"``.
     unit : str
-        The SI unit that is wanted, such as ``"m"``; empty for a pure number.
+        The SI unit of the result, such as ``"m"``; empty for a pure number.
     name : str, optional
-        What the value is called; messages begin with it.
+        The name of the value; messages begin with it.
 
     Returns
     -------
@@ -111,7 +111,7 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     InvalidValue
         If it is NaN or infinite.
     UnitError
-        If the string cannot be read, or its unit is unknown or does not fit.
+        If the string cannot be parsed, or its unit is unknown or of another dimension.
 
     Examples
     --------
@@ -132,12 +132,12 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     if not written:
         return finite(name, float(number), unit)
     factor = _factor(written, unit, _message(name, value, unit))
-    # In decimals, so that "24.8 g" is 0.0248 to the last digit.
+    # decimal arithmetic, so that "24.8 g" is exactly 0.0248
     return finite(name, float(Decimal(number) * Decimal(repr(factor))), unit)
 
 
 def factor(written: str, unit: str, name: str = "value") -> float:
-    """Return how much of an SI unit one of another unit is; see `quantity`.
+    """Return the factor that converts a unit to an SI unit; see `quantity`.
 
     Examples
     --------
@@ -149,21 +149,21 @@ def factor(written: str, unit: str, name: str = "value") -> float:
 
 @functools.lru_cache(maxsize=1000)
 def in_si(written: str, *, common: bool = False) -> tuple[float, str] | None:
-    """Return how much of which SI unit one of a unit is, whatever it measures.
+    """Return the factor and the SI unit of a unit of any dimension.
 
     Parameters
     ----------
     written : str
-        The unit, as the header of a column has it.
+        The unit, as in the header of a column.
     common : bool, optional
-        Know only those units that measurements of bounces are written in: seconds, metres, newtons
-        and volts with their prefixes, where any letter could be meant as a unit or not.
+        Accept only the usual units of bounce measurements: seconds, metres, newtons and volts with
+        prefixes. This is for headers in which a letter need not be a unit.
 
     Returns
     -------
     tuple of float and str, or None
-        None where no unit is written that is known and proportional to an SI unit: a pixel and a
-        degree Celsius are not.
+        None for an unknown unit and for one that is not proportional to an SI unit, such as a pixel
+        or a degree Celsius.
 
     Examples
     --------

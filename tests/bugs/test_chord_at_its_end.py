@@ -1,4 +1,4 @@
-"""A chord that had just used up its impulse where its contact opened was exchanged for c < 0."""
+"""A contact that opened as its chord's impulse was used up took the power law with c < 0."""
 
 import stackbounce as sb
 

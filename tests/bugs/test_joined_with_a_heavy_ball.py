@@ -1,4 +1,4 @@
-"""Balls that came together in infinitely many collisions changed a heavy one by round-off."""
+"""Balls joined by infinitely many collisions changed a heavy ball's velocity by round-off."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Late in a run the clock's round-off exceeded the solution's, and a contact turned to and fro."""
+"""Late in a run, the round-off of time exceeded that of the solution, and events alternated."""
 
 import stackbounce as sb
 

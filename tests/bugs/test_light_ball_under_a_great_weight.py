@@ -1,4 +1,4 @@
-"""A heavy ball's static compression, kilometres away, took the digits from the first microns."""
+"""A very large static compression under a heavy ball cost the first microns their digits."""
 
 import numpy as np
 

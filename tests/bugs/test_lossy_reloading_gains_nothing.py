@@ -1,4 +1,4 @@
-"""Where a lossy contact came back onto its loading curve it forgot what it had lost."""
+"""A lossy contact that came back onto its loading curve regained the energy it had lost."""
 
 import numpy as np
 

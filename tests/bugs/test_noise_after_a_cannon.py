@@ -1,4 +1,4 @@
-"""Balls that a cannon stops kept speeds of round-off and met again after a million years."""
+"""Balls at rest kept speeds of round-off, and collided again after a million years."""
 
 import pytest
 

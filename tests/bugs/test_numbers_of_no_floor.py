@@ -1,8 +1,8 @@
-"""What stands in the place of a floor that is not there made linear drops follow looser rules."""
+"""The placeholder numbers of an absent floor gave linear drops the tolerances of nonlinear ones."""
 
 import numpy as np
 
-from stackbounce.engine import prepare
+from stackbounce.engine import codes, preparation
 from stackbounce.engine.stack import new_stack
 
 
@@ -11,9 +11,9 @@ def test_numbers_of_no_floor_do_not_matter():
     for numbers in ((1.0, 1.0, 0.0), (7e3, 1.5, 3.0)):
         stack = new_stack(2)
         k, p, extra = ([number, 1.0] for number in numbers)
-        kind = [prepare.NO_CONTACT, prepare.POWER_LAW]
+        kind = [codes.ABSENT, codes.POWER]
         start = [0.0, 0.0], [-1.0, -2.0], 0.0, 1e-12
-        prepare.prepare(stack, [0.1, 0.2], kind, k, p, extra, *start)
+        preparation.prepare(stack, [0.1, 0.2], kind, k, p, extra, *start)
         stacks.append(stack)
     for name, one, other in zip(stacks[0]._fields, *stacks, strict=True):
         np.testing.assert_array_equal(one, other, err_msg=name)

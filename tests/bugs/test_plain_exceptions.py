@@ -1,4 +1,4 @@
-"""Where compiled code divides by zero, plain Python raised, and the run was given up as INVALID."""
+"""Plain Python raised where compiled code divides by zero, and runs ended as INVALID."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""A reloaded contact that loses nothing, or next to nothing, took a curve made of round-off."""
+"""A reloaded contact with no loss, or almost none, took an unloading curve made of round-off."""
 
 import pytest
 

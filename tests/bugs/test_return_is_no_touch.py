@@ -1,4 +1,4 @@
-"""A ball that came back after a flight was said to have touched since its last release."""
+"""A ball that came back after a flight counted as touching since its last release."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The chord below which c^p was replaced was too long where soft neighbours press slowly."""
+"""The chord that replaces c^p near 0 was too long where soft neighbours press slowly."""
 
 import numpy as np
 import pytest

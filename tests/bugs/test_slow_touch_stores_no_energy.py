@@ -1,4 +1,4 @@
-"""Heavy balls that hardly move were given energy by the compression at which a touch is noticed."""
+"""The compression at which a slow touch is noticed gave very heavy balls energy."""
 
 import stackbounce as sb
 

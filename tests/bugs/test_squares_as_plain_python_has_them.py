@@ -1,4 +1,4 @@
-"""An integer power was a product when compiled, but the library's power in plain Python."""
+"""An integer power was a product in compiled code, but the library's power in plain Python."""
 
 import stackbounce as sb
 

@@ -1,4 +1,4 @@
-"""In a touching row the later contacts began when an earlier one had opened, not with the rest."""
+"""In a touching row, later contacts began when an earlier one opened, not at the start."""
 
 import pytest
 

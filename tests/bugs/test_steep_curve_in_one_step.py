@@ -1,4 +1,4 @@
-"""A force that grows like c^1000 rose from nothing past the last terms of a step's series."""
+"""A force that grows like c^1000 grew beyond the last terms of a step's series."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""A contact that opened and closed again in a row pressed from the start began before its end."""
+"""In a row pressed from the start, a contact that closed again began before its release."""
 
 import stackbounce as sb
 

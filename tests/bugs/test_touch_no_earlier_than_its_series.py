@@ -1,4 +1,4 @@
-"""A touch right after another was sought before the series in the root of time began."""
+"""A touch right after another was sought before its series in the root of time began."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""A touch 1e14 contact times later began with the round-off of its position as stored energy."""
+"""A touch 1e14 contact times later began with its position's round-off as stored energy."""
 
 import pytest
 

@@ -15,7 +15,9 @@ from scipy.integrate import solve_ivp
 
 import stackbounce as sb
 from stackbounce import errors
-from stackbounce.calibration import between, dashpot, elastic, hunt_crossley, viscoelastic
+from stackbounce.calibration import between
+from stackbounce.model.collision import elastic
+from stackbounce.model.laws import dashpot, hunt_crossley, viscoelastic
 
 MEASURED = {"mass": 0.0567, "contact_time": 5e-3, "restitution": 0.75, "impact_speed": 3.0}
 LOSSY = [sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley, sb.Hysteretic]

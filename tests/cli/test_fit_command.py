@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import fitted, main
+from stackbounce.cli import fit_results, main
 from stackbounce.fitting import Fit
 
 PAIR = ("basketball", "tennis", "--height", "63cm")
@@ -77,7 +77,7 @@ def test_a_table_for_people(run):
     assert float(low) < float(value) < float(high)
     ((_, measured, error, best, pull),) = cells(out, "rebound_ratios.1")
     assert (measured, error, best, float(pull)) == ("1.640", "0.020", "1.640", 0.0)
-    assert "0 degrees of freedom: nothing is left to tell whether the model is right." in out
+    assert "0 degrees of freedom: too few data to tell whether the model is right." in out
     assert max(map(len, out.splitlines())) <= 100
 
 
@@ -180,7 +180,9 @@ def test_draws_in_a_table(run):
     assert (code, err) == (0, "")
     ((*numbers, unit),) = cells(out, "contacts.1.stiffness")
     assert (len(numbers), unit) == (8, "N/m")
-    assert re.search(r"Draws: \d+ kept; \d\d% of the steps were taken, and a walker", out)
+    assert re.search(
+        r"Draws: \d+ kept; \d\d% of the steps were accepted, and the autocorrelation", out
+    )
 
 
 @pytest.mark.parametrize("picture", ["fit.png", "fit.svg"])
@@ -260,7 +262,7 @@ def test_a_file_that_cannot_be_written_is_whole_or_not_there(run, tmp_path, monk
         ((*ONE, "--seed", "-1"), "seed must be a whole number"),
         ((*ONE, "--sample", "10"), "draws must be a whole number"),
         ((*ONE, "--plot", "fit.gif"), "--plot must end in .svg, .png, .pdf, got fit.gif"),
-        ((*ONE, "--corner", "fit.png"), "--corner draws what --sample draws: give both"),
+        ((*ONE, "--corner", "fit.png"), "--corner draws the posterior of --sample: give both"),
         ((*ONE, "--sample", "3200", "--corner", "a.gif"), "--corner must end in .svg"),
         ((*ONE, "--save", "fitted"), "--save must end in .toml, got fitted"),
         (
@@ -306,7 +308,7 @@ def test_a_table_of_drops_needs_one_drop_without_data(run, tmp_path):
     )
     code, _, err = run("fit.toml", "--data", "drops.csv")
     assert code == 2
-    assert "--data tells drops and what was measured of them" in err
+    assert "--data has drops and what was measured of them" in err
 
 
 def test_help_names_every_option_and_loads_nothing_heavy(run):
@@ -334,8 +336,8 @@ def test_the_probability_is_told_in_words(run, tmp_path):
 
 def test_the_same_digits_for_a_value_and_its_limits(run):
     """Where an interval is shorter on one side, that side says how many digits count."""
-    found = fitted.run(
-        fitted.question(
+    found = fit_results.run(
+        fit_results.read_problem(
             ["basketball", "tennis"],
             data=None,
             measured=["rebound_ratios.1=1.64 ± 0.02"],

@@ -11,7 +11,7 @@ from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse, heights, one_law
 from stackbounce.measure.kinds.contact.analysis import known_contact
-from stackbounce.measure.uncertain_numbers import quantity_with_error
+from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.synthetic.falls import falls
 from stackbounce.synthetic.track import track as tracked
 

@@ -7,7 +7,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.cross2007 import PAPER, audit, changed
-from stackbounce.cross2007.bench import Bench, as_call, propagated
+from stackbounce.cross2007.bench import Bench, propagate_error, write_call
 from stackbounce.cross2007.checks import (
     AGREES,
     DIFFERS,
@@ -15,14 +15,14 @@ from stackbounce.cross2007.checks import (
     WITHIN_ERROR,
     Section,
     half_unit,
-    run,
+    run_check,
     source_of,
 )
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.paper import FIGURES, SECTIONS
 from stackbounce.cross2007.stacks import heavier_b1, small_fit, smallest_fit
-from stackbounce.cross2007.style import styled
-from stackbounce.cross2007.tables import table_one, table_two
+from stackbounce.cross2007.style import use_style
+from stackbounce.cross2007.tables import make_table_one, make_table_two
 from stackbounce.units import quantity
 
 CHECKS = [check for section in SECTIONS for check in section.checks]
@@ -195,8 +195,8 @@ def test_every_input_is_used():
     used = set()
     computed = [compute for check in CHECKS for _, _, compute in check.others]
     computed += [check.compute for check in CHECKS]
-    with styled():
-        for make in (*computed, table_one, table_two, *FIGURES.values()):
+    with use_style():
+        for make in (*computed, make_table_one, make_table_two, *FIGURES.values()):
             bench = Bench(PAPER)
             make(bench)
             used |= set(bench.read)
@@ -249,7 +249,7 @@ def row_of(number, computed, **more):
     def _(_):
         return computed
 
-    return run(section.checks[0], PAPER)
+    return run_check(section.checks[0], PAPER)
 
 
 def test_verdicts():
@@ -271,7 +271,7 @@ def test_only_two_numbers_are_read_as_cut_off(done):
     for row, one in cut:
         assert row.verdict == DIFFERS
         assert one.verdict == AGREES
-        assert "cut(" in one.source
+        assert "truncate(" in one.source
 
 
 def test_errors_are_carried_through():
@@ -281,7 +281,7 @@ def test_errors_are_carried_through():
     masses = [PAPER["tennis.mass"], PAPER["basketball.mass"]]
     ratio = 2.0 * masses[0].value / masses[1].value
     expected = ratio * sum((one.spread / one.value) ** 2 for one in masses) ** 0.5
-    error = propagated(twice, PAPER, [one.key for one in masses])
+    error = propagate_error(twice, PAPER, [one.key for one in masses])
     assert error == pytest.approx(expected, rel=1e-6)
 
 
@@ -296,7 +296,7 @@ def test_errors_are_carried_through():
 )
 def test_a_call_makes_the_same_drop(law):
     drop = sb.Drop([sb.Ball(0.1), sb.Ball(0.2)], [law, law], gaps=[0.01], impact_speed=2.0)
-    assert eval(as_call(drop), {"sb": sb}).drop == drop
+    assert eval(write_call(drop), {"sb": sb}).drop == drop
 
 
 def test_half_a_unit():
@@ -310,3 +310,17 @@ def test_source_leaves_the_docstring_out():
         return 2.0 * one
 
     assert source_of(doubled) == "one = b('x')\nreturn 2.0 * one"
+
+
+def test_source_of_a_lambda_shows_the_values_that_it_takes_from_outside():
+    def ratio(fit, ball):
+        return lambda b: b.simulate(fit(b, b(f"{ball}.mass"))).rebound_ratios[0]
+
+    expected = "b.simulate(small_fit(b, b('B1.mass'))).rebound_ratios[0]"
+    assert source_of(ratio(small_fit, "B1")) == expected
+
+
+def test_no_row_hides_what_it_reads_behind_a_variable(done):
+    sources = [row.source for row in done.rows]
+    sources += [one.source for row in done.rows for one in row.attempts]
+    assert not [source for source in sources if re.search(r"b\((f['\"]|\w+\))", source)]

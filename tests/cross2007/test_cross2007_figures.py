@@ -10,23 +10,23 @@ from stackbounce.cross2007 import PAPER, changed
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.curves import (
     after_collision,
-    forces,
     rebound_by_mass,
     rebound_by_stiffness,
+    sample_forces,
 )
-from stackbounce.cross2007.drops import force_above, peak_times, solved, spring_pair
-from stackbounce.cross2007.paper import FIGURES, pictures
+from stackbounce.cross2007.drops import bisect, force_above, peak_times, spring_pair
+from stackbounce.cross2007.paper import FIGURES, draw_figures
 from stackbounce.cross2007.stacks import (
     early_twins,
     gap_for_delay,
     late_pair,
     late_twins,
     reversed_pair,
-    stiffening,
+    stiffen,
     twin_pair,
 )
-from stackbounce.cross2007.style import GREY, rendered, styled
-from stackbounce.cross2007.tables import table_one, table_two
+from stackbounce.cross2007.style import GREY, render, use_style
+from stackbounce.cross2007.tables import make_table_one, make_table_two
 
 MASS, TIME, FORCE = "$m_1/m_2$", "$t$ (ms)", "$F$ (N)"
 # per figure: label of the horizontal axis, labels of the vertical ones, curves in each
@@ -51,7 +51,7 @@ CONTENT = {
 
 @pytest.fixture(scope="module")
 def drawn():
-    return {picture.name: picture for picture in pictures()}
+    return {picture.name: picture for picture in draw_figures()}
 
 
 @pytest.fixture
@@ -86,7 +86,7 @@ def test_all_figures_with_numbers_are_there(drawn):
 
 @pytest.mark.parametrize("name", ["6", "12"])
 def test_files_are_images_of_a_fair_size(drawn, name):
-    files = rendered(drawn[name].figure)
+    files = render(drawn[name].figure)
     assert ET.fromstring(files["svg"]).tag == "{http://www.w3.org/2000/svg}svg"
     assert files["png"].startswith(b"\x89PNG")
     width, height = struct.unpack(">II", files["png"][16:24])
@@ -95,9 +95,9 @@ def test_files_are_images_of_a_fair_size(drawn, name):
 
 
 def test_the_same_figure_gives_the_same_bytes(drawn):
-    with styled():
+    with use_style():
         again = FIGURES["9"](Bench(PAPER))
-    assert rendered(again.figure) == rendered(drawn["9"].figure)
+    assert render(again.figure) == render(drawn["9"].figure)
 
 
 def test_figure_six_is_dashed_and_solid_as_the_caption_says(drawn):
@@ -106,7 +106,7 @@ def test_figure_six_is_dashed_and_solid_as_the_caption_says(drawn):
 
 
 def test_figures_follow_the_data():
-    with styled():
+    with use_style():
         lighter = FIGURES["9"](Bench(changed(PAPER, "tennis.mass", 0.99)))
         same = FIGURES["9"](Bench(PAPER))
     assert lighter.features != same.features
@@ -149,7 +149,7 @@ def test_a_stiff_lower_spring_comes_near_to_separate_collisions(bench):
 
 def test_forces_start_at_zero_and_end_with_the_contacts(bench):
     drop = spring_pair((0.150, 0.057), (2500.0, 1000.0), speed=3.53)
-    (floor, between), result = forces(bench, drop, np.array([0.0, 0.012, 0.05]))
+    (floor, between), result = sample_forces(bench, drop, np.array([0.0, 0.012, 0.05]))
     assert (floor[[0, 2]], between[[0, 2]]) == pytest.approx((0.0, 0.0))
     assert floor[1] > 0.0 < between[1]
     rise, fall = force_above(result, 0, 0.5)
@@ -177,18 +177,18 @@ def test_the_floor_force_shows_the_peaks_that_the_text_counts(bench):
 
 def test_stiffening_keeps_the_contact_times(bench):
     drop = twin_pair(bench, 0.0)
-    law = stiffening(bench, drop).contacts[0]
+    law = stiffen(bench, drop).contacts[0]
     assert law.exponent == 1.5
     assert law.restitution == 1.0
 
 
 def test_solved_meets_a_jump_and_a_root():
-    assert solved(lambda x: 1.0 if x > 0.3 else -1.0, 0.0, 1.0) == pytest.approx(0.3, abs=1e-15)
-    assert solved(lambda x: 2.0 - x * x, 0.0, 2.0) == pytest.approx(2.0**0.5, abs=1e-15)
+    assert bisect(lambda x: 1.0 if x > 0.3 else -1.0, 0.0, 1.0) == pytest.approx(0.3, abs=1e-15)
+    assert bisect(lambda x: 2.0 - x * x, 0.0, 2.0) == pytest.approx(2.0**0.5, abs=1e-15)
 
 
 def test_table_one_carries_the_errors(bench):
-    table = table_one(bench)
+    table = make_table_one(bench)
     printed, computed = (table.head.index(f"dynamic k {what}") for what in PRINTED_AND_COMPUTED)
     assert [row[printed] for row in table.rows] == ["5.4", "3.6", "2.3"]
     assert [row[computed] for row in table.rows] == ["5.39±0.25", "3.62±0.28", "2.32±0.24"]
@@ -198,7 +198,7 @@ PRINTED_AND_COMPUTED = ("printed (1e4 N/m)", "= m (π/time)²")
 
 
 def test_table_two_has_printed_and_computed_values(bench):
-    table = table_two(bench)
+    table = make_table_two(bench)
     assert all(len(row) == len(table.head) for row in table.rows)
     first = dict(zip(table.head, table.rows[0], strict=True))
     assert first["m1/m2 printed"] == "4.23"

@@ -11,7 +11,7 @@ import pytest
 
 from stackbounce import __version__, cross2007
 from stackbounce.cross2007 import paper
-from stackbounce.cross2007.pages import nice
+from stackbounce.cross2007.pages import typeset
 from stackbounce.errors import FileError
 
 NAMES = "2a 2b 4a 4b 5 6 7 8 9 10a 10b 11a 11b 12 13".split()
@@ -185,4 +185,4 @@ def test_no_temporary_file_stays_where_a_file_cannot_be_replaced(tmp_path):
     ],
 )
 def test_signs_as_they_are_printed(text, html):
-    assert str(nice(text)) == html
+    assert str(typeset(text)) == html

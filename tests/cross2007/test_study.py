@@ -9,17 +9,17 @@ import pytest
 import stackbounce as sb
 from stackbounce.calibration import between
 from stackbounce.cross2007 import PAPER
-from stackbounce.cross2007.study import alone, given
-from stackbounce.cross2007.study.basketball import restitution, stacks
+from stackbounce.cross2007.study import inputs, single_ball
+from stackbounce.cross2007.study.basketball import fit_stacks, read_restitution
 from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, MISPRINT, THEORIES
-from stackbounce.cross2007.study.compared import Compared
-from stackbounce.cross2007.study.energy import kept
-from stackbounce.cross2007.study.fitting import again, fitted
-from stackbounce.cross2007.study.predictions import bounces, by_gap
+from stackbounce.cross2007.study.comparison import FittedModels
+from stackbounce.cross2007.study.energy import bound_energy
+from stackbounce.cross2007.study.predictions import predict_restitutions, sweep_gap
 from stackbounce.cross2007.study.readings import LAWS
-from stackbounce.cross2007.study.records import at_delay
-from stackbounce.cross2007.study.section_v import refits
-from stackbounce.cross2007.study.theories import Theory, rigid
+from stackbounce.cross2007.study.records import simulate_at_delay
+from stackbounce.cross2007.study.searches import fit_model, refit
+from stackbounce.cross2007.study.section_v import refit_section_v
+from stackbounce.cross2007.study.theories import Theory, make_rigid_model
 from stackbounce.fitting.comparison import Comparison
 from stackbounce.model import Drop, HuntCrossley, Hysteretic, Viscoelastic
 
@@ -29,22 +29,22 @@ FITTED = ("A, fitted", "S, fitted")
 
 @pytest.fixture(scope="module")
 def compared():
-    fits = {name: fitted(THEORIES[name].model(), given.MEASURED) for name in PLAIN + FITTED}
-    fits["rigid, two"] = fitted(rigid("e_floor", "e_between"), given.MEASURED)
-    return Compared(Comparison(fits, {}))
+    fits = {name: fit_model(THEORIES[name].model(), inputs.MEASURED) for name in PLAIN + FITTED}
+    fits["rigid, two"] = fit_model(make_rigid_model("e_floor", "e_between"), inputs.MEASURED)
+    return FittedModels(Comparison(fits, {}))
 
 
 def test_the_data_are_table_two_and_the_delays():
-    for key, (lower, upper) in given.PAIRS.items():
-        first, second = given.printed(key)
+    for key, (lower, upper) in inputs.PAIRS.items():
+        first, second = inputs.read_ratios(key)
         assert (first, second) == (PAPER[f"{key}.lower"].value, PAPER[f"{key}.upper"].value)
-        mass = [ball.mass for ball in given.balls(key)]
+        mass = [ball.mass for ball in inputs.make_balls(key)]
         if f"{key}.mass_ratio" in PAPER:
             printed = PAPER[f"{key}.mass_ratio"]
             assert mass[0] / mass[1] == pytest.approx(printed.value, abs=1.2 * printed.spread)
-        assert {lower, upper} <= set(given.PRINTED)
-    assert given.MEASURED["B1_on_B3"][given.DELAY] == (2e-3, 0.5e-3)
-    assert given.late()["B1_on_B3"][given.DELAY] == (7e-3, 0.5e-3)
+        assert {lower, upper} <= set(inputs.PRINTED)
+    assert inputs.MEASURED["B1_on_B3"][inputs.DELAY] == (2e-3, 0.5e-3)
+    assert inputs.delay_late()["B1_on_B3"][inputs.DELAY] == (7e-3, 0.5e-3)
 
 
 @pytest.mark.parametrize(
@@ -53,7 +53,7 @@ def test_the_data_are_table_two_and_the_delays():
 )
 def test_laws_of_a_ball_alone_are_those_of_calibrate(law, exponents):
     random = np.random.default_rng(3)
-    ball = given.Solo(0.0248, 2.6e-3)
+    ball = inputs.Solo(0.0248, 2.6e-3)
     for p in exponents:
         kept_ = random.uniform(0.55, 1.0, 6)
         options = {} if law is Viscoelastic else {"exponent": p}
@@ -63,16 +63,16 @@ def test_laws_of_a_ball_alone_are_those_of_calibrate(law, exponents):
             for e in kept_
         ]  # fmt: skip
         for exponent in (p, np.full(6, p)):  # a table in the restitution, and one in both
-            found = alone.numbers(law, ball, 1.7, kept_, exponent)
+            found = single_ball.calibrate_numbers(law, ball, 1.7, kept_, exponent)
             stiffness = [one.stiffness for one in own]
-            loss = [getattr(one, alone.LOSS[law]) for one in own]
+            loss = [getattr(one, law.loss) for one in own]
             np.testing.assert_allclose(found.stiffness, stiffness, rtol=1e-7)
             np.testing.assert_allclose(found.loss, loss, rtol=1e-6, atol=1e-9)
 
 
 def test_no_loss_is_exactly_none():
     for law, none in ((HuntCrossley, 0.0), (Hysteretic, 1.0)):
-        found = alone.numbers(law, given.Solo(0.1, 4e-3), 2.0, 1.0, 1.5)
+        found = single_ball.calibrate_numbers(law, inputs.Solo(0.1, 4e-3), 2.0, 1.0, 1.5)
         assert abs(float(found.loss) - none) < 1e-11
         assert law is not Hysteretic or float(found.loss) <= 1.0
 
@@ -112,7 +112,7 @@ def test_ties_give_the_drops_that_a_theory_makes():
 
 
 def test_energy_alone_forbids_table_one_as_printed():
-    b2, b3 = kept("B2_on_B1"), kept("B3_on_B1")
+    b2, b3 = bound_energy("B2_on_B1"), bound_energy("B3_on_B1")
     assert (b2.measured, b2.error) == pytest.approx((0.760, 0.017), abs=5e-4)
     assert (b3.measured, b3.error) == pytest.approx((0.810, 0.026), abs=5e-4)
     assert (b2.printed, b3.printed) == pytest.approx((0.683, 0.638), abs=5e-4)
@@ -120,7 +120,7 @@ def test_energy_alone_forbids_table_one_as_printed():
     assert b2.heights > b2.measured
     assert b3.heights > b3.measured - b3.error
     assert (b2.needed, b3.needed) == pytest.approx((0.839, 0.892), abs=1e-3)
-    assert math.isnan(kept("B1_on_B2").needed)
+    assert math.isnan(bound_energy("B1_on_B2").needed)
 
 
 def test_no_hysteretic_floor_keeps_more_than_the_bound():
@@ -128,7 +128,7 @@ def test_no_hysteretic_floor_keeps_more_than_the_bound():
         for key in ("B2_on_B1", "B3_on_B1"):
             theory = Theory("", Hysteretic, "elastic", {"e_B1": 0.78, "e_B2": 0.9})
             left = sb.simulate(theory.drop(key, gap), rtol=1e-9).energy_retained
-            assert left < kept(key).printed + 1e-6
+            assert left < bound_energy(key).printed + 1e-6
 
 
 @pytest.mark.parametrize(
@@ -164,7 +164,7 @@ def test_where_the_loss_is(compared):
 )
 @pytest.mark.slow
 def test_models_with_shared_numbers(name, whole, shared):
-    found = fitted(THEORIES[name].model(), given.MEASURED)
+    found = fit_model(THEORIES[name].model(), inputs.MEASURED)
     assert found.chi_squared == pytest.approx(whole, abs=0.3)
     for number, value in shared.items():
         assert found.best[number] == pytest.approx(value, abs=4e-3)
@@ -174,7 +174,7 @@ def test_a_longer_fall_changes_what_comes(compared):
     """Table I's numbers hold for 20 cm, so that other falls of the pairs are no mere scale."""
     higher = replace(THEORIES["S"], height=0.24)
     assert higher.drop("B2_on_B1").contacts == THEORIES["S"].drop("B2_on_B1").contacts
-    whole = again(higher.model(), given.MEASURED, compared["S"]).chi_squared
+    whole = refit(higher.model(), inputs.MEASURED, compared["S"]).chi_squared
     assert abs(whole - compared["S"].chi_squared) > 1.0
 
 
@@ -192,10 +192,10 @@ def test_what_s_misses(compared):
 def test_the_minimum_is_one(compared):
     """From elsewhere, and with more trials, the search ends at the same gaps."""
     near = compared["S, fitted"]
-    anew = again(THEORIES["S, fitted"].model(), given.MEASURED, near)
+    anew = refit(THEORIES["S, fitted"].model(), inputs.MEASURED, near)
     assert anew.chi_squared == pytest.approx(near.chi_squared, abs=0.02)
     gaps = np.linspace(0.2e-3, 12e-3, 300)
-    lower, upper, touch = by_gap(compared, "S", "B1_on_B3", gaps)
+    lower, upper, touch = sweep_gap(compared, "S", "B1_on_B3", gaps)
     chi = ((lower - 0.51) / 0.02) ** 2 + ((upper - 0.70) / 0.02) ** 2
     chi = chi + ((touch - 2e-3) / 0.5e-3) ** 2
     own = [one.pull for one in compared["S"].residuals if one.drop == "B1_on_B3"]
@@ -206,7 +206,7 @@ def test_readings_and_laws_hang_together():
     """0.88 for 0.78 suits lossy hysteresis, ratios of heights Hunt and Crossley's law."""
 
     def chi(law, known):
-        return fitted(replace(LAWS[law], known=known).model(), given.MEASURED).chi_squared
+        return fit_model(replace(LAWS[law], known=known).model(), inputs.MEASURED).chi_squared
 
     hunt, lossy = "Hunt and Crossley", "hysteresis, lossy reloading"
     assert chi(lossy, MISPRINT) == pytest.approx(35.6, abs=0.3)
@@ -215,22 +215,25 @@ def test_readings_and_laws_hang_together():
 
 
 def test_one_minute_decides(compared):
-    heights = np.array([given.HEIGHT])
-    rebound = {name: 0.2 * float(bounces(compared, name, heights)[0]) ** 2 for name in ("A", "S")}
+    heights = np.array([inputs.HEIGHT])
+    rebound = {
+        name: 0.2 * float(predict_restitutions(compared, name, heights)[0]) ** 2
+        for name in ("A", "S")
+    }
     assert rebound == pytest.approx({"A": 0.1217, "S": 0.156}, abs=1e-4)
 
 
 def test_records_that_were_not_fitted(compared):
-    three = at_delay(compared, "S", "B1_on_B2", 2e-3)
+    three = simulate_at_delay(compared, "S", "B1_on_B2", 2e-3)
     assert float(three.first_touch[1]) == pytest.approx(2e-3, abs=1e-8)
     assert float(three.rebound_ratios[0]) == pytest.approx(0.51, abs=0.01)  # Table II has 0.17
-    twins = at_delay(compared, "S", "B1_on_B1", 1e-3)
+    twins = simulate_at_delay(compared, "S", "B1_on_B1", 1e-3)
     assert float(max(twins.last_release)) == pytest.approx(9e-3, abs=0.1e-3)
 
 
 def test_the_basketball_is_the_other_way_round():
-    assert restitution("basketball") == pytest.approx(0.769, abs=1e-3)
-    found = {(one.where, one.exponent): one for one in stacks()}
+    assert read_restitution("basketball") == pytest.approx(0.769, abs=1e-3)
+    found = {(one.where, one.exponent): one for one in fit_stacks()}
     for p in (1.0, 1.5):
         assert found["elastic", p].chi_squared < 3.0
         assert found["shared", p].chi_squared > 100.0
@@ -238,7 +241,7 @@ def test_the_basketball_is_the_other_way_round():
 
 
 def test_section_five_again():
-    b2, b3 = refits()
+    b2, b3 = refit_section_v()
     assert b2.ratios == pytest.approx(b2.printed, abs=0.01)
     for one in b2.numbers + b3.numbers:
         assert one.interval.low < one.printed_value < one.interval.high

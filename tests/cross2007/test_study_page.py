@@ -2,6 +2,7 @@
 
 import json
 import struct
+from dataclasses import replace
 from html.parser import HTMLParser
 
 import numpy as np
@@ -9,12 +10,10 @@ import pytest
 
 from stackbounce import cross2007
 from stackbounce.cross2007 import paper
-from stackbounce.cross2007.study import basketball, compared, section_v, sensitivity
-from stackbounce.cross2007.study import readings as reading
+from stackbounce.cross2007.study import basketball, comparison, readings, results, sensitivity
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
 from stackbounce.fitting import Fit
-from stackbounce.fitting.question import read_problem
-from stackbounce.fitting.search import Minimum
+from stackbounce.fitting.least_squares import Minimum
 
 pytestmark = pytest.mark.slow
 
@@ -23,12 +22,12 @@ FIGURES = ["comparison", "misfits", "delays", "energy", "decisive"]
 
 def looked_at(model, data, *_, **__):
     """Stands for a fit: one trial in the middle, gaps of 5 mm."""
-    problem = read_problem(model.drop, data, model.vary, model.tie, 1e-5)
+    objective = replace(model, data=data, rtol=1e-5).objective
     x = np.array(
-        [5e-3 if one.name.endswith("gaps.0") else sum(one.span) / 2 for one in problem.parameters]
+        [5e-3 if one.name.endswith("gaps.0") else sum(one.span) / 2 for one in objective.parameters]
     )
-    x = np.clip(x, problem.spans[:, 0], problem.spans[:, 1])
-    return Fit(problem, [Minimum(x, float(problem.chi_squared(x[None])[0]), True)])
+    x = np.clip(x, objective.spans[:, 0], objective.spans[:, 1])
+    return Fit(objective, [Minimum(x, float(objective.chi_squared(x[None])[0]), True)])
 
 
 @pytest.fixture(scope="module")
@@ -40,11 +39,10 @@ def told():
 def folder(tmp_path_factory, told):
     out = tmp_path_factory.mktemp("study")
     with pytest.MonkeyPatch.context() as patch:
-        for module in (compared, reading, sensitivity, basketball):
-            patch.setattr(module, "fitted", looked_at)
-        patch.setattr(sensitivity, "again", looked_at)
-        patch.setattr(section_v, "refits", list)
-        patch.setattr("stackbounce.cross2007.study.study.refits", section_v.refits)
+        for module in (comparison, readings, sensitivity, basketball):
+            patch.setattr(module, "fit_model", looked_at)
+        patch.setattr(sensitivity, "refit", looked_at)
+        patch.setattr(results, "refit_section_v", list)
         patch.setattr(paper, "FIGURES", {"6": paper.FIGURES["6"]})
         patch.setattr(paper, "SECTIONS", paper.SECTIONS[:1])
         cross2007.write(out, told.append, study=True)

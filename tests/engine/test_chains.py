@@ -1,4 +1,4 @@
-"""Rows of equal balls, the first of which strikes the others: known results."""
+"""Rows of equal balls, of which the first strikes the others: known results."""
 
 import functools
 import math

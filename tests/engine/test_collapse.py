@@ -1,4 +1,4 @@
-"""Inelastic collapse: decided by theory, finished with its limit, counted to the end below it."""
+"""Inelastic collapse: detected by theory, replaced by its limit; collisions counted below it."""
 
 import numpy as np
 import pytest

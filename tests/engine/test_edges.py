@@ -1,4 +1,4 @@
-"""Grazing, ties, zero gaps, contacts that open without speed, and stacks that never touch."""
+"""Grazing, ties, zero gaps, contacts that open at zero speed, and stacks that never touch."""
 
 from itertools import pairwise
 

@@ -1,4 +1,4 @@
-"""What holds for every drop: momentum, energy, scaling, order of the intervals, sampling."""
+"""Invariants of every drop: momentum, energy, scaling, order of intervals, sampling."""
 
 import functools
 from dataclasses import fields

@@ -1,4 +1,4 @@
-"""Where the models must meet: stiff floors, wide gaps, restitution 1."""
+"""Limits in which the models agree: stiff floors, wide gaps, restitution 1."""
 
 import numpy as np
 import pytest

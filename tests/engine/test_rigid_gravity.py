@@ -1,4 +1,4 @@
-"""Rigid balls under gravity: bounces to the end, several balls, rest, apexes, no energy gained."""
+"""Rigid balls under gravity: bounces, several balls, rest, apexes, no gain of energy."""
 
 from random import Random
 

@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 
-from stackbounce.engine.kernel import compiled
-from stackbounce.engine.series import lower_bound, value
+from stackbounce.engine.compiler import compile_kernel
+from stackbounce.engine.series import evaluate, lower_bound
 
 RNG = np.random.default_rng(4)
 SERIES = [(RNG.normal(size=n + 1) * 0.7 ** np.arange(n + 1), n) for n in range(1, 25)]
@@ -18,9 +18,9 @@ SERIES += [(np.abs(a) * (-1.0) ** np.arange(n + 1), n) for a, n in SERIES]
 def test_a_series_is_never_below_its_bound(low, limit):
     for a, n in SERIES:
         bound = lower_bound(list(a), low, n, limit)
-        least = min(value(list(a[low:]), n - low, s) for s in np.linspace(0.0, limit, 101))
+        least = min(evaluate(list(a[low:]), n - low, s) for s in np.linspace(0.0, limit, 101))
         assert bound <= least + 1e-12
-        assert compiled(lower_bound)(a, low, n, limit) == bound
+        assert compile_kernel(lower_bound)(a, low, n, limit) == bound
 
 
 def test_the_bound_is_sharp_for_a_parabola_that_falls():
@@ -32,4 +32,4 @@ def test_a_lost_number_is_handed_on(place):
     a = np.array([1.0, 2.0, 3.0])
     a[place] = math.nan
     assert math.isnan(lower_bound(list(a), 0, 2, 0.5))
-    assert math.isnan(compiled(lower_bound)(a, 0, 2, 0.5))
+    assert math.isnan(compile_kernel(lower_bound)(a, 0, 2, 0.5))

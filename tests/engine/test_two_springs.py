@@ -6,8 +6,8 @@ import pytest
 import stackbounce as sb
 from reference import make_data, springs
 from stackbounce.engine import codes
-from stackbounce.engine.kernel import compiled
-from stackbounce.engine.two_springs import SCRATCH, scratch, two_springs
+from stackbounce.engine.compiler import compile_kernel
+from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
 
 SPEED = 1e-12
 TIME = 1e-11
@@ -24,8 +24,8 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
         "last_release": np.empty((n, 2)),
         "status": np.empty(n, np.int64),
     }
-    run = two_springs if plain else compiled(two_springs)
-    room = [0.0] * SCRATCH if plain else scratch()
+    run = run_two_springs if plain else compile_kernel(run_two_springs)
+    room = [0.0] * SCRATCH if plain else new_scratch()
     run(mass, stiffness, gap, speed, event_limit, *(out[name] for name in NAMES), room)
     ratio = out["velocity"] / np.asarray(speed)[:, None]
     out["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
@@ -269,5 +269,5 @@ def test_event_limit():
 
 
 def test_scratch_begins_on_a_cache_line():
-    assert all(room.ctypes.data % 64 == 0 for room in (scratch(), scratch(), scratch()))
-    assert scratch().shape == (SCRATCH,)
+    assert all(room.ctypes.data % 64 == 0 for room in (new_scratch(), new_scratch(), new_scratch()))
+    assert new_scratch().shape == (SCRATCH,)

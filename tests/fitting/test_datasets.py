@@ -3,13 +3,13 @@
 import pytest
 
 import stackbounce as sb
-from stackbounce.cross2007.datasets import NAMES, dataset, pair
+from stackbounce.cross2007.datasets import NAMES, load_dataset, load_pair
 from stackbounce.errors import InvalidValue
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_each_is_fitted_out_of_the_box(name):
-    drop, data, vary, what = dataset(name)
+    drop, data, vary, what = load_dataset(name)
     found = sb.fit(drop, data, vary)
     assert found.minima[0].converged
     assert what
@@ -19,7 +19,7 @@ def test_each_is_fitted_out_of_the_box(name):
 @pytest.mark.parametrize(("name", "stiffness"), [("B1", 6.05e4), ("B2", 3.78e4), ("B3", 2.43e4)])
 def test_a_ball_alone_gives_back_table_one(name, stiffness):
     """Its k_d is that of half an oscillation; with loss a contact lasts longer at the same k."""
-    drop, data, vary, _ = dataset(name)
+    drop, data, vary, _ = load_dataset(name)
     found = sb.fit(drop, data, vary)
     assert found.chi_squared < 1e-9
     assert found["contacts.0.stiffness"].nominal_value == pytest.approx(stiffness, rel=2e-3)
@@ -30,11 +30,11 @@ def test_a_ball_alone_gives_back_table_one(name, stiffness):
 
 
 def test_the_two_large_balls_are_not_equal():
-    drop, data = pair("B1", "B1")
+    drop, data = load_pair("B1", "B1")
     assert drop.balls[0].mass / drop.balls[1].mass == pytest.approx(1.040)
     assert data["rebound_ratios"] == [(0.76, 0.02), (0.76, 0.02)]
 
 
 def test_an_unknown_name_is_answered_with_the_nearest():
     with pytest.raises(InvalidValue, match="did you mean cross2007/B1-B2"):
-        dataset("cross2007/B1B2")
+        load_dataset("cross2007/B1B2")

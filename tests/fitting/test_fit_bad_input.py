@@ -180,11 +180,11 @@ def test_bounds_may_come_in_many_forms():
 def test_a_drop_that_never_ends_is_told(monkeypatch):
     """With room for two events no drop comes to an end."""
     assert not sb.fit(STACK, DATA, VARY, starts=4).unsolved
-    monkeypatch.setattr(import_module("stackbounce.fitting.problem"), "_EVENTS", 2)
+    monkeypatch.setattr(import_module("stackbounce.fitting.objective"), "_EVENTS", 2)
     hertz = sb.Drop(STACK.balls, [sb.Hertz(1e5), sb.Hertz(5e4)], impact_speed=3.5)
     found = sb.fit(hertz, DATA, {STIFFNESS: (1e4, 1e5)}, starts=4)
     assert found.unsolved["EVENT_LIMIT"] > 4
     assert "(EVENT_LIMIT)" in found.notes[0]
     assert found.chi_squared == 1e8
     assert "rebound_ratios.1: the fitted drop has none" in found.notes
-    assert any("runs came to no end" in note for note in found.sample(640).notes)
+    assert any("runs did not finish" in note for note in found.sample(640).notes)

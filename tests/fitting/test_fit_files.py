@@ -256,7 +256,10 @@ def test_a_table_fits(write):
         ("rebound_ratio.1,height\n1,2", "did you mean rebound_ratios.1?"),
         ("rebound_ratios.2\n1", "must end in the number of a ball from 0 to 1"),
         ("rebound_ratios\n1", "must end in the number of a ball from 0 to 1"),
-        ("error of height,rebound_ratios.1\n1,2", "column 'error of height' is no measured one's"),
+        (
+            "error of height,rebound_ratios.1\n1,2",
+            "'error of height' does not belong to a measured quantity",
+        ),
         ("error of rebound_ratios.0,rebound_ratios.1\n1,2", "has no column rebound_ratios.0"),
         ("height,height (cm),rebound_ratios.1\n1,2,3", "column 'height' is there twice"),
         ("height,gaps.0\n1,2", "it has no column of what was measured; known: rebound_ratios.0"),

@@ -89,7 +89,7 @@ def test_a_prior_is_all_that_is_known_beforehand(bounds):
     }
     fit = sb.fit(BALL, {"rebound_ratios.0": (0.6, 0.05)}, vary)
     found = fit.sample(DRAWS, seed=2)
-    assert fit.problem.parameters[0].logarithmic == (bounds[0] == 0.02)
+    assert fit.objective.parameters[0].logarithmic == (bounds[0] == 0.02)
     assert found["balls.0.mass"].nominal_value == pytest.approx(0.5, abs=0.006)
     assert found["balls.0.mass"].std_dev == pytest.approx(0.1, rel=0.04)
 
@@ -150,4 +150,4 @@ def test_other_minima_are_told():
     found = sb.fit(
         stack, {"rebound_ratios.1": (1.12, 0.002)}, {"contacts.1.stiffness": (2800.0, 9500.0)}
     )
-    assert "the fit has other minima, which the draws may leave out" in found.sample(1280).notes
+    assert "the fit has other minima, which the draws may not reach" in found.sample(1280).notes

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from stackbounce.fitting.question import read_problem
-from stackbounce.fitting.search import search, starts
+from stackbounce.fitting import FitProblem
+from stackbounce.fitting.least_squares import find_minima, spread_trials
 
 STIFFNESS = "contacts.1.stiffness"
 
@@ -36,7 +36,7 @@ def test_all_crossings_of_one_ratio_are_told():
         found = sb.fit(
             stack(), {"rebound_ratios.1": (1.12, 0.002)}, {STIFFNESS: (2800.0, 9500.0)}, seed=seed
         )
-        minima = sorted(found.problem.values(one.x[None])[STIFFNESS][0] for one in found.minima)
+        minima = sorted(found.objective.values(one.x[None])[STIFFNESS][0] for one in found.minima)
         assert minima == pytest.approx(crossings, rel=1e-3)
         assert sum("another minimum is as good" in note for note in found.notes) == 2
 
@@ -49,7 +49,7 @@ def test_of_equal_minima_the_nearest_to_the_drop_comes_first():
             {STIFFNESS: (2800.0, 9500.0)},
             seed=seed,
         )
-        distances = [abs(np.log(found.problem.values(one.x[None])[STIFFNESS][0] / own))
+        distances = [abs(np.log(found.objective.values(one.x[None])[STIFFNESS][0] / own))
                      for one in found.minima]  # fmt: skip
         assert distances[0] == min(distances)
 
@@ -103,23 +103,18 @@ def test_how_many_threads_there_are_makes_no_difference(monkeypatch):
 
 def test_trials_are_spread_over_all_of_the_bounds():
     vary = {STIFFNESS: (300.0, 1e5), "gaps.0": (0.0, 0.01)}
-    problem = read_problem(stack(), {"rebound_ratios": [(1, 0.1)] * 2}, vary, None, 1e-9)
-    trials = starts(problem, 256, 0)
-    for k, (low, high) in enumerate(problem.spans):
+    objective = FitProblem(stack(), {"rebound_ratios": [(1, 0.1)] * 2}, vary).objective
+    trials = spread_trials(objective, 256, 0)
+    for k, (low, high) in enumerate(objective.spans):
         counts, _ = np.histogram(trials[:, k], bins=16, range=(low, high))
         assert np.all(counts == 16)
-    assert np.array_equal(starts(problem, 100, 0), starts(problem, 128, 0)[:100])
+    assert np.array_equal(spread_trials(objective, 100, 0), spread_trials(objective, 128, 0)[:100])
 
 
 def test_a_valley_is_one_minimum():
     """With a gap of zero only the ratio of the stiffnesses counts: all of a line is as good."""
-    problem = read_problem(
-        stack(),
-        {"rebound_ratios": [(0.6, 0.05), (1.6, 0.05)]},
-        ["contacts.0.stiffness", STIFFNESS],
-        None,
-        1e-9,
-    )
+    data = {"rebound_ratios": [(0.6, 0.05), (1.6, 0.05)]}
+    objective = FitProblem(stack(), data, ["contacts.0.stiffness", STIFFNESS]).objective
     for seed in range(3):
-        best, *others = search(problem, np.empty((0, len(problem.parameters))), seed=seed)
+        best, *others = find_minima(objective, np.empty((0, len(objective.parameters))), seed=seed)
         assert all(one.chi_squared > best.chi_squared + 1.0 for one in others)

@@ -147,7 +147,7 @@ def test_ties_may_use_each_other_in_any_order():
     ],
 )
 def test_ties_that_go_round_are_refused(ties):
-    with pytest.raises(InvalidValue, match=r"^tie: none of these can come first, they go round: "):
+    with pytest.raises(InvalidValue, match=r"^tie: these depend on each other in a circle: "):
         fitted(ties)
 
 
@@ -181,7 +181,7 @@ def test_a_function_that_fails_is_told(function, message):
         ({UPPER: "k"}, {"k": (1.0, 2.0), UPPER: (1.0, 2.0)}, "both varied and tied"),
         ({UPPER: "2.0 * m"}, None, "has m, which is neither varied nor a number of the drop"),
         ({UPPER: "2.0 * pi"}, None, "k is neither a number of the drop nor used by a tie"),
-        ({UPPER: "k * balls.0.diameter"}, None, "which the drop does not tell"),
+        ({UPPER: "k * balls.0.diameter"}, None, "which the drop does not give"),
         ({UPPER: "pi"}, {"pi": (1.0, 2.0)}, "pi means something else in formulas"),
         ({UPPER: "lambda"}, {"lambda": (1.0, 2.0)}, "lambda means something else in formulas"),
         ({UPPER: "k"}, {"k": None}, "k needs bounds"),

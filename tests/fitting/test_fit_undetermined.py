@@ -18,8 +18,8 @@ def test_ratios_at_no_gap_tell_the_stiffness_ratio_alone():
     found = sb.fit(STACK, RATIOS, BOTH)
     (sentence,) = found.undetermined
     assert sentence == (
-        "the data do not determine contacts.0.stiffness and contacts.1.stiffness one by one: "
-        "they can change together unseen"
+        "the data do not determine contacts.0.stiffness and contacts.1.stiffness separately: "
+        "they can change together without effect"
     )
     ratio = found[BOTH[0]] / found[BOTH[1]]
     alone = sb.fit(STACK, RATIOS, [BOTH[1]])[BOTH[1]]

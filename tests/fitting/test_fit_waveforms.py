@@ -6,7 +6,7 @@ import xarray as xr
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.fitting.question import read_problem
+from stackbounce.fitting import FitProblem
 from stackbounce.synthetic.waveform import waveform
 
 ONE = sb.Drop([sb.Ball(0.150)], [sb.Spring(2500.0)], impact_speed=3.5)
@@ -39,15 +39,15 @@ def test_a_record_in_newtons_tells_stiffness_and_touch():
 
 
 def test_residuals_are_those_of_a_spring_by_hand():
-    problem = read_problem(ONE, {"force.0": (TIMES, FORCE, 0.5)}, VARY, None, 1e-9)
+    objective = FitProblem(ONE, {"force.0": (TIMES, FORCE, 0.5)}, VARY).objective
     start, stiffness = 0.00995, 2450.0
     omega = np.sqrt(stiffness / 0.150)
     phase = omega * (TIMES - start)
     force = stiffness * 3.5 / omega * np.sin(phase) * ((phase > 0.0) & (phase < np.pi))
-    wave = problem.measured[""].waveforms[0]
+    wave = objective.measured[""].waveforms[0]
     off = wave.force - force
     trial = np.array([[stiffness, start]])
-    assert problem.residuals(trial)[0] == pytest.approx((off.mean() - off) / 0.5, abs=1e-6)
+    assert objective.residuals(trial)[0] == pytest.approx((off.mean() - off) / 0.5, abs=1e-6)
 
 
 @pytest.mark.parametrize("shift", [0.1, 1234.567])
@@ -116,8 +116,12 @@ QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
 @pytest.mark.parametrize(
     ("value", "kind", "message"),
     [
-        ((TIMES, QUIET), InvalidValue, "must begin before a contact and show it, got 4"),
-        ((TIMES[150:], FORCE[150:]), InvalidValue, "must begin before a contact and show it, got"),
+        ((TIMES, QUIET), InvalidValue, "must begin before a contact and contain it, got 4"),
+        (
+            (TIMES[150:], FORCE[150:]),
+            InvalidValue,
+            "must begin before a contact and contain it",
+        ),
         ((TIMES, np.where(BEFORE, 0.0, 1.0)), InvalidValue, "must begin before a contact"),
         ((TIMES, FORCE * np.nan), InvalidValue, "must"),
         ((TIMES[1:], FORCE), InvalidValue, "must have a value for each time"),
@@ -148,5 +152,5 @@ def test_a_contact_that_is_not_there():
 
 
 def test_a_clock_is_no_name_for_something_else():
-    with pytest.raises(InvalidValue, match=r"^touch is the clock of a record"):
+    with pytest.raises(InvalidValue, match=r"^touch is the time of first touch in a force record"):
         sb.fit(ONE, {"force.0": RECORD}, {"touch": (0.1, 1.0)}, tie={"gravity": "touch"})

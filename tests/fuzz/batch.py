@@ -9,7 +9,7 @@ import numpy as np
 from fuzz import drive
 from fuzz.draw import BATCH, Drops, balls_of, drops_of, is_rigid
 from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.kernel import compiled
+from stackbounce.engine.compiler import compile_kernel
 from stackbounce.engine.stack import (
     as_arrays,
     in_one_room,
@@ -46,6 +46,6 @@ def run_batch(seed: int, index: int, count: int = BATCH) -> Batch:
     stack, room, samples = _arrays(balls, rigid)
     found = np.zeros((count, drive.COLUMNS + 2 * balls))
     log, turns = np.zeros(_LOG_ROWS * LOG_COLUMNS), np.zeros((count, 2 * balls))
-    go = compiled(drive.run_all_rigid if rigid else drive.run_all)
+    go = compile_kernel(drive.run_all_rigid if rigid else drive.run_all)
     go(stack, room, drops, samples, log, turns, found)
     return Batch(index, drops, found, time.perf_counter() - begun)

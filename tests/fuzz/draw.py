@@ -15,7 +15,7 @@ from fuzz.drive import (
     SPRING,
     VISCOELASTIC,
 )
-from stackbounce.engine import prepare
+from stackbounce.engine import codes
 
 BATCH = 500
 BALLS = (2, 3, 1, 2, 4, 3, 2, 1, 5, 2, 3, 4, 2, 1, 3, 2, 6, 1, 2, 3, 4, 2, 5, 1, 2)  # by batch
@@ -28,16 +28,16 @@ STOPPED = (0.04, 0.5)  # run until a given time, without gravity and with it
 IN_PARTS = 0.05  # run once more, with stops in between
 TOLERANCES = (1e-6, 1e-7, 1e-9, 1e-12, 1e-3, 1e-14)
 KINDS = (  # of the laws by their numbers in `drive`
-    prepare.NO_CONTACT,
-    prepare.POWER_LAW,
-    prepare.POWER_LAW,
-    prepare.POWER_LAW,
-    prepare.DASHPOT,
-    prepare.VISCOELASTIC,
-    prepare.HUNT_CROSSLEY,
-    prepare.HYSTERETIC,
-    prepare.LOSSY,
-    prepare.RIGID,
+    codes.ABSENT,
+    codes.POWER,
+    codes.POWER,
+    codes.POWER,
+    codes.DASHPOT,
+    codes.VISCOELASTIC,
+    codes.HUNT_CROSSLEY,
+    codes.HYSTERETIC,
+    codes.LOSSY,
+    codes.RIGID,
 )
 TOLERANCE_ODDS = (0.6, 0.1, 0.15, 0.1, 0.03, 0.02)
 
@@ -47,7 +47,7 @@ class Drops(NamedTuple):
 
     mass: np.ndarray
     law: np.ndarray  # by the numbers of `drive`
-    kind: np.ndarray  # by those of `engine.prepare`
+    kind: np.ndarray  # the form of its force, by `engine.codes`
     stiffness: np.ndarray
     exponent: np.ndarray
     extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution

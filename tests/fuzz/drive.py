@@ -8,15 +8,24 @@ import math
 from typing import Any
 
 from stackbounce.engine import codes
-from stackbounce.engine.batch import clear
+from stackbounce.engine.batch import clear_arrays
 from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TIME_REACHED
+from stackbounce.engine.compiler import kernel
 from stackbounce.engine.contacts import stored_energy
 from stackbounce.engine.flight import compression_after
-from stackbounce.engine.kernel import kernel
 from stackbounce.engine.motion import compression_at, velocity_at
-from stackbounce.engine.prepare import prepare, prepare_rigid
+from stackbounce.engine.preparation import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
-from stackbounce.engine.simultaneous import advance, start
+from stackbounce.engine.simultaneous import advance_contacts, begin_contacts
+from stackbounce.engine.slots import (
+    EVENTS,
+    GRAVITY,
+    LAST_CHECK,
+    LAST_EVENT,
+    LOG_ROWS,
+    NONLINEAR,
+    UNIT,
+)
 
 # laws of random drops
 NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY = range(7)
@@ -68,32 +77,40 @@ def run(
 ) -> None:
     """Run one drop of finite contacts and write into ``out`` what is found."""
     size = len(stack.mass)
-    clear(room)
+    clear_arrays(room)
     unit = load(stack, drops, row)
-    start(stack)
+    begin_contacts(stack)
     first, reference = energy_at(stack, 0.0)
     status, fault = RUNNING, 0
     while status == RUNNING:
-        stack.counter[0] = 0
-        status = advance(stack, drops.until[row] / unit, drops.limit[row], log, samples)
-        fault |= read(log, stack.counter[0], turns, out)
+        stack.counter[LOG_ROWS] = 0
+        status = advance_contacts(stack, drops.until[row] / unit, drops.limit[row], log, samples)
+        fault |= read(log, stack.counter[LOG_ROWS], turns, out)
     if status == codes.INVALID and comes_too_late(stack):
-        out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[1], stack.clock[1] * unit
+        out[STATUS], out[EVENT_COUNT], out[END] = (
+            status,
+            stack.counter[EVENTS],
+            stack.clock[LAST_CHECK] * unit,
+        )
         out[FAULT] = fault
         return
     end = drops.until[row] / unit
     if status != TIME_REACHED:
-        end = stack.clock[0] if status == FINISHED else max(stack.clock[0], stack.clock[1])
+        end = (
+            stack.clock[LAST_EVENT]
+            if status == FINISHED
+            else max(stack.clock[LAST_EVENT], stack.clock[LAST_CHECK])
+        )
     last, terms = energy_at(stack, end)
-    allowed, lossy = _ROUND * (1.0 + 0.1 * stack.counter[1]), False
+    allowed, lossy = _ROUND * (1.0 + 0.1 * stack.counter[EVENTS]), False
     for i in range(size):
         lossy = lossy or stack.law[i] == codes.LOSSY  # its reloading need not be linear
-    if lossy or stack.setting[1] == 1:
-        allowed += _LOOSE * drops.rtol[row] * (1.0 + 0.1 * stack.counter[1])
+    if lossy or stack.setting[NONLINEAR] == 1:
+        allowed += _LOOSE * drops.rtol[row] * (1.0 + 0.1 * stack.counter[EVENTS])
     out[ENERGY] = (last - first) / (reference + terms)
     if not out[ENERGY] <= allowed:
         fault |= GAINS_ENERGY
-    out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[1], end * unit
+    out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[EVENTS], end * unit
     for b in range(size):
         out[COLUMNS + b] = velocity_at(stack, b, end) / unit
         if status == FINISHED and stack.phase[b] != codes.OPEN:
@@ -102,7 +119,7 @@ def run(
     if status == codes.INVALID:
         fault |= IS_INVALID  # not because the clock could not tell the times of an event apart
     if drops.stops[row, 0] > 0.0 and end > 0.0:
-        clear(room)
+        clear_arrays(room)
         fault |= in_parts(stack, drops, row, samples, log, allowed * (reference + terms), out)
     out[FAULT] = fault
 
@@ -112,7 +129,7 @@ def comes_too_late(stack: Any) -> bool:
     """Tell whether the clock cannot tell a contact's parts apart any more: stated to be invalid."""
     for i in range(len(stack.mass)):
         speed = abs(stack.velocity[i]) + (abs(stack.velocity[i - 1]) if i > 0 else 0.0)
-        if 4.0 * EPSILON * stack.clock[1] * speed > 1e-5 * stack.scale[i]:
+        if 4.0 * EPSILON * stack.clock[LAST_CHECK] * speed > 1e-5 * stack.scale[i]:
             return True
     return False
 
@@ -124,7 +141,7 @@ def in_parts(
     """Run a drop again, stopping in between: no rise of energy, the same end."""
     fault, status = 0, TIME_REACHED
     unit = load(stack, drops, row)
-    start(stack)
+    begin_contacts(stack)
     before, _ = energy_at(stack, 0.0)
     stops = drops.stops.shape[1]
     for k in range(stops + 1):
@@ -135,14 +152,14 @@ def in_parts(
         stop = drops.until[row] if final else drops.stops[row, k] * out[END]
         status = RUNNING
         while status == RUNNING:
-            stack.counter[0] = 0
-            status = advance(stack, stop / unit, drops.limit[row], log, samples)
+            stack.counter[LOG_ROWS] = 0
+            status = advance_contacts(stack, stop / unit, drops.limit[row], log, samples)
         if status == TIME_REACHED:
             energy, _ = energy_at(stack, stop / unit)
             if not energy - before <= allowed:
                 fault |= GAINS_IN_BETWEEN
             before = min(before, energy)
-    same = status == out[STATUS] and stack.counter[1] == out[EVENT_COUNT]
+    same = status == out[STATUS] and stack.counter[EVENTS] == out[EVENT_COUNT]
     for b in range(len(stack.mass)):
         same = same and velocity_at(stack, b, out[END] / unit) / unit == out[COLUMNS + b]
     return fault if same else fault | SPLIT_DIFFERS
@@ -184,7 +201,7 @@ def energy_at(stack: Any, time: float) -> Any:
         velocity = velocity_at(stack, b, time)
         position -= compression
         kinetic = 0.5 * stack.mass[b] * velocity * velocity
-        height = stack.mass[b] * stack.number[0] * position
+        height = stack.mass[b] * stack.number[GRAVITY] * position
         stored = stored_energy(stack, b, compression) if stack.law[b] != codes.ABSENT else 0.0
         total += kinetic + height + stored
         terms += kinetic + abs(height) + stored
@@ -225,32 +242,39 @@ def run_rigid(
     stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, turns: Any, out: Any
 ) -> None:
     """Run one drop of rigid balls and write into ``out`` what is found."""
-    clear(room)
+    clear_arrays(room)
     prepare_rigid(
         stack,
         drops.mass[row],
         drops.kind[row],
+        drops.stiffness[row],
+        drops.exponent[row],
         drops.extra[row],
         drops.gap[row],
         drops.velocity[row],
         drops.gravity[row],
+        drops.rtol[row],
     )
     begin_collisions(stack)
     first, reference = rigid_energy(stack, drops, row, 0.0)
     fault, status = 0, RUNNING
     while status == RUNNING:
-        stack.counter[0] = 0
+        stack.counter[LOG_ROWS] = 0
         status = collide_all(stack, drops.until[row], drops.limit[row], log, samples)
-        fault |= read(log, stack.counter[0], turns, out)
+        fault |= read(log, stack.counter[LOG_ROWS], turns, out)
     end = drops.until[row]
     if status != TIME_REACHED:
-        end = stack.clock[0] if status == FINISHED else max(stack.clock[0], stack.clock[1])
+        end = (
+            stack.clock[LAST_EVENT]
+            if status == FINISHED
+            else max(stack.clock[LAST_EVENT], stack.clock[LAST_CHECK])
+        )
     last, terms = rigid_energy(stack, drops, row, end)
     for b in range(len(stack.mass)):
         out[COLUMNS + b] = rigid_velocity(stack, b, end)
-    out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[1], end
+    out[STATUS], out[EVENT_COUNT], out[END] = status, stack.counter[EVENTS], end
     out[ENERGY] = (last - first) / (reference + terms)
-    if not out[ENERGY] <= _ROUND * (1.0 + 0.1 * stack.counter[1]):
+    if not out[ENERGY] <= _ROUND * (1.0 + 0.1 * stack.counter[EVENTS]):
         fault |= GAINS_ENERGY
     if status == codes.INVALID:
         fault |= IS_INVALID
@@ -264,7 +288,9 @@ def rigid_energy(stack: Any, drops: Any, row: int, time: float) -> Any:
     for b in range(len(stack.mass)):
         velocity = rigid_velocity(stack, b, time)
         if drops.gravity[row] > 0.0:
-            position -= compression_after(stack, b, time - stack.clock[0]) * stack.number[0]
+            position -= (
+                compression_after(stack, b, time - stack.clock[LAST_EVENT]) * stack.number[UNIT]
+            )
         kinetic = 0.5 * stack.mass[b] * velocity * velocity
         height = stack.mass[b] * drops.gravity[row] * position
         total += kinetic + height

@@ -12,8 +12,8 @@ import stackbounce as sb
 from stackbounce import plots
 from stackbounce.calibration import between
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.gaps_and_masses.batch import solved
-from stackbounce.gaps_and_masses.separation_limit import separate_from, with_gap
+from stackbounce.gaps_and_masses.batch import solve_drops
+from stackbounce.gaps_and_masses.separation_limit import find_separation_limit, replace_gaps
 from stackbounce.model.catalogue import catalogue_ball
 
 
@@ -56,7 +56,7 @@ def test_nothing_changes_from_there_on_and_something_just_before(drop):
     limit = sb.transition(drop).separate_from
 
     def intervals(share):
-        result = sb.simulate(with_gap(drop, None, share * limit))
+        result = sb.simulate(replace_gaps(drop, None, share * limit))
         return result.rebound_ratios, result.intervals["end"] - result.intervals["start"]
 
     ratios, lasting = intervals(1.0)
@@ -92,7 +92,7 @@ def test_every_gap_is_what_simulate_returns():
     drop = FAST["hysteretic"]
     ds = sb.transition(drop)
     for gap in ds.gap.values[::200]:
-        result = sb.simulate(with_gap(drop, None, float(gap)))
+        result = sb.simulate(replace_gaps(drop, None, float(gap)))
         assert ds.rebound_ratio.sel(gap=gap).values == pytest.approx(result.rebound_ratios)
         assert ds.first_touch.sel(gap=gap).values == pytest.approx(result.first_touch)
 
@@ -163,7 +163,7 @@ def test_touches_of_round_off_do_not_count():
     """The cannon's lower balls come to rest but for round-off: they touch again, much later."""
     balls = [sb.Ball(m) for m in (0.3, 0.1, 0.05)]
     drop = sb.Drop(balls, [sb.Hertz(1e9)] * 3, impact_speed=1.0)
-    assert 0.0 < separate_from(drop, None, 1e-4, 1e-12) < 1e-2
+    assert 0.0 < find_separation_limit(drop, None, 1e-4, 1e-12) < 1e-2
 
 
 @pytest.mark.parametrize(
@@ -282,7 +282,7 @@ def test_many_drops_of_several_kinds_keep_their_order():
         pair(1.0, 0.5, [sb.Hysteretic(1.0, unloading_exponent=3.0), sb.Spring(1.0)]),
         pair(1.0, 0.5, [sb.Hysteretic(1.0, restitution=0.5), sb.Spring(1.0)]),
     ]
-    ratios = solved(drops).rebound_ratio.values
+    ratios = solve_drops(drops).rebound_ratio.values
     for row, drop in zip(ratios, drops, strict=True):
         assert row == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
 

@@ -8,8 +8,8 @@ from uncertainties import ufloat
 import stackbounce as sb
 from stackbounce.cross2007 import PAPER
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.kinds.gap.delay import delay, delay_from_gap, gap_from_delay
-from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.measure.kinds.waveform.analysis import waveform
+from stackbounce.measure.kinds.waveform.gap.delay import delay, delay_from_gap, gap_from_delay
 from stackbounce.synthetic.waveform import waveform as record_of
 
 SPEED = math.sqrt(2.0 * 9.80665 * 0.20)

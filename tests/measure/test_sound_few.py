@@ -38,7 +38,7 @@ def test_two_bounces_have_one_flight_and_its_apex():
 def test_one_bounce_has_a_time_and_a_loudness():
     told, heard = analyse(sound(falls(0.5, 0.8, bounces=1), seed=1))
     assert told.flights == ()
-    assert [row.name for row in told.rows()] == ["note"]
+    assert told.rows() == []
     assert "1 was heard" in told.notes[0]
     assert [row.name for row in heard.rows()][2:4] == ["time of knock 0", "loudness of knock 0"]
 

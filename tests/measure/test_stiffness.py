@@ -6,7 +6,7 @@ from uncertainties import correlation_matrix, ufloat
 import stackbounce as sb
 from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.tables import table_one
+from stackbounce.cross2007.tables import make_table_one
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import dynamic_stiffness, law_constants, series_stiffness, split_series
 
@@ -109,7 +109,7 @@ def test_table_one_comes_out_with_errors(bench, ball, expected):
     printed = bench(f"{ball}.dynamic_stiffness")
     assert f"{1e-4 * k:.2fP}" == expected
     assert abs(k.nominal_value - printed) < 500.0  # half a unit of the last digit
-    row = next(row for row in table_one(bench).rows if row[0] == ball)
+    row = next(row for row in make_table_one(bench).rows if row[0] == ball)
     assert f"{1e-4 * k:P}" in row
 
 

@@ -9,7 +9,7 @@ from uncertainties import ufloat
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.plots.measurements.waveform import draw
 from stackbounce.synthetic.waveform import waveform as record_of
 

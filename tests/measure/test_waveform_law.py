@@ -11,7 +11,7 @@ import stackbounce as sb
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import analyse
-from stackbounce.measure.kinds.waveform import waveform
+from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.synthetic.waveform import waveform as record_of
 
 LAB = Path(__file__).parents[2] / "docs" / "lab"

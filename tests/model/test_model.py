@@ -325,7 +325,7 @@ def test_values_of_a_drop(changes, expected):
             {"contacts": [SPRING, Spring]},
             (
                 f"contacts.1 must be a contact law ({', '.join(LAWS)}), "
-                "got <class 'stackbounce.model.laws.elastic.Spring'>"
+                "got <class 'stackbounce.model.laws.spring.Spring'>"
             ),
         ),
         ({"gaps": 0.002}, "gaps must be a list, got 0.002"),

@@ -9,7 +9,7 @@ import pytest
 import xarray as xr
 
 import stackbounce as sb
-from stackbounce.run import engines
+from stackbounce.engine import compiler
 from stackbounce.run.paths import drop_at, number_at
 
 TWO = [sb.Ball(0.15), sb.Ball(0.057)]
@@ -260,12 +260,12 @@ def test_tall_stacks_keep_the_energy_that_simulate_says():
 def test_threads_compile_in_turns(monkeypatch):
     inside = []
 
-    def slow(kernel):
-        inside.append(kernel)
+    def slow(function):
+        inside.append(function)
         time.sleep(0.01)
-        assert inside.pop() is kernel
+        assert inside.pop() is function
         return not inside
 
-    monkeypatch.setattr(engines, "compiled", slow)
+    monkeypatch.setattr(compiler, "_compiled", slow)
     with ThreadPoolExecutor(4) as pool:
-        assert all(pool.map(engines.ready, range(8)))
+        assert all(pool.map(compiler.compile_kernel, range(8)))

@@ -29,6 +29,7 @@ OPERATIONS = [
     ("POST", "/api/map"),
     ("POST", "/api/map/paths"),
     ("POST", "/api/export/{kind}"),
+    ("GET", "/api/measure/options"),
     ("POST", "/api/measure"),
     ("POST", "/api/fit"),
 ]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
-from stackbounce.cross2007.cases import cases
+from stackbounce.cross2007.cases import list_cases
 from stackbounce.web import LIMITS
 
 
@@ -108,7 +108,7 @@ def test_a_rigid_drop_has_no_other(server, drop):
 def test_all_presets_play(server):
     catalogue = server.get("/api/catalogue").json()
     names = [preset["name"] for preset in catalogue["presets"]]
-    assert names == [case.name for case in cases()]
+    assert names == [case.name for case in list_cases()]
     for preset in catalogue["presets"]:
         assert answer(server, "simulate", drop=preset["drop"])["status"] == "FINISHED"
 
@@ -123,7 +123,7 @@ def test_all_presets_play(server):
     ],
 )
 def test_presets_are_the_papers(name, ratios):
-    drop = next(case.drop for case in cases() if case.name == name)
+    drop = next(case.drop for case in list_cases() if case.name == name)
     assert sb.simulate(drop).rebound_ratios == pytest.approx(ratios, abs=0.006)
 
 

@@ -1,23 +1,11 @@
 """From a law to what is measured of it: the restitution and the contact time of one ball."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from typing import Any, TypeAlias
 
-from stackbounce.calibration import dashpot, elastic, hunt_crossley, viscoelastic
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
-from stackbounce.model.laws import (
-    LAWS,
-    ContactLaw,
-    Dashpot,
-    Hertz,
-    HuntCrossley,
-    Hysteretic,
-    PowerLaw,
-    Rigid,
-    Spring,
-    Viscoelastic,
-)
+from stackbounce.model.laws import ContactLaw
 
 __all__ = ["Mass", "contact_time", "reduced", "restitution"]
 
@@ -66,8 +54,7 @@ def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None =
     >>> round(restitution(Dashpot(100.0, damping=2.0), mass=1.0), 6)  # ζ = 0.1
     0.744079
     """
-    m, v = _needed(law, mass, speed, _of_restitution(law), "restitution")
-    return _in_range("restitution", law, lambda: _restitution(law, m, v))
+    return _measured("restitution", law, mass, speed)
 
 
 def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None = None) -> float:
@@ -113,8 +100,7 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
     >>> round(contact_time(Hertz(1.0), mass=1.0, speed=1.0), 6)
     3.218065
     """
-    m, v = _needed(law, mass, speed, _of_contact_time(law), "contact time")
-    return _in_range("contact time", law, lambda: _contact_time(law, m, v))
+    return _measured("contact time", law, mass, speed)
 
 
 def reduced(mass: object) -> float:
@@ -145,50 +131,25 @@ def reduced(mass: object) -> float:
     return low / (1.0 + low / high)
 
 
-def _of_restitution(law: object) -> tuple[str, ...]:
-    match law:
-        case Viscoelastic():
-            return ("mass", "speed")
-        case Dashpot():
-            return ("mass",)
-        case HuntCrossley():
-            return ("speed",)
-        case _:
-            return ()
-
-
-def _of_contact_time(law: object) -> tuple[str, ...]:
-    match law:
-        case Rigid():
-            return ()
-        case HuntCrossley():
-            return ("mass", "speed")
-        case _:
-            return ("mass",) if getattr(law, "exponent", 1.0) == 1.0 else ("mass", "speed")
-
-
-def _needed(
-    law: object, mass: object, speed: object, names: tuple[str, ...], what: str
-) -> tuple[float, float]:
-    """Return mass and speed, checked; 1 for what is not given and not in `names`, the needed."""
-    if not isinstance(law, tuple(LAWS.values())):
+def _measured(what: str, law: object, mass: object, speed: object) -> float:
+    """Return the restitution or the contact time; mass and speed are 1 where they do not count."""
+    if not isinstance(law, ContactLaw):
         raise InvalidType(f"law must be a contact law, got {shown(law)}")
+    if what == "restitution":
+        needed, compute = law.loss_depends_on, law.restitution_at
+    else:
+        needed, compute = law.contact_time_depends_on, law.contact_time_at
     given = {"mass": mass, "speed": speed}
-    missing = [name for name in names if given[name] is None]
+    missing = [name for name in needed if given[name] is None]
     if missing:
         raise InvalidValue(
             f"{' and '.join(missing)} must be given, as the {what} of {type(law).__name__} "
             "depends on it, got None"
         )
-    return (
-        1.0 if mass is None else reduced(mass),
-        1.0 if speed is None else positive("speed", speed, "m/s"),
-    )
-
-
-def _in_range(what: str, law: object, compute: Callable[[], float]) -> float:
+    m = 1.0 if mass is None else reduced(mass)
+    v = 1.0 if speed is None else positive("speed", speed, "m/s")
     try:
-        value = compute()
+        value = compute(m, v)
     except ArithmeticError:
         value = math.nan
     if not math.isfinite(value):
@@ -196,52 +157,3 @@ def _in_range(what: str, law: object, compute: Callable[[], float]) -> float:
             f"law, mass and speed must give a {what} in the range of numbers, got {shown(law)}"
         )
     return value
-
-
-def _restitution(law: ContactLaw, mass: float, speed: float) -> float:
-    match law:
-        case Rigid() | Hysteretic():
-            return law.restitution
-        case Spring() | Hertz() | PowerLaw():
-            return 1.0
-        case Dashpot():
-            return dashpot.restitution(_damping_ratio(law, mass))
-        case Viscoelastic():
-            return viscoelastic.restitution(_squared_speed(law, mass, speed))
-        case HuntCrossley():
-            return hunt_crossley.restitution(_dissipation(law, speed))
-
-
-def _contact_time(law: ContactLaw, mass: float, speed: float) -> float:
-    if isinstance(law, Rigid):
-        return 0.0
-    unit = elastic.peak_compression(law.stiffness, law.exponent, mass, speed) / speed
-    match law:
-        case Spring() | Hertz() | PowerLaw():
-            return unit * elastic.duration(law.exponent)
-        case Dashpot():
-            return unit * dashpot.duration(_damping_ratio(law, mass))
-        case Viscoelastic():
-            return unit * viscoelastic.duration(_squared_speed(law, mass, speed))
-        case HuntCrossley():
-            return unit * hunt_crossley.duration(_dissipation(law, speed), law.exponent)
-        case Hysteretic():
-            return unit * elastic.hysteretic_duration(
-                law.exponent, law.unloading_exponent, law.restitution
-            )
-
-
-def _damping_ratio(law: Dashpot, mass: float) -> float:
-    return 0.5 * law.damping / math.sqrt(law.stiffness) / math.sqrt(mass)
-
-
-def _dissipation(law: HuntCrossley, speed: float) -> float:
-    d = law.dissipation * speed
-    if d > hunt_crossley.LARGEST:
-        raise OverflowError
-    return d
-
-
-def _squared_speed(law: Viscoelastic, mass: float, speed: float) -> float:
-    rate: float = law.stiffness**0.4 / mass**0.4 * speed**0.2
-    return 1.5 * law.dissipative_time * rate

@@ -1,29 +1,14 @@
 """From what was measured of a contact to the numbers of its law."""
 
-from collections.abc import Callable, Mapping
-from typing import TypeVar, cast
+from typing import TypeVar
 
-from stackbounce.calibration import dashpot, elastic, hunt_crossley, viscoelastic
 from stackbounce.calibration.collision import Mass, reduced
 from stackbounce.errors import InvalidType, InvalidValue, between, fraction, positive, shown
-from stackbounce.model.laws import (
-    LAWS,
-    STEEPEST,
-    ContactLaw,
-    Dashpot,
-    Hertz,
-    HuntCrossley,
-    Hysteretic,
-    PowerLaw,
-    Rigid,
-    Spring,
-    Viscoelastic,
-)
+from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw
 
-__all__ = ["calibrate", "needed_by"]
+__all__ = ["calibrate"]
 
 _Law = TypeVar("_Law", bound=ContactLaw)
-_Given = Mapping[str, float]
 
 
 def calibrate(
@@ -89,16 +74,22 @@ def calibrate(
         raise InvalidType(
             f"law_class must be the class of a contact law ({known}), got {shown(law_class)}"
         )
-    kind = cast("type[ContactLaw]", law_class)
+    kind: type[_Law] = law_class
     given = _checked(kind, mass, contact_time, restitution, impact_speed, exponent)
-    if law_class in (Spring, Hertz, PowerLaw) and given.get("restitution", 1.0) != 1.0:
+    if not kind.loss and given.get("restitution", 1.0) != 1.0:
         raise InvalidValue(
-            f"restitution must be 1 or left out for {law_class.__name__}, which gives back all "
+            f"restitution must be 1 or left out for {kind.__name__}, which gives back all "
             f"that it took, got {shown(restitution)}"
         )
-    _check_missing(kind, given)
+    needed = kind.calibration_needs(given.get("exponent"))
+    missing = [name for name in needed if name not in given]
+    if missing:
+        raise InvalidValue(
+            f"{', '.join(missing)} must be given to calibrate {kind.__name__}, which needs "
+            f"{', '.join(needed)}"
+        )
     try:  # where the exponent is 1, any speed will do
-        return cast("_Law", _MAKERS[kind]({"impact_speed": 1.0} | given))
+        return kind.calibrated({"impact_speed": 1.0} | given)
     except ArithmeticError:
         raise InvalidValue(
             f"what was measured must give a {kind.__name__} in the range of numbers, "
@@ -121,130 +112,18 @@ def _checked(
     if contact_time is not None:
         given["contact_time"] = positive("contact_time", contact_time, "seconds")
     if restitution is not None:
-        zero = law_class is Rigid
-        given["restitution"] = fraction("restitution", restitution, zero=zero)
+        given["restitution"] = fraction("restitution", restitution, zero=law_class.rigid)
     if impact_speed is not None:
         given["impact_speed"] = positive("impact_speed", impact_speed, "m/s")
     if exponent is not None:
         given["exponent"] = between("exponent", exponent, 1.0, STEEPEST)
-    usual = _EXPONENTS.get(law_class)
+    usual = law_class.default_exponent()
     if usual is not None:
-        p = given.setdefault("exponent", usual)
-        if law_class not in (HuntCrossley, Hysteretic) and p != usual:
-            raise InvalidValue(
-                f"exponent must be {usual:g} or left out for {law_class.__name__}, "
-                f"got {shown(exponent)}"
-            )
-    return given
-
-
-_EXPONENTS: dict[type[ContactLaw], float] = {
-    Spring: Spring.exponent,
-    Hertz: Hertz.exponent,
-    Dashpot: Dashpot.exponent,
-    Viscoelastic: Viscoelastic.exponent,
-    HuntCrossley: 1.5,
-    Hysteretic: 1.0,
-}
-
-
-def needed_by(law_class: type[ContactLaw], exponent: float | None = None) -> list[str]:
-    """Return what `calibrate` must be given for a class, by the names of its arguments.
-
-    Parameters
-    ----------
-    law_class : type
-        The law's class.
-    exponent : float, optional
-        Where it is given; else the class's usual one.
-
-    Examples
-    --------
-    >>> needed_by(Hysteretic), needed_by(Hysteretic, 1.5)[-1]
-    (['mass', 'contact_time', 'restitution'], 'impact_speed')
-    """
-    needed = ["restitution"] if law_class is Rigid else ["mass", "contact_time"]
-    if law_class in (Dashpot, Viscoelastic, HuntCrossley, Hysteretic):
-        needed.append("restitution")
-    if law_class is PowerLaw:
-        needed.append("exponent")
-    if exponent is None:
-        exponent = _EXPONENTS.get(law_class, 1.0)
-    if law_class is HuntCrossley or exponent != 1.0:
-        needed.append("impact_speed")
-    return needed
-
-
-def _check_missing(law_class: type[ContactLaw], given: _Given) -> None:
-    needed = needed_by(law_class, given.get("exponent"))
-    missing = [name for name in needed if name not in given]
-    if missing:
+        given.setdefault("exponent", usual)
+    fixed = law_class.fixed_exponent()
+    if fixed is not None and given["exponent"] != fixed:
         raise InvalidValue(
-            f"{', '.join(missing)} must be given to calibrate {law_class.__name__}, which needs "
-            f"{', '.join(needed)}"
+            f"exponent must be {fixed:g} or left out for {law_class.__name__}, "
+            f"got {shown(exponent)}"
         )
-
-
-def _stiffness(given: _Given, duration: float) -> float:
-    """Return k of a contact that takes `duration` in units of C/v, see `elastic`."""
-    p, speed = given["exponent"], given["impact_speed"]
-    peak = given["contact_time"] * speed / duration
-    return elastic.stiffness(peak, p, given["mass"], speed)
-
-
-def _rigid(given: _Given) -> Rigid:
-    return Rigid(given["restitution"])
-
-
-def _spring(given: _Given) -> Spring:
-    return Spring(_stiffness(given, elastic.duration(1.0)))
-
-
-def _hertz(given: _Given) -> Hertz:
-    return Hertz(_stiffness(given, elastic.duration(1.5)))
-
-
-def _power_law(given: _Given) -> PowerLaw:
-    p = given["exponent"]
-    return PowerLaw(_stiffness(given, elastic.duration(p)), p)
-
-
-def _dashpot(given: _Given) -> Dashpot:
-    zeta = dashpot.damping_ratio(given["restitution"])
-    duration = dashpot.duration(zeta)
-    # b = 2 ζ m ω0
-    damping = 2.0 * zeta * given["mass"] * duration / given["contact_time"]
-    return Dashpot(_stiffness(given, duration), damping)
-
-
-def _viscoelastic(given: _Given) -> Viscoelastic:
-    squared = viscoelastic.squared_speed(given["restitution"])
-    k = _stiffness(given, viscoelastic.duration(squared))
-    # v*² = 1.5 A (k/m)**0.4 v**0.2
-    rate = (k / given["mass"]) ** 0.4 * given["impact_speed"] ** 0.2
-    return Viscoelastic(k, squared / 1.5 / rate)
-
-
-def _hunt_crossley(given: _Given) -> HuntCrossley:
-    p, speed = given["exponent"], given["impact_speed"]
-    d = hunt_crossley.dissipation(given["restitution"])
-    return HuntCrossley(_stiffness(given, hunt_crossley.duration(d, p)), p, d / speed)
-
-
-def _hysteretic(given: _Given) -> Hysteretic:
-    p, e = given["exponent"], given["restitution"]
-    n = Hysteretic(1.0, exponent=p, restitution=e).unloading_exponent
-    k = _stiffness(given, elastic.hysteretic_duration(p, n, e))
-    return Hysteretic(k, exponent=p, restitution=e)
-
-
-_MAKERS: dict[type[ContactLaw], Callable[[_Given], ContactLaw]] = {
-    Rigid: _rigid,
-    Spring: _spring,
-    Hertz: _hertz,
-    PowerLaw: _power_law,
-    Dashpot: _dashpot,
-    Viscoelastic: _viscoelastic,
-    HuntCrossley: _hunt_crossley,
-    Hysteretic: _hysteretic,
-}
+    return given

@@ -1,9 +1,7 @@
 """The contact of two balls, from the contacts that each of them has with a hard floor."""
 
-import math
-
 from stackbounce.errors import InvalidValue
-from stackbounce.model.laws import ContactLaw, Hertz, Hysteretic, PowerLaw, Spring, series
+from stackbounce.model.laws import ContactLaw, series
 
 __all__ = ["between"]
 
@@ -33,6 +31,7 @@ def between(law_a: ContactLaw, law_b: ContactLaw) -> ContactLaw:
 
     Examples
     --------
+    >>> from stackbounce.model import Hysteretic
     >>> one, other = Hysteretic(3e4, restitution=0.8), Hysteretic(1e4, restitution=0.6)
     >>> both = between(one, other)
     >>> round(both.stiffness, 6), round(both.restitution, 6)
@@ -41,21 +40,7 @@ def between(law_a: ContactLaw, law_b: ContactLaw) -> ContactLaw:
     try:
         return series(law_a, law_b)
     except InvalidValue:
-        a, b = _hysteretic(law_a), _hysteretic(law_b)
+        a, b = law_a.as_hysteretic(), law_b.as_hysteretic()
         if a is None or b is None or (a.exponent, a.reloading) != (b.exponent, b.reloading):
             raise
-    p = a.exponent
-    soft_a, soft_b = a.stiffness ** (-1.0 / p), b.stiffness ** (-1.0 / p)
-    f = soft_a / (soft_a + soft_b)
-    kept = f * a.restitution**2 + (1.0 - f) * b.restitution**2
-    stiffness = (soft_a + soft_b) ** -p
-    return Hysteretic(stiffness, exponent=p, restitution=math.sqrt(kept), reloading=a.reloading)
-
-
-def _hysteretic(law: ContactLaw) -> Hysteretic | None:
-    """Return a law without a rate in it as one with hysteresis, be it none."""
-    if isinstance(law, Hysteretic):
-        return law
-    if isinstance(law, Spring | Hertz | PowerLaw):
-        return Hysteretic(law.stiffness, exponent=law.exponent, restitution=1.0)
-    return None
+    return a.pressed_on(b)

@@ -10,10 +10,10 @@ import typer
 from stackbounce.cli import (
     balls,
     explorer,
-    fit_command,
+    fit,
     highest,
     masses,
-    measure_command,
+    measure,
     paper,
     simulate,
     sweep,
@@ -47,8 +47,8 @@ def stackbounce(
 
 app.command("simulate", epilog=simulate.EPILOG)(simulate.run)
 app.command("sweep", epilog=sweep.EPILOG)(sweep.run)
-app.command("measure", epilog=measure_command.EPILOG)(measure_command.measure)
-app.command("fit", epilog=fit_command.EPILOG)(fit_command.fit)
+app.command("measure", epilog=measure.EPILOG)(measure.run)
+app.command("fit", epilog=fit.EPILOG)(fit.run)
 app.command("transition", epilog=transition.EPILOG)(transition.run)
 app.command("highest", epilog=highest.EPILOG)(highest.run)
 app.command("masses", epilog=masses.EPILOG)(masses.run)

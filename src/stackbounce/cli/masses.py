@@ -80,10 +80,10 @@ def limits(text: str) -> tuple[float, float]:
 
 def summary(given: "Drop", best: "Drop", within: tuple[float, float] | None) -> dict[str, Any]:
     """Return what ``stackbounce masses --json`` prints."""
-    from stackbounce.gaps_and_masses.masses import geometric_masses, with_masses
+    from stackbounce.gaps_and_masses.masses import geometric_masses, replace_masses
     from stackbounce.version import __version__
 
-    means = with_masses(given, geometric_masses(given)[1:-1])
+    means = replace_masses(given, geometric_masses(given)[1:-1])
     outer = sorted([given.balls[0].mass, given.balls[-1].mass])
     low, high = outer if within is None else within
     ends = [

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from stackbounce.model.laws import LAWS
+
 __all__ = [
     "AsJson",
     "Contact",
@@ -44,8 +46,7 @@ Contact = Annotated[
     typer.Option(
         metavar="LAW",
         help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
-        "lowest first. Laws: Rigid, Spring, Hertz, PowerLaw, Dashpot, Viscoelastic, "
-        "HuntCrossley, Hysteretic; none for no floor.",
+        f"lowest first. Laws: {', '.join(LAWS)}; none for no floor.",
     ),
 ]
 Gravity = Annotated[

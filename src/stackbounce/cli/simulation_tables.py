@@ -16,7 +16,6 @@ from stackbounce.cli.tables import (
     number,
 )
 from stackbounce.model.drop import STANDARD_GRAVITY
-from stackbounce.model.laws import Hertz, PowerLaw, Rigid, Spring
 from stackbounce.run.result import Result, Status
 
 __all__ = ["print_simulation"]
@@ -119,12 +118,12 @@ def _end(time: float) -> str:
 
 def _closing(console: Console, result: Result, textbook: Result | None) -> None:
     console.print(f"\nEnergy retained: {_percent(result.energy_retained)}")
-    if all(isinstance(law, Spring | Hertz | PowerLaw | None) for law in result.drop.contacts):
+    if not any(law.loss for law in result.drop.contacts if law is not None):
         console.print(
             "Springs lose nothing. With losses: --contact 'Hysteretic stiffness=K restitution=E'"
         )
     if textbook is not None:
-        values = [law.restitution for law in textbook.drop.contacts if isinstance(law, Rigid)]
+        values = [law.restitution for law in textbook.drop.contacts if law is not None]
         listed = ", ".join(f"{value:.4g}" for value in values)
         console.print(
             "Separate: the textbook's collisions one after the other, restitution "

@@ -1,8 +1,8 @@
-"""The bench: the paper's data and the library's solver at hand, with a note of what was used.
+"""The bench: access to the paper's data and to the solver, with a record of what was used.
 
 Every row of the audit, every table and every figure is computed on a bench. It records which
-numbers were read and which drops were simulated, so that a row's dependence on the data and the
-library call that made it are observed, not claimed.
+numbers are read and which drops are simulated. The inputs and library calls that a row shows are
+this record.
 """
 
 from collections.abc import Callable
@@ -18,7 +18,7 @@ from stackbounce.run.result import Result
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Bench", "as_call", "propagated"]
+__all__ = ["Bench", "propagate_error", "write_call"]
 
 
 class Bench:
@@ -55,7 +55,7 @@ class Bench:
         return ufloat(self(key), self.data[key].spread)
 
     def simulate(self, drop: Drop) -> Result:
-        """Return what the library's solver makes of a drop."""
+        """Simulate a drop and record it."""
         self.drops.append(drop)
         return _simulated(drop)
 
@@ -65,24 +65,24 @@ def _simulated(drop: Drop) -> Result:
     return simulate(drop)
 
 
-def as_call(drop: Drop) -> str:
+def write_call(drop: Drop) -> str:
     """Return the Python text of the library call that simulates a drop.
 
     Parameters
     ----------
     drop : Drop
-        What was simulated.
+        The simulated drop.
 
     Returns
     -------
     str
-        An expression; evaluated with ``sb`` standing for the package it gives the same result.
+        An expression that gives the same result if ``sb`` is the package.
 
     Examples
     --------
     >>> from stackbounce.model.ball import Ball
     >>> from stackbounce.model.laws import Rigid
-    >>> as_call(Drop([Ball(0.057)], [Rigid(0.9)], impact_speed=2))
+    >>> write_call(Drop([Ball(0.057)], [Rigid(0.9)], impact_speed=2))
     'sb.simulate(sb.Drop(balls=[sb.Ball(mass=0.057)], contacts=[sb.Rigid(restitution=0.9)], \
 impact_speed=2.0))'
     """
@@ -105,17 +105,17 @@ def _text(value: Any) -> str:
     return f"sb.{type(value).__name__}({', '.join(given)})"
 
 
-def propagated(compute: Callable[[Bench], float], data: Data, keys: list[str]) -> float:
-    """Return the error of a computed number that follows from the errors of its inputs.
+def propagate_error(compute: Callable[[Bench], float], data: Data, keys: list[str]) -> float:
+    """Return the standard error of a computed number, propagated from the errors of its inputs.
 
     Parameters
     ----------
     compute : callable
-        What makes the number on a bench.
+        Computes the number on a bench.
     data : mapping of str to Input
         The paper's numbers.
     keys : list of str
-        Those that the number depends on.
+        The inputs that the number depends on.
 
     Returns
     -------
@@ -125,7 +125,7 @@ def propagated(compute: Callable[[Bench], float], data: Data, keys: list[str]) -
     Examples
     --------
     >>> from stackbounce.cross2007.data import PAPER
-    >>> error = propagated(lambda b: 2.0 * b("tennis.mass"), PAPER, ["tennis.mass"])
+    >>> error = propagate_error(lambda b: 2.0 * b("tennis.mass"), PAPER, ["tennis.mass"])
     >>> round(error, 6)
     0.001
     """

@@ -1,4 +1,4 @@
-"""The paper's cases, ready to be played: every drop that it computes or measures, with a name."""
+"""The paper's cases for the explorer: every drop that it computes or measures, by name."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -9,7 +9,7 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import fallen_speed, rigid_pair, spring_pair
 from stackbounce.model import Drop
 
-__all__ = ["Case", "cases"]
+__all__ = ["Case", "list_cases"]
 
 
 @dataclass(frozen=True)
@@ -19,19 +19,19 @@ class Case:
     Parameters
     ----------
     name : str
-        For machines, such as ``figure-9``.
+        An identifier, such as ``figure-9``.
     group : str
-        What it belongs to.
+        The heading of its group.
     title : str
-        For people.
+        The title on screen.
     says : str
-        What there is to see, in one sentence.
+        One sentence on what the case shows.
     drop : Drop
-        What is dropped.
+        The drop.
 
     Examples
     --------
-    >>> next(cases()).name
+    >>> next(list_cases()).name
     'textbook'
     """
 
@@ -42,39 +42,41 @@ class Case:
     drop: Drop
 
 
-def cases() -> Iterator[Case]:
+def list_cases() -> Iterator[Case]:
     """Yield the cases in the paper's order.
 
     Examples
     --------
-    >>> [case.name for case in cases() if case.group == "Basketball and tennis ball"]
+    >>> [case.name for case in list_cases() if case.group == "Basketball and tennis ball"]
     ['figure-8', 'figure-8-gap', 'figure-9', 'figure-9-other', 'measured-basketball-tennis']
     """
     bench = Bench(PAPER)
     for group, made in _GROUPS.items():
         for name, title, says, make in made:
-            yield Case(name, group, title, says, _sized(make(bench), name))
+            yield Case(name, group, title, says, _sized(bench, make(bench)))
 
 
-def _sized(drop: Drop, name: str) -> Drop:
-    """Return a drop whose balls have the names and diameters that the paper gives them."""
-    sizes = _BALLS.get(name)
-    if sizes is None:
+def _sized(bench: Bench, drop: Drop) -> Drop:
+    """Return a drop with the paper's names and diameters, if the masses are those of its balls."""
+    known = {bench(f"{name}.mass"): name for name in ("basketball", "tennis", "B1", "B2", "B3")}
+    known[stacks.heavier_b1(bench)] = "B1"
+    names = [known.get(ball.mass) for ball in drop.balls]
+    if None in names:
         return drop
-    twins = len(set(sizes)) < len(sizes)
+    twins = len(set(names)) < len(names)
     balls = [
         replace(
             ball,
-            name=f"{known} {where}" if twins else known,
-            diameter=PAPER[f"{known}.diameter"].value,
+            name=f"{name} {where}" if twins else name,
+            diameter=bench(f"{name}.diameter"),
         )
-        for ball, known, where in zip(drop.balls, sizes, ("below", "above"), strict=True)
+        for ball, name, where in zip(drop.balls, names, ("below", "above"), strict=True)
     ]
     return replace(drop, balls=balls)
 
 
 def _section_two(ratio: float, stiffness: float = 1.0) -> Callable[[Bench], Drop]:
-    """Return what makes section II's drop: 0.2 kg above, `ratio` times as much below."""
+    """Return a function that makes section II's drop with 0.2 kg above and a mass ratio."""
 
     def make(b: Bench) -> Drop:
         upper, spring = b("fig5.upper_mass"), b("fig5.ball_stiffness")
@@ -85,7 +87,7 @@ def _section_two(ratio: float, stiffness: float = 1.0) -> Callable[[Bench], Drop
 
 
 def _textbook(restitution: str, ratio: float | None = None) -> Callable[[Bench], Drop]:
-    """Return what makes separate collisions of basketball and tennis ball, or of another ratio."""
+    """Return a function that makes separate collisions of two balls, by default the paper's."""
 
     def make(b: Bench) -> Drop:
         lower, upper = stacks.stack_masses(b)
@@ -112,7 +114,7 @@ def _figure_8_gap(b: Bench) -> Drop:
 
 
 def _measured(name: str) -> Callable[[Bench], Drop]:
-    return lambda _: datasets.dataset(name).drop
+    return lambda _: datasets.load_dataset(name).drop
 
 
 def _on_b1(make: Callable[[Bench, float], Drop]) -> Callable[[Bench], Drop]:
@@ -243,25 +245,4 @@ _GROUPS: dict[str, tuple[_Made, ...]] = {
             stacks.parted_twins,
         ),
     ),
-}
-_BALLS = {
-    **dict.fromkeys(
-        (
-            "separate",
-            "separate-lossy",
-            "figure-8",
-            "figure-8-gap",
-            "figure-9",
-            "figure-9-other",
-            "measured-basketball-tennis",
-        ),
-        ("basketball", "tennis"),
-    ),
-    "figure-13": ("B1", "B2"),
-    "B3-on-B1": ("B1", "B3"),
-    "B1-on-B2": ("B2", "B1"),
-    "B1-on-B3-early": ("B3", "B1"),
-    "B1-on-B3-late": ("B3", "B1"),
-    "B1-on-B1": ("B1", "B1"),
-    "B1-on-B1-parted": ("B1", "B1"),
 }

@@ -1,20 +1,21 @@
-"""The audit: each number that the paper prints, beside what the library makes of it.
+"""The audit's checks: each number that the paper prints, and the function that computes it.
 
-A check says where a number stands, how it is printed, and holds the function that computes it.
-Running the checks on a bench gives the rows: computed value, verdict, the source of the function,
-the library calls it made and the inputs it read, all observed while it ran.
+A check has the place of a number in the paper, its printed form and its function. Running a check
+on a bench gives a row: the computed value, the verdict, the source of the function, and the library
+calls and the inputs that the bench recorded.
 """
 
 import ast
 import inspect
+import linecache
 import math
 import textwrap
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from decimal import Decimal
 from typing import Any, TypeAlias
 
-from stackbounce.cross2007.bench import Bench, as_call, propagated
+from stackbounce.cross2007.bench import Bench, propagate_error, write_call
 from stackbounce.cross2007.data import Data
 
 __all__ = [
@@ -27,7 +28,7 @@ __all__ = [
     "Row",
     "Section",
     "half_unit",
-    "run",
+    "run_check",
     "source_of",
 ]
 
@@ -36,7 +37,7 @@ WITHIN_ERROR = "agrees within error"
 DIFFERS = "differs"
 
 SCALES = {"": 1.0, "%": 1e-2, "ms": 1e-3, "mm": 1e-3, "m": 1.0, "m/s": 1.0, "J": 1.0, "N/m": 1.0}
-"""How much an audit unit is in SI."""
+"""The size of an audit unit in SI units."""
 
 Number: TypeAlias = float | Any
 """A number, of Python or of a numpy array."""
@@ -63,16 +64,15 @@ class Check:
     unit : str
         A key of `SCALES`.
     compute : callable
-        Makes the number, in SI units, on a bench.
+        Computes the number, in SI units, on a bench.
     counted : bool
-        Whether it is a count, which has no tolerance.
+        Whether it is a count, which must be equal.
     stated : float
         The error in `unit` that the paper states for the printed number, or 0.
     reason : str
-        Why it disagrees, or what to know where it agrees.
+        The reason for a difference, or a remark on an agreement.
     others : tuple of (str, str, callable)
-        Other readings: what is assumed, the number in digits that it is compared with, and its
-        computation.
+        Other readings: the assumption, the digits to compare with, and the computation.
     """
 
     id: str
@@ -90,7 +90,7 @@ class Check:
 
 @dataclass(frozen=True)
 class Attempt:
-    """Another reading of a printed number: what it assumes, what it gives, how that compares."""
+    """Another reading of a printed number: its assumption, computed value and verdict."""
 
     reading: str
     number: str
@@ -103,10 +103,10 @@ class Attempt:
 class Row:
     """A printed number beside the computed one; see `Check` for the first five.
 
-    ``number`` is its value, ``tolerance`` half a unit in its last printed digit, ``error`` what the
-    errors of the inputs and of the printed number itself add, both in `unit`; ``source`` is the
-    text of the function that computed it, ``calls`` are the library calls that it made, ``inputs``
-    the data that it read.
+    ``number`` is the printed value and ``tolerance`` half a unit in its last digit. ``error`` is
+    the standard error that follows from the inputs and from the printed number itself, in `unit`.
+    ``source`` is the text of the function that computed the number, ``calls`` are the library calls
+    that it made and ``inputs`` the keys of the data that it read.
     """
 
     id: str
@@ -176,25 +176,20 @@ class Section:
 
         return add
 
-    def other(self, reading: str, *, number: str = "") -> Callable[[Compute], Compute]:
-        """Return a decorator that adds another reading to the latest check."""
-
-        def add(compute: Compute) -> Compute:
-            latest = self.checks[-1]
-            more = (reading, number or latest.number, compute)
-            self.checks[-1] = replace(latest, others=(*latest.others, more))
-            return compute
-
-        return add
+    def other(self, reading: str, compute: Compute, *, number: str = "") -> None:
+        """Add another reading to the latest check: what it assumes and how it is computed."""
+        latest = self.checks[-1]
+        more = (reading, number or latest.number, compute)
+        self.checks[-1] = replace(latest, others=(*latest.others, more))
 
 
-def run(check: Check, data: Data) -> Row:
+def run_check(check: Check, data: Data) -> Row:
     """Return the row of a check.
 
     Parameters
     ----------
     check : Check
-        What to compute and compare.
+        The printed number and its computation.
     data : mapping of str to Input
         The paper's numbers.
 
@@ -219,7 +214,7 @@ def run(check: Check, data: Data) -> Row:
         reason=check.reason,
         attempts=tuple(attempts),
         source=source_of(check.compute),
-        calls=tuple(dict.fromkeys(as_call(drop) for drop in bench.drops)),
+        calls=tuple(dict.fromkeys(write_call(drop) for drop in bench.drops)),
         inputs=tuple(bench.read),
     )
 
@@ -245,33 +240,73 @@ def half_unit(number: str) -> float:
 
 
 def source_of(function: Callable[..., object]) -> str:
-    """Return the statements of a function, without its name, arguments and docstring.
+    """Return what a function computes as Python text, without its name, arguments and docstring.
 
     Parameters
     ----------
     function : callable
-        Defined in a file.
+        A function or a lambda, the only one that begins on its line of a file.
 
     Returns
     -------
     str
-        Python text; a single ``return`` is reduced to what it returns.
+        A single ``return`` is reduced to what it returns. Names that are taken from an enclosing
+        function are replaced by their values.
 
     Examples
     --------
     >>> source_of(half_unit)
     'float(_last_digit(number) / 2)'
+    >>> def bounce_of(ball):
+    ...     return lambda b: b(f"{ball}.rebound_height")
+    >>> source_of(bounce_of("tennis"))
+    "b('tennis.rebound_height')"
     """
-    tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
-    definition = tree.body[0]
+    fill = _Filled(inspect.getclosurevars(function).nonlocals).visit
+    if function.__name__ == "<lambda>":
+        return ast.unparse(fill(_lambda(function).body))
+    definition = ast.parse(textwrap.dedent(inspect.getsource(function))).body[0]
     assert isinstance(definition, ast.FunctionDef)
     body = definition.body
     if ast.get_docstring(definition) is not None:
         body = body[1:]
     last = body[-1]
     if len(body) == 1 and isinstance(last, ast.Return) and last.value is not None:
-        return ast.unparse(last.value)
-    return "\n".join(ast.unparse(statement) for statement in body)
+        return ast.unparse(fill(last.value))
+    return "\n".join(ast.unparse(fill(statement)) for statement in body)
+
+
+def _lambda(function: Any) -> ast.Lambda:
+    """Return the syntax tree of a lambda."""
+    code = function.__code__
+    module = ast.parse("".join(linecache.getlines(code.co_filename)))
+    (found,) = (
+        node
+        for node in ast.walk(module)
+        if isinstance(node, ast.Lambda) and node.lineno == code.co_firstlineno
+    )
+    return found
+
+
+class _Filled(ast.NodeTransformer):
+    """Replaces names by their values: a function by its own name, anything else by a constant."""
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        self.values = values
+
+    def visit_Name(self, node: ast.Name) -> ast.expr:
+        if node.id not in self.values:
+            return node
+        value = self.values[node.id]
+        return ast.Name(value.__name__) if callable(value) else ast.Constant(value)
+
+    def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.expr:
+        self.generic_visit(node)
+        parts = [
+            part.value if isinstance(part, ast.FormattedValue) else part for part in node.values
+        ]
+        texts = [str(part.value) for part in parts if isinstance(part, ast.Constant)]
+        return ast.Constant("".join(texts)) if len(texts) == len(parts) else node
 
 
 def _attempt(check: Check, reading: str, number: str, compute: Compute, data: Data) -> Attempt:
@@ -286,7 +321,7 @@ def _compared(
     bench = Bench(data)
     scale = SCALES[check.unit]
     computed = float(compute(bench)) / scale
-    spread = 0.0 if check.counted else propagated(compute, data, bench.read) / scale
+    spread = 0.0 if check.counted else propagate_error(compute, data, bench.read) / scale
     error = math.hypot(spread, check.stated)
     verdict = _verdict(computed, float(number), _tolerance(check, number), error)
     return computed, error, verdict, bench
@@ -300,7 +335,7 @@ def _verdict(computed: float, number: float, tolerance: float, error: float) -> 
     distance = abs(computed - number)
     if distance <= tolerance * (1.0 + 1e-9):
         return AGREES
-    # an error as large as the number itself would let anything pass
+    # with an error as large as the number itself, every value would pass
     telling = error < abs(number)
     return WITHIN_ERROR if telling and distance <= tolerance + error else DIFFERS
 

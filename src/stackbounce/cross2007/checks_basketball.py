@@ -1,5 +1,6 @@
 """The audit's checks of section III: the tennis ball on the basketball."""
 
+from collections.abc import Callable
 from math import pi
 
 from stackbounce.cross2007.bench import Bench
@@ -13,7 +14,7 @@ from stackbounce.cross2007.drops import (
     spring_pair,
 )
 from stackbounce.cross2007.stacks import better_fit, other_fit, stack_masses
-from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.model.drop import STANDARD_GRAVITY, Drop
 from stackbounce.run.result import Result
 
 __all__ = ["BASKETBALL", "better_fit", "other_fit", "stack_masses"]
@@ -33,9 +34,10 @@ def _(b: Bench) -> Number:
     return fallen_speed(b("stack.drop_height"))
 
 
-@BASKETBALL.other("with the height measured to the basketball's centre")
-def _(b: Bench) -> Number:
-    return fallen_speed(b("stack.drop_height") - b("basketball.diameter") / 2)
+BASKETBALL.other(
+    "with the height measured to the basketball's centre",
+    lambda b: fallen_speed(b("stack.drop_height") - b("basketball.diameter") / 2),
+)
 
 
 @BASKETBALL.check("III.upper_speed", "tennis ball's speed v2 for a bounce of 1.72 m", "5.8", "m/s")
@@ -74,9 +76,7 @@ def _(b: Bench) -> Number:
     return upper + _kinetic(b("basketball.mass"), b("stack.lower_speed"))
 
 
-@BASKETBALL.other("tennis ball alone")
-def _(b: Bench) -> Number:
-    return _kinetic(b("tennis.mass"), b("stack.upper_speed"))
+BASKETBALL.other("tennis ball alone", lambda b: _kinetic(b("tennis.mass"), b("stack.upper_speed")))
 
 
 @BASKETBALL.check("III.energy_side", "energy left after a drop side by side", "0.84", "J")
@@ -121,21 +121,21 @@ def _(b: Bench) -> Number:
     "static k1/k2: compression between the balls over that at the floor",
     "1.8",
     reason="All of the compression above the basketball's centre gives more than the printed "
-    "ratio, the basketball's share alone less. With half of the tennis ball's compression, up to "
-    "its centre of mass, it comes out.",
+    "ratio, the basketball's share alone gives less. With half of the tennis ball's compression, "
+    "up to its centre of mass, the printed ratio results.",
 )
 def _(b: Bench) -> Number:
     return (_indentation(b) + b("static.tennis")) / (b("static.basketball") / 2)
 
 
-@BASKETBALL.other("without the tennis ball's own compression")
-def _(b: Bench) -> Number:
-    return _indentation(b) / (b("static.basketball") / 2)
-
-
-@BASKETBALL.other("with half of the tennis ball's compression")
-def _(b: Bench) -> Number:
-    return (_indentation(b) + b("static.tennis") / 2) / (b("static.basketball") / 2)
+BASKETBALL.other(
+    "without the tennis ball's own compression",
+    lambda b: _indentation(b) / (b("static.basketball") / 2),
+)
+BASKETBALL.other(
+    "with half of the tennis ball's compression",
+    lambda b: (_indentation(b) + b("static.tennis") / 2) / (b("static.basketball") / 2),
+)
 
 
 @BASKETBALL.check("III.static_stiffness", "tennis ball's static stiffness", "1.03e4", "N/m")
@@ -149,10 +149,19 @@ def _(b: Bench) -> Number:
 
 
 _ENDS = (
-    "The floor force fades out gently, so that the end depends on how much of it still counts: "
-    "at a twentieth of the peak the better fit is near 30 ms, at a tenth the alternative. At no "
-    "one threshold do both come within half a millisecond of it; they stay about 1 ms apart."
+    "The floor force decreases gradually, so that the end depends on the threshold: at a twentieth "
+    "of the peak the better fit ends near 30 ms, at a tenth the alternative does. There is no "
+    "threshold at which both are within half a millisecond of 30 ms; they differ by about 1 ms."
 )
+
+
+def _add_ends(fit: Callable[[Bench], Drop]) -> None:
+    """Add the readings of an impact's end as the moment when little of the floor force is left."""
+    BASKETBALL.other(
+        "end of the floor force at a twentieth of its peak",
+        lambda b: force_above(b.simulate(fit(b)), 0, 0.05)[1],
+    )
+    BASKETBALL.other("at a tenth of its peak", lambda b: force_above(b.simulate(fit(b)), 0, 0.1)[1])
 
 
 @BASKETBALL.check(
@@ -167,14 +176,7 @@ def _(b: Bench) -> Number:
     return b.simulate(better_fit(b)).last_release[0]
 
 
-@BASKETBALL.other("end of the floor force at a twentieth of its peak")
-def _(b: Bench) -> Number:
-    return force_above(b.simulate(better_fit(b)), 0, 0.05)[1]
-
-
-@BASKETBALL.other("at a tenth of its peak")
-def _(b: Bench) -> Number:
-    return force_above(b.simulate(better_fit(b)), 0, 0.1)[1]
+_add_ends(better_fit)
 
 
 @BASKETBALL.check(
@@ -183,7 +185,8 @@ def _(b: Bench) -> Number:
     "7",
     "ms",
     where="Fig. 8, text",
-    reason="The paper's own calculation has no gap; it only ever says that 2 mm is the most.",
+    reason="The paper's own calculation has no gap; the text only says that the gap was at most "
+    "2 mm.",
 )
 def _(b: Bench) -> Number:
     stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")
@@ -228,9 +231,10 @@ def _(b: Bench) -> Number:
     return _apart(b, b("stack.restitution")).rebound_speeds[0]
 
 
-@BASKETBALL.other("eq. 1's magnitude, before the second bounce off the floor")
-def _(b: Bench) -> Number:
-    return abs(after_meeting(_apart(b, b("stack.restitution")), 1)[0])
+BASKETBALL.other(
+    "eq. 1's magnitude, before the second bounce off the floor",
+    lambda b: abs(after_meeting(_apart(b, b("stack.restitution")), 1)[0]),
+)
 
 
 @BASKETBALL.check(
@@ -247,6 +251,13 @@ def _(b: Bench) -> Number:
     return b("stack.impact_speed") * b("stack.duration")
 
 
+def _on_static_springs(b: Bench, floor: float) -> Result:
+    """Tennis ball on basketball, with a static stiffness in N/m at the floor."""
+    stiffnesses = floor, floor / b("static.stiffness_ratio")
+    drop = spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+    return b.simulate(drop)
+
+
 @BASKETBALL.check(
     "III.static_duration",
     "impact duration with the static stiffnesses",
@@ -256,18 +267,15 @@ def _(b: Bench) -> Number:
     "ratio 1.8 rests on, would give a shorter impact.",
 )
 def _(b: Bench) -> Number:
-    floor = b("static.force") / b("static.basketball")
-    stiffnesses = floor, floor / b("static.stiffness_ratio")
-    drop = spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
-    return b.simulate(drop).last_release[0]
+    return _on_static_springs(b, b("static.force") / b("static.basketball")).last_release[0]
 
 
-@BASKETBALL.other("with k1 = 30 N over 9.3 mm")
-def _(b: Bench) -> Number:
-    floor = b("static.force") / (b("static.basketball") / 2)
-    stiffnesses = floor, floor / b("static.stiffness_ratio")
-    drop = spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
-    return b.simulate(drop).last_release[0]
+BASKETBALL.other(
+    "with k1 = 30 N over 9.3 mm",
+    lambda b: _on_static_springs(b, b("static.force") / (b("static.basketball") / 2)).last_release[
+        0
+    ],
+)
 
 
 @BASKETBALL.check("III.fig9_lower", "v1 of Fig. 9", "1.34", "m/s", where="Sec. III, Fig. 9")
@@ -300,24 +308,14 @@ def _(b: Bench) -> Number:
     return force_above(b.simulate(better_fit(b)), 1, 0.03)[0]
 
 
-@BASKETBALL.other("at 2 % of the peak")
-def _(b: Bench) -> Number:
-    return force_above(b.simulate(better_fit(b)), 1, 0.02)[0]
-
-
-@BASKETBALL.other("at 2.6 % of the peak")
-def _(b: Bench) -> Number:
-    return force_above(b.simulate(better_fit(b)), 1, 0.026)[0]
-
-
-@BASKETBALL.other("at 4.5 % of the peak")
-def _(b: Bench) -> Number:
-    return force_above(b.simulate(better_fit(b)), 1, 0.045)[0]
-
-
-@BASKETBALL.other("at 5 % of the peak")
-def _(b: Bench) -> Number:
-    return force_above(b.simulate(better_fit(b)), 1, 0.05)[0]
+BASKETBALL.other("at 2 % of the peak", lambda b: force_above(b.simulate(better_fit(b)), 1, 0.02)[0])
+BASKETBALL.other(
+    "at 2.6 % of the peak", lambda b: force_above(b.simulate(better_fit(b)), 1, 0.026)[0]
+)
+BASKETBALL.other(
+    "at 4.5 % of the peak", lambda b: force_above(b.simulate(better_fit(b)), 1, 0.045)[0]
+)
+BASKETBALL.other("at 5 % of the peak", lambda b: force_above(b.simulate(better_fit(b)), 1, 0.05)[0])
 
 
 @BASKETBALL.check(
@@ -331,14 +329,7 @@ def _(b: Bench) -> Number:
     return b.simulate(other_fit(b)).last_release[0]
 
 
-@BASKETBALL.other("end of the floor force at a twentieth of its peak")
-def _(b: Bench) -> Number:
-    return force_above(b.simulate(other_fit(b)), 0, 0.05)[1]
-
-
-@BASKETBALL.other("at a tenth of its peak")
-def _(b: Bench) -> Number:
-    return force_above(b.simulate(other_fit(b)), 0, 0.1)[1]
+_add_ends(other_fit)
 
 
 @BASKETBALL.check("III.other_speed", "v1 of the alternative fit", "0.61", "m/s")

@@ -1,5 +1,6 @@
 """The audit's checks of sections V and VI: the fits with loss, and the conclusion."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from stackbounce.calibration import restitution
@@ -16,7 +17,7 @@ FITS = Section("Sec. V")
 CONCLUSION = Section("Sec. VI")
 
 _SHORTER = 0.913
-"""What d/v0 is multiplied by in the other reading; a fall of 24 cm for 20 cm does the same."""
+"""The factor on d/v0 in the other reading; a fall of 24 cm instead of 20 cm is equivalent."""
 
 _REASON_FIT = (
     "The outcome depends on the large ball's mass and, with linear loading, on gap and impact "
@@ -46,64 +47,21 @@ def _(b: Bench) -> Number:
     return restitution(Hysteretic(b("fig13.floor_stiffness"), unloading_exponent=b("V.exponent")))
 
 
-@FITS.check("V.B2_lower", "e1, B2 on B1", "0.24", where="Sec. V, Fig. 13", reason=_REASON_FIT)
-def _(b: Bench) -> Number:
-    return b.simulate(small_fit(b, b("B1.mass"))).rebound_ratios[0]
+def _check_ratio(
+    name: str, what: str, printed: str, where: str, fit: Callable[[Bench, float], Drop], ball: int
+) -> None:
+    """Add the rebound ratio of one ball in a fit of section V, for three readings of the data."""
+    FITS.check(name, what, printed, where=where, reason=_REASON_FIT)(
+        lambda b: b.simulate(fit(b, b("B1.mass"))).rebound_ratios[ball]
+    )
+    FITS.other(WITH_105, lambda b: b.simulate(fit(b, heavier_b1(b))).rebound_ratios[ball])
+    FITS.other(_NEARER, lambda b: b.simulate(_nearer(fit(b, heavier_b1(b)))).rebound_ratios[ball])
 
 
-@FITS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return b.simulate(small_fit(b, heavier_b1(b))).rebound_ratios[0]
-
-
-@FITS.other(_NEARER)
-def _(b: Bench) -> Number:
-    return b.simulate(_nearer(small_fit(b, heavier_b1(b)))).rebound_ratios[0]
-
-
-@FITS.check("V.B2_upper", "e2, B2 on B1", "1.83", where="Sec. V, Fig. 13", reason=_REASON_FIT)
-def _(b: Bench) -> Number:
-    return b.simulate(small_fit(b, b("B1.mass"))).rebound_ratios[1]
-
-
-@FITS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return b.simulate(small_fit(b, heavier_b1(b))).rebound_ratios[1]
-
-
-@FITS.other(_NEARER)
-def _(b: Bench) -> Number:
-    return b.simulate(_nearer(small_fit(b, heavier_b1(b)))).rebound_ratios[1]
-
-
-@FITS.check("V.B3_lower", "e1, B3 on B1", "0.56", reason=_REASON_FIT)
-def _(b: Bench) -> Number:
-    return b.simulate(smallest_fit(b, b("B1.mass"))).rebound_ratios[0]
-
-
-@FITS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return b.simulate(smallest_fit(b, heavier_b1(b))).rebound_ratios[0]
-
-
-@FITS.other(_NEARER)
-def _(b: Bench) -> Number:
-    return b.simulate(_nearer(smallest_fit(b, heavier_b1(b)))).rebound_ratios[0]
-
-
-@FITS.check("V.B3_upper", "e2, B3 on B1", "2.16", reason=_REASON_FIT)
-def _(b: Bench) -> Number:
-    return b.simulate(smallest_fit(b, b("B1.mass"))).rebound_ratios[1]
-
-
-@FITS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return b.simulate(smallest_fit(b, heavier_b1(b))).rebound_ratios[1]
-
-
-@FITS.other(_NEARER)
-def _(b: Bench) -> Number:
-    return b.simulate(_nearer(smallest_fit(b, heavier_b1(b)))).rebound_ratios[1]
+_check_ratio("V.B2_lower", "e1, B2 on B1", "0.24", "Sec. V, Fig. 13", small_fit, 0)
+_check_ratio("V.B2_upper", "e2, B2 on B1", "1.83", "Sec. V, Fig. 13", small_fit, 1)
+_check_ratio("V.B3_lower", "e1, B3 on B1", "0.56", "Sec. V", smallest_fit, 0)
+_check_ratio("V.B3_upper", "e2, B3 on B1", "2.16", "Sec. V", smallest_fit, 1)
 
 
 @CONCLUSION.check("VI.contact", "time in contact while the basketball is on the floor", "23", "ms")

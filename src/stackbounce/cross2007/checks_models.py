@@ -6,13 +6,15 @@ from stackbounce.calibration import separate
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.drops import (
+    Two,
     after_meeting,
-    cut,
+    bisect,
     force_above,
     rigid_pair,
-    solved,
     spring_pair,
+    truncate,
 )
+from stackbounce.cross2007.stacks import stack_masses
 from stackbounce.model.drop import Drop
 from stackbounce.run.result import Result
 
@@ -22,9 +24,14 @@ INTRODUCTION = Section("Sec. I")
 MODELS = Section("Sec. II")
 
 
+def _lossless(b: Bench, masses: Two) -> Result:
+    """Separate collisions of two balls without loss."""
+    return b.simulate(rigid_pair(masses, b("textbook.restitution")))
+
+
 def _usual(b: Bench) -> Result:
     """The usual explanation: a light ball on a much heavier one, no loss."""
-    return b.simulate(rigid_pair((b("textbook.mass_ratio"), 1.0), b("textbook.restitution")))
+    return _lossless(b, (b("textbook.mass_ratio"), 1.0))
 
 
 @INTRODUCTION.check("I.relative", "speed at which the two balls meet, over v", "2")
@@ -43,10 +50,10 @@ def _(b: Bench) -> Number:
     return _usual(b).rebound_ratios[1]
 
 
-@INTRODUCTION.other("basketball and tennis ball, no loss")
-def _(b: Bench) -> Number:
-    masses = b("basketball.mass"), b("tennis.mass")
-    return b.simulate(rigid_pair(masses, b("textbook.restitution"))).rebound_ratios[1]
+INTRODUCTION.other(
+    "basketball and tennis ball, no loss",
+    lambda b: b.simulate(rigid_pair(stack_masses(b), b("textbook.restitution"))).rebound_ratios[1],
+)
 
 
 @INTRODUCTION.check("I.height", "its bounce height over the drop height", "9")
@@ -58,17 +65,19 @@ def _(b: Bench) -> Number:
     "I.tennis_height",
     "tennis ball's bounce off the floor over its drop height",
     "0.55",
-    reason="A usual value, 'about 0.55', beside section III's one bounce, which is 2 % higher. "
-    "It comes nearer if both heights were measured to the ball's centre, a guess.",
+    reason="The printed number is a usual value, 'about 0.55'; section III's one bounce is 2 % "
+    "higher. If both heights were measured to the ball's centre, a guess, the ratio is closer.",
 )
 def _(b: Bench) -> Number:
     return b("tennis.rebound_height") / b("stack.drop_height")
 
 
-@INTRODUCTION.other("with both heights measured to the ball's centre")
-def _(b: Bench) -> Number:
+def _height_ratio_of_centre(b: Bench) -> float:
     radius = b("tennis.diameter") / 2
     return (b("tennis.rebound_height") - radius) / (b("stack.drop_height") - radius)
+
+
+INTRODUCTION.other("with both heights measured to the ball's centre", _height_ratio_of_centre)
 
 
 @INTRODUCTION.check("I.gain", "its energy over that after a bounce off the floor", "16")
@@ -87,7 +96,7 @@ def _stopping_ratio(b: Bench, restitution: float) -> float:
     def lower(ratio: float) -> float:
         return after_meeting(b.simulate(rigid_pair((ratio, 1.0), restitution)), 1)[0]
 
-    return solved(lower, 1.0, 10.0)
+    return bisect(lower, 1.0, 10.0)
 
 
 @MODELS.check("II.stop", "m1/m2 at which the lower mass stops, e = 1", "3")
@@ -131,8 +140,8 @@ def _(b: Bench) -> Number:
 
 
 _CUT = (
-    "Cutting is no rule of the paper, which rounds 1.1886, 2.636, 6.366 and 1.127 to 1.19, 2.64, "
-    "6.37 and 1.13."
+    "In general the paper does not cut off digits: it rounds 1.1886, 2.636, 6.366 and 1.127 to "
+    "1.19, 2.64, 6.37 and 1.13."
 )
 
 
@@ -142,7 +151,7 @@ def _second_stop(b: Bench, restitution: float) -> float:
     def lower(ratio: float) -> float:
         return after_meeting(b.simulate(rigid_pair((ratio, 1.0), restitution)), 2)[0]
 
-    return solved(lower, 0.35, 0.95)
+    return bisect(lower, 0.35, 0.95)
 
 
 @MODELS.check(
@@ -157,14 +166,11 @@ def _(b: Bench) -> Number:
     return _second_stop(b, b("models.lossless"))
 
 
-@MODELS.other("cut off after two digits, not rounded")
-def _(b: Bench) -> Number:
-    return cut(_second_stop(b, b("models.lossless")), 2)
-
-
-@MODELS.other("e = 0.8")
-def _(b: Bench) -> Number:
-    return _second_stop(b, b("models.restitution"))
+MODELS.other(
+    "cut off after two digits, not rounded",
+    lambda b: truncate(_second_stop(b, b("models.lossless")), 2),
+)
+MODELS.other("e = 0.8", lambda b: _second_stop(b, b("models.restitution")))
 
 
 def _more_meetings(b: Bench, restitution: float, count: int) -> float:
@@ -174,7 +180,7 @@ def _more_meetings(b: Bench, restitution: float, count: int) -> float:
         met = int(b.simulate(rigid_pair((ratio, 1.0), restitution)).collisions[1])
         return count - 0.5 - met
 
-    return solved(missing, 0.1, 10.0)
+    return bisect(missing, 0.1, 10.0)
 
 
 @MODELS.check(
@@ -182,15 +188,14 @@ def _more_meetings(b: Bench, restitution: float, count: int) -> float:
     "m1/m2 below which a second ball-ball collision arises, e = 1",
     "m1 < m2",
     number="1",
-    reason="Exact for e = 1; with e = 0.8 it arises a little earlier, which the text leaves out.",
+    reason="Exact for e = 1. With e = 0.8 the threshold is a little higher; the text does not say "
+    "so.",
 )
 def _(b: Bench) -> Number:
     return _more_meetings(b, b("models.lossless"), 2)
 
 
-@MODELS.other("e = 0.8")
-def _(b: Bench) -> Number:
-    return _more_meetings(b, b("models.restitution"), 2)
+MODELS.other("e = 0.8", lambda b: _more_meetings(b, b("models.restitution"), 2))
 
 
 @MODELS.check(
@@ -206,14 +211,12 @@ def _(b: Bench) -> Number:
     return _more_meetings(b, b("models.lossless"), 3)
 
 
-@MODELS.other("e = 1, against 0.4 m2", number="0.4")
-def _(b: Bench) -> Number:
-    return _more_meetings(b, b("models.lossless"), 3)
-
-
-@MODELS.other("e = 0.8, against 0.4 m2", number="0.4")
-def _(b: Bench) -> Number:
-    return _more_meetings(b, b("models.restitution"), 3)
+MODELS.other(
+    "e = 1, against 0.4 m2", lambda b: _more_meetings(b, b("models.lossless"), 3), number="0.4"
+)
+MODELS.other(
+    "e = 0.8, against 0.4 m2", lambda b: _more_meetings(b, b("models.restitution"), 3), number="0.4"
+)
 
 
 def _fig5(b: Bench) -> Result:
@@ -254,29 +257,14 @@ def _slowed(b: Bench, share: float) -> float:
     return float(np.interp(share - 1.0, velocity, times))
 
 
-@MODELS.other("when the upper mass has lost a twentieth of its speed")
-def _(b: Bench) -> Number:
-    return _slowed(b, 0.05)
-
-
-@MODELS.other("when it has lost a tenth")
-def _(b: Bench) -> Number:
-    return _slowed(b, 0.1)
-
-
-@MODELS.other("when it has lost a fifth")
-def _(b: Bench) -> Number:
-    return _slowed(b, 0.2)
-
-
-@MODELS.other("when the ball-ball force exceeds a third of its peak")
-def _(b: Bench) -> Number:
-    return force_above(_fig5(b), 1, 1.0 / 3.0)[0]
-
-
-@MODELS.other("when it exceeds half of its peak")
-def _(b: Bench) -> Number:
-    return force_above(_fig5(b), 1, 0.5)[0]
+MODELS.other("when the upper mass has lost a twentieth of its speed", lambda b: _slowed(b, 0.05))
+MODELS.other("when it has lost a tenth", lambda b: _slowed(b, 0.1))
+MODELS.other("when it has lost a fifth", lambda b: _slowed(b, 0.2))
+MODELS.other(
+    "when the ball-ball force exceeds a third of its peak",
+    lambda b: force_above(_fig5(b), 1, 1.0 / 3.0)[0],
+)
+MODELS.other("when it exceeds half of its peak", lambda b: force_above(_fig5(b), 1, 0.5)[0])
 
 
 @MODELS.check(
@@ -360,9 +348,10 @@ def _(b: Bench) -> Number:
     return b.simulate(_simplest(b)).rebound_speeds[0]
 
 
-@MODELS.other("cut off after two digits, not rounded")
-def _(b: Bench) -> Number:
-    return cut(b.simulate(_simplest(b)).rebound_speeds[0], 2)
+MODELS.other(
+    "cut off after two digits, not rounded",
+    lambda b: truncate(b.simulate(_simplest(b)).rebound_speeds[0], 2),
+)
 
 
 def _ten(b: Bench) -> Drop:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.checks_tables import WITH_105
-from stackbounce.cross2007.drops import Two, rigid_pair, solved
+from stackbounce.cross2007.drops import Two, bisect, rigid_pair
 from stackbounce.cross2007.stacks import heavier_b1, late_pair
 from stackbounce.run.result import Result
 
@@ -27,7 +27,7 @@ def _(b: Bench) -> Number:
     "IV.steel_masses",
     "ratio of the steel balls' masses, as the cube of their diameters' ratio",
     "2.815",
-    reason="The masses were weighed, not computed; the diameters, to 0.1 mm, bear them out.",
+    reason="The masses were weighed, not computed; the diameters, to 0.1 mm, agree with them.",
 )
 def _(b: Bench) -> Number:
     return (b("steel.large_diameter") / b("steel.small_diameter")) ** 3
@@ -75,7 +75,7 @@ def _light_on_heavy(b: Bench, heavy: float) -> Result:
 
 
 _REASON_3_68 = (
-    "Table I's 101 g give less. With the mass ratio that Table II prints the height comes within "
+    "Table I's 101 g give less. With the mass ratio that Table II prints, the height agrees within "
     "the error of that ratio."
 )
 
@@ -85,14 +85,11 @@ def _(b: Bench) -> Number:
     return _light_on_heavy(b, b("B1.mass")).rebound_ratios[1] ** 2
 
 
-@SUPERBALLS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return _light_on_heavy(b, heavier_b1(b)).rebound_ratios[1] ** 2
-
-
-@SUPERBALLS.other("with the printed mass ratio 4.23")
-def _(b: Bench) -> Number:
-    return _apart(b, (b("B2_on_B1.mass_ratio"), 1.0), "fit.restitution").rebound_ratios[1] ** 2
+SUPERBALLS.other(WITH_105, lambda b: _light_on_heavy(b, heavier_b1(b)).rebound_ratios[1] ** 2)
+SUPERBALLS.other(
+    "with the printed mass ratio 4.23",
+    lambda b: _apart(b, (b("B2_on_B1.mass_ratio"), 1.0), "fit.restitution").rebound_ratios[1] ** 2,
+)
 
 
 @SUPERBALLS.check(
@@ -100,15 +97,13 @@ def _(b: Bench) -> Number:
     "B1's bounce under B2, e = 0.90",
     "4",
     "%",
-    reason="With either mass; here the lower ball leaves upward at once.",
+    reason="Both masses of B1 give it. The lower ball leaves upward after one collision.",
 )
 def _(b: Bench) -> Number:
     return _light_on_heavy(b, b("B1.mass")).rebound_ratios[0] ** 2
 
 
-@SUPERBALLS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return _light_on_heavy(b, heavier_b1(b)).rebound_ratios[0] ** 2
+SUPERBALLS.other(WITH_105, lambda b: _light_on_heavy(b, heavier_b1(b)).rebound_ratios[0] ** 2)
 
 
 def _heavy_on_light(b: Bench, heavy: float, restitution: str) -> Result:
@@ -126,37 +121,35 @@ def _(b: Bench) -> Number:
     return _heavy_on_light(b, b("B1.mass"), "fit.restitution").collisions[1]
 
 
-@SUPERBALLS.check(
-    "IV.reversed_apart_B1",
-    "B1's bounce on B2, e = 0.90",
-    "59",
-    "%",
-    reason="Again the heavier B1 fits.",
-)
-def _(b: Bench) -> Number:
-    return _heavy_on_light(b, b("B1.mass"), "fit.restitution").rebound_ratios[1] ** 2
+def _check_reversed(
+    name: str,
+    what: str,
+    printed: str,
+    restitution: str,
+    ball: int,
+    *,
+    number: str = "",
+    reason: str = "Again the heavier B1 fits.",
+) -> None:
+    """Add a bounce height of B1 on B2, separate collisions, with B1 of 101 g and of 105 g."""
+    SUPERBALLS.check(name, what, printed, "%", number=number, reason=reason)(
+        lambda b: _heavy_on_light(b, b("B1.mass"), restitution).rebound_ratios[ball] ** 2
+    )
+    SUPERBALLS.other(
+        WITH_105,
+        lambda b: _heavy_on_light(b, heavier_b1(b), restitution).rebound_ratios[ball] ** 2,
+    )
 
 
-@SUPERBALLS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return _heavy_on_light(b, heavier_b1(b), "fit.restitution").rebound_ratios[1] ** 2
-
-
-@SUPERBALLS.check(
+_check_reversed("IV.reversed_apart_B1", "B1's bounce on B2, e = 0.90", "59", "fit.restitution", 1)
+_check_reversed(
     "IV.reversed_apart_B2",
     "B2's bounce under B1, e = 0.90",
     "essentially zero",
-    "%",
+    "fit.restitution",
+    0,
     number="0",
-    reason="Again the heavier B1 fits.",
 )
-def _(b: Bench) -> Number:
-    return _heavy_on_light(b, b("B1.mass"), "fit.restitution").rebound_ratios[0] ** 2
-
-
-@SUPERBALLS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return _heavy_on_light(b, heavier_b1(b), "fit.restitution").rebound_ratios[0] ** 2
 
 
 @SUPERBALLS.check(
@@ -166,48 +159,36 @@ def _(b: Bench) -> Number:
     return _heavy_on_light(b, b("B1.mass"), "fit.reversed_restitution").collisions[1]
 
 
-@SUPERBALLS.check(
+_check_reversed(
     "IV.better_B1",
     "B1's bounce on B2, e = 0.92",
     "71",
-    "%",
+    "fit.reversed_restitution",
+    1,
     reason="Neither mass of B1 gives 71 %, which is the measured height. It is very sensitive: the "
     "restitution that does give it still rounds to 0.92.",
 )
-def _(b: Bench) -> Number:
-    return _heavy_on_light(b, b("B1.mass"), "fit.reversed_restitution").rebound_ratios[1] ** 2
 
 
-@SUPERBALLS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return _heavy_on_light(b, heavier_b1(b), "fit.reversed_restitution").rebound_ratios[1] ** 2
-
-
-@SUPERBALLS.other("the restitution that gives 71 % " + WITH_105 + ", against 0.92", number="92")
-def _(b: Bench) -> Number:
+def _restitution_for_71(b: Bench) -> float:
+    """Return the restitution with which B1 of 105 g bounces to the measured height on B2."""
     masses = b("B2.mass"), heavier_b1(b)
 
     def excess(restitution: float) -> float:
         upper = float(b.simulate(rigid_pair(masses, restitution)).rebound_ratios[1])
         return upper**2 - b("B1_on_B2.upper_height")
 
-    return solved(excess, 0.8, 1.0)
+    return bisect(excess, 0.8, 1.0)
 
 
-@SUPERBALLS.check(
-    "IV.better_B2",
-    "B2's bounce under B1, e = 0.92",
-    "0.1",
-    "%",
-    reason="Again the heavier B1 fits.",
+SUPERBALLS.other(
+    "the restitution that gives 71 % " + WITH_105 + ", against 0.92",
+    _restitution_for_71,
+    number="92",
 )
-def _(b: Bench) -> Number:
-    return _heavy_on_light(b, b("B1.mass"), "fit.reversed_restitution").rebound_ratios[0] ** 2
-
-
-@SUPERBALLS.other(WITH_105)
-def _(b: Bench) -> Number:
-    return _heavy_on_light(b, heavier_b1(b), "fit.reversed_restitution").rebound_ratios[0] ** 2
+_check_reversed(
+    "IV.better_B2", "B2's bounce under B1, e = 0.92", "0.1", "fit.reversed_restitution", 0
+)
 
 
 def _heavy_on_small(b: Bench, heavy: float) -> Result:
@@ -237,33 +218,32 @@ def _while_meeting(contacts: NDArray[Any]) -> int:
     return int(met[-1] - met[0]) + 1
 
 
-@SUPERBALLS.other("from the first to the last ball-ball collision")
-def _(b: Bench) -> Number:
-    return _while_meeting(_heavy_on_small(b, b("B1.mass")).events["contact"])
+SUPERBALLS.other(
+    "from the first to the last ball-ball collision",
+    lambda b: _while_meeting(_heavy_on_small(b, b("B1.mass")).events["contact"]),
+)
+SUPERBALLS.other(
+    "the same, " + WITH_105,
+    lambda b: _while_meeting(_heavy_on_small(b, heavier_b1(b)).events["contact"]),
+)
+SUPERBALLS.other(
+    "the same, on springs that meet at the measured 7 ms",
+    lambda b: _while_meeting(b.simulate(late_pair(b)).intervals["contact"]),
+)
+SUPERBALLS.other("all, " + WITH_105, lambda b: sum(_heavy_on_small(b, heavier_b1(b)).collisions))
 
 
-@SUPERBALLS.other("the same, " + WITH_105)
-def _(b: Bench) -> Number:
-    return _while_meeting(_heavy_on_small(b, heavier_b1(b)).events["contact"])
-
-
-@SUPERBALLS.other("the same, on springs that meet at the measured 7 ms")
-def _(b: Bench) -> Number:
-    return _while_meeting(b.simulate(late_pair(b)).intervals["contact"])
-
-
-@SUPERBALLS.other("all, " + WITH_105)
-def _(b: Bench) -> Number:
-    return sum(_heavy_on_small(b, heavier_b1(b)).collisions)
-
-
-@SUPERBALLS.other("all, the fewest for two restitutions from 0.10 to 1.00, in steps of 0.05")
-def _(b: Bench) -> Number:
+def _fewest_collisions(b: Bench) -> int:
     masses = b("B3.mass"), b("B1.mass")
     steps = [0.05 * step for step in range(2, 21)]
     drops = [rigid_pair(masses, floor, between=between) for floor in steps for between in steps]
     counts = [b.simulate(drop).collisions for drop in drops]
     return min(sum(one) for one in counts if min(one) >= 0)  # -1 stands for infinitely many
+
+
+SUPERBALLS.other(
+    "all, the fewest for two restitutions from 0.10 to 1.00, in steps of 0.05", _fewest_collisions
+)
 
 
 _RATIO_NOT_HEIGHT = (
@@ -273,93 +253,67 @@ _RATIO_NOT_HEIGHT = (
 )
 
 
-@SUPERBALLS.check(
+def _check_small(name: str, what: str, printed: str, ball: int, reason: str) -> None:
+    """Add a bounce height of B1 on B3, and its velocity ratio as the other reading."""
+    SUPERBALLS.check(name, what, printed, "%", reason=reason + _RATIO_NOT_HEIGHT)(
+        lambda b: _heavy_on_small(b, b("B1.mass")).rebound_ratios[ball] ** 2
+    )
+    SUPERBALLS.other(
+        "the velocity ratio, with B1 = 101 g",
+        lambda b: _heavy_on_small(b, b("B1.mass")).rebound_ratios[ball],
+    )
+    SUPERBALLS.other(
+        "the velocity ratio, " + WITH_105,
+        lambda b: _heavy_on_small(b, heavier_b1(b)).rebound_ratios[ball],
+    )
+
+
+_check_small(
     "IV.small_B1",
     "B1's bounce height on B3, e = 0.88",
     "49",
-    "%",
-    reason="With the heavier B1 the velocity ratio gives the printed number, its square does not. "
-    + _RATIO_NOT_HEIGHT,
+    1,
+    "With the heavier B1 the velocity ratio gives the printed number, its square does not. ",
 )
-def _(b: Bench) -> Number:
-    return _heavy_on_small(b, b("B1.mass")).rebound_ratios[1] ** 2
-
-
-@SUPERBALLS.other("the velocity ratio, with B1 = 101 g")
-def _(b: Bench) -> Number:
-    return _heavy_on_small(b, b("B1.mass")).rebound_ratios[1]
-
-
-@SUPERBALLS.other("the velocity ratio, " + WITH_105)
-def _(b: Bench) -> Number:
-    return _heavy_on_small(b, heavier_b1(b)).rebound_ratios[1]
-
-
-@SUPERBALLS.check(
+_check_small(
     "IV.small_B3",
     "B3's bounce height under B1, e = 0.88",
     "28",
-    "%",
-    reason="Close to the velocity ratio with the heavier B1, not to its square; what remains is "
-    "within the error of the masses, on which this ratio depends strongly. " + _RATIO_NOT_HEIGHT,
+    0,
+    "Close to the velocity ratio with the heavier B1, not to its square; what remains is within "
+    "the error of the masses, on which this ratio depends strongly. ",
 )
-def _(b: Bench) -> Number:
-    return _heavy_on_small(b, b("B1.mass")).rebound_ratios[0] ** 2
 
 
-@SUPERBALLS.other("the velocity ratio, with B1 = 101 g")
-def _(b: Bench) -> Number:
-    return _heavy_on_small(b, b("B1.mass")).rebound_ratios[0]
+def _twins(b: Bench) -> Result:
+    """Two large balls as separate collisions with one restitution."""
+    return _apart(b, (b("B1_on_B1.mass_ratio"), 1.0), "fit.twin_restitution")
 
 
-@SUPERBALLS.other("the velocity ratio, " + WITH_105)
-def _(b: Bench) -> Number:
-    return _heavy_on_small(b, heavier_b1(b)).rebound_ratios[0]
-
-
-def _twins(b: Bench, ratio: float, floor: str, between: str) -> Result:
+def _split_twins(b: Bench, ratio: float) -> Result:
     """Two large balls as separate collisions, each contact with its restitution."""
-    return b.simulate(rigid_pair((ratio, 1.0), b(floor), between=b(between)))
-
-
-def _twins_alike(b: Bench) -> Result:
-    return _twins(b, b("B1_on_B1.mass_ratio"), "fit.twin_restitution", "fit.twin_restitution")
+    drop = rigid_pair((ratio, 1.0), b("fit.twin_floor"), between=b("fit.twin_balls"))
+    return b.simulate(drop)
 
 
 @SUPERBALLS.check("IV.twin_lower", "e1 of two large balls, e = 0.88", "0.75")
 def _(b: Bench) -> Number:
-    return _twins_alike(b).rebound_ratios[0]
+    return _twins(b).rebound_ratios[0]
 
 
 @SUPERBALLS.check("IV.twin_upper", "e2 of two large balls, e = 0.88", "0.80")
 def _(b: Bench) -> Number:
-    return _twins_alike(b).rebound_ratios[1]
+    return _twins(b).rebound_ratios[1]
 
 
-_REASON_TWINS = "The printed value is that of equal balls; these differ by 4 %."
+def _check_split(name: str, what: str, ball: int) -> None:
+    """Add a rebound ratio of two large balls with a loss at the floor only."""
+    reason = "The printed value is that of equal balls; these differ by 4 %."
+    SUPERBALLS.check(name, what, "0.76", reason=reason)(
+        lambda b: _split_twins(b, b("B1_on_B1.mass_ratio")).rebound_ratios[ball]
+    )
+    SUPERBALLS.other("with equal balls", lambda b: _split_twins(b, 1.0).rebound_ratios[ball])
 
 
-@SUPERBALLS.check(
-    "IV.twin_split_lower", "e1, floor 0.76, ball-ball 1.0", "0.76", reason=_REASON_TWINS
-)
-def _(b: Bench) -> Number:
-    ratio = b("B1_on_B1.mass_ratio")
-    return _twins(b, ratio, "fit.twin_floor", "fit.twin_balls").rebound_ratios[0]
-
-
-@SUPERBALLS.other("with equal balls")
-def _(b: Bench) -> Number:
-    return _twins(b, 1.0, "fit.twin_floor", "fit.twin_balls").rebound_ratios[0]
-
-
-@SUPERBALLS.check(
-    "IV.twin_split_upper", "e2, floor 0.76, ball-ball 1.0", "0.76", reason=_REASON_TWINS
-)
-def _(b: Bench) -> Number:
-    ratio = b("B1_on_B1.mass_ratio")
-    return _twins(b, ratio, "fit.twin_floor", "fit.twin_balls").rebound_ratios[1]
-
-
-@SUPERBALLS.other("with equal balls")
-def _(b: Bench) -> Number:
-    return _twins(b, 1.0, "fit.twin_floor", "fit.twin_balls").rebound_ratios[1]
+_check_split("IV.twin_split_lower", "e1, floor 0.76, ball-ball 1.0", 0)
+_check_split("IV.twin_split_upper", "e2, floor 0.76, ball-ball 1.0", 1)

@@ -1,6 +1,5 @@
 """The audit's checks of Tables I and II."""
 
-from collections.abc import Callable
 from math import pi
 
 from stackbounce.cross2007.bench import Bench
@@ -14,7 +13,7 @@ TABLE_ONE = Section("Table I")
 TABLE_TWO = Section("Table II")
 
 WITH_105 = "with B1 = 1.040 x 101 g = 105 g"
-"""The reading of the large ball's mass that Table II's own ratios ask for."""
+"""The reading of the large ball's mass that follows from Table II's mass ratios."""
 
 RATIOS = {
     "B2_on_B1": "4.23",
@@ -37,46 +36,40 @@ HEIGHTS = {
 """Table II's h1/h0 and h2/h0 as printed, by upper and lower ball."""
 
 
-def _stiffness(ball: str) -> Callable[[Bench], float]:
-    def stiffness(b: Bench) -> float:
-        return b(f"{ball}.mass") * (pi / b(f"{ball}.contact_time")) ** 2
-
-    return stiffness
-
-
-for _ball, _number in (("B1", "5.4e4"), ("B2", "3.6e4"), ("B3", "2.3e4")):
-    TABLE_ONE.check(f"T1.{_ball}", f"dynamic stiffness of {_ball}", _number, "N/m")(
-        _stiffness(_ball)
+def _check_stiffness(ball: str, printed: str) -> None:
+    TABLE_ONE.check(f"T1.{ball}", f"dynamic stiffness of {ball}", printed, "N/m")(
+        lambda b: b(f"{ball}.mass") * (pi / b(f"{ball}.contact_time")) ** 2
     )
 
 
-def _ratio(lower: str, upper: str) -> Callable[[Bench], float]:
-    def ratio(b: Bench) -> float:
-        return b(f"{lower}.mass") / b(f"{upper}.mass")
-
-    return ratio
-
-
-def _ratio_with_105(lower: str, upper: str) -> Callable[[Bench], float]:
-    def ratio(b: Bench) -> float:
-        masses = [heavier_b1(b) if ball == "B1" else b(f"{ball}.mass") for ball in (lower, upper)]
-        return masses[0] / masses[1]
-
-    return ratio
+_check_stiffness("B1", "5.4e4")
+_check_stiffness("B2", "3.6e4")
+_check_stiffness("B3", "2.3e4")
 
 
 _REASON_MASS = (
     "Table I's 101 g do not give this ratio. Table II has two balls B1 whose masses are as 1.040 "
-    "to 1: if 101 g is the lighter one's, the heavier one has 105 g, and that ball gives it. One "
-    "mass, chosen freely, so brings five numbers in line: these four ratios and 1.040."
+    "to 1: if the lighter one has 101 g, the heavier one has 105 g, and that ball gives the ratio. "
+    "One freely chosen mass thus explains five numbers: these four ratios and 1.040."
 )
 
-for _pair in ("B2_on_B1", "B1_on_B2", "B3_on_B1", "B1_on_B3"):
-    _upper, _lower = _pair.split("_on_")
+
+def _mass_with_105(b: Bench, ball: str) -> float:
+    return heavier_b1(b) if ball == "B1" else b(f"{ball}.mass")
+
+
+def _check_mass_ratio(upper: str, lower: str) -> None:
+    pair = f"{upper}_on_{lower}"
     TABLE_TWO.check(
-        f"T2.{_pair}.ratio", f"m1/m2, {_upper} on {_lower}", RATIOS[_pair], reason=_REASON_MASS
-    )(_ratio(_lower, _upper))
-    TABLE_TWO.other(WITH_105)(_ratio_with_105(_lower, _upper))
+        f"T2.{pair}.ratio", f"m1/m2, {upper} on {lower}", RATIOS[pair], reason=_REASON_MASS
+    )(lambda b: b(f"{lower}.mass") / b(f"{upper}.mass"))
+    TABLE_TWO.other(WITH_105, lambda b: _mass_with_105(b, lower) / _mass_with_105(b, upper))
+
+
+_check_mass_ratio("B2", "B1")
+_check_mass_ratio("B1", "B2")
+_check_mass_ratio("B3", "B1")
+_check_mass_ratio("B1", "B3")
 
 
 @TABLE_TWO.check(
@@ -85,17 +78,19 @@ for _pair in ("B2_on_B1", "B1_on_B2", "B3_on_B1", "B1_on_B3"):
     RATIOS["B1_on_B1"],
     reason="Table I lists one mass for two balls. If the heavier one is below B2 in the table's "
     "first row and 101 g is the lighter one's, the ratio follows as closely as the masses are "
-    "printed. It is no independent check: 4.23 and 1.040 explain each other.",
+    "printed. It is not an independent check: 4.23 and 1.040 follow from each other.",
 )
 def _(b: Bench) -> Number:
     return b("B2_on_B1.mass_ratio") * b("B2.mass") / b("B1.mass")
 
 
-TABLE_TWO.check(
+@TABLE_TWO.check(
     "T2.tennis_on_basketball.ratio",
     "m1/m2, tennis ball on basketball",
     RATIOS["tennis_on_basketball"],
-)(_ratio("basketball", "tennis"))
+)
+def _(b: Bench) -> Number:
+    return b("basketball.mass") / b("tennis.mass")
 
 
 @TABLE_TWO.check(
@@ -109,14 +104,16 @@ def _(b: Bench) -> Number:
     return b("stack.lower_speed") / b("stack.impact_speed")
 
 
-@TABLE_TWO.other("from a bounce of 0.01 m")
-def _(b: Bench) -> Number:
-    return fallen_speed(b("stack.lower_height")) / b("stack.impact_speed")
+TABLE_TWO.other(
+    "from a bounce of 0.01 m",
+    lambda b: fallen_speed(b("stack.lower_height")) / b("stack.impact_speed"),
+)
 
 
-@TABLE_TWO.other("from a bounce of 0.02 m")
-def _(b: Bench) -> Number:
-    return fallen_speed(b("stack.lower_height") + 0.01) / b("stack.impact_speed")
+TABLE_TWO.other(
+    "from a bounce of 0.02 m",
+    lambda b: fallen_speed(b("stack.lower_height") + 0.01) / b("stack.impact_speed"),
+)
 
 
 @TABLE_TWO.check("T2.tennis_on_basketball.upper", "e2, tennis ball on basketball", "1.64")
@@ -124,26 +121,24 @@ def _(b: Bench) -> Number:
     return b("stack.upper_speed") / b("stack.impact_speed")
 
 
-def _square(key: str) -> Callable[[Bench], float]:
-    def square(b: Bench) -> float:
-        return b(key) ** 2
-
-    return square
-
-
 _REASON_SQUARE = (
     "0.17 squared is 0.029. Within the error of 0.02 the two agree; a mean of squares over unequal "
     "bounces also lies above the square of the mean."
 )
 
-for _pair, _printed in HEIGHTS.items():
-    for _symbol, _ball, _height in zip(("h1", "h2"), ("lower", "upper"), _printed, strict=True):
-        TABLE_TWO.check(
-            f"T2.{_pair}.{_ball}_height",
-            f"{_symbol}/h0 as a square, {_pair.replace('_', ' ')}",
-            _height,
-            reason=_REASON_SQUARE if _height == "0.033" else "",
-        )(_square(f"{_pair}.{_ball}"))
+
+def _check_square(pair: str, symbol: str, ball: str, printed: str) -> None:
+    TABLE_TWO.check(
+        f"T2.{pair}.{ball}_height",
+        f"{symbol}/h0 as a square, {pair.replace('_', ' ')}",
+        printed,
+        reason=_REASON_SQUARE if printed == "0.033" else "",
+    )(lambda b: b(f"{pair}.{ball}") ** 2)
+
+
+for _pair, (_lower, _upper) in HEIGHTS.items():
+    _check_square(_pair, "h1", "lower", _lower)
+    _check_square(_pair, "h2", "upper", _upper)
 
 
 _REASON_SIXTY_THREE = (
@@ -168,14 +163,12 @@ def _(b: Bench) -> Number:
     return b("stack.lower_height") / b("stack.drop_height")
 
 
-@TABLE_TWO.other("with a fall of 0.63 m")
-def _(b: Bench) -> Number:
-    return b("stack.lower_height") / _fall_to_bottom(b)
+TABLE_TWO.other("with a fall of 0.63 m", lambda b: b("stack.lower_height") / _fall_to_bottom(b))
 
 
-@TABLE_TWO.other("with a bounce of 0.02 m")
-def _(b: Bench) -> Number:
-    return (b("stack.lower_height") + 0.01) / b("stack.drop_height")
+TABLE_TWO.other(
+    "with a bounce of 0.02 m", lambda b: (b("stack.lower_height") + 0.01) / b("stack.drop_height")
+)
 
 
 @TABLE_TWO.check(
@@ -188,6 +181,4 @@ def _(b: Bench) -> Number:
     return b("stack.upper_height") / b("stack.drop_height")
 
 
-@TABLE_TWO.other("with a fall of 0.63 m")
-def _(b: Bench) -> Number:
-    return b("stack.upper_height") / _fall_to_bottom(b)
+TABLE_TWO.other("with a fall of 0.63 m", lambda b: b("stack.upper_height") / _fall_to_bottom(b))

@@ -1,4 +1,4 @@
-"""The curves of the paper's figures, as numbers: every value from the library's solver."""
+"""The curves of the paper's figures as arrays, computed by the library's solver."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from stackbounce.cross2007.drops import Array, after_meeting, rigid_pair, spring
 from stackbounce.model.drop import Drop
 from stackbounce.run.result import Result
 
-__all__ = ["Array", "after_collision", "forces", "rebound_by_mass", "rebound_by_stiffness"]
+__all__ = ["Array", "after_collision", "rebound_by_mass", "rebound_by_stiffness", "sample_forces"]
 
 
 def after_collision(bench: Bench, ratios: Array, restitution: float, count: int) -> Array:
@@ -16,7 +16,7 @@ def after_collision(bench: Bench, ratios: Array, restitution: float, count: int)
     Parameters
     ----------
     bench : Bench
-        Where the drops are simulated.
+        Simulates the drops.
     ratios : ndarray
         (R,) mass ratios m1/m2.
     restitution : float
@@ -45,7 +45,7 @@ def rebound_by_stiffness(bench: Bench, mass_ratio: float, ratios: Array) -> Arra
     return np.array([bench.simulate(drop).rebound_ratios for drop in drops]).T
 
 
-def forces(bench: Bench, drop: Drop, times: Array) -> tuple[Array, Result]:
+def sample_forces(bench: Bench, drop: Drop, times: Array) -> tuple[Array, Result]:
     """Return the forces at floor and between the balls in N, (2, T), and the drop's result."""
     result = bench.simulate(drop)
     return np.asarray(result.sample(times)["force"].values), result

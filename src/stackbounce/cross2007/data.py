@@ -1,10 +1,11 @@
-"""The paper's data: every number that an audit row, a table or a figure starts from.
+"""The paper's data: all input numbers of the audit, the tables and the figures.
 
-Values are in SI units. ``printed`` is the number as the paper gives it, ``spread`` the error that
-the paper states for it or, where it states none or a finer one than its digits can show, half a
-unit in the last printed digit. A spread of 0 marks a number that the paper sets for a calculation:
-Fig. 5's masses and springs, and the restitutions that it puts into eqs 1 to 4. Some of those come
-from a fit; where their rounding matters (71 % with e = 0.92), the audit's row says so.
+Values are in SI units. ``printed`` is the number as the paper gives it. ``spread`` is the error
+that the paper states, or half a unit in the last printed digit if that is larger or no error is
+stated.
+A spread of 0 marks a number that the paper chooses for a calculation: Fig. 5's masses and springs,
+and the restitutions in eqs 1 to 4. Some of these come from a fit; the audit's row says so if their
+rounding matters (71 % with e = 0.92).
 """
 
 from collections.abc import Mapping
@@ -57,9 +58,9 @@ def changed(data: Data, key: str, factor: float) -> Data:
     data : mapping of str to Input
         The data to start from.
     key : str
-        Which number.
+        The number to change.
     factor : float
-        What to multiply it by.
+        The factor.
 
     Returns
     -------
@@ -102,7 +103,9 @@ _MODELS = _table(
     ("models.speed", "1 m/s", 1.0, "m/s", 0.0, "impact speed of the simplest case"),
     ("models.mass_ratio", "m1/m2 = 10", 10.0, "", 0.0, "mass ratio of the comparison"),
     ("models.stiffness_ratio", "r_k = 1", 1.0, "", 0.0, "stiffness ratio of the comparison"),
-) | _table(
+)
+
+_FIGURE_5 = _table(
     "Fig. 5",
     ("fig5.lower_mass", "0.4 kg", 0.4, "kg", 0.0, "m1"),
     ("fig5.upper_mass", "0.2 kg", 0.2, "kg", 0.0, "m2"),
@@ -110,75 +113,47 @@ _MODELS = _table(
     ("fig5.ball_stiffness", "5e3 N/m", 5e3, "N/m", 0.0, "k2"),
 )
 
-_BASKETBALL = (
-    _table(
-        "Sec. III",
-        ("basketball.mass", "150 g", 0.150, "kg", 0.5e-3, "basketball's mass"),
-        ("basketball.diameter", "160 mm", 0.160, "m", 0.5e-3, "basketball's diameter"),
-        ("tennis.mass", "57 g", 0.057, "kg", 0.5e-3, "tennis ball's mass"),
-        ("tennis.diameter", "66 mm", 0.066, "m", 0.5e-3, "tennis ball's diameter"),
-        ("stack.drop_height", "0.71 m", 0.71, "m", 0.005, "drop height"),
-        (
-            "basketball.rebound_height",
-            "0.42 m",
-            0.42,
-            "m",
-            0.005,
-            "basketball's bounce, dropped alone",
-        ),
-        (
-            "tennis.rebound_height",
-            "0.40 m",
-            0.40,
-            "m",
-            0.005,
-            "tennis ball's bounce, dropped alone",
-        ),
-        (
-            "stack.lower_height",
-            "0.01 m",
-            0.01,
-            "m",
-            0.005,
-            "basketball's bounce under the tennis ball",
-        ),
-        ("stack.upper_height", "1.72 m", 1.72, "m", 0.03, "tennis ball's bounce on the basketball"),
-        ("stack.impact_speed", "3.53 m/s", 3.53, "m/s", 0.005, "impact speed v0"),
-        ("stack.upper_speed", "5.8 m/s", 5.8, "m/s", 0.05, "tennis ball's rebound speed"),
-        ("stack.lower_speed", "0.44 m/s", 0.44, "m/s", 0.005, "basketball's rebound speed"),
-        ("stack.lossless", "e = 1", 1.0, "", 0.0, "restitution of the lossless estimate"),
-        ("stack.restitution", "e = 0.9", 0.9, "", 0.0, "restitution of the estimate with loss"),
-        ("stack.duration", "30 ms", 0.030, "s", 0.5e-3, "measured impact duration"),
-        ("stack.delay", "7 ms", 0.007, "s", 0.5e-3, "measured time without a ball-ball force"),
-        (
-            "stack.gap",
-            "2 mm",
-            0.002,
-            "m",
-            0.5e-3,
-            "largest separation of the two balls in the fall",
-        ),
-        ("tennis.contact_time", "5.0 ms", 0.0050, "s", 0.05e-3, "tennis ball's impact duration"),
-        ("fig8.drop_height", "30 cm", 0.30, "m", 0.005, "drop height of the force measurement"),
-    )
-    | _table(
-        "Fig. 7, text",
-        ("static.force", "30 N", 30.0, "N", 0.5, "press force"),
-        ("static.basketball", "18.6 mm", 18.6e-3, "m", 0.05e-3, "basketball's compression"),
-        ("static.tennis", "2.9 mm", 2.9e-3, "m", 0.05e-3, "tennis ball's compression"),
-        ("static.both", "27.7 mm", 27.7e-3, "m", 0.05e-3, "compression of both, one on the other"),
-        ("static.stiffness_ratio", "1.8", 1.8, "", 0.05, "k1/k2 under static load"),
-    )
-    | _table(
-        "Fig. 9",
-        ("fig9.floor_stiffness", "2500 N/m", 2500.0, "N/m", 0.5, "k1 of the better fit"),
-        ("fig9.ball_stiffness", "1000 N/m", 1000.0, "N/m", 0.5, "k2 of the better fit"),
-        ("fig9.other_floor_stiffness", "2000 N/m", 2000.0, "N/m", 0.5, "k1 of the alternative"),
-        ("fig9.other_ball_stiffness", "500 N/m", 500.0, "N/m", 0.5, "k2 of the alternative"),
-    )
+_BASKETBALL = _table(
+    "Sec. III",
+    ("basketball.mass", "150 g", 0.150, "kg", 0.5e-3, "basketball's mass"),
+    ("basketball.diameter", "160 mm", 0.160, "m", 0.5e-3, "basketball's diameter"),
+    ("tennis.mass", "57 g", 0.057, "kg", 0.5e-3, "tennis ball's mass"),
+    ("tennis.diameter", "66 mm", 0.066, "m", 0.5e-3, "tennis ball's diameter"),
+    ("stack.drop_height", "0.71 m", 0.71, "m", 0.005, "drop height"),
+    ("basketball.rebound_height", "0.42 m", 0.42, "m", 0.005, "basketball's bounce, dropped alone"),
+    ("tennis.rebound_height", "0.40 m", 0.40, "m", 0.005, "tennis ball's bounce, dropped alone"),
+    ("stack.lower_height", "0.01 m", 0.01, "m", 0.005, "basketball's bounce under the tennis ball"),
+    ("stack.upper_height", "1.72 m", 1.72, "m", 0.03, "tennis ball's bounce on the basketball"),
+    ("stack.impact_speed", "3.53 m/s", 3.53, "m/s", 0.005, "impact speed v0"),
+    ("stack.upper_speed", "5.8 m/s", 5.8, "m/s", 0.05, "tennis ball's rebound speed"),
+    ("stack.lower_speed", "0.44 m/s", 0.44, "m/s", 0.005, "basketball's rebound speed"),
+    ("stack.lossless", "e = 1", 1.0, "", 0.0, "restitution of the lossless estimate"),
+    ("stack.restitution", "e = 0.9", 0.9, "", 0.0, "restitution of the estimate with loss"),
+    ("stack.duration", "30 ms", 0.030, "s", 0.5e-3, "measured impact duration"),
+    ("stack.delay", "7 ms", 0.007, "s", 0.5e-3, "measured time without a ball-ball force"),
+    ("stack.gap", "2 mm", 0.002, "m", 0.5e-3, "largest separation of the two balls in the fall"),
+    ("tennis.contact_time", "5.0 ms", 0.0050, "s", 0.05e-3, "tennis ball's impact duration"),
+    ("fig8.drop_height", "30 cm", 0.30, "m", 0.005, "drop height of the force measurement"),
 )
 
-_SUPERBALLS = _table(
+_STATIC_PRESS = _table(
+    "Fig. 7, text",
+    ("static.force", "30 N", 30.0, "N", 0.5, "press force"),
+    ("static.basketball", "18.6 mm", 18.6e-3, "m", 0.05e-3, "basketball's compression"),
+    ("static.tennis", "2.9 mm", 2.9e-3, "m", 0.05e-3, "tennis ball's compression"),
+    ("static.both", "27.7 mm", 27.7e-3, "m", 0.05e-3, "compression of both, one on the other"),
+    ("static.stiffness_ratio", "1.8", 1.8, "", 0.05, "k1/k2 under static load"),
+)
+
+_FIGURE_9 = _table(
+    "Fig. 9",
+    ("fig9.floor_stiffness", "2500 N/m", 2500.0, "N/m", 0.5, "k1 of the better fit"),
+    ("fig9.ball_stiffness", "1000 N/m", 1000.0, "N/m", 0.5, "k2 of the better fit"),
+    ("fig9.other_floor_stiffness", "2000 N/m", 2000.0, "N/m", 0.5, "k1 of the alternative"),
+    ("fig9.other_ball_stiffness", "500 N/m", 500.0, "N/m", 0.5, "k2 of the alternative"),
+)
+
+_TABLE_ONE = _table(
     "Table I",
     ("B1.diameter", "58 mm", 58e-3, "m", 0.5e-3, "large superball's diameter"),
     ("B2.diameter", "38 mm", 38e-3, "m", 0.5e-3, "middle superball's diameter"),
@@ -196,7 +171,9 @@ _SUPERBALLS = _table(
     ("B1.dynamic_stiffness", "5.4e4 N/m", 5.4e4, "N/m", 500.0, "B1's dynamic stiffness"),
     ("B2.dynamic_stiffness", "3.6e4 N/m", 3.6e4, "N/m", 500.0, "B2's dynamic stiffness"),
     ("B3.dynamic_stiffness", "2.3e4 N/m", 2.3e4, "N/m", 500.0, "B3's dynamic stiffness"),
-) | _table(
+)
+
+_SUPERBALLS = _table(
     "Sec. IV",
     ("steel.large_diameter", "38.1 mm", 38.1e-3, "m", 0.05e-3, "larger steel ball's diameter"),
     ("steel.small_diameter", "27.0 mm", 27.0e-3, "m", 0.05e-3, "smaller steel ball's diameter"),
@@ -250,6 +227,15 @@ _FITS = _table(
 )
 
 PAPER: Data = MappingProxyType(
-    _INTRODUCTION | _MODELS | _BASKETBALL | _SUPERBALLS | _TABLE_TWO | _FITS
+    _INTRODUCTION
+    | _MODELS
+    | _FIGURE_5
+    | _BASKETBALL
+    | _STATIC_PRESS
+    | _FIGURE_9
+    | _TABLE_ONE
+    | _SUPERBALLS
+    | _TABLE_TWO
+    | _FITS
 )
 """The paper's numbers by key, in the order of the paper."""

@@ -1,9 +1,9 @@
-"""The paper's measurements, ready to be fitted: ``stackbounce fit cross2007/B1-B2``.
+"""The paper's measurements as data sets for a fit: ``stackbounce fit cross2007/B1-B2``.
 
-A pair is named as in Table II, the bottom ball first. Where the paper states no error for what it
-read off a force record, half a unit in the last digit is taken, and a tenth of a millisecond at
-least, the error that it states for impact durations. Force records and films were not of the same
-drops: times go with the ratios only as far as one drop is like another.
+A pair is named as in Table II, the bottom ball first. The error of a time from a force record is
+half a unit in the last digit, but at least 0.1 ms, the error that the paper states for impact
+durations. The force records and the films are of different drops, so that times and ratios belong
+together only as far as the drops were equal.
 """
 
 from collections.abc import Callable
@@ -16,7 +16,7 @@ from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.errors import InvalidValue, nearest
 from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring
 
-__all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "pair"]
+__all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "load_dataset", "load_pair"]
 
 PREFIX = "cross2007/"
 """What a data set's name begins with on the command line."""
@@ -28,18 +28,18 @@ _WIDEST = 0.03  # m
 
 
 class DataSet(NamedTuple):
-    """A measurement of the paper, and what is varied in its drop unless something else is told.
+    """A measurement of the paper, with its drop and the numbers that a fit varies by default.
 
     Parameters
     ----------
     drop : Drop
-        What was dropped.
+        The drop.
     data : dict
-        What was measured, as `stackbounce.fit` takes it.
+        The measured values, as `stackbounce.fit` takes them.
     vary : dict
-        What is varied.
+        The numbers that are varied, with their bounds.
     what : str
-        Where the paper has it.
+        The place in the paper.
     """
 
     drop: Drop
@@ -48,7 +48,7 @@ class DataSet(NamedTuple):
     what: str
 
 
-def dataset(name: str) -> DataSet:
+def load_dataset(name: str) -> DataSet:
     """Return a measurement of the paper.
 
     Parameters
@@ -59,8 +59,8 @@ def dataset(name: str) -> DataSet:
     Returns
     -------
     DataSet
-        The contacts are section V's: the floor's is linear and loses energy as the lower ball
-        alone does, the one between the balls is a spring.
+        The contacts are those of section V: a linear hysteretic one at the floor, with the
+        restitution of the lower ball alone, and a spring between the balls.
 
     Raises
     ------
@@ -70,7 +70,7 @@ def dataset(name: str) -> DataSet:
     Examples
     --------
     >>> import stackbounce as sb
-    >>> drop, data, vary, what = dataset("B1-B2")
+    >>> drop, data, vary, what = load_dataset("B1-B2")
     >>> data["rebound_ratios"]
     [(0.28, 0.02), (1.91, 0.02)]
     >>> sb.fit(drop, data, vary).names
@@ -82,18 +82,21 @@ def dataset(name: str) -> DataSet:
     return _MADE[short]()
 
 
-def pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
-    """Return two of the superballs with section V's contacts, and what Table II has of them.
+dataset = load_dataset  # the name in earlier releases
+
+
+def load_pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
+    """Return a pair of superballs with section V's contacts, and its row of Table II.
 
     Parameters
     ----------
     lower, upper : str
-        ``"B1"``, ``"B2"`` or ``"B3"``. B1 has 105 g, as Table II's mass ratios of 4.23 and 12.3
-        ask for; on another B1 the upper one has Table I's 101 g.
+        ``"B1"``, ``"B2"`` or ``"B3"``. B1 has 105 g, from Table II's mass ratios of 4.23 and 12.3.
+        In the pair of two balls B1 the upper one has Table I's 101 g.
 
     Examples
     --------
-    >>> drop, data = pair("B1", "B1")
+    >>> drop, data = load_pair("B1", "B1")
     >>> [round(ball.mass, 5) for ball in drop.balls]
     [0.10504, 0.101]
     """
@@ -114,7 +117,7 @@ def pair(lower: str, upper: str) -> tuple[Drop, dict[str, Any]]:
 
 
 def _times(key: str) -> dict[str, Any]:
-    """Return the delay, the duration and the counts that the text has of a pair of superballs."""
+    """Return the delay, the duration and the counts that the text states for a pair."""
     delay, late = _known("superballs.delay"), _known("superballs.late_delay")
     short, long = _known("B2_on_B1.duration"), _known("B1_on_B2.duration")
     found: dict[str, dict[str, Any]] = {
@@ -128,7 +131,7 @@ def _times(key: str) -> dict[str, Any]:
 
 
 def _pair(lower: str, upper: str) -> DataSet:
-    drop, data = pair(lower, upper)
+    drop, data = load_pair(lower, upper)
     vary = {
         "contacts.0.stiffness": _STIFF,
         "contacts.1.stiffness": _STIFF,

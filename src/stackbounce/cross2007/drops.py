@@ -1,6 +1,6 @@
-"""Drops of two balls, and what is read off their results.
+"""Drops of two balls, and quantities that are computed from their results.
 
-Lower ball first everywhere, as in the library: masses (m1, m2), contacts (floor, ball-ball).
+The lower ball comes first, as in the library: masses (m1, m2), contacts (floor, ball-ball).
 """
 
 import math
@@ -11,23 +11,22 @@ from numpy.typing import NDArray
 
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
-from stackbounce.model.laws import ContactLaw, Hysteretic, Rigid, Spring
+from stackbounce.model.laws import ContactLaw, Rigid, Spring
 from stackbounce.run.result import Result
 
 __all__ = [
     "Array",
     "Two",
     "after_meeting",
-    "cut",
+    "bisect",
     "fallen_speed",
     "force_above",
-    "hysteretic_pair",
     "pair",
     "peak_times",
     "rigid_pair",
     "risen_height",
-    "solved",
     "spring_pair",
+    "truncate",
 ]
 
 Two = tuple[float, float]
@@ -35,7 +34,7 @@ Array = NDArray[np.float64]
 
 
 def pair(masses: Two, contacts: Sequence[ContactLaw], *, speed: float, gap: float = 0.0) -> Drop:
-    """Return the drop of two balls that come down together."""
+    """Return the drop of two balls that fall with the same speed."""
     return Drop([Ball(mass) for mass in masses], contacts, gaps=[gap], impact_speed=speed)
 
 
@@ -50,14 +49,6 @@ def rigid_pair(
 def spring_pair(masses: Two, stiffnesses: Two, *, speed: float = 1.0, gap: float = 0.0) -> Drop:
     """Return a drop with a simultaneous collision without loss (eqs 5 and 6)."""
     return pair(masses, [Spring(one) for one in stiffnesses], speed=speed, gap=gap)
-
-
-def hysteretic_pair(
-    masses: Two, stiffnesses: Two, exponent: float, *, speed: float, gap: float
-) -> Drop:
-    """Return section V's drop: the floor's contact loses energy, the one between the balls none."""
-    floor = Hysteretic(stiffnesses[0], unloading_exponent=exponent)
-    return pair(masses, [floor, Spring(stiffnesses[1])], speed=speed, gap=gap)
 
 
 def after_meeting(result: Result, count: int) -> Two:
@@ -91,19 +82,19 @@ def peak_times(result: Result, contact: int, end: float) -> Array:
     return peaks
 
 
-def cut(value: float, digits: int) -> float:
-    """Return a number with all decimals after the first `digits` cut off, not rounded.
+def truncate(value: float, digits: int) -> float:
+    """Return a number truncated, not rounded, after `digits` decimals.
 
     Examples
     --------
-    >>> cut(0.528, 2), cut(-1.19, 1)
+    >>> truncate(0.528, 2), truncate(-1.19, 1)
     (0.52, -1.1)
     """
     return math.trunc(value * 10.0**digits) / 10.0**digits
 
 
 def fallen_speed(height: float) -> float:
-    """Return the speed in m/s after a fall from rest, by the library's own rule."""
+    """Return the speed in m/s after a fall from rest, as `Drop` computes it."""
     return Drop([Ball(1.0)], [Rigid(1.0)], height=height).reference_speed
 
 
@@ -112,14 +103,14 @@ def risen_height(speed: float) -> float:
     return speed**2 / (2.0 * STANDARD_GRAVITY)
 
 
-def solved(function: Callable[[float], float], low: float, high: float) -> float:
+def bisect(function: Callable[[float], float], low: float, high: float) -> float:
     """Return where a function changes sign between `low` and `high`, by bisection.
 
-    A function that jumps is followed to its jump. The result is as exact as floats allow.
+    For a discontinuous function this is a jump. The result is exact to the last digit of a float.
 
     Examples
     --------
-    >>> round(solved(lambda x: x * x - 2.0, 0.0, 2.0), 12)
+    >>> round(bisect(lambda x: x * x - 2.0, 0.0, 2.0), 12)
     1.414213562373
     """
     rising = function(high) > 0.0

@@ -4,18 +4,27 @@ import numpy as np
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.drops import fallen_speed, force_above, spring_pair
+from stackbounce.cross2007.force_panels import draw_one_panel, draw_two_panels, format_ms
 from stackbounce.cross2007.stacks import better_fit, stack_masses
-from stackbounce.cross2007.style import BLACK, FLOOR, UPPER, Feature, Picture, axes, bracket, note
-from stackbounce.cross2007.waveforms import in_ms, one_panel, two_panels
+from stackbounce.cross2007.style import (
+    BLACK,
+    FLOOR,
+    UPPER,
+    Feature,
+    Picture,
+    bracket,
+    make_axes,
+    note,
+)
 
-__all__ = ["figure_7", "figure_8", "figure_9"]
+__all__ = ["draw_figure_7", "draw_figure_8", "draw_figure_9"]
 
 _POINTS = 401
 
 
-def figure_7(bench: Bench) -> Picture:
-    """Return force against compression, from the points that the text gives."""
-    figure, (ax,) = axes()
+def draw_figure_7(bench: Bench) -> Picture:
+    """Draw force against compression, from the points that the text gives."""
+    figure, (ax,) = make_axes()
     force = bench("static.force")
     for key, text, color, place in (
         ("static.tennis", "tennis ball", UPPER, (0.4, 29.0)),
@@ -42,17 +51,17 @@ def figure_7(bench: Bench) -> Picture:
     )
 
 
-def figure_8(bench: Bench) -> Picture:
-    """Return the forces of tennis ball and basketball dropped from 30 cm."""
+def draw_figure_8(bench: Bench) -> Picture:
+    """Draw the forces of tennis ball and basketball dropped from 30 cm."""
     masses = stack_masses(bench)
     stiffnesses = bench("fig9.floor_stiffness"), bench("fig9.ball_stiffness")
     speed = fallen_speed(bench("fig8.drop_height"))
     together = spring_pair(masses, stiffnesses, speed=speed)
     apart = spring_pair(masses, stiffnesses, speed=speed, gap=bench("stack.gap"))
-    figure, panels = axes(4.2, 2)
+    figure, panels = make_axes(4.2, 2)
     times = np.linspace(0.0, 0.040, _POINTS)
-    result = two_panels(bench, panels, together, times)
-    late = two_panels(bench, panels, apart, times, dashed=True)
+    result = draw_two_panels(bench, panels, together, times)
+    late = draw_two_panels(bench, panels, apart, times, dashed=True)
     duration, quiet = bench("stack.duration"), bench("stack.delay")
     bracket(panels[0], 0.0, 1e3 * duration, f"measured: {1e3 * duration:.0f} ms on the floor")
     bracket(panels[1], 0.0, 1e3 * quiet, f"measured: no force for {1e3 * quiet:.0f} ms")
@@ -68,22 +77,24 @@ def figure_8(bench: Bench) -> Picture:
             "The measured floor signal's two peaks are left out: the text calls them spurious.",
         ),
         (
-            Feature("floor force ends", "30 ms", in_ms(result.last_release[0])),
-            Feature("balls touch, 2 mm apart", "7 ms", in_ms(late.first_touch[1])),
+            Feature("floor force ends", "30 ms", format_ms(result.last_release[0])),
+            Feature("balls touch, 2 mm apart", "7 ms", format_ms(late.first_touch[1])),
             Feature(
                 "3 % of the ball-ball peak, touching",
                 "7 ms",
-                in_ms(force_above(result, 1, 0.03)[0]),
+                format_ms(force_above(result, 1, 0.03)[0]),
             ),
         ),
         figure,
     )
 
 
-def figure_9(bench: Bench) -> Picture:
-    """Return the two-spring solution that the paper sets beside Fig. 8."""
-    figure, (ax,) = axes()
-    result = one_panel(bench, ax, better_fit(bench), np.linspace(0.0, 0.040, _POINTS), (7.5, 28.5))
+def draw_figure_9(bench: Bench) -> Picture:
+    """Draw the two-spring solution that the paper sets beside Fig. 8."""
+    figure, (ax,) = make_axes()
+    result = draw_one_panel(
+        bench, ax, better_fit(bench), np.linspace(0.0, 0.040, _POINTS), (7.5, 28.5)
+    )
     lower, upper = result.rebound_speeds
     return Picture(
         "9",
@@ -97,8 +108,10 @@ def figure_9(bench: Bench) -> Picture:
         (
             Feature("v1", "1.34 m/s", f"{lower:.3f} m/s"),
             Feature("v2", "6.37 m/s", f"{upper:.3f} m/s"),
-            Feature("floor force ends", "30 ms", in_ms(result.last_release[0])),
-            Feature("3 % of the ball-ball peak", "5 ms", in_ms(force_above(result, 1, 0.03)[0])),
+            Feature("floor force ends", "30 ms", format_ms(result.last_release[0])),
+            Feature(
+                "3 % of the ball-ball peak", "5 ms", format_ms(force_above(result, 1, 0.03)[0])
+            ),
         ),
         figure,
     )

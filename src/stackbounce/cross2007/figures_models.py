@@ -1,4 +1,4 @@
-"""Figures 2, 4, 5 and 6: what the two models say about two balls."""
+"""Figures 2, 4, 5 and 6: both models of two balls."""
 
 from typing import TYPE_CHECKING
 
@@ -8,9 +8,9 @@ from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.curves import (
     Array,
     after_collision,
-    forces,
     rebound_by_mass,
     rebound_by_stiffness,
+    sample_forces,
 )
 from stackbounce.cross2007.drops import spring_pair
 from stackbounce.cross2007.style import (
@@ -20,21 +20,28 @@ from stackbounce.cross2007.style import (
     UPPER,
     Feature,
     Picture,
-    axes,
+    make_axes,
     tag,
 )
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["figure_2a", "figure_2b", "figure_4a", "figure_4b", "figure_5", "figure_6"]
+__all__ = [
+    "draw_figure_2a",
+    "draw_figure_2b",
+    "draw_figure_4a",
+    "draw_figure_4b",
+    "draw_figure_5",
+    "draw_figure_6",
+]
 
 _POINTS = 241
 
 
-def figure_2a(bench: Bench) -> Picture:
+def draw_figure_2a(bench: Bench) -> Picture:
     """Velocities after the first ball-ball collision against the mass ratio."""
-    figure, (ax,) = axes()
+    figure, (ax,) = make_axes()
     ratios = np.linspace(0.02, 10.0, _POINTS)
     lossless = after_collision(bench, ratios, bench("models.lossless"), 1)
     lossy = after_collision(bench, ratios, bench("models.restitution"), 1)
@@ -59,9 +66,9 @@ def figure_2a(bench: Bench) -> Picture:
     )
 
 
-def figure_2b(bench: Bench) -> Picture:
+def draw_figure_2b(bench: Bench) -> Picture:
     """Velocities after the second ball-ball collision against the mass ratio."""
-    figure, (ax,) = axes()
+    figure, (ax,) = make_axes()
     ratios = np.linspace(0.02, 0.9999, _POINTS)  # at 1 the second collision ends for e = 1
     lossless = after_collision(bench, ratios, bench("models.lossless"), 2)
     lossy = after_collision(bench, ratios, bench("models.restitution"), 2)
@@ -85,24 +92,24 @@ def figure_2b(bench: Bench) -> Picture:
     )
 
 
-def figure_4a(bench: Bench) -> Picture:
+def draw_figure_4a(bench: Bench) -> Picture:
     """Rebound ratios on equal springs against the mass ratio."""
     return _rebound(bench, "4a", bench("models.stiffness_ratio"), 4.0)
 
 
-def figure_4b(bench: Bench) -> Picture:
+def draw_figure_4b(bench: Bench) -> Picture:
     """Rebound ratios on a stiff lower spring against the mass ratio."""
     return _rebound(bench, "4b", bench("fig5.floor_stiffness") / bench("fig5.ball_stiffness"), 7.0)
 
 
-def figure_5(bench: Bench) -> Picture:
+def draw_figure_5(bench: Bench) -> Picture:
     """The motion of two masses whose collisions nearly separate."""
-    figure, (motion, force) = axes(4.2, 2)
+    figure, (motion, force) = make_axes(4.2, 2)
     masses = bench("fig5.lower_mass"), bench("fig5.upper_mass")
     stiffnesses = bench("fig5.floor_stiffness"), bench("fig5.ball_stiffness")
     drop = spring_pair(masses, stiffnesses, speed=bench("models.speed"))
     times = np.linspace(0.0, 0.040, 401)
-    (floor, between), result = forces(bench, drop, times)
+    (floor, between), result = sample_forces(bench, drop, times)
     place = -1e3 * np.asarray(result.sample(times)["position"].values)
     ms = 1e3 * times
     motion.plot(ms, place[0], color=FLOOR)
@@ -139,9 +146,9 @@ def figure_5(bench: Bench) -> Picture:
     )
 
 
-def figure_6(bench: Bench) -> Picture:
+def draw_figure_6(bench: Bench) -> Picture:
     """Rebound ratios against the stiffness ratio for three mass ratios."""
-    figure, (ax,) = axes(3.3, right=0.4)
+    figure, (ax,) = make_axes(3.3, right=0.4)
     ratios = np.geomspace(0.1, 100.0, _POINTS)
     cases = (
         (bench("basketball.mass") / bench("tennis.mass"), BLACK),
@@ -180,7 +187,7 @@ def _two_curves(ax: "Axes", xs: Array, pair: Array, style: str) -> None:
 
 
 def _rebound(bench: Bench, name: str, stiffness_ratio: float, at: float) -> Picture:
-    figure, (ax,) = axes()
+    figure, (ax,) = make_axes()
     ratios = 10.0 * np.linspace(0.045, 1.0, _POINTS) ** 2  # finer where the curves wind
     pair = rebound_by_mass(bench, ratios, stiffness_ratio)
     _two_curves(ax, ratios, pair, "-")

@@ -6,6 +6,12 @@ import numpy as np
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.drops import Array, peak_times
+from stackbounce.cross2007.force_panels import (
+    draw_one_panel,
+    draw_two_panels,
+    format_ms,
+    number_contacts,
+)
 from stackbounce.cross2007.stacks import (
     early_pair,
     early_twins,
@@ -17,29 +23,30 @@ from stackbounce.cross2007.stacks import (
     small_fit,
     smallest_fit,
 )
-from stackbounce.cross2007.style import BLACK, Feature, Picture, axes, bracket, note
-from stackbounce.cross2007.waveforms import (
-    in_ms,
-    number_contacts,
-    one_panel,
-    two_panels,
-)
+from stackbounce.cross2007.style import BLACK, Feature, Picture, bracket, make_axes, note
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["figure_10a", "figure_10b", "figure_11a", "figure_11b", "figure_12", "figure_13"]
+__all__ = [
+    "draw_figure_10a",
+    "draw_figure_10b",
+    "draw_figure_11a",
+    "draw_figure_11b",
+    "draw_figure_12",
+    "draw_figure_13",
+]
 
 _POINTS = 401
 _HEAVIER = "Mass of B1: 105 g, which Table II's ratios ask for; Table I has 101 g."
 
 
-def figure_10a(bench: Bench) -> Picture:
-    """Return the forces of B2 on B1."""
-    figure, panels = axes(4.2, 2)
+def draw_figure_10a(bench: Bench) -> Picture:
+    """Draw the forces of B2 on B1."""
+    figure, panels = make_axes(4.2, 2)
     drop = small_fit(bench, heavier_b1(bench))
-    result = two_panels(bench, panels, drop, np.linspace(0.0, 0.008, _POINTS))
+    result = draw_two_panels(bench, panels, drop, np.linspace(0.0, 0.008, _POINTS))
     duration = 1e3 * bench("B2_on_B1.duration")
     bracket(panels[0], 0.0, duration, f"measured: impact lasts {duration:.1f} ms")
     _delay(bench, panels[1], "superballs.delay")
@@ -49,18 +56,18 @@ def figure_10a(bench: Bench) -> Picture:
         "Forces on the floor and between the balls by section V's model, with loss at the floor.",
         ("Parameters: those of Fig. 13.", _HEAVIER),
         (
-            Feature("balls touch", "2 ms", in_ms(result.first_touch[1])),
-            Feature("impact ends", "6.0 ms", in_ms(float(max(result.last_release)))),
+            Feature("balls touch", "2 ms", format_ms(result.first_touch[1])),
+            Feature("impact ends", "6.0 ms", format_ms(float(max(result.last_release)))),
         ),
         figure,
     )
 
 
-def figure_10b(bench: Bench) -> Picture:
-    """Return the forces of B1 on B2."""
-    figure, panels = axes(4.2, 2)
+def draw_figure_10b(bench: Bench) -> Picture:
+    """Draw the forces of B1 on B2."""
+    figure, panels = make_axes(4.2, 2)
     drop = reversed_pair(bench, bench("superballs.gap"))
-    result = two_panels(bench, panels, drop, np.linspace(0.0, 0.014, _POINTS))
+    result = draw_two_panels(bench, panels, drop, np.linspace(0.0, 0.014, _POINTS))
     duration = 1e3 * bench("B1_on_B2.duration")
     bracket(panels[0], 0.0, duration, f"measured: impact lasts {duration:.1f} ms")
     _delay(bench, panels[1], "superballs.delay")
@@ -75,9 +82,9 @@ def figure_10b(bench: Bench) -> Picture:
             "No loss, as in the paper's own calculations for this order.",
         ),
         (
-            Feature("balls touch", "2 ms", in_ms(result.first_touch[1])),
-            Feature("ball-ball force ends", "9.0 ms", in_ms(result.last_release[1])),
-            Feature("floor force ends", "9.0 ms", in_ms(result.last_release[0])),
+            Feature("balls touch", "2 ms", format_ms(result.first_touch[1])),
+            Feature("ball-ball force ends", "9.0 ms", format_ms(result.last_release[1])),
+            Feature("floor force ends", "9.0 ms", format_ms(result.last_release[0])),
             Feature("peaks at the floor", "three collisions", str(floor)),
             Feature("peaks between the balls", "three collisions", str(between)),
         ),
@@ -85,11 +92,11 @@ def figure_10b(bench: Bench) -> Picture:
     )
 
 
-def figure_11a(bench: Bench) -> Picture:
-    """Return the forces of B3 on B1."""
-    figure, panels = axes(4.2, 2)
+def draw_figure_11a(bench: Bench) -> Picture:
+    """Draw the forces of B3 on B1."""
+    figure, panels = make_axes(4.2, 2)
     drop = smallest_fit(bench, heavier_b1(bench))
-    result = two_panels(bench, panels, drop, np.linspace(0.0, 0.008, _POINTS))
+    result = draw_two_panels(bench, panels, drop, np.linspace(0.0, 0.008, _POINTS))
     _delay(bench, panels[1], "superballs.delay")
     return Picture(
         "11a",
@@ -100,15 +107,15 @@ def figure_11a(bench: Bench) -> Picture:
             _HEAVIER,
             "No vibration of B1's top, which the text sees up to 2.5 ms and from 5 ms on.",
         ),
-        (Feature("balls touch", "2 ms", in_ms(result.first_touch[1])),),
+        (Feature("balls touch", "2 ms", format_ms(result.first_touch[1])),),
         figure,
     )
 
 
-def figure_11b(bench: Bench) -> Picture:
-    """Return the forces of B1 on B3."""
-    figure, panels = axes(4.2, 2)
-    result = two_panels(bench, panels, late_pair(bench), np.linspace(0.0, 0.034, 2 * _POINTS))
+def draw_figure_11b(bench: Bench) -> Picture:
+    """Draw the forces of B1 on B3."""
+    figure, panels = make_axes(4.2, 2)
+    result = draw_two_panels(bench, panels, late_pair(bench), np.linspace(0.0, 0.034, 2 * _POINTS))
     number_contacts(panels, result)
     _delay(bench, panels[1], "superballs.late_delay")
     rows = result.intervals
@@ -135,18 +142,18 @@ def figure_11b(bench: Bench) -> Picture:
             Feature("the eleventh contact", "", _begins(rows[10])),
             Feature("ball-ball contacts, meeting at 2 ms", "one broad peak", str(len(merged))),
             Feature("its peaks", "four subpeaks", str(subpeaks)),
-            Feature("it ends", "", in_ms(merged[-1]["end"])),
+            Feature("it ends", "", format_ms(merged[-1]["end"])),
         ),
         figure,
     )
 
 
-def figure_12(bench: Bench) -> Picture:
-    """Return the forces of two large balls, and whether they are in contact."""
-    figure, panels = axes(5.0, 3, ratios=(3, 3, 1.4))
+def draw_figure_12(bench: Bench) -> Picture:
+    """Draw the forces of two large balls, and whether they are in contact."""
+    figure, panels = make_axes(5.0, 3, ratios=(3, 3, 1.4))
     times = np.linspace(0.0, 0.014, _POINTS)
-    late = two_panels(bench, panels[:2], late_twins(bench), times)
-    early = two_panels(bench, panels[:2], early_twins(bench), times, dashed=True)
+    late = draw_two_panels(bench, panels[:2], late_twins(bench), times)
+    early = draw_two_panels(bench, panels[:2], early_twins(bench), times, dashed=True)
     panels[1].set(xlabel="")
     duration = 1e3 * bench("superballs.twin_duration")
     bracket(panels[0], 0.0, duration, f"measured: impact lasts {duration:.0f} ms")
@@ -171,14 +178,15 @@ def figure_12(bench: Bench) -> Picture:
             Feature(
                 "lower ball off the floor before they touch",
                 "yes (Sec. VI)",
-                f"no: touch {in_ms(late.first_touch[1])}, off {in_ms(late.intervals[0]['end'])}",
+                f"no: touch {format_ms(late.first_touch[1])}, "
+                f"off {format_ms(late.intervals[0]['end'])}",
             ),
             Feature(
                 f"impact ends if it is ({1e3 * parted.drop.gaps[0]:.1f} mm apart)",
                 "12 ms",
-                in_ms(parted.last_release[0]),
+                format_ms(parted.last_release[0]),
             ),
-            Feature("impact ends, meeting after 1 ms", "9 ms", in_ms(early.last_release[0])),
+            Feature("impact ends, meeting after 1 ms", "9 ms", format_ms(early.last_release[0])),
             Feature("floor contacts, meeting after 1 ms", "one peak", str(early.collisions[0])),
             Feature("its peaks", "two subpeaks", str(len(peak_times(early, 0, early.end_time)))),
         ),
@@ -186,11 +194,11 @@ def figure_12(bench: Bench) -> Picture:
     )
 
 
-def figure_13(bench: Bench) -> Picture:
-    """Return section V's calculation for B2 on B1."""
-    figure, (ax,) = axes()
+def draw_figure_13(bench: Bench) -> Picture:
+    """Draw section V's calculation for B2 on B1."""
+    figure, (ax,) = make_axes()
     drop = small_fit(bench, heavier_b1(bench))
-    result = one_panel(bench, ax, drop, np.linspace(0.0, 0.007, _POINTS), (1.45, 4.7))
+    result = draw_one_panel(bench, ax, drop, np.linspace(0.0, 0.007, _POINTS), (1.45, 4.7))
     lower, upper = result.rebound_ratios
     return Picture(
         "13",
@@ -206,14 +214,14 @@ def figure_13(bench: Bench) -> Picture:
         (
             Feature("e1", "0.24", f"{lower:.3f}"),
             Feature("e2", "1.83", f"{upper:.3f}"),
-            Feature("balls touch", "2 ms (Fig. 10a)", in_ms(result.first_touch[1])),
+            Feature("balls touch", "2 ms (Fig. 10a)", format_ms(result.first_touch[1])),
         ),
         figure,
     )
 
 
 def _begins(row: np.void) -> str:
-    return f"from {in_ms(row['start'])}, peak {row['peak_force']:.1f} N"
+    return f"from {format_ms(row['start'])}, peak {row['peak_force']:.1f} N"
 
 
 def _dip(result: Result) -> str:

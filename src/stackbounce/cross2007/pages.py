@@ -1,4 +1,4 @@
-"""How the report's pages are made: templates, and numbers and signs as they are printed."""
+"""The report's pages: the template engine and the typesetting of symbols."""
 
 import base64
 import re
@@ -8,7 +8,7 @@ if TYPE_CHECKING:
     import jinja2
     from markupsafe import Markup
 
-__all__ = ["data_uri", "environment", "nice"]
+__all__ = ["data_uri", "make_environment", "typeset"]
 
 _SIGNS = (
     (r"\b([mvekhrF])_?([0-4]|(?<=r_)[mk])\b", r"\1<sub>\2</sub>"),
@@ -22,8 +22,8 @@ _SIGNS = (
 )
 
 
-def nice(text: str) -> "Markup":
-    """A text as HTML, with indices, powers and signs as they are printed."""
+def typeset(text: str) -> "Markup":
+    """Return a text as HTML, with indices, powers and signs typeset."""
     from markupsafe import Markup, escape
 
     html = str(escape(text))
@@ -33,12 +33,12 @@ def nice(text: str) -> "Markup":
 
 
 def data_uri(svg: bytes) -> str:
-    """Return a picture as an address that holds it."""
+    """Return an SVG picture as a data URI."""
     return "data:image/svg+xml;base64," + base64.b64encode(svg).decode()
 
 
-def environment() -> "jinja2.Environment":
-    """Return what renders the report's templates."""
+def make_environment() -> "jinja2.Environment":
+    """Return the template environment of the report's pages."""
     import jinja2
 
     found = jinja2.Environment(
@@ -48,5 +48,5 @@ def environment() -> "jinja2.Environment":
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    found.filters["nice"] = nice
+    found.filters["typeset"] = typeset
     return found

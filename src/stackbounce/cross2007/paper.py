@@ -16,13 +16,13 @@ from stackbounce.cross2007 import (
     figures_superballs,
 )
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, run
+from stackbounce.cross2007.checks import AGREES, DIFFERS, WITHIN_ERROR, Row, run_check
 from stackbounce.cross2007.data import PAPER, Data
-from stackbounce.cross2007.style import Picture, styled
+from stackbounce.cross2007.style import Picture, use_style
 from stackbounce.extras import need
 from stackbounce.version import __version__
 
-__all__ = ["FIGURES", "SECTIONS", "Audit", "audit", "pictures"]
+__all__ = ["FIGURES", "SECTIONS", "Audit", "audit", "draw_figures"]
 
 SECTIONS = (
     checks_models.INTRODUCTION,
@@ -39,23 +39,23 @@ SECTIONS = (
 """The sections of checks, in the order of the paper."""
 
 FIGURES: dict[str, Callable[[Bench], Picture]] = {
-    "2a": figures_models.figure_2a,
-    "2b": figures_models.figure_2b,
-    "4a": figures_models.figure_4a,
-    "4b": figures_models.figure_4b,
-    "5": figures_models.figure_5,
-    "6": figures_models.figure_6,
-    "7": figures_basketball.figure_7,
-    "8": figures_basketball.figure_8,
-    "9": figures_basketball.figure_9,
-    "10a": figures_superballs.figure_10a,
-    "10b": figures_superballs.figure_10b,
-    "11a": figures_superballs.figure_11a,
-    "11b": figures_superballs.figure_11b,
-    "12": figures_superballs.figure_12,
-    "13": figures_superballs.figure_13,
+    "2a": figures_models.draw_figure_2a,
+    "2b": figures_models.draw_figure_2b,
+    "4a": figures_models.draw_figure_4a,
+    "4b": figures_models.draw_figure_4b,
+    "5": figures_models.draw_figure_5,
+    "6": figures_models.draw_figure_6,
+    "7": figures_basketball.draw_figure_7,
+    "8": figures_basketball.draw_figure_8,
+    "9": figures_basketball.draw_figure_9,
+    "10a": figures_superballs.draw_figure_10a,
+    "10b": figures_superballs.draw_figure_10b,
+    "11a": figures_superballs.draw_figure_11a,
+    "11b": figures_superballs.draw_figure_11b,
+    "12": figures_superballs.draw_figure_12,
+    "13": figures_superballs.draw_figure_13,
 }
-"""What draws each figure, by the paper's number; 1 and 3 are sketches and have no numbers."""
+"""The functions that draw the figures, by the paper's number; 1 and 3 are sketches."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +75,7 @@ class Audit:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many rows have each verdict."""
+        """The number of rows with each verdict."""
         verdicts = [row.verdict for row in self.rows]
         return {verdict: verdicts.count(verdict) for verdict in (AGREES, WITHIN_ERROR, DIFFERS)}
 
@@ -97,9 +97,9 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     Parameters
     ----------
     data : mapping of str to Input, optional
-        The numbers to compute from, by default those that the paper gives.
+        The input numbers, by default those of the paper.
     progress : callable, optional
-        Is told what is being done, in a line each.
+        Receives a line of text for each step.
 
     Returns
     -------
@@ -115,16 +115,16 @@ def audit(data: Data = PAPER, progress: Callable[[str], None] = lambda _: None) 
     rows: list[Row] = []
     for section in SECTIONS:
         progress(f"audit of {section.where}: {len(section.checks)} numbers")
-        rows.extend(run(check, data) for check in section.checks)
+        rows.extend(run_check(check, data) for check in section.checks)
     return Audit(tuple(rows), data)
 
 
-def pictures(
+def draw_figures(
     data: Data = PAPER, progress: Callable[[str], None] = lambda _: None
 ) -> Iterator[Picture]:
     """Yield the paper's figures, recomputed; see `audit` for the arguments."""
     for name, draw in FIGURES.items():
         progress(f"figure {name}")
-        with styled():
+        with use_style():
             picture = draw(Bench(data))
         yield picture

@@ -1,4 +1,4 @@
-"""What `stackbounce paper` writes: audit and figures as files, and one page with everything."""
+"""The files of `stackbounce paper`: the audit, the figures, and one page with everything."""
 
 import csv
 import io
@@ -12,10 +12,10 @@ from pathlib import Path
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Row
 from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.pages import data_uri, environment
-from stackbounce.cross2007.paper import Audit, audit, pictures
-from stackbounce.cross2007.style import Picture, rendered
-from stackbounce.cross2007.tables import Table, table_one, table_two
+from stackbounce.cross2007.pages import data_uri, make_environment
+from stackbounce.cross2007.paper import Audit, audit, draw_figures
+from stackbounce.cross2007.style import Picture, render
+from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
 from stackbounce.errors import FileError
 from stackbounce.extras import need
 from stackbounce.version import __version__
@@ -31,19 +31,18 @@ _COLUMNS = (
 def write(
     out: Path, progress: Callable[[str], None] = lambda _: None, *, study: bool = False
 ) -> Audit:
-    """Recompute the paper and write what comes out.
+    """Recompute the paper and write the results to files.
 
     Parameters
     ----------
     out : Path
-        A folder, made if it is missing. It receives ``index.html``, ``audit.csv``, ``audit.json``
-        and ``figures/``; files of these names are replaced once all is computed. The same version
-        writes the same bytes every time.
+        A folder, which is made if it is missing. It receives ``index.html``, ``audit.csv``,
+        ``audit.json`` and ``figures/``. Existing files of these names are replaced after everything
+        has been computed. The same version always writes the same bytes.
     progress : callable, optional
-        Is told what is being done, in a line each.
+        Receives a line of text for each step.
     study : bool, optional
-        Whether to add ``study.html``, ``study.json`` and the study's figures: all of Table II by
-        one model.
+        Whether to add the study of Table II: ``study.html``, ``study.json`` and its figures.
 
     Returns
     -------
@@ -52,21 +51,21 @@ def write(
     Raises
     ------
     FileError
-        If the folder cannot be made or written to; nothing has been computed then.
+        If the folder cannot be made or written to. This is found before anything is computed.
     """
     need("paper", "stackbounce paper")
     _make_writable(out)
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}
     drawn: list[tuple[Picture, str]] = []
-    for picture in pictures(PAPER, progress):
-        images = rendered(picture.figure)
+    for picture in draw_figures(PAPER, progress):
+        images = render(picture.figure)
         files |= {f"figures/figure-{picture.name}.{end}": data for end, data in images.items()}
         drawn.append((picture, data_uri(images["svg"])))
     progress("tables I and II")
-    tables = [table_one(Bench(PAPER)), table_two(Bench(PAPER))]
+    tables = [make_table_one(Bench(PAPER)), make_table_two(Bench(PAPER))]
     if study:
-        from stackbounce.cross2007.study.page import files as study_files
+        from stackbounce.cross2007.study.page import make_files as study_files
 
         files |= study_files(progress)
     progress(f"writing to {out}")
@@ -87,7 +86,7 @@ def _make_writable(out: Path) -> None:
 
 
 def _replace(out: Path, files: dict[str, bytes]) -> None:
-    """Write all files under temporary names, then give them their own."""
+    """Write all files under temporary names, then rename them."""
     fresh: dict[Path, Path] = {}
     try:
         for name, content in files.items():
@@ -148,7 +147,7 @@ def _csv(done: Audit) -> str:
 def _page(
     done: Audit, drawn: list[tuple[Picture, str]], tables: list[Table], *, study: bool
 ) -> str:
-    pages = environment()
+    pages = make_environment()
     pages.filters["digits"] = _digits
     pages.filters["groupby_reason"] = _by_reason
     return pages.get_template("paper.html.j2").render(
@@ -162,12 +161,12 @@ def _page(
 
 
 def _by_reason(rows: Iterable[Row]) -> list[list[Row]]:
-    """Rows that follow each other with the same reason, together."""
+    """Group consecutive rows with the same reason."""
     return [list(group) for _, group in itertools.groupby(rows, key=lambda row: row.reason)]
 
 
 def _digits(value: float, row: Row, number: str = "") -> str:
-    """A computed number with two digits more than the printed one; a count as it is."""
+    """Format a computed number with two digits more than the printed one, a count without any."""
     if row.tolerance == 0.0:
         return f"{value:.0f}"
     exponent = Decimal(number or row.digits).as_tuple().exponent

@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.drops import Two, fallen_speed, hysteretic_pair, solved, spring_pair
+from stackbounce.cross2007.drops import Two, bisect, fallen_speed, pair, spring_pair
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import Drop
-from stackbounce.model.laws import Hysteretic
+from stackbounce.model.laws import Hysteretic, Spring
 
 __all__ = [
     "better_fit",
@@ -22,7 +22,7 @@ __all__ = [
     "small_fit",
     "smallest_fit",
     "stack_masses",
-    "stiffening",
+    "stiffen",
     "superball_speed",
     "twin_pair",
 ]
@@ -40,7 +40,7 @@ def better_fit(b: Bench) -> Drop:
 
 
 def other_fit(b: Bench) -> Drop:
-    """Return the alternative to Fig. 9 that the text describes."""
+    """Return the alternative fit that the text describes beside Fig. 9."""
     stiffnesses = b("fig9.other_floor_stiffness"), b("fig9.other_ball_stiffness")
     return spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
 
@@ -48,8 +48,8 @@ def other_fit(b: Bench) -> Drop:
 def heavier_b1(bench: Bench) -> float:
     """Return the mass in kg of the heavier of the two balls B1.
 
-    Table II gives 1.040 for the mass ratio of two balls that share the name B1; if the 101 g of
-    Table I are the lighter one's, the other has 105 g.
+    Table II gives 1.040 for the mass ratio of two balls that share the name B1. If the 101 g of
+    Table I are the mass of the lighter one, the heavier one has 105 g.
     """
     return bench("B1_on_B1.mass_ratio") * bench("B1.mass")
 
@@ -60,9 +60,9 @@ def superball_speed(bench: Bench) -> float:
 
 
 def gap_for_delay(bench: Bench, drop: Drop, delay: float) -> float:
-    """Return the gap in m for which two balls first touch `delay` s after the lower one's landing.
+    """Return the gap in m for which two balls touch `delay` s after the first floor contact.
 
-    Until they touch, the upper ball comes down steadily and the lower one bounces alone.
+    Until then the upper ball moves with constant velocity and the lower one bounces alone.
     """
     speed = drop.reference_speed
     alone = bench.simulate(Drop(drop.balls[:1], drop.contacts[:1], impact_speed=speed))
@@ -71,18 +71,21 @@ def gap_for_delay(bench: Bench, drop: Drop, delay: float) -> float:
 
 def small_fit(bench: Bench, heavy: float) -> Drop:
     """Return section V's drop of B2 on B1, the fit of Fig. 13, with a mass for B1 in kg."""
-    stiffnesses = bench("fig13.floor_stiffness"), bench("fig13.ball_stiffness")
-    speed, gap = superball_speed(bench), bench("fig13.gap")
-    masses = heavy, bench("B2.mass")
-    return hysteretic_pair(masses, stiffnesses, bench("V.exponent"), speed=speed, gap=gap)
+    return _section_v(bench, "fig13", heavy, "B2")
 
 
 def smallest_fit(bench: Bench, heavy: float) -> Drop:
     """Return section V's drop of B3 on B1, with a mass for B1 in kg."""
-    stiffnesses = bench("B3_fit.floor_stiffness"), bench("B3_fit.ball_stiffness")
-    speed, gap = superball_speed(bench), bench("B3_fit.gap")
-    masses = heavy, bench("B3.mass")
-    return hysteretic_pair(masses, stiffnesses, bench("V.exponent"), speed=speed, gap=gap)
+    return _section_v(bench, "B3_fit", heavy, "B3")
+
+
+def _section_v(bench: Bench, fit: str, heavy: float, upper: str) -> Drop:
+    """Return a drop on B1 that loses energy at the floor and none between the balls."""
+    stiffnesses = bench(f"{fit}.floor_stiffness"), bench(f"{fit}.ball_stiffness")
+    speed, gap = superball_speed(bench), bench(f"{fit}.gap")
+    masses = heavy, bench(f"{upper}.mass")
+    floor = Hysteretic(stiffnesses[0], unloading_exponent=bench("V.exponent"))
+    return pair(masses, [floor, Spring(stiffnesses[1])], speed=speed, gap=gap)
 
 
 def reversed_pair(bench: Bench, gap: float) -> Drop:
@@ -93,12 +96,12 @@ def reversed_pair(bench: Bench, gap: float) -> Drop:
 
 
 def late_pair(bench: Bench) -> Drop:
-    """Return B1 on B3 without loss, so far apart that they meet at the measured 7 ms."""
+    """Return B1 on B3 without loss, with the gap for which they touch after the measured 7 ms."""
     return _reversed_smallest(bench, "superballs.late_delay")
 
 
 def early_pair(bench: Bench) -> Drop:
-    """Return the same pair so near each other that they meet at the shortest delay, 2 ms."""
+    """Return the same pair with the gap for the shortest measured delay, 2 ms."""
     return _reversed_smallest(bench, "superballs.delay")
 
 
@@ -117,34 +120,34 @@ def twin_pair(bench: Bench, gap: float) -> Drop:
 
 
 def early_twins(bench: Bench) -> Drop:
-    """Return two large balls that meet at the shortest delay that the text reports, 1 ms."""
+    """Return two large balls with the gap for the shortest delay that the text reports, 1 ms."""
     gap = gap_for_delay(bench, twin_pair(bench, 0.0), bench("superballs.twin_delay"))
     return twin_pair(bench, gap)
 
 
 def late_twins(bench: Bench) -> Drop:
-    """Return two large balls that are off the floor after the measured 12 ms."""
+    """Return two large balls with the gap for which the floor contact ends after 12 ms."""
 
     def late(gap: float) -> float:
         end = float(bench.simulate(twin_pair(bench, gap)).last_release[0])
         return end - bench("superballs.twin_duration")
 
-    return twin_pair(bench, solved(late, 2e-3, 2e-2))
+    return twin_pair(bench, bisect(late, 2e-3, 2e-2))
 
 
 def parted_twins(bench: Bench) -> Drop:
-    """Return two large balls that meet just when the lower one leaves the floor."""
+    """Return two large balls that touch at the moment when the lower one leaves the floor."""
     lower, floor = twin_pair(bench, 0.0).balls[0], twin_pair(bench, 0.0).contacts[0]
     speed = superball_speed(bench)
     bounce = bench.simulate(Drop([lower], [floor], impact_speed=speed)).end_time
     return twin_pair(bench, speed * bounce)
 
 
-def stiffening(bench: Bench, drop: Drop) -> Drop:
+def stiffen(bench: Bench, drop: Drop) -> Drop:
     """Return a drop of two balls with each spring replaced by Hertz's law, F = k c**1.5.
 
-    The new contact lasts as long as the old one, for the lower ball on the floor and for the two
-    balls on each other, when they meet at the drop's impact speed.
+    Each new contact has the contact time of the old one, for the lower ball alone on the floor and
+    for a collision of the two balls, at the drop's impact speed.
     """
     speed = drop.reference_speed
     lower, upper = (ball.mass for ball in drop.balls)
@@ -154,7 +157,7 @@ def stiffening(bench: Bench, drop: Drop) -> Drop:
         assert spring is not None
         wanted = bench.simulate(Drop([Ball(mass)], [spring], impact_speed=speed)).end_time
         at_one = bench.simulate(Drop([Ball(mass)], [_hertz(1.0)], impact_speed=speed)).end_time
-        # Hertz's contact time goes with stiffness to the power -2/5
+        # Hertz's contact time is proportional to the stiffness to the power -2/5
         laws.append(_hertz((at_one / wanted) ** 2.5))
     return replace(drop, contacts=laws)
 

@@ -1,7 +1,7 @@
-"""How the paper's figures look: one place for type, lines and colours.
+"""The style of the paper's figures: type, lines and colours.
 
-Journal width, serif type, black on white. The colours (Okabe and Ito) keep apart for colour-blind
-readers and in grey; line styles and labels at the curves say the same without colour.
+Journal width, serif type, black on white. Colour-blind readers can tell the colours (Okabe and Ito)
+apart, and so can readers of a print in grey; line styles and labels carry the same information.
 """
 
 import io
@@ -23,12 +23,12 @@ __all__ = [
     "UPPER",
     "Feature",
     "Picture",
-    "axes",
     "bracket",
+    "make_axes",
     "note",
-    "rendered",
-    "styled",
+    "render",
     "tag",
+    "use_style",
 ]
 
 BLACK = "#000000"
@@ -70,7 +70,7 @@ _RC: dict[Any, Any] = {
 
 @dataclass(frozen=True)
 class Feature:
-    """What the paper's text reports of a figure, beside what the model shows."""
+    """A feature of a figure: as the paper's text reports it and as the model gives it."""
 
     what: str
     paper: str
@@ -81,8 +81,8 @@ class Feature:
 class Picture:
     """A recomputed figure.
 
-    ``name`` is the paper's number (``"2a"``), ``guesses`` lists what the paper does not tell,
-    ``features`` compares what its text reports.
+    ``name`` is the paper's number (``"2a"``), ``guesses`` are assumptions where the paper gives no
+    value, and ``features`` compares the figure with the text.
     """
 
     name: str
@@ -94,7 +94,7 @@ class Picture:
 
 
 @contextmanager
-def styled() -> Iterator[None]:
+def use_style() -> Iterator[None]:
     """Draw in the paper's style within this context."""
     import matplotlib as mpl
 
@@ -104,14 +104,14 @@ def styled() -> Iterator[None]:
         yield
 
 
-def axes(
+def make_axes(
     height: float = 3.0,
     rows: int = 1,
     *,
     right: float = 0.14,
     ratios: tuple[float, ...] | None = None,
 ) -> tuple["Figure", list["Axes"]]:
-    """Return an empty figure of journal width with axes above each other on one horizontal axis.
+    """Return an empty figure of journal width with stacked axes that share the horizontal axis.
 
     The margins are fixed, in inches, so that the frames of all figures line up; `ratios` are the
     relative heights of the axes.
@@ -134,7 +134,7 @@ def axes(
 
 
 def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
-    """Mark a span that the paper reports, over the curves, with its text."""
+    """Mark an interval that the paper reports above the curves, with a text."""
     place = ax.get_xaxis_transform()
     ax.annotate(
         "",
@@ -162,14 +162,14 @@ def bracket(ax: "Axes", start: float, end: float, text: str) -> None:
 
 
 def note(ax: "Axes", text: str) -> None:
-    """Write a remark at the right edge of the axes, below the label of what they show."""
+    """Write a remark at the right edge of the axes, below their label."""
     ax.text(0.98, 0.6, text, transform=ax.transAxes, ha="right", va="top", color=GREY, fontsize=9)
 
 
 def tag(
     ax: "Axes", xs: "Array", ys: "Array", at: float, text: str, color: str, *, above: bool = True
 ) -> None:
-    """Write a curve's label next to the curve, over or under its point at x = `at`."""
+    """Label a curve above or below its point at x = `at`."""
     import numpy as np
 
     ax.annotate(
@@ -183,10 +183,10 @@ def tag(
     )
 
 
-def rendered(figure: "Figure") -> dict[str, bytes]:
-    """Return a figure as the bytes of its files, by ending; equal figures give equal bytes."""
+def render(figure: "Figure") -> dict[str, bytes]:
+    """Return a figure as bytes of an SVG and a PNG file; equal figures give equal bytes."""
     files = {}
-    with styled():
+    with use_style():
         for ending, options in (
             ("svg", {"metadata": {"Date": None, "Creator": None}}),
             ("png", {"dpi": 300, "metadata": {"Software": None}}),

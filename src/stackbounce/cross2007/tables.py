@@ -5,17 +5,17 @@ from typing import TYPE_CHECKING
 
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks_tables import HEIGHTS, RATIOS
-from stackbounce.measure.law_constants import dynamic_stiffness
+from stackbounce.measure.constants import dynamic_stiffness
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Table", "table_one", "table_two"]
+__all__ = ["Table", "make_table_one", "make_table_two"]
 
 
 @dataclass(frozen=True)
 class Table:
-    """A recomputed table as text: name, title, column heads, rows, notes."""
+    """A recomputed table as text: its number, title, column heads, rows and notes."""
 
     name: str
     title: str
@@ -24,7 +24,7 @@ class Table:
     notes: tuple[str, ...]
 
 
-def table_one(bench: Bench) -> Table:
+def make_table_one(bench: Bench) -> Table:
     """Return Table I: the superballs, with their dynamic stiffness from the contact time.
 
     Parameters
@@ -38,42 +38,30 @@ def table_one(bench: Bench) -> Table:
     """
     rows = []
     for ball in ("B1", "B2", "B3"):
-        time = bench.measured(f"{ball}.contact_time")
+        time, mass = bench.measured(f"{ball}.contact_time"), bench.measured(f"{ball}.mass")
         diameter = bench.measured(f"{ball}.diameter")
         static = bench.measured(f"{ball}.static_stiffness")
-        dynamic = dynamic_stiffness(bench.measured(f"{ball}.mass"), time)
-        rows.append(
-            (
-                ball,
-                _text(1e3 * diameter),
-                _text(1e3 * bench.measured(f"{ball}.mass")),
-                _text(1e-4 * static),
-                _text(1e3 * time),
-                f"{1e-4 * bench(f'{ball}.dynamic_stiffness'):.1f}",
-                _text(1e-4 * dynamic),
-                _text(dynamic / static),
-                _text(1e-3 * dynamic / (1e3 * diameter)),
-            )
-        )
-    head = (
-        "ball",
-        "D (mm)",
-        "m (g)",
-        "static k (1e4 N/m)",
-        "contact time (ms)",
-        "dynamic k printed (1e4 N/m)",
-        "dynamic k = m (π/time)²",
-        "dynamic/static",
-        "dynamic k/D (kN/m per mm)",
-    )
+        dynamic = dynamic_stiffness(mass, time)
+        row = {
+            "ball": ball,
+            "D (mm)": _text(1e3 * diameter),
+            "m (g)": _text(1e3 * mass),
+            "static k (1e4 N/m)": _text(1e-4 * static),
+            "contact time (ms)": _text(1e3 * time),
+            "dynamic k printed (1e4 N/m)": f"{1e-4 * bench(f'{ball}.dynamic_stiffness'):.1f}",
+            "dynamic k = m (π/time)²": _text(1e-4 * dynamic),
+            "dynamic/static": _text(dynamic / static),
+            "dynamic k/D (kN/m per mm)": _text(1e-3 * dynamic / (1e3 * diameter)),
+        }
+        rows.append(row)
     notes = (
         "Errors are the paper's (0.1 ms, 5 %), or half a unit in the last printed digit.",
         "The last column is what the text calls proportional to the radius.",
     )
-    return Table("I", "Properties of the superballs", head, tuple(rows), notes)
+    return _as_table("I", "Properties of the superballs", rows, notes)
 
 
-def table_two(bench: Bench) -> Table:
+def make_table_two(bench: Bench) -> Table:
     """Return Table II: mass ratios, and bounce heights as squares of the rebound ratios.
 
     Parameters
@@ -96,39 +84,30 @@ def table_two(bench: Bench) -> Table:
             heavier if upper == "B1" and lower != "B1" else above
         )
         e1, e2 = bench.measured(f"{pair}.lower"), bench.measured(f"{pair}.upper")
-        rows.append(
-            (
-                lower,
-                upper,
-                ratio,
-                "" if lower == upper else _text(below / above),
-                _text(with_heavier) if "B1" in (lower, upper) else "",
-                _text(e1),
-                _text(e2),
-                HEIGHTS[pair][0],
-                _text(e1**2),
-                HEIGHTS[pair][1],
-                _text(e2**2),
-            )
-        )
-    head = (
-        "bottom",
-        "top",
-        "m1/m2 printed",
-        "from Table I",
-        "B1 = 105 g",
-        "e1",
-        "e2",
-        "h1/h0 printed",
-        "e1 squared",
-        "h2/h0 printed",
-        "e2 squared",
-    )
+        row = {
+            "bottom": lower,
+            "top": upper,
+            "m1/m2 printed": ratio,
+            "from Table I": "" if lower == upper else _text(below / above),
+            "B1 = 105 g": _text(with_heavier) if "B1" in (lower, upper) else "",
+            "e1": _text(e1),
+            "e2": _text(e2),
+            "h1/h0 printed": HEIGHTS[pair][0],
+            "e1 squared": _text(e1**2),
+            "h2/h0 printed": HEIGHTS[pair][1],
+            "e2 squared": _text(e2**2),
+        }
+        rows.append(row)
     notes = (
         "Errors: 0.02 for e1 and e2 of the superballs; else half a unit in the last digit.",
         "105 g is 1.040 times Table I's 101 g; the lower ball of B1 on B1 is the heavier one.",
     )
-    return Table("II", "Rebound ratios of the pairs", head, tuple(rows), notes)
+    return _as_table("II", "Rebound ratios of the pairs", rows, notes)
+
+
+def _as_table(name: str, title: str, rows: list[dict[str, str]], notes: tuple[str, ...]) -> Table:
+    cells = tuple(tuple(row.values()) for row in rows)
+    return Table(name, title, tuple(rows[0]), cells, notes)
 
 
 def _text(value: "UFloat") -> str:

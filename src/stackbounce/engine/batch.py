@@ -1,7 +1,7 @@
 """Many drops one after the other in the arrays of one stack.
 
-Rows of drops, columns of balls or of the contacts below them; a row's outcome depends on nothing
-but that row.
+Each row is a drop; columns are its balls, or the contacts below them. The outcome of a row depends
+on that row only.
 """
 
 import math
@@ -9,42 +9,47 @@ from typing import Any, NamedTuple, TypeAlias
 
 from stackbounce.engine import codes
 from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.kernel import Floats, Integers, kernel
+from stackbounce.engine.compiler import Floats, Integers, kernel
 from stackbounce.engine.motion import velocity_at
-from stackbounce.engine.prepare import prepare, prepare_rigid
+from stackbounce.engine.preparation import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
-from stackbounce.engine.simultaneous import advance, start, write_unfinished
+from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
+from stackbounce.engine.slots import LAST_CHECK, LAST_EVENT, LOG_ROWS
 from stackbounce.engine.stack import RigidStack, Samples, Stack
 
 Table: TypeAlias = Any  # a numpy array of rows
 
 
 class Drops(NamedTuple):
-    """What is dropped: (rows, balls) numbers, and (rows,) gravity; see `prepare`."""
+    """The numbers of drops: (rows, balls) arrays, and (rows,) gravity; see `preparation`."""
 
     mass: Table
-    kind: Table  # of law, an integer
+    kind: Table  # of law, see `preparation`
     stiffness: Table
     exponent: Table
-    extra: Table
+    law_parameter: Table
     gap: Table  # below each ball; the lowest one's is 0
     velocity: Table
     gravity: Table
 
 
 class Outcomes(NamedTuple):
-    """What comes of it: (rows, balls) numbers, and (rows,) energy and status."""
+    """The results of drops: (rows, balls) arrays, and (rows,) energy and status.
 
-    velocity: Table  # afterwards; `compare` makes rebound ratios of them
+    The kernels that run drops fill in all fields but the ratios and energies, `find_ratios` these.
+    """
+
+    velocity: Table  # after, m/s
+    rebound_ratio: Table  # velocity over the impact speed v0
     collisions: Table  # -1 where infinitely many
-    first_touch: Table  # nan where none
-    last_release: Table  # nan where none, infinity where the run stopped before
-    energy: Table  # kinetic energy afterwards over the one that came in; by `compare`
+    first_touch: Table  # s; nan where none
+    last_release: Table  # s; nan where none, infinity where the run stopped during an interval
+    energy_retained: Table  # kinetic energy after over that before
     status: Table
 
 
 @kernel
-def run_many(
+def run_batch(
     stack: Stack,
     room: tuple[Floats, Integers],
     drops: Drops,
@@ -55,74 +60,80 @@ def run_many(
     log: Floats,
     out: Outcomes,
 ) -> None:
-    """Run drops on finite contacts in one stack, whose arrays lie in ``room``."""
+    """Run drops with finite contacts in one stack, whose arrays are views of ``room``."""
     size = len(stack.mass)
     for row in range(len(out.status)):
-        clear(room)
+        clear_arrays(room)
         unit = prepare(
             stack,
             drops.mass[row],
             drops.kind[row],
             drops.stiffness[row],
             drops.exponent[row],
-            drops.extra[row],
+            drops.law_parameter[row],
             drops.gap[row],
             drops.velocity[row],
             drops.gravity[row],
             rtol,
         )
-        start(stack)
-        _forget(out, row, size)
+        begin_contacts(stack)
+        _reset(out, row, size)
         status = codes.RUNNING
         while status == codes.RUNNING:
-            stack.counter[0] = 0
-            status = advance(stack, until / unit, event_limit, log, samples)
-            _read(log, stack.counter[0], unit, out, row)
-        end = stack.clock[0]
+            stack.counter[LOG_ROWS] = 0
+            status = advance_contacts(stack, until / unit, event_limit, log, samples)
+            _read_log(log, stack.counter[LOG_ROWS], unit, out, row)
+        end = stack.clock[LAST_EVENT]
         if status != codes.FINISHED:
-            end = until / unit if status == codes.TIME_REACHED else max(end, stack.clock[1])
-            stack.counter[0] = 0
-            write_unfinished(stack, end, log)
-            _read(log, stack.counter[0], unit, out, row)
+            end = (
+                until / unit if status == codes.TIME_REACHED else max(end, stack.clock[LAST_CHECK])
+            )
+            stack.counter[LOG_ROWS] = 0
+            log_unfinished(stack, end, log)
+            _read_log(log, stack.counter[LOG_ROWS], unit, out, row)
         for b in range(size):
             out.velocity[row, b] = velocity_at(stack, b, end) / unit
         out.status[row] = status
 
 
 @kernel
-def run_many_rigid(
+def run_rigid_batch(
     stack: RigidStack,
     room: tuple[Floats, Integers],
     drops: Drops,
     until: float,
+    rtol: float,
     event_limit: int,
     samples: Samples,
     log: Floats,
     out: Outcomes,
 ) -> None:
-    """Run drops of rigid balls in one stack, whose arrays lie in ``room``."""
+    """Run drops of rigid balls in one stack, whose arrays are views of ``room``."""
     size = len(stack.mass)
     for row in range(len(out.status)):
-        clear(room)
+        clear_arrays(room)
         prepare_rigid(
             stack,
             drops.mass[row],
             drops.kind[row],
-            drops.extra[row],
+            drops.stiffness[row],
+            drops.exponent[row],
+            drops.law_parameter[row],
             drops.gap[row],
             drops.velocity[row],
             drops.gravity[row],
+            rtol,
         )
         begin_collisions(stack)
-        _forget(out, row, size)
+        _reset(out, row, size)
         status = codes.RUNNING
         while status == codes.RUNNING:
-            stack.counter[0] = 0
+            stack.counter[LOG_ROWS] = 0
             status = collide_all(stack, until, event_limit, log, samples)
-            _read(log, stack.counter[0], 1.0, out, row)
-        end = stack.clock[0]
+            _read_log(log, stack.counter[LOG_ROWS], 1.0, out, row)
+        end = stack.clock[LAST_EVENT]
         if status != codes.FINISHED:
-            end = until if status == codes.TIME_REACHED else max(end, stack.clock[1])
+            end = until if status == codes.TIME_REACHED else max(end, stack.clock[LAST_CHECK])
         for b in range(size):
             out.velocity[row, b] = rigid_velocity(stack, b, end)
             if stack.infinite[b] == 1:
@@ -131,20 +142,20 @@ def run_many_rigid(
 
 
 @kernel
-def compare(drops: Drops, out: Outcomes) -> None:
-    """Turn velocities into rebound ratios, and find the share of the energy that is left."""
+def find_ratios(drops: Drops, out: Outcomes) -> None:
+    """Compute rebound ratios and retained energies from the velocities before and after."""
     for row in range(len(out.status)):
         before, after = drops.velocity[row], out.velocity[row]
-        out.energy[row] = energy_kept(drops.mass[row], before, after)
-        speed = _fastest(before)
+        out.energy_retained[row] = energy_kept(drops.mass[row], before, after)
+        speed = _largest_speed(before)
         for b in range(len(after)):
-            after[b] = after[b] / speed
+            out.rebound_ratio[row, b] = after[b] / speed
 
 
 @kernel
 def energy_kept(mass: Floats, before: Floats, after: Floats) -> float:
-    """Return the kinetic energy of balls after over that before, velocities in m/s."""
-    heaviest, speed = 0.0, _fastest(before)
+    """Return the kinetic energy after over that before; velocities are in m/s."""
+    heaviest, speed = 0.0, _largest_speed(before)
     for m in mass:
         heaviest = max(heaviest, m)
     came, left = 0.0, 0.0
@@ -156,8 +167,8 @@ def energy_kept(mass: Floats, before: Floats, after: Floats) -> float:
 
 
 @kernel
-def _fastest(velocity: Floats) -> float:
-    """Return v0, the largest speed."""
+def _largest_speed(velocity: Floats) -> float:
+    """Return the largest speed, v0."""
     speed = 0.0
     for v in velocity:
         speed = max(speed, abs(v))
@@ -165,8 +176,8 @@ def _fastest(velocity: Floats) -> float:
 
 
 @kernel
-def clear(room: tuple[Floats, Integers]) -> None:
-    """Forget the drop before."""
+def clear_arrays(room: tuple[Floats, Integers]) -> None:
+    """Set all numbers of a stack to zero."""
     floats, integers = room
     for k in range(len(floats)):
         floats[k] = 0.0
@@ -175,7 +186,7 @@ def clear(room: tuple[Floats, Integers]) -> None:
 
 
 @kernel
-def _forget(out: Outcomes, row: int, size: int) -> None:
+def _reset(out: Outcomes, row: int, size: int) -> None:
     for i in range(size):
         out.collisions[row, i] = 0
         out.first_touch[row, i] = math.nan
@@ -183,8 +194,8 @@ def _forget(out: Outcomes, row: int, size: int) -> None:
 
 
 @kernel
-def _read(log: Floats, lines: int, unit: float, out: Outcomes, row: int) -> None:
-    """Count the contact intervals of a part of a log, and keep its first and last times in s."""
+def _read_log(log: Floats, lines: int, unit: float, out: Outcomes, row: int) -> None:
+    """Count the contact intervals in a part of a log, and keep the first and last times in s."""
     for line in range(lines):
         at = line * LOG_COLUMNS
         kind = int(log[at + codes.KIND])

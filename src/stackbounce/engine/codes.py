@@ -1,43 +1,48 @@
-"""The integers that stand for statuses, laws, phases and kinds of event inside the kernels."""
+"""Integer codes of statuses, laws, phases and kinds of event, and the columns of the event log."""
 
 # how a run ended
-RUNNING = 0  # the log is full: empty it and call again
+RUNNING = 0  # the log is full: the caller empties it and continues
 FINISHED = 1
 SETTLED = 2
 COLLAPSED = 3
 TIME_REACHED = 4
 EVENT_LIMIT = 5
 INVALID = 6
-ASK = 7  # a fast form of the engine is not sure of a drop: ask the general one
+ASK = 7  # the fast engine left a drop undecided: the general one solves it
 
-# laws of a contact
+# forms of the force of a contact
 ABSENT = 0  # no floor
 POWER = 1  # F = k c^p, loading and unloading alike
 HYSTERETIC = 2  # F = k c^p loading, k C^p (c/C)^n unloading from the peak C
-LOSSY = 3  # the same, and every reloading loses the share of its work that the first loading lost
+LOSSY = 3  # as HYSTERETIC; reloading loses the same share of its work as first loading
 DAMPED = 4  # F = max(0, K c^q (a + b c + d c'))
+# further forms that a contact is told by; `prepare` makes them DAMPED, with these numbers
+DASHPOT = 5  # K = k, q = 0, a = 0, b = 1, d = damping/k
+VISCOELASTIC = 6  # K = k, q = 1/2, a = 0, b = 1, d = 3/2 dissipative time
+HUNT_CROSSLEY = 7  # K = k, q = p, a = 1, b = 0, d = dissipation
+RIGID = 8  # an instantaneous collision
 
-# phases of a contact; from COMPRESSING on it presses and joins its balls to a cluster
+# phases of a contact; from COMPRESSING on it presses and joins its balls into a cluster
 OPEN = 0
-SLACK = 1  # compressed still, but its force, which would pull, is cut off at zero
-COMPRESSING = 2  # a damped contact stays here; any other one is above all it was compressed before
+UNLOADED = 1  # still compressed; its force would pull and is clipped to zero
+COMPRESSING = 2  # damped: in the whole interval; others: more compressed than before
 RELEASING = 3  # compressed less than before
 
 # kinds of event
-LOOK = 0  # nothing happened yet: look again at that time
+CHECK = 0  # no event: the contact is to be checked again at that time
 TOUCH = 1
 RELEASE = 2
 COLLISION = 3
 PEAK = 4  # the compression stops growing
 DIP = 5  # the compression of a lossy contact stops falling
-FAINT = 6  # the force sinks below round-off: the power law is continued by its chord
-PRESSED = 7  # ... and rises above it
-RELOADED = 8  # a contact is compressed as much as ever before
+LINEARISED = 6  # the power law is replaced by its chord, see `contacts`
+CURVED = 7  # the chord is replaced by the power law
+RELOADED = 8  # the compression comes back to its old peak
 CLIPPED = 9  # the force would begin to pull
-RESUMED = 10  # the force would end to pull
+RESUMED = 10  # the force would stop pulling
 JOINED = 11  # the balls at contacts CONTACT to START have come together, at UPPER_VELOCITY
 
-# the columns of a log of events
+# the columns of the log of events
 TIME, CONTACT, KIND, LOWER_VELOCITY, UPPER_VELOCITY = 0, 1, 2, 3, 4
 START, PEAK_FORCE, PEAK_COMPRESSION, IMPULSE = 5, 6, 7, 8
 LOG_COLUMNS = 9

@@ -1,23 +1,24 @@
-"""When a sequence of collisions is infinite: decided by theory, not by a speed threshold.
+"""Infinitely many collisions in a finite time (inelastic collapse), detected by theory.
 
 Two neighbouring contacts. Let x and y be the rates at which contacts 1 and 2 close, right after a
-collision at contact 1 (so x <= 0), e1 and e2 their restitutions, and let a collision at 1 add a x
-to the rate of 2 and one at 2 add b y to that of 1: a = (1+e1) m_lower/(m_lower+m_middle),
-b = (1+e2) m_upper/(m_middle+m_upper), with a floor as an infinite mass. A round (collisions at 2,
-then 1) maps x to -e1 (x + b y) and y to -e2 y + a (x + b y): its determinant is e1 e2 and its
-trace a b - e1 - e2. The round repeats for ever exactly where its eigenvalues are real and positive,
+collision at contact 1 (so x <= 0), and e1 and e2 their restitutions. A collision at 1 adds a x to
+the rate of 2, one at 2 adds b y to that of 1: a = (1+e1) m_lower/(m_lower+m_middle) and
+b = (1+e2) m_upper/(m_middle+m_upper), with a floor as an infinite mass. A round (a collision at 2,
+then one at 1) maps x to -e1 (x + b y) and y to -e2 y + a (x + b y); this map has the determinant
+e1 e2 and the trace a b - e1 - e2. The rounds go on for ever exactly if the eigenvalues are real and
+positive,
 
     a b >= (sqrt(e1) + sqrt(e2))^2,
 
-which for a floor and two balls is m2/m1 >= (sqrt(e1)+sqrt(e2))^2 / (1-sqrt(e1 e2))^2, and where the
-first state lies on the right side of the weaker eigenvector. Gaps shrink as e1 e2 x_n/x_(n+1), so
-that the durations of all rounds telescope to b g / (x (1 + weaker/e1) + b y), g being the gap at
-contact 2 and weaker the smaller eigenvalue.
+and the first state lies on the right side of the eigenvector of the smaller eigenvalue. For a floor
+and two balls the condition is m2/m1 >= (sqrt(e1)+sqrt(e2))^2 / (1-sqrt(e1 e2))^2. Gaps shrink as
+e1 e2 x_n/x_(n+1), so that the durations of all rounds sum to b g / (x (1 + weaker/e1) + b y), where
+g is the gap at contact 2 and weaker is the smaller eigenvalue.
 
-More contacts, for which no condition is known. A state that has come back in all its proportions,
-only smaller, does so for ever: this is found by Brent's cycle search on the closing rates and gaps
-of the contacts involved. A sequence that is not periodic is followed until its rates come close to
-the end of the range of numbers, and taken for infinite then.
+More contacts. No condition is known. A state in which all rates and gaps have the same ratios as in
+an earlier one, on a smaller scale, repeats for ever; Brent's cycle detection finds it among the
+rates and gaps of the contacts involved. A sequence that is not periodic is followed until its rates
+come close to underflow, and is then taken to be infinite.
 """
 
 import math
@@ -33,69 +34,83 @@ from stackbounce.engine.codes import (
     TIME,
     UPPER_VELOCITY,
 )
+from stackbounce.engine.compiler import Floats, kernel
 from stackbounce.engine.flight import (
     acceleration,
-    approach,
-    bring_balls,
-    bring_contacts,
+    anchor_balls,
+    anchor_contacts,
+    approach_rate,
     change_rate,
     closing_time,
     compression_after,
-    plan,
     rate_after,
+    schedule_collision,
     wake,
 )
-from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.settling import NO_TIME
+from stackbounce.engine.settling import NEGLIGIBLE_TIME
+from stackbounce.engine.slots import (
+    EVENTS,
+    GRAVITY,
+    HIGHEST_INVOLVED,
+    KEEP_AFTER,
+    KEPT_CONTACT,
+    KEPT_TIME,
+    LAST_EVENT,
+    LOG_ROWS,
+    LOWEST_INVOLVED,
+    SINCE_KEPT,
+    SPEED,
+    UNIT,
+)
 from stackbounce.engine.stack import RigidStack
 
-_SAME = 1e-12  # rates whose proportions agree this well are the same
+_SAME = 1e-12  # rates are proportional if their ratios agree to this
 _SAME_GAPS = 1e-9
-_BUSY = 200  # collisions a ball back, up to which a contact belongs to a group
-_VANISHED = 1e-250  # rates below this part of the impact speed: close to the end of the numbers
+_BUSY = 200  # a contact belongs to a group if it collided at most so many collisions per ball ago
+_VANISHED = 1e-250  # of the impact speed: rates below this are close to underflow
 
 
 @kernel
 def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) -> None:
-    """Finish infinitely many collisions with their limit, where theory finds that they have begun.
+    """Replace an infinite sequence of collisions by its limit, if theory finds that one has begun.
 
-    While their rest still takes time that can be told from none, the next of them is followed.
+    As long as the rest of the sequence has a duration that matters, its next collision is computed.
     """
-    soon = min(NO_TIME * stack.clock[0], until - stack.clock[0])
+    soon = min(NEGLIGIBLE_TIME * stack.clock[LAST_EVENT], until - stack.clock[LAST_EVENT])
     for other in (contact - 1, contact + 1):
         if 0 <= other < len(stack.mass):
-            duration = pair_ends(stack, contact, other)
+            duration = pair_duration(stack, contact, other)
             if duration <= soon:
                 _merge(stack, min(contact, other), max(contact, other), duration, log)
-    stack.last_hit[contact] = stack.counter[1]
-    low, high = vanished(stack, contact)
+    stack.last_hit[contact] = stack.counter[EVENTS]
+    low, high = vanished_group(stack, contact)
     if low < high:
         _merge(stack, low, high, 0.0, log)
-    _involve(stack, contact, contact)
-    stack.memory[2] += 1
-    low, high, shrink = repeats(stack, contact)
+    _mark_involved(stack, contact, contact)
+    stack.memory[SINCE_KEPT] += 1
+    low, high, shrink = compare_with_kept(stack, contact)
     if shrink != 0.0:
-        # the rounds to come last shrink, shrink^2, ... times the one just over
+        # later rounds last shrink, shrink^2, ... times the present one
         ratio = max(shrink, 0.0)
-        round_time = stack.clock[0] - stack.number[1]
+        round_time = stack.clock[LAST_EVENT] - stack.number[KEPT_TIME]
         if ratio < 1.0 and round_time * ratio / (1.0 - ratio) <= soon:
             _merge(stack, low, high, round_time * ratio / (1.0 - ratio), log)
-    if stack.memory[2] >= stack.memory[1]:
-        remember(stack, contact, stack.clock[0])
+    if stack.memory[SINCE_KEPT] >= stack.memory[KEEP_AFTER]:
+        keep_state(stack, contact, stack.clock[LAST_EVENT])
 
 
 @kernel
 def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats) -> None:
-    """Let the balls at contacts low..high come together, unless another ball meets them before.
+    """Bring the balls at contacts low..high together, unless another ball meets them before.
 
-    The outer balls of the group move between their present velocities and the common one; with no
-    floor among them their centre of mass moves on, and all end there.
+    The outer balls of the group move between their present velocities and the common one; if the
+    floor is not among them, their centre of mass moves on and all of them end there.
     """
-    bring_contacts(stack, low - 1, high + 1)
-    bring_balls(stack, low - 2, high + 1)
+    anchor_contacts(stack, low - 1, high + 1)
+    anchor_balls(stack, low - 2, high + 1)
     velocity, lower_gain, upper_gain = common_velocity(stack, low, high)
     size = len(stack.mass)
-    pull = stack.number[3] * duration
+    pull = stack.number[GRAVITY] * duration
     lands = pull if low == 0 else 0.0
     if low > 0:
         below = stack.velocity[low - 2] if low > 1 else 0.0
@@ -115,15 +130,15 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
         centre += stack.mass[i] * height
         mass += stack.mass[i]
         stack.infinite[i] = 1
-        stack.last_hit[i] = stack.counter[1]
-    _involve(stack, low, high)
+        stack.last_hit[i] = stack.counter[EVENTS]
+    _mark_involved(stack, low, high)
     travel = centre / mass + velocity * duration
     below = stack.velocity[low - 1] if low > 0 else 0.0
     above = stack.velocity[high]
-    stack.clock[0] += duration
+    stack.clock[LAST_EVENT] += duration
     stack.now[0] += duration
-    bring_contacts(stack, low - 1, high + 1)
-    bring_balls(stack, low - 2, high + 1)
+    anchor_contacts(stack, low - 1, high + 1)
+    anchor_balls(stack, low - 2, high + 1)
     for i in range(low, high + 1):
         stack.compression[i] = 0.0
         stack.rate[i] = 0.0
@@ -137,36 +152,36 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
         stack.compression[high + 1] += travel - height - above * duration
         change_rate(stack, high + 1, upper_gain + lands)
     for i in range(max(low - 1, 0), min(high + 2, size)):
-        plan(stack, i)
-    _write_joined(stack, low, high, log)
+        schedule_collision(stack, i)
+    _log_joined(stack, low, high, log)
 
 
 @kernel
-def _write_joined(stack: RigidStack, low: int, high: int, log: Floats) -> None:
-    """Tell the log that the balls at contacts low..high have come together."""
-    at = stack.counter[0] * LOG_COLUMNS
+def _log_joined(stack: RigidStack, low: int, high: int, log: Floats) -> None:
+    """Log that the balls at contacts low..high have come together."""
+    at = stack.counter[LOG_ROWS] * LOG_COLUMNS
     for column in range(LOG_COLUMNS):
         log[at + column] = 0.0
-    log[at + TIME] = stack.clock[0]
+    log[at + TIME] = stack.clock[LAST_EVENT]
     log[at + KIND] = JOINED
     log[at + CONTACT] = low
     log[at + START] = high
-    log[at + UPPER_VELOCITY] = stack.velocity[high] * stack.number[0]
-    stack.counter[0] += 1
+    log[at + UPPER_VELOCITY] = stack.velocity[high] * stack.number[UNIT]
+    stack.counter[LOG_ROWS] += 1
 
 
 @kernel
-def _involve(stack: RigidStack, low: int, high: int) -> None:
-    """Note that contacts low..high have collided since the state kept."""
+def _mark_involved(stack: RigidStack, low: int, high: int) -> None:
+    """Mark contacts low..high as having collided since the state was kept."""
     for i in range(low, high + 1):
         stack.involved[i] = 1
-    stack.memory[3] = min(stack.memory[3], low)
-    stack.memory[4] = max(stack.memory[4], high)
+    stack.memory[LOWEST_INVOLVED] = min(stack.memory[LOWEST_INVOLVED], low)
+    stack.memory[HIGHEST_INVOLVED] = max(stack.memory[HIGHEST_INVOLVED], high)
 
 
 @kernel
-def share(stack: RigidStack, i: int, ball: int) -> float:
-    """Return the mass on the other side of contact i over that of both sides, seen from a ball."""
+def mass_share(stack: RigidStack, i: int, ball: int) -> float:
+    """Return the other ball's share of the two masses at contact i; 1 at the floor."""
     if i == 0:
         return 1.0
     total = stack.mass[i - 1] + stack.mass[i]
@@ -174,25 +189,25 @@ def share(stack: RigidStack, i: int, ball: int) -> float:
 
 
 @kernel
-def pair_ends(stack: RigidStack, hit: int, other: int) -> float:
-    """Return how long the infinite rounds of two neighbouring contacts last; infinity if finite.
+def pair_duration(stack: RigidStack, hit: int, other: int) -> float:
+    """Return the duration of the infinite rounds of two neighbouring contacts, inf if they end.
 
-    Contact ``hit`` has just collided and ``other``, beside it, is closing.
+    Contact ``hit`` has just collided, and ``other`` beside it is closing.
     """
-    x, y = stack.rate[hit], approach(stack, other)
+    x, y = stack.rate[hit], approach_rate(stack, other)
     e1, e2 = stack.restitution[hit], stack.restitution[other]
     if y == 0.0 or stack.law[hit] == ABSENT or e1 * e2 == 1.0:
         return math.inf
     middle = min(hit, other)
-    a = (1.0 + e1) * share(stack, hit, middle)
-    b = (1.0 + e2) * share(stack, other, middle)
+    a = (1.0 + e1) * mass_share(stack, hit, middle)
+    b = (1.0 + e2) * mass_share(stack, other, middle)
     trace = a * b - e1 - e2
     least = 2.0 * math.sqrt(e1 * e2)
     round_off = 8.0 * EPSILON * (a * b + e1 + e2)
     if trace < least - round_off or (least == 0.0 and trace <= round_off):
         return math.inf
     discriminant = math.sqrt(max(0.0, (trace - least) * (trace + least)))
-    # the weaker eigenvalue over e1, from the product e1 e2 of both, without cancellation
+    # the smaller eigenvalue over e1, from the product e1 e2 of both, without cancellation
     weaker = 2.0 * e2 / (trace + discriminant) if e2 > 0.0 else 0.0
     margin = x * (1.0 + weaker) + b * y
     if margin <= 0.0:
@@ -202,10 +217,10 @@ def pair_ends(stack: RigidStack, hit: int, other: int) -> float:
 
 @kernel
 def common_velocity(stack: RigidStack, low: int, high: int) -> tuple[float, float, float]:
-    """Return the velocity to which the balls of contacts low..high come, and the outer balls' gain.
+    """Return the final velocity of the balls of contacts low..high, and the outer balls' gains.
 
-    All are anchored now. The closing rates know the differences to more digits than velocities do,
-    and the heaviest ball changes least.
+    All are anchored now. Differences are taken from the closing rates, which are more exact than
+    the velocities, and relative to the heaviest ball, whose velocity changes least.
     """
     if low == 0:
         relative = 0.0
@@ -231,29 +246,29 @@ def common_velocity(stack: RigidStack, low: int, high: int) -> tuple[float, floa
 
 
 @kernel
-def remember(stack: RigidStack, contact: int, time: float) -> None:
-    """Take the present state as the one to compare later ones with."""
+def keep_state(stack: RigidStack, contact: int, time: float) -> None:
+    """Keep the present state to compare later ones with."""
     for i in range(len(stack.mass)):
         stack.kept_rate[i] = rate_after(stack, i, 0.0)
         stack.kept_gap[i] = compression_after(stack, i, 0.0)
         stack.involved[i] = 0
-    stack.memory[3] = len(stack.mass)
-    stack.memory[4] = -1
-    stack.memory[0] = contact
-    stack.memory[1] = 2 * stack.memory[1]
-    stack.memory[2] = 0
-    stack.number[1] = time
+    stack.memory[LOWEST_INVOLVED] = len(stack.mass)
+    stack.memory[HIGHEST_INVOLVED] = -1
+    stack.memory[KEPT_CONTACT] = contact
+    stack.memory[KEEP_AFTER] = 2 * stack.memory[KEEP_AFTER]
+    stack.memory[SINCE_KEPT] = 0
+    stack.number[KEPT_TIME] = time
 
 
 @kernel
-def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
-    """Compare with the state kept: return its (lowest, highest) contact and the ratio of sizes.
+def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]:
+    """Return the (lowest, highest) contact involved since the kept state, and the ratio of scales.
 
-    The ratio is 0 where the present state is not the kept one on a smaller scale, and -1 where its
-    rounds take no time.
+    The ratio is 0 if the present state is not the kept one on a smaller scale, and -1 if its rounds
+    take no time.
     """
-    low, high = stack.memory[3], stack.memory[4]
-    if contact != stack.memory[0] or high < low + 2:
+    low, high = stack.memory[LOWEST_INVOLVED], stack.memory[HIGHEST_INVOLVED]
+    if contact != stack.memory[KEPT_CONTACT] or high < low + 2:
         return low, high, 0.0
     size, kept, gap, kept_gap = 0.0, 0.0, 0.0, 0.0
     for i in range(low, high + 1):
@@ -276,16 +291,16 @@ def repeats(stack: RigidStack, contact: int) -> tuple[int, int, float]:
 
 
 @kernel
-def vanished(stack: RigidStack, contact: int) -> tuple[int, int]:
-    """Return the lowest and highest contact of the busy group around one, if its rates are gone.
+def vanished_group(stack: RigidStack, contact: int) -> tuple[int, int]:
+    """Return the (lowest, highest) contact of the busy group around one whose rates have vanished.
 
-    Otherwise, and for the two contacts on which theory decides, return that contact twice.
+    Otherwise, and for a group of two contacts, which theory decides, return that contact twice.
     """
-    limit = _VANISHED * stack.number[2] / stack.number[0]
+    limit = _VANISHED * stack.number[SPEED] / stack.number[UNIT]
     size = len(stack.mass)
     if abs(stack.rate[contact]) >= limit:
         return contact, contact
-    busy = stack.counter[1] - _BUSY * size
+    busy = stack.counter[EVENTS] - _BUSY * size
     low, high = contact, contact
     while low > 0 and stack.last_hit[low - 1] > max(busy, 0):
         low -= 1

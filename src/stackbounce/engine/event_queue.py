@@ -1,17 +1,17 @@
-"""A queue of times: a binary heap that knows where each slot is, ties by the lowest slot.
+"""A priority queue of times: a binary heap with the place of each slot, ties by the lowest slot.
 
-``due[slot]`` is a slot's time, ``heap`` holds the slots in heap order, ``place[slot]`` tells where;
-the earliest is always ``heap[0]``.
+``due[slot]`` is a slot's time, ``heap`` lists the slots in heap order, and ``place[slot]`` is the
+index of a slot in it. The earliest slot is always ``heap[0]``.
 """
 
 import math
 
-from stackbounce.engine.kernel import Floats, Integers, kernel
+from stackbounce.engine.compiler import Floats, Integers, kernel
 
 
 @kernel
-def clear(due: Floats, heap: Integers, place: Integers) -> None:
-    """Let no slot be due at all."""
+def clear_queue(due: Floats, heap: Integers, place: Integers) -> None:
+    """Set all slots to never."""
     for slot in range(len(due)):
         due[slot] = math.inf
         heap[slot] = slot
@@ -20,7 +20,7 @@ def clear(due: Floats, heap: Integers, place: Integers) -> None:
 
 @kernel
 def schedule(due: Floats, heap: Integers, place: Integers, slot: int, time: float) -> None:
-    """Let a slot be due at a time."""
+    """Set the time at which a slot is due."""
     if due[slot] == time:
         return
     due[slot] = time

@@ -1,33 +1,34 @@
-"""Rigid balls between their collisions: straight lines and parabolas.
+"""The motion of rigid balls between collisions: straight lines and parabolas.
 
-Gravity moves all flying balls alike, so that the gap between two of them changes at a steady rate.
-The lowest balls may lie at rest on the floor, each on the one below it. One contact alone closes
-with the acceleration of gravity: the lowest that is not at rest, between the highest ball at rest
-(or the floor) and the lowest ball in flight. Its gap g follows
+Gravity accelerates all flying balls alike, so that the gap between two of them changes at a
+constant rate. The lowest balls may be at rest, on the floor and on each other. Only one contact
+closes with the acceleration of gravity: the lowest that is not at rest, between the highest ball at
+rest (or the floor) and the lowest ball in flight. Its gap g follows
 
     g(t) = g - r t - a t^2/2,    closes after    2 g / (r + sqrt(r^2 + 2 a g)),
 
-and at the rate sqrt(r^2 + 2 a g), with the closing rate r at the start.
+with the closing rate r at the start and sqrt(r^2 + 2 a g) at the end.
 
 Each contact (rate and compression) and each ball (velocity) is anchored at a local time of its own,
-so that a collision touches nothing but its neighbours. The origin of local time is moved on
-whenever a wait is so short against it that digits of the wait would be lost.
+so that a collision changes its neighbours only. The origin of local time moves forward if a wait is
+so short compared with local time that digits of it would be lost.
 """
 
 import math
 
 from stackbounce.engine.codes import ABSENT, EPSILON
+from stackbounce.engine.compiler import kernel
 from stackbounce.engine.event_queue import schedule
-from stackbounce.engine.kernel import kernel
+from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY
 from stackbounce.engine.stack import RigidStack
 
-_ALIKE = 8.0  # speeds up to so many times their difference give it with all its digits
-_LATE = 256.0  # waits that local time exceeds by this factor call for a new origin
+_ALIKE = 8.0  # times a difference of speeds: up to this they give it to all digits
+_LATE = 256.0  # times a wait: a later local time gets a new origin
 
 
 @kernel
-def approach(stack: RigidStack, i: int) -> float:
-    """Return the rate at which contact i closes, 0 where it opens or rests within round-off."""
+def approach_rate(stack: RigidStack, i: int) -> float:
+    """Return the rate at which contact i closes; 0 if it opens or is at rest within round-off."""
     if stack.law[i] == ABSENT:
         return 0.0
     return stack.rate[i] if stack.rate[i] > stack.rate_noise[i] else 0.0
@@ -36,18 +37,18 @@ def approach(stack: RigidStack, i: int) -> float:
 @kernel
 def acceleration(stack: RigidStack, i: int) -> float:
     """Return the acceleration at which contact i closes."""
-    return stack.number[3] if i == stack.resting[0] else 0.0
+    return stack.number[GRAVITY] if i == stack.resting[BALLS_AT_REST] else 0.0
 
 
 @kernel
 def rate_after(stack: RigidStack, i: int, later: float) -> float:
-    """Return the rate at which contact i closes some time from now."""
+    """Return the closing rate of contact i at a time after now."""
     return stack.rate[i] + acceleration(stack, i) * (stack.now[0] - stack.anchor[i] + later)
 
 
 @kernel
 def compression_after(stack: RigidStack, i: int, later: float) -> float:
-    """Return minus the gap of contact i some time from now."""
+    """Return the compression of contact i (minus its gap) at a time after now."""
     elapsed = stack.now[0] - stack.anchor[i] + later
     mean = stack.rate[i] + 0.5 * acceleration(stack, i) * elapsed
     return stack.compression[i] + mean * elapsed
@@ -55,15 +56,15 @@ def compression_after(stack: RigidStack, i: int, later: float) -> float:
 
 @kernel
 def velocity_after(stack: RigidStack, b: int, later: float) -> float:
-    """Return the velocity of ball b some time from now."""
-    if b < stack.resting[0]:
+    """Return the velocity of ball b at a time after now."""
+    if b < stack.resting[BALLS_AT_REST]:
         return stack.velocity[b]
-    return stack.velocity[b] - stack.number[3] * (stack.now[0] - stack.since[b] + later)
+    return stack.velocity[b] - stack.number[GRAVITY] * (stack.now[0] - stack.since[b] + later)
 
 
 @kernel
-def bring_contacts(stack: RigidStack, low: int, high: int) -> None:
-    """Anchor the contacts low..high now, as far as there are such."""
+def anchor_contacts(stack: RigidStack, low: int, high: int) -> None:
+    """Anchor the existing contacts among low..high now."""
     for i in range(max(low, 0), min(high + 1, len(stack.mass))):
         compression = compression_after(stack, i, 0.0)
         stack.rate[i] = rate_after(stack, i, 0.0)
@@ -72,8 +73,8 @@ def bring_contacts(stack: RigidStack, low: int, high: int) -> None:
 
 
 @kernel
-def bring_balls(stack: RigidStack, low: int, high: int) -> None:
-    """Anchor the balls low..high now, as far as there are such."""
+def anchor_balls(stack: RigidStack, low: int, high: int) -> None:
+    """Anchor the existing balls among low..high now."""
     for b in range(max(low, 0), min(high + 1, len(stack.mass))):
         stack.velocity[b] = velocity_after(stack, b, 0.0)
         stack.since[b] = stack.now[0]
@@ -81,7 +82,7 @@ def bring_balls(stack: RigidStack, low: int, high: int) -> None:
 
 @kernel
 def closing_time(stack: RigidStack, i: int, rate: float) -> float:
-    """Return how long contact i, anchored now, takes to close at a steady rate."""
+    """Return the time that contact i, anchored now, takes to close at a constant rate."""
     if rate <= 0.0:
         return math.inf
     return max(0.0, -stack.compression[i] / rate)
@@ -89,7 +90,7 @@ def closing_time(stack: RigidStack, i: int, rate: float) -> float:
 
 @kernel
 def closing_rate(stack: RigidStack, i: int) -> float:
-    """Return the rate at which a contact that closes with acceleration will have closed."""
+    """Return the rate of an accelerated contact at the moment at which it closes."""
     gap, rate = -stack.compression[i], stack.rate[i]
     if gap <= 0.0:
         return abs(rate)
@@ -97,9 +98,9 @@ def closing_rate(stack: RigidStack, i: int) -> float:
 
 
 @kernel
-def plan(stack: RigidStack, i: int) -> None:
+def schedule_collision(stack: RigidStack, i: int) -> None:
     """Set the time of the next collision of contact i, which is anchored now."""
-    wait = closing_time(stack, i, approach(stack, i))
+    wait = closing_time(stack, i, approach_rate(stack, i))
     pull = acceleration(stack, i)
     if pull > 0.0 and stack.law[i] != ABSENT:
         gap, rate, last = max(0.0, -stack.compression[i]), stack.rate[i], closing_rate(stack, i)
@@ -111,21 +112,21 @@ def plan(stack: RigidStack, i: int) -> None:
 
 @kernel
 def _move_origin(stack: RigidStack) -> None:
-    """Count local time from now on."""
+    """Make now the origin of local time."""
     now = stack.now[0]
     for i in range(len(stack.mass)):
         stack.anchor[i] -= now
         stack.since[i] -= now
-        stack.due[i] -= now  # all by the same: the queue keeps its order
+        stack.due[i] -= now  # by the same amount: the order of the queue stays
     stack.now[0] = 0.0
 
 
 @kernel
 def change_rate(stack: RigidStack, i: int, change: float) -> None:
-    """Let contact i close faster, by a change that the velocities of its balls hold already.
+    """Change the closing rate of contact i, after the velocities of its balls have changed.
 
-    Their difference is the better number, except where both are far faster than they part or meet.
-    Contact and balls are anchored now.
+    The difference of these velocities is the more exact rate, unless both are much larger than it
+    is. Contact and balls are anchored now.
     """
     largest = max(abs(stack.rate[i]), abs(change))
     below = stack.velocity[i - 1] if i > 0 else 0.0
@@ -139,15 +140,15 @@ def change_rate(stack: RigidStack, i: int, change: float) -> None:
 
 @kernel
 def wake(stack: RigidStack, b: int) -> None:
-    """Let ball b, and those above it, be at rest no longer; its contact is still to be planned."""
-    top = stack.resting[0]
+    """End the rest of ball b and those above it; the caller schedules contact b."""
+    top = stack.resting[BALLS_AT_REST]
     if b >= top:
         return
     if top < len(stack.mass):
-        bring_contacts(stack, top, top)
-    stack.resting[0] = b
+        anchor_contacts(stack, top, top)
+    stack.resting[BALLS_AT_REST] = b
     for i in range(b, top):
         stack.since[i] = stack.now[0]
         stack.anchor[i] = stack.now[0]
     if top < len(stack.mass):
-        plan(stack, top)
+        schedule_collision(stack, top)

@@ -1,13 +1,13 @@
-"""One look at each of many drops of two balls on springs (eqs 5 and 6), in lock step.
+"""One step of many drops of two balls on springs (eqs 5 and 6) at the same time, in lock step.
 
-Every drop has a lane in one flat array: slot ``N`` of lane i is ``x[N + i]``. All lanes take a look
-at the same time, and what a look does is written without branches, in loops so short that a
-compiler makes vectors of them and a processor, which looks some 200 instructions ahead, works on
-several rounds at once. Lanes never see each other.
+Every drop has a lane in one flat array: slot ``N`` of lane i is ``x[N + i]``. All lanes step at the
+same time. A step has no branches and consists of short loops, which a compiler vectorises and a
+processor, which looks some 200 instructions ahead, executes several rounds of at once. Lanes do not
+affect each other.
 
 In units of the lower ball's mass m1, of 1/omega = sqrt(m1/k1) and of the impact speed, with
 mu = m2/m1 and kappa = k2/k1, and in the coordinates w0 = q0, w1 = sqrt(mu) q1, eqs 5 and 6 read
-w'' = -K w, with another K in each of four regimes. A rotation by (c, s) gives two modes of the
+w'' = -K w, with another K in each of four regimes. A rotation by (c, s) gives two modes with the
 frequencies a and b:
 
 ============ ========= ========= ==================================================================
@@ -19,99 +19,99 @@ floor only   pressed   open      the lower ball on the floor, and the upper ball
 none         open      open      both balls in flight
 ============ ========= ========= ==================================================================
 
-A mode y'' = -a^2 y moves as y cos(a t) + y' t sinc(a t), in flight too: there a is 0.
+A mode y'' = -a^2 y moves as y cos(a t) + y' t sinc(a t); in flight a is 0.
 
-A look goes as far as no contact can have changed its phase, or right onto the first change. Where a
-change is not clear of round-off the lane ends with the status ASK: the general engine has a rule
-for everything.
+A step ends where no contact can have changed its phase yet, or exactly at the first change. If a
+change cannot be told from round-off the lane ends with the status ASK: the general engine, which
+has a rule for every case, solves that drop.
 """
 
 import math
 
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED
-from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.trigonometry import cosine, half_turns, nudged, sinc
+from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.trigonometry import cosine, half_turns, nudge_mode, sinc
 
 LANES = 32  # a power of two
 
-# The slots of a drop. What every drop begins with of its own: position and velocity of the upper
-# ball, whether the balls' contact presses (1 or 0), how it has ended, which row it is; 1/sqrt(mu);
-# with both contacts pressed c, s, a, b, what the balls' contact sees of the modes, 1/a and 1/b; the
-# same for the balls only, where b is 0; its units of time and speed.
+# The slots of a drop, first those with a value of its own at the start: position and velocity of
+# the upper ball, 1 if the balls' contact presses, status, row; 1/sqrt(mu); with both contacts
+# pressed c, s, a, b, the modes' weights in the compression of the balls' contact, 1/a and 1/b; the
+# same for the balls only, where b is 0; the units of time and speed.
 W1, U1, BALLS, STATUS, ROW = (k * LANES for k in range(5))
 SLIM, C2, S2, A2, B2, V2, X2, OVER_A2, OVER_B2 = (k * LANES for k in range(5, 14))
 C1, S1, A1, V1, OVER_A1, UNIT, V0 = (k * LANES for k in range(14, 21))
-OWN = 21  # so many
-# What all begin with alike: the lower ball, time, whether the floor's contact presses. Looks,
-# intervals of each contact, the balls' first touch, last releases, and whether the last look was in
-# vain (1 or 0).
+OWN = 21  # slots with a value of their own
+# Slots that start alike: position and velocity of the lower ball, time, 1 if the floor's contact
+# presses; steps taken, intervals of each contact, first touch of the balls, last releases, and 1 if
+# the last step was in vain.
 W0, U0, TIME, FLOOR = (k * LANES for k in range(21, 25))
-LOOKS, N0, N1, FIRST, LAST0, LAST1, VAIN = (k * LANES for k in range(25, 32))
+ROUNDS, N0, N1, FIRST, LAST0, LAST1, VAIN = (k * LANES for k in range(25, 32))
 
-# The slots of a look: the rotation of the present regime, how far a series is used, and how far one
-# of the slower mode only. Of the contact that may end the look: what it sees of the modes, a bound
-# of its third derivative over 2, whether (1 or 0) it is the floor's, whether an event is expected,
-# how long after the time that is safe, how much longer the other contact is safe, and its distance
-# from the event somewhere, with the first derivative and half of the second. Any doubt, whether the
-# event is landed on, and which contact has changed.
+# The slots of a step: the rotation of the present regime, the range of a series, and that of a
+# series of the slower mode alone. For the contact that may end the step: the modes' weights in it,
+# a bound of its third derivative over 2, 1 if it is the floor's, 1 if an event is expected, the
+# time from the safe time to the event, how much longer the other contact is safe, and the distance
+# from the event with its first derivative and half its second. Then 1 if in doubt, 1 if the event
+# is reached, and 1 for the contact that changes.
 C, S, REACH, LONG = (k * LANES for k in range(32, 36))
 SEES_A, SEES_B, BEND, LOWER, EXPECTED, PAST, SPARE = (k * LANES for k in range(36, 43))
 F, G, H, DOUBT, LANDS, FLOOR_TURNS, BALLS_TURN = (k * LANES for k in range(43, 50))
-# Double slots, of mode a in the first half and of mode b in the second: frequency, one over it or
-# 0, position, velocity, the step, and a short one to the event; the step's angle less half turns,
+# Double slots, mode a in the first half and mode b in the second: frequency, its inverse or 0,
+# position, velocity, the step, and a short step to the event; the step's angle without half turns,
 # their sign, cosine and (sin x)/x.
 OMEGA, OVER, Y, Z, STEP, D = (k * LANES for k in range(50, 62, 2))
 ANGLE, SIGN, COS, SINC = (k * LANES for k in range(62, 70, 2))
-# Double slots, of the floor's contact and of the balls': how far it is from an event (a compression
-# or a gap) as a series, how far that is used, bounds of the third derivative over 2 and of the
-# sixth over 6!, the shares of the modes in distance and rate, what it sees of the modes, and how
-# long nothing happens. Of the first three rows the first half is then the contact's that may end
-# the look.
+# Double slots, the floor's contact and the balls': the series of its distance from the event (a
+# compression or a gap), the range of that series, bounds of the third derivative over 2 and of the
+# sixth over 6!, the modes' parts of the distance and of the rate, their weights, and the safe time.
+# In the first three rows, the first half then holds the numbers of the contact that may end the
+# step.
 P0, P1, P2, P3, P4, P5, VALID, THIRD, TAIL = (k * LANES for k in range(70, 88, 2))
 GA, GB, HA, HB, FA, FB, SAFE = (k * LANES for k in range(88, 102, 2))
 OTHER = LANES  # the second half of a double slot
 SLOTS = 102
 
-WIDEST = 2.5  # rad: how far series of order 5 are used
-_FAST = 64.0  # rad: how far the faster mode goes in one look
-_SLOW = 1e-5  # of the impact speed: whether anything so slow happens is left to the general engine
-_CLOSE = 1e-10  # of v0/omega: so is what comes so close to happening
-_NOISE = 1e-13  # of the impact speed: balls that move together
-_NEAR = 0.01  # rad, and as a part: what keeps the error of a landing below 1e-16
-_LOOKS = 200.0  # longer stories gather round-off
+WIDEST = 2.5  # rad: the range of series of order 5
+_FAST = 64.0  # rad: the longest step of the faster mode
+_SLOW = 1e-5  # of the impact speed: slower events are left to the general engine
+_CLOSE = 1e-10  # of v0/omega: so are events that are missed by less
+_NOISE = 1e-13  # of the impact speed: slower relative motion counts as none
+_NEAR = 0.01  # rad, and relative: keeps the error of a landing below 1e-16
+_ROUNDS = 200.0  # steps; longer runs accumulate round-off
 _NEVER = 1e300
 
 
 @kernel
-def look(x: Floats, event_limit: float) -> None:
-    """Move each lane on, at most to its next event, and let that happen."""
-    _expand(x)
+def advance_lanes(x: Floats, event_limit: float) -> None:
+    """Move each lane on, at most to its next event, and apply that event."""
+    _find_modes(x)
     _differentiate(x, 0)
     _differentiate(x, OTHER)
-    _watch(x)
-    _choose(x)
-    _follow(x)
-    _aim(x)
-    _swing(x)
-    _approach(x)
-    _follow(x)
+    _find_safe_times(x)
+    _choose_contact(x)
+    _evaluate_series(x)
+    _choose_steps(x)
+    _move_modes(x)
+    _find_landing(x)
+    _evaluate_series(x)
     _land(x)
-    _happen(x, event_limit)
+    _apply_events(x, event_limit)
 
 
 @kernel
-def _expand(x: Floats) -> None:
-    """Find each lane's modes (eqs 5 and 6), and what each contact sees of them.
+def _find_modes(x: Floats) -> None:
+    """Find the modes of each lane (eqs 5 and 6), and their contributions to each contact.
 
-    A slot of a contact holds how far it is from its next event: a pressed one its compression, an
-    open one its gap.
+    A slot of a contact holds its distance from the next event: the compression of a pressed
+    contact, the gap of an open one.
     """
     for i in range(LANES):
         floor, balls = x[FLOOR + i], x[BALLS + i]
         both = floor * balls
         only, apart = balls - both, 1.0 - balls
         w0, w1, u0, u1, slim = x[W0 + i], x[W1 + i], x[U0 + i], x[U1 + i], x[SLIM + i]
-        # sums, as a choice between two slots would be compiled to a slow one between addresses
+        # sums: a choice between two slots would be compiled to a slow choice between addresses
         c = both * x[C2 + i] + only * x[C1 + i] + apart
         s = both * x[S2 + i] + only * x[S1 + i]
         a = both * x[A2 + i] + only * x[A1 + i] + (floor - both)
@@ -143,16 +143,16 @@ def _expand(x: Floats) -> None:
 
 @kernel
 def _differentiate(x: Floats, half: int) -> None:
-    """Find for a contact the series of its distance from an event, and a bound of the rest.
+    """Find the power series of a contact's distance from its event, and a bound on the remainder.
 
-    The distance is at least what mode b makes of it less all that mode a, the faster one, can take
-    away. Where that is sure to stay positive for long it stands for the distance.
+    The distance is at least the contribution of mode b minus the amplitude of mode a, the faster
+    one. If this lower bound is sure to stay positive for long, it is used in place of the distance.
     """
     for n in range(LANES):
         i = half + n
         ga, gb, ha, hb, p0, p1 = x[GA + i], x[GB + i], x[HA + i], x[HB + i], x[P0 + i], x[P1 + i]
         a, b, reach, long = x[OMEGA + n], x[OMEGA + OTHER + n], x[REACH + n], x[LONG + n]
-        # at least sqrt(u^2 + v^2), the amplitude of mode a
+        # an upper bound of sqrt(u^2 + v^2), the amplitude of mode a
         u, v = abs(ga), x[OVER + n] * abs(ha)
         taken = max(u, v) + 0.4142136 * min(u, v)
         ra, rb = a * (a * taken), b * (b * abs(gb) + abs(hb))
@@ -173,17 +173,17 @@ def _differentiate(x: Floats, half: int) -> None:
 
 
 @kernel
-def _watch(x: Floats) -> None:
-    """Find for each contact a time before which it surely keeps its phase.
+def _find_safe_times(x: Floats) -> None:
+    """Find for each contact a time before which it cannot change its phase.
 
-    Its distance p(t) from the event is known to order 5, with a bound of the rest. Horner's nested
-    lower bounds, as in `series.safe_step`, go down to a parabola here: p is positive before its
-    root.
+    The distance p(t) from the event is known to order 5, with a bound on the remainder. Horner's
+    nested lower bounds, as in `series.safe_step`, end with a parabola here: p is positive before
+    its root.
     """
     for i in range(2 * LANES):
         p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
         tail, reach = x[TAIL + i], x[VALID + i]
-        # zero gap: p0 = p1 = p2 = 0, and no parabola but a short one is below a cubic
+        # zero gap: p0 = p1 = p2 = 0, and a parabola is below a cubic for a short time only
         s = reach if p0 > _CLOSE or p1 != 0.0 else 0.5 * reach
         h = p5 - tail * s
         h = p4 + min(0.0, h) * s
@@ -200,8 +200,8 @@ def _watch(x: Floats) -> None:
 
 
 @kernel
-def _choose(x: Floats) -> None:
-    """Take the contact that is not safe for as long as the other one, at the end of that time."""
+def _choose_contact(x: Floats) -> None:
+    """Choose the contact with the shorter safe time, at the end of that time."""
     for i in range(LANES):
         one, other = x[SAFE + i], x[SAFE + OTHER + i]
         lower = 1.0 if one <= other else 0.0
@@ -220,8 +220,8 @@ def _choose(x: Floats) -> None:
 
 
 @kernel
-def _follow(x: Floats) -> None:
-    """Follow that contact's series as far as the short step goes."""
+def _evaluate_series(x: Floats) -> None:
+    """Evaluate the series of the chosen contact after the short step."""
     for i in range(LANES):
         p0, p1, p2, p3, p4, p5 = x[P0 + i], x[P1 + i], x[P2 + i], x[P3 + i], x[P4 + i], x[P5 + i]
         d = x[D + i]
@@ -231,8 +231,8 @@ def _follow(x: Floats) -> None:
 
 
 @kernel
-def _aim(x: Floats) -> None:
-    """Find each lane's step: to where its first event is expected, or as far as there is none."""
+def _choose_steps(x: Floats) -> None:
+    """Choose each lane's step: to its first expected event, or to the end of the safe time."""
     for i in range(LANES):
         f, g, h = x[F + i], x[G + i], x[H + i]
         safe, limit, p0, reach = x[D + i], x[SPARE + i], x[P0 + i], x[VALID + i]
@@ -250,15 +250,15 @@ def _aim(x: Floats) -> None:
 
 @kernel
 def _halley(f: float, g: float, h: float) -> float:
-    """Return Halley's step, to second order, to where f + g d + h d^2 falls through 0."""
+    """Return Halley's step, to second order, to the zero of f + g d + h d^2 where it falls."""
     inverse = 1.0 / (g if g < -_SLOW else -1.0)
     d = -f * inverse
     return d * (1.0 - d * h * inverse)
 
 
 @kernel
-def _swing(x: Floats) -> None:
-    """Move each mode on by a step."""
+def _move_modes(x: Floats) -> None:
+    """Move each mode on by its step."""
     for i in range(2 * LANES):
         x[SIGN + i], x[ANGLE + i] = half_turns(x[OMEGA + i] * x[STEP + i])
     for i in range(2 * LANES):
@@ -273,8 +273,8 @@ def _swing(x: Floats) -> None:
 
 
 @kernel
-def _approach(x: Floats) -> None:
-    """Find from where a lane now is a first short step to the event, if it can be landed on."""
+def _find_landing(x: Floats) -> None:
+    """Find a first short step from the present time to the event, where that can be reached."""
     for i in range(LANES):
         a, ya, za = x[OMEGA + i], x[Y + i], x[Z + i]
         b, yb, zb = x[OMEGA + OTHER + i], x[Y + OTHER + i], x[Z + OTHER + i]
@@ -298,11 +298,11 @@ def _approach(x: Floats) -> None:
 
 @kernel
 def _land(x: Floats) -> None:
-    """Move each lane that expects an event right onto it, and all back to the balls.
+    """Move each lane that expects an event exactly to it, and return to the balls' coordinates.
 
-    The root is the first event if the distance falls all the way to it from the time that was safe,
-    as its derivatives at the root tell, and if the other contact is safe until then. Otherwise the
-    look was in vain: the lane stays where it was, and will not look further than is safe.
+    The root is the first event if the distance falls all the way to it from the safe time, which
+    its derivatives at the root show, and if the other contact is safe until then. Otherwise the
+    step was in vain: the lane stays where it was, and its next step ends with the safe time.
     """
     for i in range(LANES):
         f, g, h, d = x[F + i], x[G + i], x[H + i], x[D + i]
@@ -312,7 +312,7 @@ def _land(x: Floats) -> None:
         lands = lands if (2.0 * abs(h) + bend * past) * past <= -0.9 * g else 0.0
         x[LANDS + i], x[D + i], x[D + OTHER + i] = lands, lands * d, lands * d
     for i in range(2 * LANES):
-        x[Y + i], x[Z + i] = nudged(x[OMEGA + i], x[D + i], x[Y + i], x[Z + i])
+        x[Y + i], x[Z + i] = nudge_mode(x[OMEGA + i], x[D + i], x[Y + i], x[Z + i])
     for i in range(LANES):
         ya, za, yb, zb = x[Y + i], x[Z + i], x[Y + OTHER + i], x[Z + OTHER + i]
         c, s, lands, lower = x[C + i], x[S + i], x[LANDS + i], x[LOWER + i]
@@ -328,8 +328,8 @@ def _land(x: Floats) -> None:
 
 
 @kernel
-def _happen(x: Floats, event_limit: float) -> None:
-    """Let contacts touch and release, and tell what is over."""
+def _apply_events(x: Floats, event_limit: float) -> None:
+    """Let contacts touch and release, and set the status of drops that have ended."""
     for i in range(LANES):
         floor, balls, now = x[FLOOR + i], x[BALLS + i], x[TIME + i]
         lower, upper = x[FLOOR_TURNS + i], x[BALLS_TURN + i]
@@ -342,11 +342,11 @@ def _happen(x: Floats, event_limit: float) -> None:
         x[LAST1 + i] = (1.0 - release1) * x[LAST1 + i] + release1 * now
         floor, balls = abs(floor - lower), abs(balls - upper)
         x[FLOOR + i], x[BALLS + i] = floor, balls
-        pressed, looks = floor + balls, x[LOOKS + i] + 1.0
-        x[LOOKS + i] = looks
+        pressed, rounds = floor + balls, x[ROUNDS + i] + 1.0
+        x[ROUNDS + i] = rounds
         u0, u1, doubt = x[U0 + i], x[U1 + i] * x[SLIM + i], x[DOUBT + i]
         parting = min(u1 - u0, u0)  # the slower one of the two contacts
         result = EVENT_LIMIT if 2.0 * (n0 + n1) - pressed >= event_limit else 0.0
-        result = ASK if doubt > 0.0 or looks >= _LOOKS else result
+        result = ASK if doubt > 0.0 or rounds >= _ROUNDS else result
         result = ASK if pressed == 0.0 and parting > -_SLOW else result
         x[STATUS + i] = FINISHED if pressed == 0.0 and parting >= _SLOW else result

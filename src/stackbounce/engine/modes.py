@@ -1,17 +1,18 @@
-"""A cluster whose closed contacts are all linear moves in normal modes: no time step, no tolerance.
+"""A cluster with linear contacts only moves in normal modes: no time step and no tolerance.
 
-In the coordinates w_i = sqrt(k_i/k) c_i of the closed contacts, k the lowest one's, the stored
-energy is k |w|^2/2, and eqs 5 and 6, for any number of balls, read w'' = -B B^T w + g, where the
-row of B for contact i holds sqrt(k_i/m) of the two balls at it. Orthogonalising those rows
-(one-sided Jacobi, which for two contacts is a single rotation) gives the modes y = Q w with
-frequencies equal to the rows' lengths. The balls follow from the contact forces by momentum, so
-that impulses are exact as well.
+In the coordinates w_i = sqrt(k_i/k) c_i of the closed contacts, k being that of the lowest one, the
+stored energy is k |w|^2/2, and eqs 5 and 6, for any number of balls, read w'' = -B B^T w + g. The
+row of B for contact i holds sqrt(k_i/m) of its two balls. Orthogonalising these rows (one-sided
+Jacobi; a single rotation for two contacts) gives the modes y = Q w, whose frequencies are the
+lengths of the rows. The balls' motion follows from the contact forces by momentum, so that impulses
+are exact as well.
 """
 
 import math
 
 from stackbounce.engine.codes import EPSILON
-from stackbounce.engine.kernel import Floats, kernel
+from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import WIDTH, Stack
 
 
@@ -79,7 +80,7 @@ def _orthogonalise(stack: Stack, i: int, j: int, low: int, high: int) -> bool:
 @kernel
 def start_modes(stack: Stack, low: int, high: int) -> None:
     """Set the amplitudes of the modes of contacts low..high-1 from compressions and velocities."""
-    gravity = stack.number[0]
+    gravity = stack.number[GRAVITY]
     for j in range(low, high):
         start, speed, load = 0.0, 0.0, 0.0
         for i in range(low, high):
@@ -98,8 +99,8 @@ def start_modes(stack: Stack, low: int, high: int) -> None:
 def modal_position(stack: Stack, j: int, s: float) -> float:
     """Return the coordinate of mode j at s after the anchor.
 
-    It begins at ``cosine`` with the speed ``sine`` and swings about ``static``, which may be far
-    away: nothing is subtracted from that.
+    The mode begins at ``cosine`` with the speed ``sine`` and oscillates about ``static``. As
+    ``static`` may be large, nothing is subtracted from it.
     """
     angle = stack.omega[j] * s
     half = math.sin(0.5 * angle)
@@ -113,7 +114,8 @@ def modal_compression(
 ) -> tuple[float, float, float]:
     """Expand the compression of closed contact i about s after the anchor, in eight terms.
 
-    Returns the bound on the rest (of order s^8), the round-off of the compression and of its rate.
+    Returns the bound on the remainder (of order s^8), the round-off of the compression, and that of
+    its rate.
     """
     for k in range(8):
         out[k] = 0.0

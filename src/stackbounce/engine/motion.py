@@ -1,11 +1,11 @@
-"""Where everything is at any time between events, whatever kind of cluster it belongs to."""
+"""Displacement, velocity and compression at any time between events, for every kind of cluster."""
 
 import math
 
 from stackbounce.engine.codes import COMPRESSING, EPSILON
-from stackbounce.engine.contacts import catch_up
+from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.contacts import correct_curve
 from stackbounce.engine.event_queue import schedule
-from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.modes import (
     find_modes,
     modal_compression,
@@ -13,18 +13,25 @@ from stackbounce.engine.modes import (
     modal_position,
     start_modes,
 )
-from stackbounce.engine.series import ORDER, TERMS, integral, shift, value
+from stackbounce.engine.series import ORDER, TERMS, evaluate, integrate, shift
+from stackbounce.engine.slots import GRAVITY, NONLINEAR, RECORDS_PEAKS, SPEED, TOLERANCE
 from stackbounce.engine.stack import MODES, WIDTH, Stack
-from stackbounce.engine.taylor import ENTERED, expand, is_linear, power_needed, record_crests
+from stackbounce.engine.taylor import (
+    ROOT_POWERS,
+    expand_motion,
+    is_linear,
+    power_needed,
+    record_series_peaks,
+)
 
-_KNOWN = 100.0  # times the tolerance of a step: what a story of many steps makes of it
-_ENTERS = 1e-6  # of the reference speed: a faster contact needs no chord where it begins
-_SLOWEST = 1e-9  # of the reference speed: faster balls approach, whatever the tolerance
+_KNOWN = 100.0  # times the tolerance of a step: the error after many steps
+_ENTERS = 1e-6  # of the reference speed: contacts that begin faster need no chord
+_SLOWEST = 1e-9  # of the reference speed: the largest error that the tolerance implies
 
 
 @kernel
 def pressing_range(stack: Stack, ball: int) -> tuple[int, int]:
-    """Return a cluster's pressing contacts (low, high); low = high for a ball in flight."""
+    """Return a cluster's pressing contacts as (low, high); low = high for a ball in flight."""
     first = stack.first[ball]
     low = first if stack.phase[first] >= COMPRESSING else first + 1
     return low, stack.last[ball] + 1
@@ -32,7 +39,7 @@ def pressing_range(stack: Stack, ball: int) -> tuple[int, int]:
 
 @kernel
 def series_time(stack: Stack, first: int, s: float) -> float:
-    """Return the argument of a cluster's power series at s from its anchor: s, or its root."""
+    """Return the argument of a cluster's power series at s after its anchor: s or its root."""
     return s if stack.root[first] == 1 else math.sqrt(s)
 
 
@@ -42,23 +49,23 @@ def contact_impulse(stack: Stack, i: int, s: float) -> float:
     first = stack.first[i]
     if stack.modal[first] == 0:
         x = series_time(stack, first, s)
-        return integral(stack.force_series[i], stack.order[first], x, stack.root[first])
+        return integrate(stack.force_series[i], stack.order[first], x, stack.root[first])
     low, high = pressing_range(stack, i)
     once, _ = modal_impulse(stack, i, low, high, s)
     return once
 
 
 @kernel
-def ball_shift(stack: Stack, b: int, s: float) -> tuple[float, float]:
-    """Return displacement and change of velocity of a ball over s from its cluster's anchor."""
-    gravity = stack.number[0]
+def ball_travel(stack: Stack, b: int, s: float) -> tuple[float, float]:
+    """Return a ball's displacement and change of velocity over s from its cluster's anchor."""
+    gravity = stack.number[GRAVITY]
     first = stack.first[b]
     if stack.modal[first] == 0:
         if s == 0.0:
             return 0.0, 0.0
         order, x = stack.order[first], series_time(stack, first, s)
-        travel = integral(stack.velocity_series[b], order, x, stack.root[first])
-        return travel, value(stack.velocity_series[b], order, x) - stack.velocity[b]
+        travel = integrate(stack.velocity_series[b], order, x, stack.root[first])
+        return travel, evaluate(stack.velocity_series[b], order, x) - stack.velocity[b]
     low, high = pressing_range(stack, b)
     once, twice = 0.0, 0.0
     if low <= b:
@@ -73,12 +80,12 @@ def ball_shift(stack: Stack, b: int, s: float) -> tuple[float, float]:
 
 
 @kernel
-def pressed(stack: Stack, i: int, s: float) -> float:
-    """Return the compression of a pressing contact at s from the anchor."""
+def closed_compression(stack: Stack, i: int, s: float) -> float:
+    """Return the compression of a pressing contact at s after the anchor."""
     first = stack.first[i]
     if stack.modal[first] == 0:
         order = stack.order[first] + stack.root[first]
-        return value(stack.compression_series[i], order, series_time(stack, first, s))
+        return evaluate(stack.compression_series[i], order, series_time(stack, first, s))
     low, high = pressing_range(stack, i)
     total = 0.0
     for j in range(low, high):
@@ -87,27 +94,28 @@ def pressed(stack: Stack, i: int, s: float) -> float:
 
 
 @kernel
-def flies(stack: Stack, ball: int) -> bool:
-    """Tell whether a ball touches nothing that presses on it."""
+def is_free(stack: Stack, ball: int) -> bool:
+    """Tell whether no pressing contact touches a ball."""
     first = stack.first[ball]
     return first == stack.last[ball] and stack.phase[first] < COMPRESSING
 
 
 @kernel
-def fly_alike(stack: Stack, i: int) -> bool:
-    """Tell whether both balls at a contact are in flight and anchored at one time.
+def have_common_anchor(stack: Stack, i: int) -> bool:
+    """Tell whether both balls at a contact are in flight and anchored at the same time.
 
-    Their distance then follows from their relative velocity, without their travels' round-off.
+    Their distance then follows from their relative velocity, without the round-off of their
+    travels.
     """
-    if i == 0 or not (flies(stack, i - 1) and flies(stack, i)):
+    if i == 0 or not (is_free(stack, i - 1) and is_free(stack, i)):
         return False
     return stack.anchor[i - 1] == stack.anchor[i]
 
 
 @kernel
-def meet_anchors(stack: Stack, i: int) -> None:
-    """Anchor the two balls at a contact at one time if both are in flight."""
-    if i == 0 or not (flies(stack, i - 1) and flies(stack, i)):
+def align_anchors(stack: Stack, i: int) -> None:
+    """Anchor the two balls at a contact at the same time if both are in flight."""
+    if i == 0 or not (is_free(stack, i - 1) and is_free(stack, i)):
         return
     if stack.anchor[i - 1] < stack.anchor[i]:
         advance_cluster(stack, i - 1, stack.anchor[i])
@@ -117,16 +125,16 @@ def meet_anchors(stack: Stack, i: int) -> None:
 
 @kernel
 def compression_at(stack: Stack, i: int, time: float) -> float:
-    """Return the compression of contact i at a time: positive while pressed, minus the gap else."""
+    """Return the compression of contact i at a time: positive if pressed, minus the gap if open."""
     if stack.phase[i] >= COMPRESSING:
-        return pressed(stack, i, time - stack.anchor[stack.first[i]])
-    if fly_alike(stack, i):
+        return closed_compression(stack, i, time - stack.anchor[stack.first[i]])
+    if have_common_anchor(stack, i):
         rate = stack.velocity[i - 1] - stack.velocity[i]
         return stack.compression[i] + rate * (time - stack.anchor[i])
-    travel, _ = ball_shift(stack, i, time - stack.anchor[stack.first[i]])
+    travel, _ = ball_travel(stack, i, time - stack.anchor[stack.first[i]])
     total = stack.compression[i] - travel
     if i > 0:
-        below, _ = ball_shift(stack, i - 1, time - stack.anchor[stack.first[i - 1]])
+        below, _ = ball_travel(stack, i - 1, time - stack.anchor[stack.first[i - 1]])
         total += below
     return total
 
@@ -134,13 +142,13 @@ def compression_at(stack: Stack, i: int, time: float) -> float:
 @kernel
 def velocity_at(stack: Stack, b: int, time: float) -> float:
     """Return the velocity of ball b at a time."""
-    _, change = ball_shift(stack, b, time - stack.anchor[stack.first[b]])
+    _, change = ball_travel(stack, b, time - stack.anchor[stack.first[b]])
     return stack.velocity[b] + change
 
 
 @kernel
 def rate_at(stack: Stack, i: int, time: float) -> float:
-    """Return the rate at which contact i is being compressed at a time."""
+    """Return the rate of compression of contact i at a time."""
     below = velocity_at(stack, i - 1, time) if i > 0 else 0.0
     return below - velocity_at(stack, i, time)
 
@@ -151,12 +159,13 @@ def add_ball_series(
 ) -> tuple[int, float, float]:
     """Add sign times a ball's displacement since its anchor, expanded about a time, to ``out``.
 
-    Returns the order of the series, the bound on its rest (of order 10) and its round-off. In a
-    root of time only the ball's own cluster, anchored at that time, may have a series.
+    Returns the order of the series, the bound on its remainder (of order 10) and its round-off. A
+    series in the root of time is possible only for the cluster of the ball itself, anchored at that
+    time.
     """
     first = stack.first[b]
     s = time - stack.anchor[first]
-    travel, change = ball_shift(stack, b, s)
+    travel, change = ball_travel(stack, b, s)
     velocity = stack.velocity[b] + change
     noise = 8.0 * EPSILON * (abs(travel) + (abs(stack.velocity[b]) + abs(velocity)) * s)
     out[0] += sign * travel
@@ -168,7 +177,7 @@ def add_ball_series(
         for k in range(1, order + 1):
             out[k + root] += sign * root * part[k] / (k + root)
         return order + root, 0.0, noise
-    out[2 * root] -= 0.5 * sign * stack.number[0]
+    out[2 * root] -= 0.5 * sign * stack.number[GRAVITY]
     low, high = pressing_range(stack, b)
     tail = 0.0
     for i in range(max(low, b), min(high, b + 2)):
@@ -182,7 +191,7 @@ def add_ball_series(
 
 @kernel
 def root_at(stack: Stack, i: int) -> int:
-    """Return the root of time in which the compression of contact i has its series."""
+    """Return the root of time (1 or 2) in which the compression of contact i is a power series."""
     root = stack.root[stack.first[i]]
     return max(root, stack.root[stack.first[i - 1]]) if i > 0 else root
 
@@ -191,17 +200,17 @@ def root_at(stack: Stack, i: int) -> int:
 def compression_series(
     stack: Stack, i: int, time: float, root: int, out: Floats
 ) -> tuple[int, int, float, float, float]:
-    """Expand the compression of contact i about a time, in a root of what has passed since.
+    """Expand the compression of contact i about a time, in a root of the time since then.
 
-    Returns the order, the order of the rest and its bound, and the round-off of the compression and
-    of its rate.
+    Returns the order of the series, the order of the remainder and its bound, the round-off of the
+    compression, and that of its rate.
     """
     first = stack.first[i]
     if stack.phase[i] < COMPRESSING:
         for k in range(TERMS):
             out[k] = 0.0
         noise = 8.0 * EPSILON * abs(stack.compression[i])
-        if fly_alike(stack, i):
+        if have_common_anchor(stack, i):
             out[0] = compression_at(stack, i, time)
             out[1] = stack.velocity[i - 1] - stack.velocity[i]
             return 2, 10, 0.0, noise, 0.0
@@ -236,70 +245,72 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
     moves, x, order = stack.modal[first] == 0, s, stack.order[first]
     if moves:
         x = series_time(stack, first, s)
-        record_crests(stack, low, high, x)
+        record_series_peaks(stack, low, high, x)
     fastest = 0.0
     for b in range(first, last + 1):
         open_below = b == first and low > first
         open_above = b == last and b + 1 < len(stack.mass)
         before = stack.velocity[b]
         if open_below or open_above or not moves:
-            travel, change = ball_shift(stack, b, s)
+            travel, change = ball_travel(stack, b, s)
             stack.velocity[b] += change
             if open_below:
                 stack.compression[b] -= travel
             if open_above:
                 stack.compression[b + 1] += travel
         else:
-            stack.velocity[b] = value(stack.velocity_series[b], order, x)
+            stack.velocity[b] = evaluate(stack.velocity_series[b], order, x)
         fastest = max(fastest, abs(before), abs(stack.velocity[b]))
     noise = 64.0 * EPSILON * fastest
     if moves and (order < ORDER or stack.root[first] == 2):
-        known = min(_KNOWN * stack.number[2], _SLOWEST)
-        noise = max(noise, known * stack.number[1])
+        known = min(_KNOWN * stack.number[TOLERANCE], _SLOWEST)
+        noise = max(noise, known * stack.number[SPEED])
     for b in range(first, last + 1):
         stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)
     for i in range(low, high):
-        if stack.setting[2] == 1 or stack.faint[i] == 1:
+        if stack.setting[RECORDS_PEAKS] == 1 or stack.linearised[i] == 1:
             impulse = contact_impulse(stack, i, s)
             stack.impulse[i] += impulse
-            stack.faint_impulse[i] += impulse
+            stack.linearised_impulse[i] += impulse
         if moves:
             c = stack.compression_series[i]
-            stack.compression[i] = value(c, order + stack.root[first], x)
+            stack.compression[i] = evaluate(c, order + stack.root[first], x)
         else:
-            stack.compression[i] = pressed(stack, i, s)
+            stack.compression[i] = closed_compression(stack, i, s)
     stack.anchor[first] = time
 
 
 @kernel
-def may_enter(stack: Stack) -> bool:
-    """Tell whether clusters may have series in a root of time.
+def allows_root_series(stack: Stack) -> bool:
+    """Tell whether clusters may have series in the root of time.
 
-    A stack of more balls might have to look at one from a cluster with a series of its own.
+    In a stack of more than two balls, a contact at such a cluster might also need the series of the
+    next cluster, which has another anchor.
     """
-    return len(stack.mass) <= 2 and stack.setting[1] == 1
+    return len(stack.mass) <= 2 and stack.setting[NONLINEAR] == 1
 
 
 @kernel
-def _enter(stack: Stack, low: int, high: int) -> int:
-    """Let a contact that begins at a speed follow its curve at once, where its power allows it.
+def _choose_root(stack: Stack, low: int, high: int) -> int:
+    """Return the root of time (1 or 2) in which a cluster's motion has a power series.
 
-    Returns in which root of time the motion has a power series.
+    It is 2 if a contact begins at a speed and its power is a multiple of 1/2; that contact then
+    needs no chord.
     """
     for i in range(low, high):
         twice = 2.0 * power_needed(stack, i)
         if stack.compression[i] != 0.0 or twice != math.floor(twice):
             continue
         rate = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
-        if 0.0 < twice < ENTERED and rate > _ENTERS * stack.number[1]:
-            stack.faint[i] = 0
+        if 0.0 < twice < ROOT_POWERS and rate > _ENTERS * stack.number[SPEED]:
+            stack.linearised[i] = 0
             return 2
     return 1
 
 
 @kernel
 def form_clusters(stack: Stack, bottom: int, top: int, time: float) -> None:
-    """Join the balls bottom..top, all anchored at a time, into clusters and expand their motion."""
+    """Group the balls bottom..top, all anchored at a time, into clusters; expand their motion."""
     size = len(stack.mass)
     first = bottom
     for b in range(bottom, top + 1):
@@ -316,15 +327,17 @@ def form_clusters(stack: Stack, bottom: int, top: int, time: float) -> None:
         if high - low > MODES:
             stack.modal[first] = 0
         for i in range(low, high):
-            catch_up(stack, i)
-        stack.root[first] = _enter(stack, low, high) if may_enter(stack) else 1
+            correct_curve(stack, i)
+        stack.root[first] = _choose_root(stack, low, high) if allows_root_series(stack) else 1
         for i in range(low, high):
-            # a faint contact is too soft to carry a weight: no static state to swing about
-            if not is_linear(stack, i) or (stack.faint[i] == 1 and stack.number[0] > 0.0):
+            # a chord is too soft to carry a weight: there is no static state to oscillate about
+            if not is_linear(stack, i) or (
+                stack.linearised[i] == 1 and stack.number[GRAVITY] > 0.0
+            ):
                 stack.modal[first] = 0
         end = math.inf
         if stack.modal[first] == 0:
-            end = time + expand(stack, low, high)
+            end = time + expand_motion(stack, low, high)
         elif low < high:
             find_modes(stack, low, high)
             start_modes(stack, low, high)

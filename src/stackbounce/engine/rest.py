@@ -1,26 +1,27 @@
-"""When a stack under gravity has come to rest: decided by its energy, not by a speed.
+"""When balls on finite contacts have come to rest under gravity: decided by energy.
 
 While all contacts press, the motion has an energy in excess of that of the static state, in which
-contact i carries the weight W_i of all that is above it:
+contact i carries the weight W_i of all balls above it:
 
     E = sum m v^2/2 + sum (U_i(c_i) - U_i(s_i) - W_i (c_i - s_i)),   U_i'(s_i) = W_i,
 
-a sum of terms none of which is negative. No law adds to it. To open contact i takes
-W_i s_i - U_i(s_i), and with less than that no contact can ever open again: the stack is bound. What
-is left is a vibration about the static state; a damped one is followed until its speeds are 1e-9 of
-the reference speed, or the error they may have; one that the laws do not damp would go on for ever
-and is left out.
+a sum of terms none of which is negative, and which no law increases. Opening contact i takes
+W_i s_i - U_i(s_i); with less than that for every contact none can open again, and the stack is
+bound. A vibration about the static state remains. A damped one is followed until its speeds are
+1e-9 of the reference speed, or the error they may have; one without damping would never end and is
+left out.
 """
 
 import math
 
 from stackbounce.engine.codes import COMPRESSING, DAMPED, POWER
-from stackbounce.engine.kernel import kernel
+from stackbounce.engine.compiler import kernel
 from stackbounce.engine.series import TERMS
+from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
 _STILL = 1e-9
-_HYSTERETIC = 0.5  # of that energy at most, where a higher peak can still change the static state
+_HYSTERETIC = 0.5  # of that energy: the limit where a higher peak can still change the static state
 
 
 @kernel
@@ -32,13 +33,13 @@ def is_bound(stack: Stack) -> bool:
     excess, reference = 0.0, 0.0
     for b in range(size):
         excess += 0.5 * stack.mass[b] * stack.velocity[b] * stack.velocity[b]
-        reference += 0.5 * stack.mass[b] * stack.number[1] * stack.number[1]
+        reference += 0.5 * stack.mass[b] * stack.number[SPEED] * stack.number[SPEED]
     damped = False
     share = 1.0
     barrier = math.inf
     weight = 0.0
     for i in range(size - 1, -1, -1):
-        weight += stack.mass[i] * stack.number[0]
+        weight += stack.mass[i] * stack.number[GRAVITY]
         rest = static_compression(stack, i, weight)
         at_rest = _potential(stack, i, rest)
         c = stack.compression[i]
@@ -50,7 +51,7 @@ def is_bound(stack: Stack) -> bool:
             if stack.top[i] == math.inf:
                 return False
             share = _HYSTERETIC if size > 1 else 1.0
-    still = max(_STILL, 100.0 * stack.number[2])
+    still = max(_STILL, 100.0 * stack.number[TOLERANCE])
     return excess < share * barrier and (not damped or excess <= still * still * reference)
 
 
@@ -60,7 +61,7 @@ def static_compression(stack: Stack, i: int, weight: float) -> float:
     if stack.law[i] == DAMPED:
         rest: float = (weight / stack.stiffness[i]) ** (1.0 / stack.exponent[i])
         return rest
-    if stack.faint[i] == 1 or stack.curve_exponent[i] == 1.0:
+    if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return weight / stack.rate[i]
     share: float = (weight / stack.curve_force[i]) ** (1.0 / stack.curve_exponent[i])
     return stack.curve_unit[i] * share
@@ -68,12 +69,12 @@ def static_compression(stack: Stack, i: int, weight: float) -> float:
 
 @kernel
 def _potential(stack: Stack, i: int, compression: float) -> float:
-    """Return the elastic force of contact i, on the curve that it follows, integrated from 0."""
+    """Return the integral from 0 of contact i's elastic force on the curve that it follows."""
     c = max(0.0, compression)
     if stack.law[i] == DAMPED:
         power: float = c ** (stack.exponent[i] + 1.0)
         return stack.stiffness[i] * power / (stack.exponent[i] + 1.0)
-    if stack.faint[i] == 1 or stack.curve_exponent[i] == 1.0:
+    if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return 0.5 * stack.rate[i] * c * c
     exponent = stack.curve_exponent[i] + 1.0
     share: float = (c / stack.curve_unit[i]) ** exponent
@@ -81,12 +82,12 @@ def _potential(stack: Stack, i: int, compression: float) -> float:
 
 
 @kernel
-def lay_down(stack: Stack) -> None:
-    """Put a bound stack into its static state, for all times to come."""
+def set_static_state(stack: Stack) -> None:
+    """Put a bound stack into its static state, for all later times."""
     size = len(stack.mass)
     weight = 0.0
     for i in range(size - 1, -1, -1):
-        weight += stack.mass[i] * stack.number[0]
+        weight += stack.mass[i] * stack.number[GRAVITY]
         stack.compression[i] = static_compression(stack, i, weight)
         stack.velocity[i] = 0.0
         for k in range(TERMS):

@@ -1,7 +1,7 @@
 """Sequences of instantaneous collisions (eqs 1 to 4), event by event, for any number of balls.
 
-The earliest collision comes first; of several at once that of the lowest approaching contact, and
-where more than two contacts close at once the outcome depends on this rule.
+The earliest collision comes first; of several at the same time, that of the lowest approaching
+contact. If more than two contacts close at the same time the outcome depends on this rule.
 """
 
 import math
@@ -27,43 +27,55 @@ from stackbounce.engine.codes import (
     TIME_REACHED,
     UPPER_VELOCITY,
 )
-from stackbounce.engine.collapse import find_collapse, remember
-from stackbounce.engine.event_queue import clear
+from stackbounce.engine.collapse import find_collapse, keep_state
+from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.event_queue import clear_queue
 from stackbounce.engine.flight import (
     acceleration,
-    bring_balls,
-    bring_contacts,
+    anchor_balls,
+    anchor_contacts,
     change_rate,
     closing_rate,
     compression_after,
-    plan,
     rate_after,
+    schedule_collision,
     velocity_after,
     wake,
 )
-from stackbounce.engine.kernel import Floats, kernel
 from stackbounce.engine.settling import earliest_other, settle
+from stackbounce.engine.slots import (
+    BALLS_AT_REST,
+    EVENTS,
+    GRAVITY,
+    KEEP_AFTER,
+    LAST_EVENT,
+    LOG_ROWS,
+    LOWEST_LOSSY,
+    NEXT_SAMPLE,
+    SPEED,
+    UNIT,
+)
 from stackbounce.engine.stack import RigidStack, Samples
 
-_ROWS = 5  # of the log, that one collision can fill
-_SMALL = 2.0**-600  # speeds below this are scaled up by its inverse: only ratios count
+_ROWS = 5  # rows of the log that one collision can fill
+_SMALL = 2.0**-600  # slower speeds are scaled up by its inverse: only ratios matter
 
 
 @kernel
 def begin_collisions(stack: RigidStack) -> None:
-    """Prepare a new rigid stack for its first collision."""
+    """Set up a new rigid stack and schedule its first collisions."""
     size = len(stack.mass)
-    stack.memory[1] = 1
-    stack.resting[1] = size
-    clear(stack.due, stack.heap, stack.place)
+    stack.memory[KEEP_AFTER] = 1
+    stack.resting[LOWEST_LOSSY] = size
+    clear_queue(stack.due, stack.heap, stack.place)
     for i in range(size):
-        stack.number[2] = max(stack.number[2], abs(stack.velocity[i]) * stack.number[0])
+        stack.number[SPEED] = max(stack.number[SPEED], abs(stack.velocity[i]) * stack.number[UNIT])
         below = stack.velocity[i - 1] if i > 0 else 0.0
         stack.rate[i] = below - stack.velocity[i]
         if stack.law[i] != ABSENT and stack.restitution[i] < 1.0:
-            stack.resting[1] = min(stack.resting[1], i)
-        plan(stack, i)
-    remember(stack, -1, 0.0)
+            stack.resting[LOWEST_LOSSY] = min(stack.resting[LOWEST_LOSSY], i)
+        schedule_collision(stack, i)
+    keep_state(stack, -1, 0.0)
     settle(stack, math.inf)
 
 
@@ -73,29 +85,29 @@ def collide_all(
 ) -> int:
     """Follow the collisions until none is left, a time or a limit is reached, or the log is full.
 
-    Fills ``samples`` on the way and returns the status; counter[0] tells the entries in the log.
+    Fills ``samples`` on the way and returns the status; counter[LOG_ROWS] is the length of the log.
     """
     room = len(log) // LOG_COLUMNS
     while True:
         contact = stack.heap[0]
         wait = max(0.0, stack.due[contact] - stack.now[0])
-        time = stack.clock[0] + wait
+        time = stack.clock[LAST_EVENT] + wait
         if math.isnan(time):
             return INVALID
-        if _over(stack, until):
-            _sample(stack, samples, math.inf)
-            return _ending(stack)
-        _sample(stack, samples, min(time, until))
+        if _is_over(stack, until):
+            _record_samples(stack, samples, math.inf)
+            return _final_status(stack)
+        _record_samples(stack, samples, min(time, until))
         if time > until:
             return TIME_REACHED
         if time == math.inf:
-            return _ending(stack)
-        if stack.counter[1] >= event_limit:
+            return _final_status(stack)
+        if stack.counter[EVENTS] >= event_limit:
             return EVENT_LIMIT
-        if stack.counter[0] + _ROWS > room:
+        if stack.counter[LOG_ROWS] + _ROWS > room:
             return RUNNING
         stack.now[0] += wait
-        stack.clock[0] = time
+        stack.clock[LAST_EVENT] = time
         _collide(stack, contact, log)
         find_collapse(stack, contact, until, log)
         settle(stack, until)
@@ -104,18 +116,18 @@ def collide_all(
 
 @kernel
 def rigid_velocity(stack: RigidStack, b: int, time: float) -> float:
-    """Return the velocity of ball b at a time from the last collision on."""
-    return velocity_after(stack, b, time - stack.clock[0]) * stack.number[0]
+    """Return the velocity of ball b in m/s at a time after the last collision."""
+    return velocity_after(stack, b, time - stack.clock[LAST_EVENT]) * stack.number[UNIT]
 
 
 @kernel
-def _over(stack: RigidStack, until: float) -> bool:
-    """Tell, with gravity, whether all balls rest or, if no time is given, none approaches."""
-    if stack.resting[0] == len(stack.mass):
+def _is_over(stack: RigidStack, until: float) -> bool:
+    """Tell, with gravity, whether all balls rest or, if no end time is given, none approaches."""
+    if stack.resting[BALLS_AT_REST] == len(stack.mass):
         return True
-    if stack.number[3] == 0.0 or until < math.inf:
+    if stack.number[GRAVITY] == 0.0 or until < math.inf:
         return False
-    contact = stack.resting[0]
+    contact = stack.resting[BALLS_AT_REST]
     noise = stack.rate_noise[contact]
     if stack.law[contact] != ABSENT and rate_after(stack, contact, 0.0) > noise:
         return False
@@ -123,12 +135,12 @@ def _over(stack: RigidStack, until: float) -> bool:
 
 
 @kernel
-def _ending(stack: RigidStack) -> int:
-    """Return how a sequence without further collisions has ended."""
+def _final_status(stack: RigidStack) -> int:
+    """Return the status of a sequence without further collisions."""
     for velocity in stack.velocity:
         if not math.isfinite(velocity):
             return INVALID
-    if stack.resting[0] == len(stack.mass):
+    if stack.resting[BALLS_AT_REST] == len(stack.mass):
         return SETTLED
     for infinite in stack.infinite:
         if infinite == 1:
@@ -137,15 +149,15 @@ def _ending(stack: RigidStack) -> int:
 
 
 @kernel
-def _meet(stack: RigidStack, i: int) -> float:
-    """Anchor what a collision of contact i concerns; return the rate at which it has closed."""
+def _anchor_colliding(stack: RigidStack, i: int) -> float:
+    """Anchor what a collision of contact i changes; return its closing rate."""
     if acceleration(stack, i) > 0.0:
         stack.rate[i] = closing_rate(stack, i)
         stack.velocity[i] = -stack.rate[i]
         stack.anchor[i] = stack.now[0]
         stack.since[i] = stack.now[0]
-    bring_contacts(stack, i - 1, i + 1)
-    bring_balls(stack, i - 2, i + 1)
+    anchor_contacts(stack, i - 1, i + 1)
+    anchor_balls(stack, i - 2, i + 1)
     if i > 0:
         wake(stack, i - 1)
     return stack.rate[i]
@@ -153,13 +165,13 @@ def _meet(stack: RigidStack, i: int) -> float:
 
 @kernel
 def _collide(stack: RigidStack, i: int, log: Floats) -> None:
-    """Reverse the closing rate of contact i times its restitution, and log it.
+    """Reverse the closing rate of contact i times its restitution, and log the collision.
 
-    The heavier ball's velocity changes by the small increment; the lighter one's is then the
-    heavier one's plus the reversed rate, so that no error of the relative velocity builds up.
+    The heavier ball's velocity changes by the smaller increment; the lighter one's is that velocity
+    plus the reversed rate, so that errors of the relative velocity do not accumulate.
     """
     e = stack.restitution[i]
-    rate = _meet(stack, i)
+    rate = _anchor_colliding(stack, i)
     lower, upper = stack.mass[i - 1] if i > 0 else math.inf, stack.mass[i]
     up = (1.0 + e) * rate * (1.0 / (1.0 + upper / lower))
     down = (1.0 + e) * rate * (1.0 / (1.0 + lower / upper))
@@ -182,26 +194,26 @@ def _collide(stack: RigidStack, i: int, log: Floats) -> None:
         change_rate(stack, i + 1, up)
     stack.compression[i] = 0.0
     for j in range(max(i - 1, 0), min(i + 2, len(stack.mass))):
-        plan(stack, j)
-    factor = stack.number[0]
-    at = stack.counter[0] * LOG_COLUMNS
-    log[at + TIME] = stack.clock[0]
+        schedule_collision(stack, j)
+    factor = stack.number[UNIT]
+    at = stack.counter[LOG_ROWS] * LOG_COLUMNS
+    log[at + TIME] = stack.clock[LAST_EVENT]
     log[at + CONTACT] = i
     log[at + KIND] = COLLISION
     log[at + LOWER_VELOCITY] = lower_velocity * factor
     log[at + UPPER_VELOCITY] = stack.velocity[i] * factor
-    log[at + START] = stack.clock[0]
+    log[at + START] = stack.clock[LAST_EVENT]
     log[at + PEAK_FORCE] = math.inf
     log[at + PEAK_COMPRESSION] = 0.0
     log[at + IMPULSE] = impulse * factor
-    stack.counter[0] += 1
-    stack.counter[1] += 1
+    stack.counter[LOG_ROWS] += 1
+    stack.counter[EVENTS] += 1
 
 
 @kernel
 def _keep_in_range(stack: RigidStack) -> None:
-    """Scale speeds and gaps up together, which leaves all times, once every ball is slow."""
-    if stack.number[3] > 0.0:
+    """Scale up speeds and gaps together, which changes no time, once all balls are very slow."""
+    if stack.number[GRAVITY] > 0.0:
         return
     for velocity in stack.velocity:
         if velocity == 0.0 or abs(velocity) > _SMALL:
@@ -211,26 +223,29 @@ def _keep_in_range(stack: RigidStack) -> None:
         stack.rate[i] /= _SMALL
         stack.rate_noise[i] /= _SMALL
         stack.compression[i] /= _SMALL
-    stack.number[0] *= _SMALL
-    remember(stack, -1, stack.clock[0])
+    stack.number[UNIT] *= _SMALL
+    keep_state(stack, -1, stack.clock[LAST_EVENT])
 
 
 @kernel
-def _sample(stack: RigidStack, samples: Samples, time: float) -> None:
+def _record_samples(stack: RigidStack, samples: Samples, time: float) -> None:
     """Record every ball and contact at the sample times up to a time."""
     size = len(stack.mass)
-    factor = stack.number[0]
-    while stack.counter[3] < len(samples.time) and samples.time[stack.counter[3]] <= time:
-        moment = samples.time[stack.counter[3]]
-        later = moment - stack.clock[0]
-        at = stack.counter[3] * size
+    factor = stack.number[UNIT]
+    while (
+        stack.counter[NEXT_SAMPLE] < len(samples.time)
+        and samples.time[stack.counter[NEXT_SAMPLE]] <= time
+    ):
+        moment = samples.time[stack.counter[NEXT_SAMPLE]]
+        later = moment - stack.clock[LAST_EVENT]
+        at = stack.counter[NEXT_SAMPLE] * size
         position = 0.0
         for i in range(size):
             compression = compression_after(stack, i, later) * factor
-            if stack.clock[0] + (stack.due[i] - stack.now[0]) == moment:
+            if stack.clock[LAST_EVENT] + (stack.due[i] - stack.now[0]) == moment:
                 compression = 0.0
             position -= compression
             samples.position[at + i] = position
             samples.velocity[at + i] = velocity_after(stack, i, later) * factor
             samples.compression[at + i] = compression
-        stack.counter[3] += 1
+        stack.counter[NEXT_SAMPLE] += 1

@@ -1,24 +1,24 @@
-"""Taylor series: where one falls to a level, how far one keeps its sign, integrals and shifts."""
+"""Power series: values, integrals, shifts, and bounds on when one falls to a level."""
 
 import math
 
-from stackbounce.engine.kernel import Floats, kernel
+from stackbounce.engine.compiler import Floats, kernel
 
-ORDER = 24  # the highest, of the power series by which clusters move that have no modes
-ROOT_ORDER = 36  # the highest of a series in the root of time
-_PARABOLAS = 100  # before the search for an event looks for another way
-TERMS = ROOT_ORDER + 4  # a series in scratch space: room for what is integrated twice
+ORDER = 24  # highest order of the power series of clusters without modes
+ROOT_ORDER = 36  # highest order of a series in the root of time
+_PARABOLAS = 100  # trials of one search for an event
+TERMS = ROOT_ORDER + 4  # room for a series that is integrated twice
 
 
 @kernel
 def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
-    """Find a time before which a positive series surely stays positive.
+    """Return a time before which a positive series surely stays positive.
 
-    The function is within ``tail s^(n+1)`` of ``a[0] + a[1] s + ... + a[n] s^n``, a[0] > 0. Nested
-    lower bounds (each bracket of Horner's scheme is at least its constant, or that plus s times
-    the next bracket's bound where this is negative) give a slope l with f(u) >= a[0] + l u on all
-    of [0, s]: either s is safe, or -a[0]/l is. The trial s shrinks until one of them is long
-    enough; close to a simple root the steps become Newton's, always from the safe side.
+    The function differs from ``a[0] + a[1] s + ... + a[n] s^n`` by at most ``tail s^(n+1)``, and
+    a[0] > 0. Nested lower bounds (each bracket of Horner's scheme is at least its constant, or that
+    plus s times the next bracket's bound where this is negative) give a slope l with f(u) >= a[0] +
+    l u on all of [0, s]: either s is safe, or -a[0]/l is. The trial s shrinks until one of them is
+    long enough; close to a simple root the steps become Newton's, always from the safe side.
     """
     s = limit
     if a[1] < 0.0:
@@ -38,9 +38,9 @@ def safe_step(a: Floats, n: int, tail: float, limit: float) -> float:
 
 @kernel
 def lower_bound(a: Floats, low: int, n: int, limit: float) -> float:
-    """Return what a[low] + a[low + 1] s + ... + a[n] s^(n - low) is never below up to a limit.
+    """Return a lower bound of a[low] + a[low + 1] s + ... + a[n] s^(n - low) up to a limit.
 
-    See `safe_step`. It is nan where a term is: this order of arguments hands it on.
+    See `safe_step`. It is nan if a term is: the order of the arguments of `min` propagates nan.
     """
     slope = 0.0
     for k in range(n, low, -1):
@@ -49,15 +49,15 @@ def lower_bound(a: Floats, low: int, n: int, limit: float) -> float:
 
 
 @kernel
-def fall(
+def time_to_level(
     a: Floats, n: int, sign: float, level: float, band: float, limit: float
 ) -> tuple[float, bool]:
-    """Find when ``sign (a - level) + band`` of a polynomial falls into [0, band/2], up to a limit.
+    """Return when ``sign (a - level) + band`` of a polynomial falls into [0, band/2].
 
-    That it comes later is mostly plain from the bound of `safe_step`. If not, a bound on the
-    curvature within reach gives a parabola that stays below; such parabolas' roots approach that
-    time from the safe side, as Newton's. Returns the limit, and False, if it comes later; an
-    earlier time, and False, before which it has not come if that takes too long.
+    The bound of `safe_step` mostly shows that this is later than a limit. If not, a bound on the
+    curvature nearby gives a parabola that stays below; the roots of such parabolas approach the
+    time sought from the safe side, as Newton's. Returns the limit and False if it is later, and an
+    earlier time and False, before which it has not happened, if the search takes too long.
     """
     slope = 0.0
     for k in range(n, 0, -1):
@@ -97,7 +97,7 @@ def fall(
 
 @kernel
 def parabola_root(a0: float, a1: float, a2: float) -> float:
-    """Return the first root s > 0 of a0 + a1 s + a2 s^2, a0 >= 0; infinity where there is none."""
+    """Return the first root s > 0 of a0 + a1 s + a2 s^2, a0 >= 0; infinity if there is none."""
     if a0 <= 0.0 and (a1 < 0.0 or (a1 == 0.0 and a2 < 0.0)):
         return 0.0
     discriminant = a1 * a1 - 4.0 * a2 * a0
@@ -111,8 +111,8 @@ def parabola_root(a0: float, a1: float, a2: float) -> float:
 
 
 @kernel
-def value(a: Floats, n: int, s: float) -> float:
-    """Evaluate a[0] + a[1] s + ... + a[n] s^n."""
+def evaluate(a: Floats, n: int, s: float) -> float:
+    """Return a[0] + a[1] s + ... + a[n] s^n."""
     total = a[n]
     for k in range(n - 1, -1, -1):
         total = a[k] + s * total
@@ -120,8 +120,8 @@ def value(a: Floats, n: int, s: float) -> float:
 
 
 @kernel
-def integral(a: Floats, n: int, s: float, root: int) -> float:
-    """Evaluate the integral of that polynomial from 0 to s, over s^root."""
+def integrate(a: Floats, n: int, s: float, root: int) -> float:
+    """Return the integral over time from 0 to s^root of that polynomial in s."""
     total = a[n] / (n + root)
     for k in range(n - 1, -1, -1):
         total = a[k] / (k + root) + s * total

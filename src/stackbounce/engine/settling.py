@@ -1,52 +1,53 @@
 """How rigid balls come to rest under gravity.
 
-A ball that has no closing rate left on a floor, or on a ball at rest, rests there. With losses this
-takes infinitely many bounces. On the floor alone they take, from one at which the ball leaves at
-the speed u, all together
+A ball without a closing rate rests on the floor, or on a ball at rest. With losses, coming to rest
+takes infinitely many bounces. On the floor alone, their total duration from a bounce at which the
+ball leaves with the speed u is
 
     2 u/g (1 + e + e^2 + ...) = 2 u / (g (1 - e)),
 
-and are followed until this is negligible. Several balls that bounce on each other on their way to
-rest follow no known law: they rest once even the highest of them takes a negligible time to fall,
-if a contact among them or below them loses energy.
+and they are followed until this is negligible. No law is known for several balls that bounce on
+each other on their way to rest: they are taken to rest once the fall even of the highest takes a
+negligible time, if a contact among them or below them loses energy.
 """
 
 import math
 
 from stackbounce.engine.codes import ABSENT
+from stackbounce.engine.compiler import kernel
 from stackbounce.engine.flight import (
-    bring_balls,
-    bring_contacts,
+    anchor_balls,
+    anchor_contacts,
     change_rate,
     compression_after,
-    plan,
+    schedule_collision,
     velocity_after,
 )
-from stackbounce.engine.kernel import kernel
+from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY, LAST_EVENT, LOWEST_LOSSY
 from stackbounce.engine.stack import RigidStack
 
-NO_TIME = 1e-12  # of the time so far: infinitely many collisions that take no longer are over
-_NO_FLIGHT = 1e-13  # of the time so far, and of what a collision loses: a flight that is none
+NEGLIGIBLE_TIME = 1e-12  # of the time so far: the longest series of collisions that is left out
+_NEGLIGIBLE_FLIGHT = 1e-13  # of the time so far and the share lost in a collision: the same
 
 
 @kernel
 def settle(stack: RigidStack, until: float) -> None:
-    """Lay down the balls that rest from now on, the lowest first."""
-    if stack.number[3] == 0.0 or stack.law[0] == ABSENT:
+    """Set the balls at rest that rest from now on, the lowest first."""
+    if stack.number[GRAVITY] == 0.0 or stack.law[0] == ABSENT:
         return
-    while stack.resting[0] < len(stack.mass):
-        low = stack.resting[0]
+    while stack.resting[BALLS_AT_REST] < len(stack.mass):
+        low = stack.resting[BALLS_AT_REST]
         if stack.anchor[low] != stack.now[0] or stack.compression[low] < 0.0:
             return
         if abs(stack.rate[low]) <= stack.rate_noise[low]:
-            _lay_down(stack, low, low)
-        elif low > 0 or not _bounce_to_the_end(stack, until):
-            high = _faint(stack, low)
+            _set_at_rest(stack, low, low)
+        elif low > 0 or not _finish_bouncing(stack, until):
+            high = _highest_settling(stack, low)
             if high < low:
                 return
             for i in range(high + 1):
                 stack.infinite[i] = 1
-            _lay_down(stack, low, high)
+            _set_at_rest(stack, low, high)
 
 
 @kernel
@@ -61,10 +62,10 @@ def earliest_other(stack: RigidStack, i: int) -> float:
 
 
 @kernel
-def _lay_down(stack: RigidStack, low: int, high: int) -> None:
-    """Let the balls low..high rest from now on, on those at rest already or on the floor."""
-    bring_contacts(stack, low, high + 1)
-    bring_balls(stack, high, high + 1)
+def _set_at_rest(stack: RigidStack, low: int, high: int) -> None:
+    """Set the balls low..high at rest from now on, on the balls at rest or on the floor."""
+    anchor_contacts(stack, low, high + 1)
+    anchor_balls(stack, high, high + 1)
     faster = -stack.velocity[high]
     noise, height = 0.0, 0.0
     for i in range(low, high + 1):
@@ -75,47 +76,51 @@ def _lay_down(stack: RigidStack, low: int, high: int) -> None:
         stack.rate_noise[i] = 0.0
         stack.velocity[i] = 0.0
         stack.since[i] = stack.now[0]
-    stack.resting[0] = high + 1
+    stack.resting[BALLS_AT_REST] = high + 1
     for i in range(low, high + 1):
-        plan(stack, i)
+        schedule_collision(stack, i)
     if high + 1 < len(stack.mass):
         stack.compression[high + 1] -= max(height, 0.0)
         change_rate(stack, high + 1, faster)
         stack.rate_noise[high + 1] = max(stack.rate_noise[high + 1], noise)
-        plan(stack, high + 1)
+        schedule_collision(stack, high + 1)
 
 
 @kernel
-def _bounce_to_the_end(stack: RigidStack, until: float) -> bool:
-    """Let ball 0, just off the floor, make all its bounces if they are over before anything else.
+def _finish_bouncing(stack: RigidStack, until: float) -> bool:
+    """Let ball 0, leaving the floor, finish all its bounces if they end before another event.
 
     Tells whether it did.
     """
-    gravity, e, speed = stack.number[3], stack.restitution[0], -stack.rate[0]
+    gravity, e, speed = stack.number[GRAVITY], stack.restitution[0], -stack.rate[0]
     if e == 1.0 or speed < 0.0:
         return False
     flight = 2.0 * speed / gravity
     duration = flight / (1.0 - e)
-    if duration > NO_TIME * stack.clock[0] or stack.clock[0] + duration > until:
+    if (
+        duration > NEGLIGIBLE_TIME * stack.clock[LAST_EVENT]
+        or stack.clock[LAST_EVENT] + duration > until
+    ):
         return False
     if earliest_other(stack, 0) <= stack.now[0] + duration:
         return False
     if len(stack.mass) > 1 and duration > 0.0:
-        # from the second bounce on, a parabola: it is above the lower ball's apex at both ends
+        # ball 1 must be above ball 0's apexes at both ends of its parabola from the second
+        # bounce on
         gap, velocity = -compression_after(stack, 1, 0.0), velocity_after(stack, 1, 0.0)
-        apex = 0.25 * e * e * speed  # over the duration of the first flight
+        apex = 0.25 * e * e * speed  # divided by the duration of the first flight
         if gap / flight + velocity - speed <= apex:
             return False
         if gap / duration + velocity - speed / (1.0 - e) <= apex * (1.0 - e):
             return False
         height = gap + (velocity - 0.5 * gravity * duration) * duration
-        bring_balls(stack, 1, 1)
+        anchor_balls(stack, 1, 1)
         stack.velocity[1] -= gravity * duration
         stack.rate[1] = -stack.velocity[1]
         stack.compression[1] = -height
         stack.since[1] = stack.now[0] + duration
         stack.anchor[1] = stack.now[0] + duration
-    stack.clock[0] += duration
+    stack.clock[LAST_EVENT] += duration
     stack.now[0] += duration
     stack.compression[0] = 0.0
     stack.rate[0] = 0.0
@@ -123,24 +128,24 @@ def _bounce_to_the_end(stack: RigidStack, until: float) -> bool:
     stack.velocity[0] = 0.0
     stack.since[0] = stack.now[0]
     stack.infinite[0] = 1
-    _lay_down(stack, 0, 0)
+    _set_at_rest(stack, 0, 0)
     return True
 
 
 @kernel
-def _faint(stack: RigidStack, low: int) -> int:
+def _highest_settling(stack: RigidStack, low: int) -> int:
     """Return the highest of the balls from ``low`` up that rest after a negligible time.
 
-    Negligible against the time so far, but where the next ball meets them soon, against the time
-    until then, or in speed against that ball. It is less than ``low`` where there is none, and
-    where no contact loses energy. Ball 0 alone on a floor that does is left to its exact limit.
+    The time is compared with the time so far; if the next ball meets them soon, with the time until
+    then, or in speed with that ball. The result is less than ``low`` if there is no such ball, or
+    if no contact loses energy. Ball 0 alone on a lossy floor is left to its exact limit.
     """
-    lossy = stack.resting[1]
+    lossy = stack.resting[LOWEST_LOSSY]
     if lossy == len(stack.mass):
         return low - 1
-    gravity = stack.number[3]
-    part = _NO_FLIGHT * (1.0 - stack.restitution[lossy])
-    limit = part * stack.clock[0]
+    gravity = stack.number[GRAVITY]
+    part = _NEGLIGIBLE_FLIGHT * (1.0 - stack.restitution[lossy])
+    limit = part * stack.clock[LAST_EVENT]
     height, longest, high = 0.0, 0.0, low - 1
     for i in range(low, len(stack.mass)):
         height += max(0.0, -compression_after(stack, i, 0.0))

@@ -1,14 +1,15 @@
 """Simultaneous, finite contacts: from event to event, each cluster on its own solution.
 
-Every contact is looked at no later than it could possibly have changed its phase, so that no event
-is missed; the earliest due comes next, at a tie the lowest contact. What an event touches is the
-clusters beside it and nothing else.
+Every contact is checked before it could possibly have changed its phase, so that no event is
+missed. The earliest check comes first; of several at the same time, that of the lowest contact. An
+event changes the clusters beside it only.
 """
 
 import math
 
 from stackbounce.engine.codes import (
     ABSENT,
+    CHECK,
     CLIPPED,
     COMPRESSING,
     CONTACT,
@@ -19,7 +20,6 @@ from stackbounce.engine.codes import (
     INVALID,
     KIND,
     LOG_COLUMNS,
-    LOOK,
     LOWER_VELOCITY,
     OPEN,
     PEAK,
@@ -29,53 +29,65 @@ from stackbounce.engine.codes import (
     RESUMED,
     RUNNING,
     SETTLED,
-    SLACK,
     START,
     TIME,
     TIME_REACHED,
     TOUCH,
+    UNLOADED,
     UPPER_VELOCITY,
 )
+from stackbounce.engine.compiler import Floats, kernel
 from stackbounce.engine.contacts import (
-    begin,
     change_curve,
+    change_phase,
     changes_curve,
     clip,
+    close_contact,
     force,
     record_peak,
     reduced_mass,
     stored_energy,
-    turn,
 )
-from stackbounce.engine.event_queue import clear, schedule
-from stackbounce.engine.kernel import Floats, kernel
+from stackbounce.engine.event_queue import clear_queue, schedule
 from stackbounce.engine.motion import (
     advance_cluster,
+    allows_root_series,
     compression_at,
     contact_impulse,
-    flies,
     form_clusters,
-    may_enter,
+    is_free,
     rate_at,
     root_at,
     series_time,
     velocity_at,
 )
-from stackbounce.engine.next_event import look
-from stackbounce.engine.rest import is_bound, lay_down
+from stackbounce.engine.next_event import schedule_next_event
+from stackbounce.engine.rest import is_bound, set_static_state
+from stackbounce.engine.slots import (
+    APPROACHING,
+    CHECKS,
+    CLOSED,
+    EVENTS,
+    GRAVITY,
+    LAST_CHECK,
+    LAST_EVENT,
+    LOG_ROWS,
+    NEXT_SAMPLE,
+    TOLERANCE,
+)
 from stackbounce.engine.stack import Samples, Stack
-from stackbounce.engine.taylor import record_crests
+from stackbounce.engine.taylor import record_series_peaks
 
-_COARSE = 1e-5  # of a contact's time: what the clock must tell apart
-_NOTICED = 1e-3  # of the energy of approach: what a touch may store before it is noticed
-_NEWTON = 4  # steps from where a sign is clear to where it changes
+_COARSE = 1e-5  # of a contact's duration: the coarsest resolution of time
+_NOTICED = 1e-3  # of the energy of approach: the largest energy stored before a touch is noticed
+_NEWTON = 4  # Newton steps from a time at which the sign is certain to its change
 
 
 @kernel
-def start(stack: Stack) -> None:
-    """Anchor a new stack at time 0 and look at every contact for the first time."""
+def begin_contacts(stack: Stack) -> None:
+    """Anchor a new stack at time 0 and schedule the first event of every contact."""
     size = len(stack.mass)
-    clear(stack.due, stack.heap, stack.place)
+    clear_queue(stack.due, stack.heap, stack.place)
     for i in range(size):
         stack.phase[i] = OPEN
         stack.curve_exponent[i] = 1.0
@@ -83,88 +95,90 @@ def start(stack: Stack) -> None:
         stack.pushed[i] = 0
     form_clusters(stack, 0, size - 1, 0.0)
     for i in range(size):
-        look(stack, i, 0.0)
+        schedule_next_event(stack, i, 0.0)
 
 
 @kernel
-def advance(stack: Stack, until: float, event_limit: int, log: Floats, samples: Samples) -> int:
-    """Move a stack on until it is finished, a time or a limit is reached, or the log is full.
+def advance_contacts(
+    stack: Stack, until: float, event_limit: int, log: Floats, samples: Samples
+) -> int:
+    """Advance a stack until it is finished, a time or a limit is reached, or the log is full.
 
-    Fills ``samples`` on the way and returns the status; counter[0] tells the entries in the log.
+    Fills ``samples`` on the way and returns the status; counter[LOG_ROWS] is the length of the log.
     """
     room = len(log) // LOG_COLUMNS
     size = len(stack.mass)
-    if stack.counter[1] == 0 and until == math.inf and _all_part(stack):
-        _sample(stack, samples, math.inf)
-        return _ending(stack)
+    if stack.counter[EVENTS] == 0 and until == math.inf and _all_separating(stack):
+        _record_samples(stack, samples, math.inf)
+        return _final_status(stack)
     while True:
         slot = stack.heap[0]
         time = stack.due[slot]
         if time < 0.0:
             return INVALID
-        _sample(stack, samples, min(time, until))
+        _record_samples(stack, samples, min(time, until))
         if time > until:
             return TIME_REACHED
         if time == math.inf:
-            return _ending(stack)
-        if max(stack.counter[1], stack.counter[2]) >= event_limit:
+            return _final_status(stack)
+        if max(stack.counter[EVENTS], stack.counter[CHECKS]) >= event_limit:
             return EVENT_LIMIT
-        if stack.counter[0] == room:
+        if stack.counter[LOG_ROWS] == room:
             return RUNNING
-        stack.clock[1] = time
+        stack.clock[LAST_CHECK] = time
         if slot >= size:
-            stack.counter[2] += 1
-            _renew(stack, slot - size, time)
-            if stack.number[0] > 0.0 and stack.counter[4] == size and is_bound(stack):
-                lay_down(stack)
-                _sample(stack, samples, math.inf)
+            stack.counter[CHECKS] += 1
+            _expand_again(stack, slot - size, time)
+            if stack.number[GRAVITY] > 0.0 and stack.counter[CLOSED] == size and is_bound(stack):
+                set_static_state(stack)
+                _record_samples(stack, samples, math.inf)
                 return SETTLED
-        elif stack.event[slot] == LOOK:
-            stack.counter[2] += 1
-            _look_again(stack, slot, time)
+        elif stack.event[slot] == CHECK:
+            stack.counter[CHECKS] += 1
+            _reschedule(stack, slot, time)
         else:
             kind = stack.event[slot]
-            _happen(stack, slot, kind, time, log)
-            if kind == RELEASE and until == math.inf and _all_part(stack):
-                _sample(stack, samples, math.inf)
-                return _ending(stack)
+            _apply_event(stack, slot, kind, time, log)
+            if kind == RELEASE and until == math.inf and _all_separating(stack):
+                _record_samples(stack, samples, math.inf)
+                return _final_status(stack)
 
 
 @kernel
-def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
+def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     """Apply an event of contact i."""
-    stack.counter[1] += 1
-    stack.counter[2] = 0
+    stack.counter[EVENTS] += 1
+    stack.counter[CHECKS] = 0
     compression = compression_at(stack, i, time)
     if kind == PEAK:
         record_peak(stack, i, compression, 0.0)
     if kind not in (TOUCH, RELEASE) and not changes_curve(stack, i, kind):
-        turn(stack, i, kind, compression)
-        _look_again(stack, i, time)
-        stack.clock[0] = time
+        change_phase(stack, i, kind, compression)
+        _reschedule(stack, i, time)
+        stack.clock[LAST_EVENT] = time
         return
-    if kind == RELEASE and stack.phase[i] == SLACK:
-        _let_go(stack, i, compression, log)
-        _look_again(stack, i, time)
+    if kind == RELEASE and stack.phase[i] == UNLOADED:
+        _open_unloaded(stack, i, compression, log)
+        _reschedule(stack, i, time)
         return
     bottom = stack.first[max(i - 1, 0)]
     top = stack.last[i]
     logical = time
     if kind in (TOUCH, RELEASE):
-        logical = _crossing(stack, i, time)
-    if kind == TOUCH and may_enter(stack) and logical >= stack.anchor[stack.first[i]]:
+        logical = _zero_crossing(stack, i, time)
+    if kind == TOUCH and allows_root_series(stack) and logical >= stack.anchor[stack.first[i]]:
         time, compression = logical, 0.0 if logical < time else compression
     advance_cluster(stack, i, time)
     if i > 0 and stack.first[i - 1] != stack.first[i]:
         advance_cluster(stack, i - 1, time)
     if kind == TOUCH:
-        begin(stack, i, logical)
+        close_contact(stack, i, logical)
         logical = stack.start[i]
-        stack.compression[i] = _at_touch(stack, i, compression, time)
+        stack.compression[i] = _first_compression(stack, i, compression, time)
     elif kind == RELEASE:
         stack.phase[i] = OPEN
         stack.released[i] = logical
-        stack.counter[4] -= 1
+        stack.counter[CLOSED] -= 1
         stack.compression[i] = min(stack.compression[i], 0.0)
     elif kind == CLIPPED:
         clip(stack, i, time)
@@ -174,33 +188,34 @@ def _happen(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     changed = kind in (TOUCH, RELEASE, CLIPPED, RESUMED)
     for j in range(bottom, min(top + 2, len(stack.mass))):
         if stack.phase[j] == OPEN and changed:
-            _note_push(stack, j, logical)
-        look(stack, j, time)
-    stack.clock[0] = max(stack.clock[0], logical)
-    if kind == TOUCH and _comes_too_late(stack, i, time):
+            _track_touching(stack, j, logical)
+        schedule_next_event(stack, j, time)
+    stack.clock[LAST_EVENT] = max(stack.clock[LAST_EVENT], logical)
+    if kind == TOUCH and _is_unresolved(stack, i, time):
         schedule(stack.due, stack.heap, stack.place, i, -math.inf)
     if kind in (TOUCH, RELEASE):
-        _write(stack, i, kind, logical, log)
+        _log_event(stack, i, kind, logical, log)
 
 
 @kernel
-def _let_go(stack: Stack, i: int, compression: float, log: Floats) -> None:
-    """Open slack contact i, whose interval was over when it was clipped: no motion changes."""
+def _open_unloaded(stack: Stack, i: int, compression: float, log: Floats) -> None:
+    """Open unloaded contact i, whose interval ended when it was clipped: no motion changes."""
     stack.phase[i] = OPEN
     stack.released[i] = stack.clip_time[i]
-    stack.counter[4] -= 1
+    stack.counter[CLOSED] -= 1
     stack.compression[i] -= max(0.0, compression)
-    _write(stack, i, RELEASE, stack.clip_time[i], log)
-    at = (stack.counter[0] - 1) * LOG_COLUMNS
+    _log_event(stack, i, RELEASE, stack.clip_time[i], log)
+    at = (stack.counter[LOG_ROWS] - 1) * LOG_COLUMNS
     log[at + LOWER_VELOCITY] = stack.clip_lower[i]
     log[at + UPPER_VELOCITY] = stack.clip_upper[i]
 
 
 @kernel
-def _comes_too_late(stack: Stack, i: int, time: float) -> bool:
-    """Tell whether contact i, just touching, is over before the clock tells times apart.
+def _is_unresolved(stack: Stack, i: int, time: float) -> bool:
+    """Tell whether the interval of contact i, just touching, is shorter than float64 time resolves.
 
-    Balls that touch gently need no exact time: what they may miss is less than they approach by.
+    Balls that touch gently need no exact time: their error is less than the distance they approach
+    by.
     """
     rate = stack.velocity[i]
     if i > 0:
@@ -209,16 +224,17 @@ def _comes_too_late(stack: Stack, i: int, time: float) -> bool:
 
 
 @kernel
-def _at_touch(stack: Stack, i: int, compression: float, time: float) -> float:
-    """Return the compression with which contact i, anchored now, begins: next to none.
+def _first_compression(stack: Stack, i: int, compression: float, time: float) -> float:
+    """Return the compression, almost 0, with which contact i, anchored now, begins.
 
-    Two balls whose approach was lost in the error of their speeds may have come to overlap since,
-    or touch so slowly that what noticing it takes would store more energy than they bring.
+    It is set to 0 if two balls overlap because their approach was lost in the error of their
+    speeds, or if they touch so slowly that this compression would store more energy than they
+    bring.
     """
     rate = stack.velocity[i]
     if i > 0:
         rate -= stack.velocity[i - 1]
-    known = max(100.0 * stack.number[2], 1e-12) * stack.scale[i]
+    known = max(100.0 * stack.number[TOLERANCE], 1e-12) * stack.scale[i]
     known += 64.0 * EPSILON * time * abs(rate)
     brought = 0.5 * reduced_mass(stack, i) * rate * rate
     if compression > known or stored_energy(stack, i, compression) > _NOTICED * brought:
@@ -227,23 +243,23 @@ def _at_touch(stack: Stack, i: int, compression: float, time: float) -> float:
 
 
 @kernel
-def _note_push(stack: Stack, i: int, time: float) -> None:
-    """Keep since when open contact i, if it is touching, can have been pressed by its neighbours.
+def _track_touching(stack: Stack, i: int, time: float) -> None:
+    """Update the time since which open contact i, if touching, may be pressed by neighbours.
 
-    That is since the first of them pressed: what comes later finds it pressed already, though by
-    less than its round-off.
+    That is the time at which the first of them pressed: a later event finds the contact pressed
+    already, though by less than its round-off.
     """
-    idle = flies(stack, i) and (i == 0 or flies(stack, i - 1))
+    idle = is_free(stack, i) and (i == 0 or is_free(stack, i - 1))
     if stack.pushed[i] == 0 or idle or math.isnan(stack.touching[i]):
         stack.touching[i] = max(time, stack.released[i])
     stack.pushed[i] = 0 if idle else 1
 
 
 @kernel
-def _crossing(stack: Stack, i: int, time: float) -> float:
+def _zero_crossing(stack: Stack, i: int, time: float) -> float:
     """Return when the compression of contact i, just past zero at a time, was zero."""
-    earliest = stack.clock[0]
-    if root_at(stack, i) == 2:  # there is no such root before the anchors
+    earliest = stack.clock[LAST_EVENT]
+    if root_at(stack, i) == 2:  # the series has no root before its anchor
         earliest = max(earliest, stack.anchor[stack.first[i]])
         if i > 0:
             earliest = max(earliest, stack.anchor[stack.first[i - 1]])
@@ -260,31 +276,31 @@ def _crossing(stack: Stack, i: int, time: float) -> float:
 
 
 @kernel
-def _look_again(stack: Stack, i: int, time: float) -> None:
-    """Look at contact i, where it has a series in the root of time with a new one."""
+def _reschedule(stack: Stack, i: int, time: float) -> None:
+    """Schedule the next event of contact i, with a new series if it has one in the root of time."""
     if root_at(stack, i) == 1:
-        look(stack, i, time)
+        schedule_next_event(stack, i, time)
     elif stack.root[stack.first[i]] == 2:
-        _renew(stack, i, time)
+        _expand_again(stack, i, time)
     else:
-        _renew(stack, i - 1, time)
+        _expand_again(stack, i - 1, time)
 
 
 @kernel
-def _renew(stack: Stack, ball: int, time: float) -> None:
-    """Expand the motion of a ball's cluster anew where its series ends."""
+def _expand_again(stack: Stack, ball: int, time: float) -> None:
+    """Expand the motion of a ball's cluster about a new time."""
     bottom, top = stack.first[ball], stack.last[ball]
     advance_cluster(stack, ball, time)
     form_clusters(stack, bottom, top, time)
     for j in range(bottom, min(top + 2, len(stack.mass))):
-        look(stack, j, time)
+        schedule_next_event(stack, j, time)
 
 
 @kernel
-def _write(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
+def _log_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     """Append an event of contact i to the log, with its balls' velocities at their anchors."""
-    at = stack.counter[0] * LOG_COLUMNS
-    stack.counter[0] += 1
+    at = stack.counter[LOG_ROWS] * LOG_COLUMNS
+    stack.counter[LOG_ROWS] += 1
     log[at + TIME] = time
     log[at + CONTACT] = i
     log[at + KIND] = kind
@@ -297,8 +313,8 @@ def _write(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
 
 
 @kernel
-def write_unfinished(stack: Stack, time: float, log: Floats) -> None:
-    """Append the intervals that are still under way at a time, as releases at infinity."""
+def log_unfinished(stack: Stack, time: float, log: Floats) -> None:
+    """Append the intervals that have not ended at a time, as releases at infinity."""
     for i in range(len(stack.mass)):
         if stack.phase[i] == OPEN:
             continue
@@ -307,14 +323,14 @@ def write_unfinished(stack: Stack, time: float, log: Floats) -> None:
             record_peak(stack, i, compression, rate_at(stack, i, time))
             since = time - stack.anchor[stack.first[i]]
             if stack.modal[stack.first[i]] == 0:
-                record_crests(stack, i, i + 1, series_time(stack, stack.first[i], since))
+                record_series_peaks(stack, i, i + 1, series_time(stack, stack.first[i], since))
             stack.impulse[i] += contact_impulse(stack, i, since)
-        _write(stack, i, RELEASE, math.inf, log)
+        _log_event(stack, i, RELEASE, math.inf, log)
 
 
 @kernel
-def _ending(stack: Stack) -> int:
-    """Return FINISHED, or INVALID where a number got lost."""
+def _final_status(stack: Stack) -> int:
+    """Return FINISHED, or INVALID if a velocity is not finite."""
     for velocity in stack.velocity:
         if not math.isfinite(velocity):
             return INVALID
@@ -322,37 +338,40 @@ def _ending(stack: Stack) -> int:
 
 
 @kernel
-def _all_part(stack: Stack) -> bool:
-    """Tell, with gravity, whether all contacts are open and no ball approaches what is below it."""
-    if stack.number[0] == 0.0 or stack.counter[4] > 0:
-        return False  # without gravity the run ends when nothing is due any more
-    if _approaches(stack, stack.counter[5]):
+def _all_separating(stack: Stack) -> bool:
+    """Tell, with gravity, whether all contacts are open and no ball approaches the one below it."""
+    if stack.number[GRAVITY] == 0.0 or stack.counter[CLOSED] > 0:
+        return False  # without gravity the run ends when no event is due
+    if _approaches(stack, stack.counter[APPROACHING]):
         return False
     for i in range(len(stack.mass)):
         if _approaches(stack, i):
-            stack.counter[5] = i
+            stack.counter[APPROACHING] = i
             return False
     return True
 
 
 @kernel
 def _approaches(stack: Stack, i: int) -> bool:
-    """Tell whether ball i approaches what is below it."""
+    """Tell whether ball i approaches the ball below it, or the floor."""
     if stack.law[i] == ABSENT:
         return False
     noise = stack.velocity_noise[i]
     if i > 0:
         noise += stack.velocity_noise[i - 1]
-    return rate_at(stack, i, stack.clock[0]) > noise
+    return rate_at(stack, i, stack.clock[LAST_EVENT]) > noise
 
 
 @kernel
-def _sample(stack: Stack, samples: Samples, time: float) -> None:
+def _record_samples(stack: Stack, samples: Samples, time: float) -> None:
     """Record every ball and contact at the sample times up to a time, before its event."""
     size = len(stack.mass)
-    while stack.counter[3] < len(samples.time) and samples.time[stack.counter[3]] <= time:
-        now = samples.time[stack.counter[3]]
-        at = stack.counter[3] * size
+    while (
+        stack.counter[NEXT_SAMPLE] < len(samples.time)
+        and samples.time[stack.counter[NEXT_SAMPLE]] <= time
+    ):
+        now = samples.time[stack.counter[NEXT_SAMPLE]]
+        at = stack.counter[NEXT_SAMPLE] * size
         position = 0.0
         for i in range(size):
             compression = compression_at(stack, i, now)
@@ -364,4 +383,4 @@ def _sample(stack: Stack, samples: Samples, time: float) -> None:
             rate -= samples.velocity[at + i]
             samples.force[at + i] = force(stack, i, compression, rate)
             samples.stored[at + i] = stored_energy(stack, i, compression)
-        stack.counter[3] += 1
+        stack.counter[NEXT_SAMPLE] += 1

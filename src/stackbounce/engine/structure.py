@@ -1,9 +1,9 @@
-"""A stack of numpy arrays as a structure of its own for numba: kernels pass one pointer.
+"""A stack of numpy arrays as a numba type of its own: kernels pass one pointer.
 
-Behind the pointer lies a table with the address and the shape of each array. What a kernel takes
-out of it is an array that nobody owns: numba's own structures count a reference each time they are
-asked for an array, which took longer than the arithmetic did. Nor does an index of such an array
-count from its end if it is negative, as no kernel's is: to ask took a tenth of the time.
+The pointer leads to a table with the address and the shape of each array. An array that a kernel
+takes from it owns no memory: numba's own structures count a reference each time an array is taken
+from them, which took longer than the arithmetic. Nor are negative indices of such an array counted
+from its end, as no kernel has any: the test for them took a tenth of the time.
 """
 
 import functools
@@ -21,12 +21,12 @@ from numba.extending import typeof_impl
 
 _extending: Any = numba.extending
 _arrays: Any = numba.np.arrayobj
-_COLUMNS = 2  # of the table: an array's address and its rows
+_COLUMNS = 2  # columns of the table: an array's address and its rows
 _WORD = 8  # bytes of any number
 
 
 class Structure:
-    """What compiled kernels are given for a stack: it shares the arrays and keeps them alive."""
+    """The argument that compiled kernels take for a stack; it keeps the stack's arrays alive."""
 
     def __init__(self, stack: Any) -> None:
         self.stack = stack
@@ -36,21 +36,21 @@ class Structure:
 
     @functools.cached_property
     def kind(self) -> "StructureType":
-        """Its numba type, for which numba asks at each call of a kernel."""
+        """The numba type, which numba asks for at each call of a kernel."""
         named = zip(self.stack._fields, self.stack, strict=True)
         kinds = tuple((field, array.dtype.name, array.shape[1:]) for field, array in named)
         return StructureType(type(self.stack).__name__, kinds)
 
 
 class StructureType(types.Type):
-    """The numba type of a Structure, by the names of its arrays and the columns of their rows."""
+    """The numba type of a Structure: the names of its arrays and the columns of their rows."""
 
     def __init__(self, name: str, kinds: tuple[tuple[str, str, tuple[int, ...]], ...]) -> None:
         self.kinds = kinds
         super().__init__(name=f"{name}Structure")
 
     def array(self, name: str) -> Any:
-        """Return the numba type of an array, or nothing where there is none of that name."""
+        """Return the numba type of an array, or None if there is none of that name."""
         for field, kind, columns in self.kinds:
             if field == name:
                 return Numbers(getattr(types, kind), 1 + len(columns))
@@ -70,12 +70,12 @@ class Numbers(types.Array):
 
 
 def _unsigned(sig: Any) -> Any:
-    """Return the signature of taking or setting an item with an index that has no sign."""
+    """Return the signature of getting or setting an item with an unsigned index."""
     return sig.replace(args=(sig.args[0], types.uintp, *sig.args[2:]))
 
 
 def _get(context: Any, builder: Any, sig: Any, args: Any) -> Any:
-    """Take an item, or a row."""
+    """Return an item, or a row."""
     return _arrays.getitem_arraynd_intp(context, builder, _unsigned(sig), args)
 
 
@@ -90,7 +90,7 @@ def _typeof(value: Structure, _: Any) -> StructureType:
 
 
 def _unbox(_: StructureType, value: Any, c: Any) -> Any:
-    """Take the address of a Structure's table."""
+    """Return the address of a Structure's table."""
     address = c.pyapi.object_getattr_string(value, "address")
     pointer = c.pyapi.long_as_voidptr(address)
     c.pyapi.decref(address)
@@ -106,7 +106,7 @@ class _Attributes(AttributeTemplate):
 
 
 def _array(context: Any, builder: Any, kind: StructureType, pointer: Any, name: str) -> Any:
-    """Build the array of a name from its row of the table."""
+    """Return an array of a name, built from its row of the table."""
     word, made = ir.IntType(8 * _WORD), kind.array(name)
     row = [field for field, _, _ in kind.kinds].index(name)
     table = builder.bitcast(pointer, word.as_pointer())

@@ -1,86 +1,87 @@
-"""Any other cluster: the power series of its motion, step by step.
+"""A cluster with nonlinear or damped contacts: the Taylor series of its motion, step by step.
 
-Inside a phase of every contact the motion is analytic, so its own Taylor series is integrator,
-dense output and event search in one. Order by order: forces from compressions and their rates,
-accelerations from forces, velocities and compressions from accelerations. Where a contact begins at
-a speed and p is a multiple of 1/2, c^p has a series in the root of time instead, and so has all the
-motion up to the next step. The step is the time for which the last two terms of every velocity
-(five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14, 99, 2005), in
-which no power grows beyond what these terms could tell, and no compression falls by much more than
-itself, or rises by more than the last term of its power allows. Where all contacts are springs and
-dashpots the series is that of the matrix exponential, whatever its eigenvalues; the tolerance is
-then round-off and no choice of the user.
+Inside a phase of every contact the motion is analytic, so that its Taylor series serves as
+integrator, dense output and event search. Order by order, forces follow from compressions and their
+rates, accelerations from forces, velocities and compressions from accelerations. If a contact
+begins at a speed and p is a multiple of 1/2, c^p has a series in the square root of time instead,
+and so has the whole motion up to the next step. A step is the time for which the last two terms of
+every velocity (five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14,
+99, 2005). It is also limited so that no power grows beyond what these terms represent, and no
+compression falls by much more than itself, or rises by more than the last term of its power allows.
+If all contacts are springs and dashpots the series is that of the matrix exponential, whatever its
+eigenvalues; the tolerance is then round-off, whatever the user asks for.
 """
 
 import math
 
 from stackbounce.engine.codes import DAMPED, POWER
+from stackbounce.engine.compiler import Floats, kernel
 from stackbounce.engine.contacts import force, raised, stored_energy
-from stackbounce.engine.kernel import Floats, kernel
-from stackbounce.engine.series import ORDER, ROOT_ORDER, value
+from stackbounce.engine.series import ORDER, ROOT_ORDER, evaluate
+from stackbounce.engine.slots import GRAVITY, RECORDS_PEAKS, SERIES_ORDER, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
-_EXACT = 1e-16  # of its own speed: what a linear cluster's series leaves out per step
-_ROUGH = 1e-3  # of its own speed: what any other, however slow, leaves out at most ...
-_SLOW = 1e-13  # ... though not less than this part of the reference speed
-ENTERED = 8.0  # twice the power: from there on a series in the root of time gains nothing
-_BEYOND = 1.25  # times a compression: by how much it may change in a step, and open at its end
-_CLEAR = 50.0  # times the tolerance of a step: how small a power's last term has to be for more
-_HALVINGS = 26  # of such a part: a crest is flat
-_PARTS = 4  # of a step, in each of which a force has no more than one crest
+_EXACT = 1e-16  # of its own speed: the error of a step of a linear cluster
+_ROUGH = 1e-3  # of its own speed: the largest error of a step of any other cluster,
+_SLOW = 1e-13  # but at least this part of the reference speed
+ROOT_POWERS = 8.0  # twice the power from which on a series in the root of time is no faster
+_BEYOND = 1.25  # times a compression: the largest change in a step
+_CLEAR = 50.0  # times the tolerance of a step: the largest last term of a power
+_HALVINGS = 26  # of a part of a step, in the search for a peak
+_PARTS = 4  # of a step, each searched for one peak
 
 
 @kernel
 def is_linear(stack: Stack, i: int) -> bool:
-    """Tell whether the force of a pressing contact is a constant times its compression now."""
+    """Tell whether the force of a pressing contact is now a constant times its compression."""
     if stack.law[i] == DAMPED:
         return False
-    return stack.faint[i] == 1 or stack.curve_exponent[i] == 1.0
+    return stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0
 
 
 @kernel
-def expand(stack: Stack, low: int, high: int) -> float:
+def expand_motion(stack: Stack, low: int, high: int) -> float:
     """Expand the motion of the cluster with pressing contacts low..high-1; return the safe step."""
     bottom = max(low - 1, 0)
     root = stack.root[bottom]
     exact = True
     for i in range(low, high):
         stack.compression_series[i][0] = stack.compression[i]
-        stack.compression_series[i][1] = 0.0  # stays so in a series in the root of time
-        stack.power[i] = power_needed(stack, i) if stack.faint[i] == 0 else 0.0
+        stack.compression_series[i][1] = 0.0  # remains 0 in a series in the root of time
+        stack.power[i] = power_needed(stack, i) if stack.linearised[i] == 0 else 0.0
         ratio = stack.compression[i] / stack.curve_unit[i]
         begin = ratio > 0.0 and stack.power[i] > 0.0
         stack.power_series[i][0] = raised(ratio, stack.power[i]) if begin else 0.0
-        stack.power_series[i][1] = 0.0  # as above
+        stack.power_series[i][1] = 0.0  # the same
         if not is_linear(stack, i) and stack.curve_exponent[i] != 0.0:
             exact = False
-    order = ORDER if exact else stack.setting[0]
+    order = ORDER if exact else stack.setting[SERIES_ORDER]
     if root == 2:
         order = min(2 * order, ROOT_ORDER)
-    speed = _own_speed(stack, low, high) if exact else stack.number[1]
+    speed = _own_speed(stack, low, high) if exact else stack.number[SPEED]
     for b in range(bottom, high):
         stack.velocity_series[b][0] = stack.velocity[b]
         stack.velocity_series[b][1] = 0.0
         stack.order[b] = order
         stack.speed[b] = speed
     if root == 1 and low == 0 and high == 2:
-        _find_terms(stack, 0, 2, order, 1)  # as below, but compiled for these numbers
+        _find_terms(stack, 0, 2, order, 1)  # as below, but compiled for constants
     else:
         _find_terms(stack, low, high, order, root)
     step = 0.0
     for i in range(low, high):
-        step = max(step, 100.0 * stack.scale[i] / stack.number[1])
-    allowed = speed * (_EXACT if exact else stack.number[2])
+        step = max(step, 100.0 * stack.scale[i] / stack.number[SPEED])
+    allowed = speed * (_EXACT if exact else stack.number[TOLERANCE])
     if not exact and allowed > _ROUGH * _fastest(stack, low, high):
         own_speed = _own_speed(stack, low, high)
         allowed = min(allowed, max(_ROUGH * own_speed, _SLOW * speed))
-    # in the root of time all but every fifth term may be 0
+    # in the root of time, four of five terms may be 0
     before, x = 0.0, step if root == 1 else math.sqrt(step)
     for k in range(order - 1 if root == 1 else order - 4, order + 1):
         size = 0.0
         for b in range(bottom, high):
             size = max(size, abs(stack.velocity_series[b][k]))
-        if size * x > before:  # else this term is as small as the last one
+        if size * x > before:  # otherwise this term is as small as the last one
             x = min(x, (allowed / size) ** (1.0 / k))
         before = size
     step = min(step, x if root == 1 else x * x)
@@ -92,9 +93,10 @@ def expand(stack: Stack, low: int, high: int) -> float:
 
 @kernel
 def power_needed(stack: Stack, i: int) -> float:
-    """Return the power p of its compression that contact i's curve needs a series of, 0 for none.
+    """Return the power p of the compression of contact i whose series is needed, 0 for none.
 
-    Where a gain is b c + d c' one does for both: c^q (b c + d c') = b c^p + d/p (c^p)', p = q + 1.
+    If the gain is b c + d c', one power serves both terms: c^q (b c + d c') = b c^p + d/p (c^p)'
+    with p = q + 1.
     """
     p = stack.curve_exponent[i]
     if p == 0.0 or p == 1.0:
@@ -104,11 +106,12 @@ def power_needed(stack: Stack, i: int) -> float:
 
 @kernel
 def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> None:
-    """Find the series of a cluster, whose first terms are known, up to an order.
+    """Compute the series of a cluster, whose first terms are known, up to an order.
 
-    With x = t^(1/root), a series of terms a_k x^k is the rate of one of root a_k/(k + root)
-    x^(k + root). Of each power of a compression c all terms are found that c is known to. One
-    function on purpose, with each array fetched once: as several it would take twice as long.
+    With x = t^(1/root), a series of terms a_k x^k is the rate of one of terms root a_k/(k + root)
+    x^(k + root). Of each power of a compression c, all terms are computed that c is known to. This
+    is one function, which takes each array from the stack once: several functions took twice as
+    long.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
     powers, gains, power = stack.power_series, stack.gain_series, stack.power
@@ -119,7 +122,7 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
     for k in range(order + 1):
         n = k + root
         share = root / n
-        falling = share * stack.number[0] if k == 0 else 0.0
+        falling = share * stack.number[GRAVITY] if k == 0 else 0.0
         below = 0.0
         for i in range(low, high):
             c, u, p = c_all[i], powers[i], power[i]
@@ -171,9 +174,9 @@ def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> Non
 def _steep_step(stack: Stack, i: int, order: int, root: int, step: float) -> float:
     """Shorten a step to the time in which a power of a compression may change by e^(order/2).
 
-    A steeper force grows from nothing to everything past the terms that a series ends with. Nor
-    may the compression change by much more than itself: where it is 0 the power has no series. One
-    that rises may go further, as far as the last term of its power is small.
+    A steeper force grows beyond what the series represents. Nor may the compression change by much
+    more than itself, as the power has no series where it is 0. A rising compression may go further,
+    as long as the last term of its power is small.
     """
     compression, c = stack.compression[i], stack.compression_series[i]
     furthest = 0.5 * order / root / stack.curve_exponent[i] * compression
@@ -184,13 +187,13 @@ def _steep_step(stack: Stack, i: int, order: int, root: int, step: float) -> flo
     far = min(_time_to_rise(c[1], c[2], furthest), _time_to_rise(-c[1], -c[2], reach))
     first, last = stack.power_series[i][0], abs(stack.power_series[i][order])
     if far > near and last > 0.0:
-        far = min(far, (_CLEAR * stack.number[2] * first / last) ** (1.0 / order))
+        far = min(far, (_CLEAR * stack.number[TOLERANCE] * first / last) ** (1.0 / order))
     return min(max(near, far), step)
 
 
 @kernel
 def _time_to_rise(first: float, second: float, reach: float) -> float:
-    """Return when first t + second t^2 comes to a level above 0, if ever."""
+    """Return when first t + second t^2 rises to a level above 0; infinity if it does not."""
     discriminant = first * first + 4.0 * second * reach
     if discriminant < 0.0 or (first <= 0.0 and second <= 0.0):
         return math.inf
@@ -200,9 +203,9 @@ def _time_to_rise(first: float, second: float, reach: float) -> float:
 
 @kernel
 def _own_speed(stack: Stack, low: int, high: int) -> float:
-    """Return a speed that a cluster has, or could have from what it holds.
+    """Return the largest speed of a cluster's balls now, or the one its stored energy could give.
 
-    An overdamped contact ends at a far smaller speed than it began: it counts, not the first one.
+    An overdamped contact ends at a far smaller speed than it began with: the present speed counts.
     """
     mass, stored = 0.0, 0.0
     for b in range(max(low - 1, 0), high):
@@ -222,30 +225,30 @@ def _fastest(stack: Stack, low: int, high: int) -> float:
 
 
 @kernel
-def record_crests(stack: Stack, low: int, high: int, s: float) -> None:
-    """Keep the largest force and compression of contacts without a history up to s."""
+def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
+    """Update the peaks of contacts with one force curve from their series up to s."""
     for i in range(low, high):
-        if stack.setting[2] == 0 or stack.law[i] not in (POWER, DAMPED):
+        if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] not in (POWER, DAMPED):
             continue
         order = stack.order[i]
-        crest = _crest(stack.compression_series[i], order + stack.root[stack.first[i]], s)
+        crest = _largest_value(stack.compression_series[i], order + stack.root[stack.first[i]], s)
         stack.peak_compression[i] = max(stack.peak_compression[i], crest)
         if stack.law[i] == DAMPED:
-            crest = _crest(stack.force_series[i], order, s)
+            crest = _largest_value(stack.force_series[i], order, s)
         else:
             crest = force(stack, i, crest, 0.0)
         stack.peak_force[i] = max(stack.peak_force[i], crest)
 
 
 @kernel
-def _crest(a: Floats, n: int, s: float) -> float:
+def _largest_value(a: Floats, n: int, s: float) -> float:
     """Return the largest value of a series from 0 to s."""
-    largest = max(a[0], value(a, n, s))
+    largest = max(a[0], evaluate(a, n, s))
     bend = 0.0
     for k in range(n, 1, -1):
         bend = k * abs(a[k]) + s * bend
     if abs(a[1]) > s * bend:
-        return largest  # it only rises, or only falls
+        return largest  # monotonic
     for part in range(_PARTS):
         left, right = s * part / _PARTS, s * (part + 1) / _PARTS
         if _slope(a, n, left) <= 0.0 or _slope(a, n, right) >= 0.0:
@@ -256,7 +259,7 @@ def _crest(a: Floats, n: int, s: float) -> float:
                 left = middle
             else:
                 right = middle
-        largest = max(largest, value(a, n, left))
+        largest = max(largest, evaluate(a, n, left))
     return largest
 
 

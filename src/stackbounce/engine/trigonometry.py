@@ -1,21 +1,22 @@
-"""cos x and sin x as polynomials that a compiler can spread over many lanes.
+"""cos x and (sin x)/x as polynomials, which a compiler can vectorise.
 
-Half turns are taken off first, without a branch; what is left is at most a quarter turn either way.
-There cos x and (sin x)/x are polynomials in x^2 whose first terms are the Taylor series', and whose
-others are Remez's, with the smallest error: below 6e-18. Terms are summed by twos, which is faster.
+Multiples of a half turn are subtracted first, without a branch, so that at most a quarter turn
+either way remains. There cos x and (sin x)/x are polynomials in x^2. The first coefficients are
+those of the Taylor series; the others are from Remez's algorithm, with the smallest error: below
+6e-18. Terms are summed in pairs, which is faster.
 """
 
-from stackbounce.engine.kernel import kernel
+from stackbounce.engine.compiler import kernel
 
-_ROUND = 6755399441055744.0  # 1.5 * 2^52: a number added to it and taken off again is rounded
+_ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds a number
 _PER_HALF_TURN = 0.3183098861837907  # 1/pi
-_HALF_TURN = 3.141592651605606  # pi to 29 bits: its multiples up to 2^24 are exact ...
-_REST = 1.984187159361081e-09  # ... and the rest
+_HALF_TURN = 3.141592651605606  # pi to 29 bits: multiples up to 2^24 are exact
+_REST = 1.984187159361081e-09  # the rest of pi
 
 
 @kernel
 def half_turns(x: float) -> tuple[float, float]:
-    """Return s = 1 or -1 and an angle r up to pi/2: cos x = s cos r, sin x = s sin r."""
+    """Return s = 1 or -1 and an angle r up to pi/2 with cos x = s cos r, sin x = s sin r."""
     turns = (x * _PER_HALF_TURN + _ROUND) - _ROUND
     odd = turns - 2.0 * ((0.5 * turns + _ROUND) - _ROUND)
     return 1.0 - 2.0 * abs(odd), (x - turns * _HALF_TURN) - turns * _REST
@@ -54,8 +55,8 @@ def sinc(z: float) -> float:
 
 
 @kernel
-def nudged(omega: float, d: float, y: float, z: float) -> tuple[float, float]:
-    """Return position and velocity of a wave after a time d, up to 0.01 rad, from those before."""
+def nudge_mode(omega: float, d: float, y: float, z: float) -> tuple[float, float]:
+    """Return position and velocity of a mode after a time d (up to 0.01 rad), from those before."""
     square = -omega * omega
     angle = square * d * d
     cos = 1.0 + angle * (1.0 / 2.0 + angle * (1.0 / 24.0 + angle * (1.0 / 720.0)))

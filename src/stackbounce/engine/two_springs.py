@@ -1,14 +1,14 @@
 """Two balls on springs (eqs 5 and 6) without gravity: many drops, fast.
 
-The drops go through the lanes of `lanes`: one that is done makes room for the next that waits. A
-drop that is out of the ordinary is left to the general engine, with the status ASK.
+The drops pass through the lanes of `lockstep`; a drop that has ended makes room for the next one. A
+drop near the limits of accuracy is left to the general engine, with the status ASK.
 """
 
 import math
 from typing import Any
 
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED, INVALID
-from stackbounce.engine.kernel import Floats, kernel
+from stackbounce.engine.compiler import Floats, kernel
 from stackbounce.engine.lockstep import (
     A1,
     A2,
@@ -21,13 +21,13 @@ from stackbounce.engine.lockstep import (
     LANES,
     LAST0,
     LAST1,
-    LOOKS,
     N0,
     N1,
     OVER_A1,
     OVER_A2,
     OVER_B2,
     OWN,
+    ROUNDS,
     ROW,
     S1,
     S2,
@@ -45,24 +45,24 @@ from stackbounce.engine.lockstep import (
     W0,
     W1,
     X2,
-    look,
+    advance_lanes,
 )
 
-# The drops that wait: what each begins with of its own, and what was given.
+# The slots of waiting drops: initial values, and the numbers given.
 NEXT = SLOTS * LANES
 MASS1, MASS2, STIFFNESS1, STIFFNESS2, GAP, SPEED = (NEXT + k * LANES for k in range(OWN, OWN + 6))
 SCRATCH = NEXT + (OWN + 6) * LANES
 
 _LINE = 8  # numbers in a cache line
-_RATIO = 256.0  # of masses and of stiffnesses, at most, and at least one over it
-_GAP = 1e3  # in v0/omega, at most
-_OMEGA = 1e100  # in 1/s, at most, and at least one over it
+_RATIO = 256.0  # largest ratio of masses and of stiffnesses; its inverse is the smallest
+_GAP = 1e3  # largest gap in v0/omega
+_OMEGA = 1e100  # largest frequency in 1/s; its inverse is the smallest
 
 
-def scratch() -> Any:
-    """Return an array for `two_springs` to work in.
+def new_scratch() -> Any:
+    """Return scratch space for `run_two_springs`.
 
-    It begins on a cache line: a vector that lies on two of them takes longer.
+    It begins on a cache line: a vector that spans two of them takes longer.
     """
     import numpy as np
 
@@ -72,7 +72,7 @@ def scratch() -> Any:
 
 
 @kernel
-def two_springs(
+def run_two_springs(
     mass: Any,
     stiffness: Any,
     gap: Any,
@@ -116,37 +116,39 @@ def two_springs(
             while x[STATUS + i] != 0.0:
                 done = int(x[ROW + i])
                 if done >= 0:
-                    _leave(velocity, collisions, first_touch, last_release, status, x, i, done)
+                    _write_outcome(
+                        velocity, collisions, first_touch, last_release, status, x, i, done
+                    )
                     left -= 1
                 if waiting == 0 and row < rows:
                     waiting = min(LANES, rows - row)
-                    _line_up(mass, stiffness, gap, speed, row, waiting, x)
-                    _enter(x, waiting)
+                    _fetch(mass, stiffness, gap, speed, row, waiting, x)
+                    _find_constants(x, waiting)
                     row += waiting
                 if waiting == 0:
                     x[STATUS + i], x[ROW + i] = 0.0, -1.0
                     break
                 waiting -= 1
                 _begin(x, i, waiting)
-        look(x, event_limit)
+        advance_lanes(x, event_limit)
 
 
 @kernel
 def _begin(x: Floats, i: int, waiting: int) -> None:
-    """Begin in lane i, at t = 0, with a drop that waits."""
-    i, waiting = i & (LANES - 1), waiting & (LANES - 1)  # as they are; so a compiler sees it
+    """Start a waiting drop in lane i, at t = 0."""
+    i, waiting = i & (LANES - 1), waiting & (LANES - 1)  # no change: it shows a compiler the range
     for k in range(OWN):
         x[k * LANES + i] = x[NEXT + k * LANES + waiting]
     x[W0 + i], x[U0 + i], x[TIME + i], x[FLOOR + i] = 0.0, -1.0, 0.0, 1.0
-    x[LOOKS + i], x[VAIN + i], x[N0 + i], x[N1 + i] = 0.0, 0.0, 1.0, x[BALLS + i]
+    x[ROUNDS + i], x[VAIN + i], x[N0 + i], x[N1 + i] = 0.0, 0.0, 1.0, x[BALLS + i]
     x[FIRST + i], x[LAST0 + i], x[LAST1 + i] = 0.0, 0.0, 0.0
 
 
 @kernel
-def _line_up(
+def _fetch(
     mass: Any, stiffness: Any, gap: Any, speed: Any, row: int, count: int, x: Floats
 ) -> None:
-    """Fetch the numbers of drops, from a row on."""
+    """Copy the numbers of drops from a row on."""
     for i in range(count):
         x[NEXT + ROW + i] = row + i
         x[MASS1 + i], x[MASS2 + i] = float(mass[row + i, 0]), float(mass[row + i, 1])
@@ -156,8 +158,8 @@ def _line_up(
 
 
 @kernel
-def _enter(x: Floats, count: int) -> None:
-    """Make ready the drops that wait: how they begin, and their modes in each regime."""
+def _find_constants(x: Floats, count: int) -> None:
+    """Compute the initial values of waiting drops and their modes in each regime."""
     for i in range(count):
         m1, m2, k1, k2 = x[MASS1 + i], x[MASS2 + i], x[STIFFNESS1 + i], x[STIFFNESS2 + i]
         gap, speed = x[GAP + i], x[SPEED + i]
@@ -204,7 +206,7 @@ def _enter(x: Floats, count: int) -> None:
 
 
 @kernel
-def _leave(
+def _write_outcome(
     velocity: Any,
     collisions: Any,
     first_touch: Any,
@@ -214,7 +216,7 @@ def _leave(
     i: int,
     r: int,
 ) -> None:
-    """Write down how the drop in lane i, of row r, has ended; what is not known is nan."""
+    """Write the outcome of the drop in lane i to row r; unknown numbers are nan."""
     code = int(x[STATUS + i])
     known = code in (FINISHED, EVENT_LIMIT)
     v0, unit = x[V0 + i] if known else math.nan, x[UNIT + i] if known else math.nan

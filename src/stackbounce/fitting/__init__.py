@@ -1,46 +1,46 @@
-"""Measured drops -> parameters with uncertainties, and which model is right.
+"""Measured drops -> parameters with uncertainties, and a comparison of models.
 
-========== ============================================================================
-quantities what can be measured of a drop, and what the engine says of it
-measured   what was measured, with errors
-waveforms  force records as data
-parameters what is varied, between which bounds
-ties       what follows from what is varied
-formula    how that is written
-problem    all of it together: residuals of many trials at once
-question   what a user asks for -> the problem
-files      a question from a TOML file
-tables     drops, and what was measured of each, from a CSV file
-search     many trials screened, the best followed down
-run        ``fit``
-found      what a fit found
-residuals  what was measured beside what was fitted
-notes      what should be known about it
-profile    confidence intervals
-posterior  draws from what is known after the data
-model      what ``compare`` fits
-standard   the usual models of a stack
-comparison ``compare``
-========== ============================================================================
+The files in the order of their imports:
+
+============= ====================================================================
+quantities    what can be measured of a drop, and how it follows from a run
+waveforms     force records as data
+measurements  what was measured of a drop, with errors
+formula       the formulas of ties
+parameters    what is varied, with bounds and priors
+ties          what follows from what is varied
+objective     residuals and chi squared of many trials at once
+covariance    directions that the data determine, and the covariance matrix
+least_squares the search for the minima of chi squared
+residuals     what was measured beside what was fitted
+notes         warnings about a fit
+profile       profiles of chi squared, confidence intervals
+posterior     draws from the posterior distribution
+result        `Fit`: the result, with all of these
+problem       `FitProblem` and `fit`: from the arguments to the result
+comparison    `compare`: several models of the same data
+standard      the usual models of a stack
+files         a problem from a TOML file
+tables        drops, and what was measured of each, from a CSV file
+============= ====================================================================
 """
 
 from stackbounce.extras import need
 from stackbounce.fitting.comparison import Comparison, compare
 from stackbounce.fitting.files import read_question
-from stackbounce.fitting.model import Model
 from stackbounce.fitting.parameters import Range
 from stackbounce.fitting.posterior import Posterior
+from stackbounce.fitting.problem import FitProblem, Model, fit
 from stackbounce.fitting.profile import Interval
-from stackbounce.fitting.question import Question
 from stackbounce.fitting.residuals import Record, Residual
 from stackbounce.fitting.result import Fit
-from stackbounce.fitting.search_run import fit
 from stackbounce.fitting.standard import standard_models
 from stackbounce.fitting.tables import read_drops
 
 __all__ = [
     "Comparison",
     "Fit",
+    "FitProblem",
     "Interval",
     "Model",
     "Posterior",
@@ -56,3 +56,5 @@ __all__ = [
 ]
 
 need("fit", "stackbounce fit")
+
+Question = FitProblem  # the former name, for one release

@@ -1,19 +1,19 @@
-"""``compare``: several models of the same data, side by side."""
+"""Several models fitted to the same data, side by side."""
 
 import functools
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.fitting.model import Model
-from stackbounce.fitting.question import TooFewData
+from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.fitting.covariance import OPEN
+from stackbounce.fitting.least_squares import find_minima
+from stackbounce.fitting.problem import FitProblem, TooFewData
 from stackbounce.fitting.result import Fit
-from stackbounce.fitting.search_run import fit
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -23,12 +23,12 @@ __all__ = ["Comparison", "Score", "compare"]
 
 Array: TypeAlias = NDArray[np.float64]
 
-_DRAWS = 256  # of the parameters behind a prediction
-_FOLLOWED = 3  # trials, besides the best with all data, where some are left out
+_DRAWS = 256  # of the parameters, for the spread of a prediction
+_FOLLOWED = 3  # descents of a fit to part of the data, besides that from the best with all
 
 
 class Score(NamedTuple):
-    """How one model does; `weight` is its share of the evidence among those compared."""
+    """The scores of one model; `weight` is its Akaike (or BIC) weight among those compared."""
 
     model: str
     parameters: int
@@ -41,7 +41,7 @@ class Score(NamedTuple):
 
 
 class Prediction(NamedTuple):
-    """A number that was left out, beside what the rest of the data predicts for it."""
+    """A number that was left out of a fit, beside what the fit to the other data predicts."""
 
     drop: str
     name: str
@@ -52,7 +52,7 @@ class Prediction(NamedTuple):
 
     @property
     def pull(self) -> float:
-        """Their difference, in the errors of both."""
+        """Predicted less measured, in units of their combined error."""
         return (self.predicted - self.measured) / math.hypot(self.error, self.predicted_error)
 
 
@@ -63,9 +63,9 @@ class Comparison:
     Parameters
     ----------
     fits : dict of str to Fit
-        Of each model that could be fitted.
+        The fit of each model that could be fitted.
     refused : dict of str to str
-        Why a model could not.
+        The reason for each model that could not.
 
     Examples
     --------
@@ -88,15 +88,13 @@ class Comparison:
 
     def __getitem__(self, name: str) -> Fit:
         """The fit of one model."""
-        from stackbounce.errors import nearest
-
         if name not in self.fits:
             raise InvalidValue(f"{shown(name)} is no model here; {nearest(name, self.fits)}")
         return self.fits[name]
 
     @property
     def criterion(self) -> str:
-        """``aicc``, or ``bic`` where data are too few for it."""
+        """``aicc``, or ``bic`` if the data are too few for it."""
         return "aicc" if all(one.aicc < math.inf for one in self.fits.values()) else "bic"
 
     @functools.cached_property
@@ -125,7 +123,7 @@ class Comparison:
         import xarray as xr
 
         names = {
-            name: {f"{one.drop}.{one.name}".lstrip("."): one.pull for one in found.residuals}
+            name: {one.label: one.pull for one in found.residuals}
             for name, found in self.fits.items()
         }
         data = list(dict.fromkeys(datum for own in names.values() for datum in own))
@@ -135,20 +133,25 @@ class Comparison:
 
     @functools.cached_property
     def left_out(self) -> dict[str, list[Prediction]]:
-        """What each model predicts for each drop from all others (with one drop: for each datum).
+        """What each model predicts for each drop from all others; with one drop, for each datum.
 
-        The spread of the parameters behind a prediction is in its error; those that only the drop
-        itself would tell lie where their priors have them, or anywhere between their bounds.
+        The error of a prediction comes from the uncertainty of the parameters. Those that only the
+        drop itself determines follow their priors, or lie anywhere between their bounds.
         """
         return {name: _predictions(found) for name, found in self.fits.items()}
 
     def predictive(self, name: str) -> float:
-        """Return the logarithm of how probable a model held what was left out; more is better.
+        """Return the log predictive density of what was left out, relative to an exact prediction.
 
         Parameters
         ----------
         name : str
             The model.
+
+        Returns
+        -------
+        float
+            More is better.
         """
         return sum(
             -0.5 * one.pull**2 - math.log(math.hypot(one.error, one.predicted_error) / one.error)
@@ -156,7 +159,7 @@ class Comparison:
         )
 
     def as_dict(self) -> dict[str, Any]:
-        """Return the comparison as plain values, for machines."""
+        """Return the comparison as plain values, for JSON."""
         return {
             "stackbounce": __version__,
             "scores": [one._asdict() for one in self.scores],
@@ -165,17 +168,17 @@ class Comparison:
         }
 
 
-def compare(models: Mapping[str, Model], data: Any, **options: Any) -> Comparison:
+def compare(models: Mapping[str, FitProblem], data: Any, **options: Any) -> Comparison:
     """Fit several models to the same data and lay them side by side.
 
     Parameters
     ----------
-    models : mapping of str to Model
-        By their names; `standard_models` makes the usual ones.
+    models : mapping of str to FitProblem
+        By name, without data, as `Model` makes them; `standard_models` makes the usual ones.
     data : mapping
         What was measured, as `fit` takes it.
     **options
-        Those of `fit`: `starts`, `seed`, `rtol`.
+        The options of `fit`: `starts`, `seed`, `rtol`.
 
     Returns
     -------
@@ -186,7 +189,7 @@ def compare(models: Mapping[str, Model], data: Any, **options: Any) -> Compariso
     Raises
     ------
     InvalidValue
-        If a model or the data make no sense, or no model can be fitted.
+        If a model or the data are wrong, or no model can be fitted.
     InvalidType
         If something has the wrong type.
 
@@ -204,10 +207,10 @@ def compare(models: Mapping[str, Model], data: Any, **options: Any) -> Compariso
     fits: dict[str, Fit] = {}
     refused: dict[str, str] = {}
     for name, model in models.items():
-        if not isinstance(name, str) or not isinstance(model, Model):
+        if not isinstance(name, str) or not isinstance(model, FitProblem):
             raise InvalidType(f"models must map names to Models, got {shown(name)}: {shown(model)}")
         try:
-            fits[name] = fit(model.drop, data, model.vary, tie=model.tie, **options)
+            fits[name] = replace(model, data=data).fit(**options)
         except TooFewData as error:
             refused[name] = str(error)
         except (InvalidValue, InvalidType) as error:
@@ -219,22 +222,20 @@ def compare(models: Mapping[str, Model], data: Any, **options: Any) -> Compariso
 
 
 def _predictions(found: Fit) -> list[Prediction]:
-    """Return what a model predicts for what is left out, one drop or datum after the other."""
-    from stackbounce.fitting.search import search
-
-    problem = found.problem
-    several = len(problem.drops) > 1
+    """Return what a model predicts for each drop or datum when that is left out of the fit."""
+    objective = found.objective
+    several = len(objective.drops) > 1
     parts = [
         (key, None if several else datum.name)
-        for key, measured in problem.measured.items()
+        for key, measured in objective.measured.items()
         for datum in (measured.data[:1] if several else measured.data)
     ]
     rows: list[Prediction] = []
     for key, name in parts:
-        rest = problem.without(key, name)
-        minima = search(rest, found.x[None], follow=_FOLLOWED) if rest.size else found.minima
-        numbers = problem.predicted(key, _draws(Fit(rest, minima)))
-        for datum, drawn in zip(problem.measured[key].data, numbers.T, strict=True):
+        rest = objective.without(key, name)
+        minima = find_minima(rest, found.x[None], follow=_FOLLOWED) if rest.size else found.minima
+        numbers = objective.predict(key, _draws(Fit(rest, minima)))
+        for datum, drawn in zip(objective.measured[key].data, numbers.T, strict=True):
             if name in (None, datum.name):
                 there = drawn[np.isfinite(drawn)]
                 mean = float(np.mean(there)) if len(there) else math.nan
@@ -244,16 +245,18 @@ def _predictions(found: Fit) -> list[Prediction]:
 
 
 def _draws(found: Fit) -> Array:
-    """Return (n, parameters) trials that a fit leaves open, were chi squared a parabola."""
+    """Return (n, parameters) trials drawn as if chi squared were a parabola at the best trial.
+
+    An undetermined direction is drawn from a uniform distribution between the bounds.
+    """
     random = np.random.default_rng(0)
-    spans = found.problem.spans
-    wide = spans[:, 1] - spans[:, 0]
+    low, widths = found.objective.spans[:, 0], found.objective.widths
     sizes, directions = found.directions
-    known = sizes > 1.0
-    middle = (found.x - spans[:, 0]) / wide
+    known = sizes > OPEN
+    middle = (found.x - low) / widths
     along = directions @ middle
-    along = np.where(known, along, directions @ np.full(len(wide), 0.5))
-    normal = random.standard_normal((_DRAWS, len(wide))) / np.maximum(sizes, 1.0)
-    anywhere = random.uniform(-0.5, 0.5, (_DRAWS, len(wide)))
+    along = np.where(known, along, directions @ np.full(len(widths), 0.5))
+    normal = random.standard_normal((_DRAWS, len(widths))) / np.maximum(sizes, 1.0)
+    anywhere = random.uniform(-0.5, 0.5, (_DRAWS, len(widths)))
     places = (along + np.where(known, normal, anywhere)) @ directions
-    return np.asarray(spans[:, 0] + np.clip(places, 0.0, 1.0) * wide)
+    return np.asarray(low + np.clip(places, 0.0, 1.0) * widths)

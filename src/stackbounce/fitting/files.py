@@ -1,10 +1,10 @@
-"""A fit from a file: a scenario with what was measured, what may vary, and what follows."""
+"""A fit problem from a file: a scenario with what was measured, what varies, what follows."""
 
 import os
 from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from stackbounce.errors import (
     InvalidType,
@@ -16,7 +16,7 @@ from stackbounce.errors import (
     shown,
 )
 from stackbounce.fitting.parameters import Range
-from stackbounce.fitting.question import Question
+from stackbounce.fitting.problem import FitProblem
 from stackbounce.model import Drop
 from stackbounce.model.toml import load_toml
 from stackbounce.units import quantity
@@ -24,7 +24,7 @@ from stackbounce.units import quantity
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["force_record", "read_question", "typed"]
+__all__ = ["Parts", "convert_measured", "read_force_record", "read_parts", "read_question"]
 
 _OWN = ("measured", "vary", "tie", "drops")
 _INCIDENCE = ("impact_speed", "height", "velocities")
@@ -33,36 +33,45 @@ _RECORD = ("file", "start", "end", "error")
 _READING = ("holds", "table", "run", "names", "units", "decimal")
 
 
-def read_question(path: str | os.PathLike[str]) -> Question:
-    """Return what a file in TOML asks of a fit.
+class Parts(NamedTuple):
+    """The parts of a `FitProblem` from a file, not checked; what the file lacks is empty."""
+
+    drops: dict[str, Drop]
+    data: dict[str, dict[str, Any]]
+    vary: dict[str, Any]
+    tie: dict[str, Any]
+
+
+def read_question(path: str | os.PathLike[str]) -> FitProblem:
+    """Return the fit problem of a file in TOML.
 
     Parameters
     ----------
     path : str or path-like
-        A scenario, as `stackbounce.Drop.from_toml` reads it, with three more tables, each of which
-        may be left out. ``[measured]`` has what was measured, by the names that `stackbounce.fit`
-        takes, ``"rebound_ratios.1" = "1.64 ± 0.02"``; ``"force.0"`` is a file that
-        `stackbounce.read` reads, beside this one, or a table with ``file``, ``start`` and ``end``
-        (what to cut out), ``error`` (of a sample) and options of `stackbounce.read`. ``[vary]`` has
-        what may change: ``"gaps.0" = "0 mm : 5 mm"``, ``"1.3 ± 0.9 mm"``, or a table of ``low``,
-        ``high`` and ``prior``; an empty text for bounds around the drop's own number. ``[tie]`` has
-        what follows: ``"contacts.1.stiffness" = "0.5 * contacts.0.stiffness"``. Several drops are
-        ``[[drops]]``, each with a ``name``, ``[drops.measured]`` and what sets it apart from the
-        rest of the file, which holds for all.
+        A scenario, as `stackbounce.Drop.from_toml` reads it, with three more tables, which may be
+        left out. ``[measured]`` has what was measured, by the names that `stackbounce.fit` takes:
+        ``"rebound_ratios.1" = "1.64 ± 0.02"``. ``"force.0"`` is the name of a file beside this one,
+        as `stackbounce.read` reads it, or a table with ``file``, ``start`` and ``end`` of the part
+        to take, ``error`` of a sample, and options of `stackbounce.read`. ``[vary]`` has what may
+        change: ``"gaps.0" = "0 mm : 5 mm"``, ``"1.3 ± 0.9 mm"``, or a table of ``low``, ``high``
+        and ``prior``; an empty text means bounds around the drop's own number. ``[tie]`` has what
+        follows: ``"contacts.1.stiffness" = "0.5 * contacts.0.stiffness"``. Several drops are
+        ``[[drops]]``, each with a ``name``, ``[drops.measured]`` and the keys in which it differs;
+        the rest of the file holds for all drops.
 
     Returns
     -------
-    Question
-        Its `fit` is the answer; `stackbounce.fit` takes its parts.
+    FitProblem
+        Its method `fit` makes the fit. Without data or anything to vary it is not complete yet.
 
     Raises
     ------
     FileError
         If a file cannot be read.
     ScenarioError
-        If it cannot be understood; the message begins with the file's name.
+        If its content is wrong; the message begins with the file's name.
     InvalidType
-        If `path` is no path.
+        If `path` is not a path.
 
     Examples
     --------
@@ -71,48 +80,57 @@ def read_question(path: str | os.PathLike[str]) -> Question:
         ...
     stackbounce.errors.FileError: no-such-file.toml cannot be read: No such file or directory
     """
+    parts = read_parts(path)
+    try:
+        return FitProblem(*parts)
+    except (InvalidValue, InvalidType) as error:
+        raise ScenarioError(f"{os.fspath(path)}: {error}") from error
+
+
+def read_parts(path: str | os.PathLike[str]) -> Parts:
+    """Return the parts of a fit problem from a file, not checked; see `read_question`."""
     name, mapping = load_toml(path)
     try:
-        return _question(mapping, Path(name).parent)
+        return _parts(mapping, Path(name).parent)
     except (InvalidValue, InvalidType) as error:
         raise ScenarioError(f"{name}: {error}") from error
 
 
-def typed(name: str, value: object, folder: Path) -> Any:
-    """Return what was measured, as files and the command line have it, as a fit takes it.
+def convert_measured(name: str, value: object, folder: Path) -> Any:
+    """Convert a measured value from a file or the command line to what `fit` takes.
 
     Parameters
     ----------
     name : str
         Such as ``rebound_ratios.1``, ``collisions.0`` or ``force.0``.
     value : object
-        A text, a number or a list; of a force record the name of its file, or a table.
+        A text, a number or a list; for a force record the name of its file, or a table.
     folder : Path
-        Where files are.
+        The folder of the files.
 
     Returns
     -------
     object
-        Counts as whole numbers, force records as DataArrays, all else as it is.
+        A count as a whole number, a force record as a DataArray, anything else unchanged.
 
     Raises
     ------
     FileError
         If a force record cannot be read.
     InvalidValue
-        If there is no force in it.
+        If the file has no force in it.
 
     Examples
     --------
-    >>> typed("collisions.0", "3", Path()), typed("rebound_ratios.1", "1.64 ± 0.02", Path())
-    (3, '1.64 ± 0.02')
+    >>> convert_measured("collisions.0", "3", Path())
+    3
     """
     if name.startswith("collisions.") and isinstance(value, str) and value.strip().isdecimal():
         return int(value)
-    return force_record(name, value, folder) if name.startswith("force.") else value
+    return read_force_record(name, value, folder) if name.startswith("force.") else value
 
 
-def force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
+def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
     """Return the force record of a file, or of a table that has one; see `read_question`."""
     from stackbounce.measure import read
 
@@ -137,7 +155,7 @@ def force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
     return record
 
 
-def _question(mapping: Mapping[str, Any], folder: Path) -> Question:
+def _parts(mapping: Mapping[str, Any], folder: Path) -> Parts:
     _check(mapping, _OWN, "")
     rest = {key: value for key, value in mapping.items() if key not in _OWN}
     if "drops" in mapping:
@@ -149,7 +167,7 @@ def _question(mapping: Mapping[str, Any], folder: Path) -> Question:
         drops, data = {"": Drop.from_mapping(rest)}, {"": measured}
     data = {key: one for key, one in data.items() if one}
     tie = _flat(_table(mapping.get("tie", {}), "tie"))
-    return Question(drops, data, _vary(mapping.get("vary", {})), tie)
+    return Parts(drops, data, _vary(mapping.get("vary", {})), tie)
 
 
 def _several(
@@ -191,7 +209,7 @@ def _check(table: Mapping[str, Any], more: tuple[str, ...], path: str) -> None:
 
 def _measured(given: object, path: str, folder: Path) -> dict[str, Any]:
     table = _flat(_table(given, path), leaf=lambda one: "file" in one)
-    return {name: typed(name, value, folder) for name, value in table.items()}
+    return {name: convert_measured(name, value, folder) for name, value in table.items()}
 
 
 def _vary(given: object) -> dict[str, Any]:
@@ -202,7 +220,7 @@ def _vary(given: object) -> dict[str, Any]:
 
 
 def _bounds(name: str, value: object) -> object:
-    """Return what a number may be; a table as a `Range`, an empty text as nothing told."""
+    """Return the bounds or prior of a number: a table as a `Range`, an empty text as None."""
     if not isinstance(value, Mapping):
         return None if value == "" else value
     for key in value:
@@ -221,7 +239,7 @@ def _table(given: object, path: str) -> Mapping[str, Any]:
 
 
 def _flat(table: Mapping[str, Any], leaf: Any = lambda _: False, path: str = "") -> dict[str, Any]:
-    """Return a table by whole names: ``gaps.0`` without quotes is a table in a table to TOML."""
+    """Return a table by full names: TOML reads ``gaps.0`` without quotes as a table in a table."""
     found: dict[str, Any] = {}
     for key, value in table.items():
         if isinstance(value, Mapping) and not leaf(value):

@@ -1,4 +1,4 @@
-"""Formulas as users write them -> functions of arrays; nothing else can be said in them."""
+"""The formulas of ties, parsed into functions of arrays; they can do arithmetic only."""
 
 import ast
 import math
@@ -37,7 +37,7 @@ _OPERATIONS: dict[type[ast.AST], Any] = {
     ast.Pow: np.power,
 }
 OWN_WORDS = frozenset((*_CONSTANTS, *_FUNCTIONS))
-"""What a formula means by itself, so that nothing else can have these names."""
+"""The reserved names of formulas: no parameter can have one of them."""
 
 
 def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formula, frozenset[str]]:
@@ -46,19 +46,19 @@ def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formu
     Parameters
     ----------
     text : str
-        Of numbers, names, ``+ - * / **``, brackets, ``sqrt``, ``exp``, ``log``, ``minimum``,
+        Made of numbers, names, ``+ - * / **``, brackets, ``sqrt``, ``exp``, ``log``, ``minimum``,
         ``maximum`` and ``pi``. A name may have dots: ``balls.0.mass``.
     known : collection of str
         The names that it may use.
     path : str
-        Which number follows from it, for messages.
+        The number that follows from it, for messages.
 
     Raises
     ------
     InvalidValue
-        If it has another name, or cannot be read.
+        If it has an unknown name, or cannot be read.
     InvalidType
-        If it is no text.
+        If it is not a text.
 
     Examples
     --------
@@ -94,7 +94,7 @@ def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formu
 
 
 def _function(node: ast.AST, names: Mapping[str, str]) -> Formula:
-    """Return what a part of a formula computes; floats throughout, so that no integer grows."""
+    """Return a part of a formula as a function; all numbers are floats, so that none can grow."""
     match node:
         case ast.Constant(int() | float() as value):
             number = float(value)

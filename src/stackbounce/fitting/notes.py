@@ -1,95 +1,103 @@
-"""What should be known about a fit: what data leave open, bounds, other minima, misfits."""
+"""The notes of a fit: undetermined parameters, bounds that were reached, other minima, misfits."""
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from stackbounce.fitting.problem import ABSENT
-from stackbounce.fitting.search import EQUAL, OPEN
+from stackbounce.fitting.covariance import OPEN, Array
+from stackbounce.fitting.least_squares import EQUAL, Minimum
+from stackbounce.fitting.objective import ABSENT, Objective
+from stackbounce.fitting.residuals import Residual
 
-if TYPE_CHECKING:
-    from stackbounce.fitting.result import Fit
+__all__ = ["describe_undetermined", "note_bounds", "note_misfits", "note_search"]
 
-__all__ = ["notes", "undetermined"]
-
-_CLOSE = 4.0  # more of chi squared than the best: a minimum that is worth telling
-_UNLIKELY = 1e-3
-_SHARE = 0.3  # of a direction that is left open, from which on a parameter is named
-_EDGE = 1e-3  # of the bounds' distance
-
-
-def notes(fit: "Fit") -> tuple[str, ...]:
-    """Return what should be known about a fit, a sentence each."""
-    return (
-        *_unsettled(fit),
-        *_unsolved(fit),
-        *fit.undetermined,
-        *_at_bounds(fit),
-        *_unlikely(fit),
-        *_other_counts(fit),
-        *_absent(fit),
-        *_other_minima(fit),
-    )
+_CLOSE = 4.0  # chi squared above the best up to which another minimum is worth a note
+_UNLIKELY = 1e-3  # probability of chi squared below which the model is doubted
+_SHARE = 0.3  # of the largest part of an undetermined direction: parameters above it are named
+_EDGE = 1e-3  # of the width between the bounds: how near a bound is reached
 
 
-def undetermined(fit: "Fit") -> tuple[str, ...]:
-    """Return what the data cannot determine, a sentence each.
+def describe_undetermined(names: Sequence[str], sizes: Array, directions: Array) -> tuple[str, ...]:
+    """Return what the data cannot determine, a sentence for each undetermined direction.
 
-    In a direction in which chi squared would change by less than 1 from one bound to the other,
-    were it as steep everywhere, every value is as good.
+    In such a direction chi squared changes by less than 1 from one bound to the other, if it is as
+    steep everywhere as at the best values.
     """
     found = []
-    for size, direction in zip(*fit.directions, strict=True):
-        if size > OPEN:
-            continue
+    for direction in directions[sizes <= OPEN]:
         part = np.abs(direction) / np.max(np.abs(direction))
-        names = [name for name, one in zip(fit.names, part, strict=True) if one > _SHARE]
-        found.append(_open(names))
+        open_ones = [name for name, one in zip(names, part, strict=True) if one > _SHARE]
+        found.append(_describe_direction(open_ones))
     return tuple(found)
 
 
-def _unsettled(fit: "Fit") -> list[str]:
-    if fit.minima[0].converged:
-        return []
-    return ["the search ended before it had settled: tell narrower bounds"]
+def _describe_direction(names: list[str]) -> str:
+    if len(names) == 1:
+        return f"the data do not determine {names[0]}: nothing changes within its bounds"
+    listed = f"{', '.join(names[:-1])} and {names[-1]}"
+    return f"the data do not determine {listed} separately: they can change together without effect"
 
 
-def _unsolved(fit: "Fit") -> list[str]:
-    return [
-        f"{count} runs of the search came to no end ({name}) and were taken for far from all data: "
-        "tell narrower bounds"
-        for name, count in fit.unsolved.items()
-    ]
-
-
-def _at_bounds(fit: "Fit") -> list[str]:
+def note_search(best: Minimum, unsolved: Mapping[str, int]) -> list[str]:
+    """Return notes on a search that did not converge, and on runs that did not finish."""
     found = []
-    for one, x in zip(fit.problem.parameters, fit.x, strict=True):
+    if not best.converged:
+        found.append("the search ended before it converged: give narrower bounds")
+    found += [
+        f"{count} runs of the search did not finish ({name}) and were taken as far from all data: "
+        "give narrower bounds"
+        for name, count in unsolved.items()
+    ]
+    return found
+
+
+def note_bounds(objective: Objective, x: Array) -> list[str]:
+    """Return a note for each parameter that lies at a bound."""
+    found = []
+    for one, at in zip(objective.parameters, x, strict=True):
         low, high = one.span
         for end, value in ((low, one.low), (high, one.high)):
-            if abs(x - end) < _EDGE * (high - low):
+            if abs(at - end) < _EDGE * (high - low):
                 found.append(f"{one.name} lies at its bound, {value:g} {one.unit}".rstrip())
     return found
 
 
-def _unlikely(fit: "Fit") -> list[str]:
+def note_misfits(
+    objective: Objective,
+    minima: Sequence[Minimum],
+    residuals: Sequence[Residual],
+    degrees_of_freedom: int,
+) -> list[str]:
+    """Return notes on an unlikely chi squared, differing collisions and other minima."""
+    return [
+        *_note_unlikely(minima[0].chi_squared, degrees_of_freedom),
+        *_note_collisions(objective, minima[0]),
+        *(f"{one.label}: the fitted drop has none" for one in residuals if _is_absent(one)),
+        *_note_other_minima(objective, minima),
+    ]
+
+
+def _is_absent(residual: Residual) -> bool:
+    return not abs(residual.pull) < ABSENT
+
+
+def _note_unlikely(chi_squared: float, degrees_of_freedom: int) -> list[str]:
     from scipy.stats import chi2
 
-    free = max(1, fit.degrees_of_freedom)  # without any, a model that can follow has no misfit
-    if chi2.sf(fit.chi_squared, free) >= _UNLIKELY:
+    # chi squared has no distribution with 0 degrees of freedom: 1 is taken instead
+    if chi2.sf(chi_squared, max(1, degrees_of_freedom)) >= _UNLIKELY:
         return []
-    count = fit.degrees_of_freedom
-    freedom = f"{count} degree{'' if count == 1 else 's'} of freedom"
-    bad = f"chi squared is {fit.chi_squared:.4g} for {freedom}"
+    freedom = f"{degrees_of_freedom} degree{'' if degrees_of_freedom == 1 else 's'} of freedom"
+    bad = f"chi squared is {chi_squared:.4g} for {freedom}"
     return [f"the model does not describe the data: {bad}; its parameters' errors mean little"]
 
 
-def _other_counts(fit: "Fit") -> list[str]:
+def _note_collisions(objective: Objective, best: Minimum) -> list[str]:
     found = []
-    for key, measured in fit.problem.measured.items():
+    for key, measured in objective.measured.items():
         if not measured.counts:
             continue
-        fitted = fit.problem.counts(key, fit.x)
+        fitted = objective.counts(key, best.x)
         for count in measured.counts:
             if fitted[count.index] != count.seen:
                 name = f"{key}.{count.name}" if key else count.name
@@ -97,28 +105,13 @@ def _other_counts(fit: "Fit") -> list[str]:
     return found
 
 
-def _absent(fit: "Fit") -> list[str]:
-    return [
-        f"{one.drop}{'.' if one.drop else ''}{one.name}: the fitted drop has none"
-        for one in fit.residuals
-        if not abs(one.pull) < ABSENT
-    ]
-
-
-def _other_minima(fit: "Fit") -> list[str]:
+def _note_other_minima(objective: Objective, minima: Sequence[Minimum]) -> list[str]:
     found = []
-    for one in fit.minima[1:]:
-        more = one.chi_squared - fit.chi_squared
+    for one in minima[1:]:
+        more = one.chi_squared - minima[0].chi_squared
         if more < _CLOSE:
-            values = fit.problem.values(one.x[None])
+            values = objective.values(one.x[None])
             where = ", ".join(f"{name} = {array[0]:.4g}" for name, array in values.items())
             how = f"has chi squared only {more:.2g} higher" if more > EQUAL else "is as good"
             found.append(f"another minimum {how}: {where}")
     return found
-
-
-def _open(names: list[str]) -> str:
-    if len(names) == 1:
-        return f"the data do not determine {names[0]}: nothing changes within its bounds"
-    listed = f"{', '.join(names[:-1])} and {names[-1]}"
-    return f"the data do not determine {listed} one by one: they can change together unseen"

@@ -1,4 +1,4 @@
-"""The numbers that a fit varies: between which bounds, with what known of them beforehand."""
+"""The parameters of a fit: the numbers that it varies, their bounds and priors."""
 
 import keyword
 import math
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, nearest, positive, shown
 from stackbounce.fitting.formula import OWN_WORDS
-from stackbounce.measure.uncertain_numbers import quantity_with_error
+from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of
 from stackbounce.units import quantity
@@ -20,22 +20,22 @@ __all__ = ["Parameter", "Range", "read_parameters"]
 
 Array: TypeAlias = NDArray[np.float64]
 
-_WIDE = 100.0  # times more or less than the drop's own number, where no bounds are told
-_MOST_GAP = 0.02  # m, or ten times the drop's own
-_LOG = 5.0  # ratio of bounds above 0 from which on even ratios are searched
-_REACH = 6.0  # standard deviations of a prior, where it comes without bounds
+_WIDE = 100.0  # default bounds: the drop's own number divided and multiplied by this
+_MOST_GAP = 0.02  # m: default upper bound of a gap, or ten times the drop's own if larger
+_LOG = 5.0  # a ratio of positive bounds above this makes the search coordinate logarithmic
+_REACH = 6.0  # default bounds of a parameter with a prior, in its standard deviations
 
 
 @dataclass(frozen=True)
 class Range:
-    """Between which bounds a fit varies a number, and what is known of it beforehand.
+    """The bounds between which a fit varies a number, and its prior.
 
     Parameters
     ----------
     low, high : float or str
         The bounds, in SI units or with a unit.
     prior : str, (float, float) or UFloat, optional
-        What is known of it from elsewhere, with its error: it counts as a measurement.
+        A value with its error, known from elsewhere. It counts as one more measurement.
 
     Examples
     --------
@@ -55,14 +55,14 @@ class Parameter:
     Parameters
     ----------
     name : str
-        A path such as ``contacts.0.stiffness``, of one drop ``DROP.gaps.0``, or a name of the
-        user's that ties use.
+        A path such as ``contacts.0.stiffness``; ``DROP.gaps.0`` for one of several drops; or a
+        name chosen by the user, for use in ties.
     low, high : float
         Bounds in SI units.
     prior : (float, float) or None
-        What is known beforehand: mean and standard deviation.
+        Mean and standard deviation of what is known beforehand.
     unit : str
-        The SI unit; empty for a pure number or a name of the user's.
+        The SI unit; empty for a pure number or a name chosen by the user.
 
     Examples
     --------
@@ -78,41 +78,41 @@ class Parameter:
 
     @property
     def logarithmic(self) -> bool:
-        """Whether even ratios are searched rather than even steps."""
+        """Whether the search coordinate is the logarithm of the number."""
         return self.low > 0.0 and self.high > _LOG * self.low
 
     @property
     def span(self) -> tuple[float, float]:
-        """The bounds in the coordinate that is searched."""
+        """The bounds in the search coordinate."""
         if self.logarithmic:
             return math.log(self.low), math.log(self.high)
         return self.low, self.high
 
     def value(self, x: Array) -> Array:
-        """Return the number at a coordinate that is searched, inside the bounds."""
+        """Return the number at a search coordinate, kept within the bounds."""
         inside = np.exp(x) if self.logarithmic else x
         return np.asarray(np.clip(inside, self.low, self.high))
 
     def slope(self, x: float) -> float:
-        """Return how the number changes with that coordinate."""
+        """Return the derivative of the number by its search coordinate."""
         return math.exp(x) if self.logarithmic else 1.0
 
     def coordinate(self, value: float) -> float:
-        """Return the coordinate of a number."""
+        """Return the search coordinate of a number."""
         return math.log(value) if self.logarithmic else value
 
 
 def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter, ...]:
-    """Return the numbers that a fit varies, checked.
+    """Check what a fit varies and return it as parameters.
 
     Parameters
     ----------
     drops : mapping of str to Drop
-        By their names; the name is empty where there is only one.
+        By name; a single drop has an empty name.
     vary : mapping or sequence of str
-        By name: a `Range`, a pair of bounds, a text with a colon between them (``"0 mm : 5 mm"``),
-        a text, pair or UFloat with an error (``"1.3 ± 0.9 mm"``), which is known beforehand, or
-        None for bounds around the drop's own number. A sequence has names alone.
+        By name: a `Range`; a pair of bounds, or a text with a colon between them
+        (``"0 mm : 5 mm"``); a prior, as text, pair or UFloat with an error (``"1.3 ± 0.9 mm"``);
+        or None for bounds around the drop's own number. A sequence of names means None for each.
 
     Returns
     -------
@@ -121,7 +121,7 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
     Raises
     ------
     InvalidValue
-        If a name is no number of the drops, or bounds do not fit.
+        If a name is no number of the drops, or its bounds are not possible.
     InvalidType
         If something has the wrong type.
 
@@ -143,15 +143,15 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
             f"got {shown(vary)}"
         )
     found = tuple(_parameter(drops, name, given) for name, given in vary.items())
-    varied = [(key, at.path) for one in found for key, at in places(drops, one.name)]
+    varied = [(key, at.path) for one in found for key, at in find_numbers(drops, one.name)]
     for one in found:
-        if any(varied.count((key, at.path)) > 1 for key, at in places(drops, one.name)):
+        if any(varied.count((key, at.path)) > 1 for key, at in find_numbers(drops, one.name)):
             raise InvalidValue(f"{one.name} is varied twice: only once for each drop")
     return found
 
 
-def places(drops: Mapping[str, Drop], name: str) -> list[tuple[str, Number]]:
-    """Return all drops that have a number of this name, and where it is in them."""
+def find_numbers(drops: Mapping[str, Drop], name: str) -> list[tuple[str, Number]]:
+    """Return the drops that have a number of this name, each with its place in the drop."""
     found = []
     for key, drop in drops.items():
         known = numbers_of(drop)
@@ -161,17 +161,19 @@ def places(drops: Mapping[str, Drop], name: str) -> list[tuple[str, Number]]:
     return found
 
 
-def paths(drops: Mapping[str, Drop]) -> list[str]:
-    """Return the paths of all numbers of some drops."""
+def list_paths(drops: Mapping[str, Drop]) -> list[str]:
+    """Return the paths of all numbers of some drops, each once."""
     return list(dict.fromkeys(path for drop in drops.values() for path in numbers_of(drop)))
 
 
 def _parameter(drops: Mapping[str, Drop], name: object, given: object) -> Parameter:
     if not isinstance(name, str):
         raise InvalidType(f"vary must have names for keys, got {shown(name)}")
-    at = places(drops, name)
+    at = find_numbers(drops, name)
     if not at and not (name.isidentifier() and name.isascii()):
-        raise InvalidValue(f"{name[:60]} is no number of the drop; {nearest(name, paths(drops))}")
+        raise InvalidValue(
+            f"{name[:60]} is no number of the drop; {nearest(name, list_paths(drops))}"
+        )
     if name in OWN_WORDS or keyword.iskeyword(name):
         raise InvalidValue(f"{name} means something else in formulas: take another name")
     unit = at[0][1].unit if at else ""
@@ -225,11 +227,11 @@ def _known(given: Any, unit: str, name: str) -> tuple[float, float]:
 def _default(
     drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], name: str
 ) -> tuple[float, float]:
-    """Return bounds around a drop's own number."""
+    """Return the default bounds, around the drop's own number."""
     if not at:
         raise InvalidValue(f"{name} needs bounds, such as {name}=0.1:10")
     key, number = at[0]
-    own = current(drops[key], number)
+    own = value_in(drops[key], number)
     if number.part == "gaps":
         return 0.0, max(_MOST_GAP, 10.0 * own)
     if number.field == "restitution":
@@ -243,7 +245,7 @@ def _default(
 def _legal(
     drops: Mapping[str, Drop], at: Sequence[tuple[str, Number]], own: float, low: float, high: float
 ) -> tuple[float, float]:
-    """Return bounds drawn in to where the drops can be made."""
+    """Return bounds moved towards the drop's own number until drops can be made at both."""
 
     def holds(value: float) -> bool:
         try:
@@ -259,7 +261,7 @@ def _legal(
         if holds(end):
             good = end
         else:
-            for limit in (0.0, 1.0):  # where bounds of a drop's numbers mostly lie
+            for limit in (0.0, 1.0):  # the usual limits of a drop's numbers
                 if min(own, end) <= limit <= max(own, end) and holds(limit):
                     good = limit
             if good == own:
@@ -270,8 +272,8 @@ def _legal(
     return ends[0], ends[1]
 
 
-def current(drop: Drop, number: Number) -> float:
-    """Return what a drop has for a number; nan for a diameter that is not told."""
+def value_in(drop: Drop, number: Number) -> float:
+    """Return a number of a drop; nan for a diameter that is not given."""
     if number.part == "":
         return float(getattr(drop, number.field))
     part = getattr(drop, number.part)[number.index]

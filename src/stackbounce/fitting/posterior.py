@@ -1,4 +1,4 @@
-"""Draws from what is known of the parameters after the data: emcee, many walkers at once."""
+"""Draws from the posterior distribution of the parameters, by emcee."""
 
 import functools
 from dataclasses import dataclass, field
@@ -8,52 +8,51 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, shown, whole
+from stackbounce.fitting.objective import Objective
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
-
-    from stackbounce.fitting.result import Fit
 
 __all__ = ["Posterior", "sample"]
 
 Array: TypeAlias = NDArray[np.float64]
 
-_WALKERS = 32  # at least, four for each parameter, and so many that
-_STEPS = 1000  # of each are enough
-_BURNT = 0.25  # of all draws, thrown away
-_SPREAD = 0.5  # standard deviations of the first places
-_ENOUGH = 50  # autocorrelation times that a chain should have
+_WALKERS = 32  # walkers, at least; also at least four per parameter
+_STEPS = 1000  # of a walker: more draws mean more walkers
+_BURNT = 0.25  # share of the draws discarded as burn-in
+_SPREAD = 0.5  # scatter of the walkers' first places, in standard deviations
+_ENOUGH = 50  # length of a sufficient chain, in autocorrelation times
 
 
 @dataclass(frozen=True, eq=False)
 class Posterior:
-    """Draws from what is known of the parameters after the data; made by `Fit.sample`.
+    """Draws from the posterior distribution of the parameters; made by `Fit.sample`.
 
     Parameters
     ----------
     names : list of str
-        What was varied.
+        The parameters.
     units : dict of str to str
         The SI unit of each.
     chain : ndarray
         (steps, walkers, parameters) values in SI units.
     log_probability : ndarray
-        (steps, walkers) its logarithm, but for a constant.
+        (steps, walkers) logarithm of the posterior density, up to a constant.
     acceptance : float
-        Which part of the steps was taken; 0.2 to 0.5 is usual.
+        The acceptance fraction of the steps; 0.2 to 0.5 is usual.
     seed : int
-        Of the random numbers.
+        The seed of the random numbers.
     unsolved : int
-        How many runs came to no end; where they should have been there are no draws.
+        The number of runs that did not finish; there are no draws at their places.
     others : int
-        How many other minima the fit knows.
+        The number of other minima that the fit found.
 
     Notes
     -----
-    Between the bounds every value is as probable beforehand, or every logarithm where the bounds
-    are above 0 and more than a factor of 5 apart; where a prior is told, that alone. The walkers
-    move by differences of others (differential evolution; ter Braak, Stat. Comput. 16, 239, 2006;
-    emcee). They begin around the best values, and may not find another minimum.
+    The prior is uniform between the bounds, or log-uniform if the bounds are above 0 and more than
+    a factor of 5 apart; a prior given for a parameter takes the place of both. The walkers move by
+    differential evolution (ter Braak, Stat. Comput. 16, 239, 2006; emcee). They start around the
+    best values and may not find another minimum.
 
     Examples
     --------
@@ -104,7 +103,7 @@ class Posterior:
         return np.asarray(self.chain[:, :, self.names.index(name)].ravel())
 
     def quantiles(self, name: str, at: Any = (0.159, 0.5, 0.841)) -> Array:
-        """Return quantiles of a parameter, by default one standard deviation and the middle.
+        """Return quantiles of a parameter, by default the median and one sigma on both sides.
 
         Parameters
         ----------
@@ -122,7 +121,7 @@ class Posterior:
 
     @functools.cached_property
     def autocorrelation(self) -> dict[str, float]:
-        """Of each parameter after how many steps a walker has forgotten where it was."""
+        """The integrated autocorrelation time of each parameter, in steps of a walker."""
         from emcee.autocorr import integrated_time
 
         times = integrated_time(self.chain, quiet=True, tol=0)
@@ -130,7 +129,7 @@ class Posterior:
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """What should be known about it, a sentence each."""
+        """Warnings about the draws, a sentence each."""
         found = []
         steps, longest = len(self.chain), max(self.autocorrelation.values())
         if steps < _ENOUGH * longest:
@@ -139,30 +138,45 @@ class Posterior:
                 f"{_ENOUGH * longest / steps:.1f} times as many"
             )
         if not 0.1 < self.acceptance < 0.8:
-            found.append(f"{self.acceptance:.0%} of the steps were taken, 20 to 50 % is usual")
+            found.append(f"{self.acceptance:.0%} of the steps were accepted, 20 to 50 % is usual")
         if self.unsolved:
             found.append(
-                f"{self.unsolved} runs came to no end, and their places have no draws: tell "
-                "narrower bounds"
+                f"{self.unsolved} runs did not finish, and there are no draws at their places: "
+                "give narrower bounds"
             )
         if self.others:
-            found.append("the fit has other minima, which the draws may leave out")
+            found.append("the fit has other minima, which the draws may not reach")
         return tuple(found)
 
 
-def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Posterior:
-    """Return draws from what is known of the parameters of a fit after the data.
+def sample(
+    objective: Objective,
+    best: Array,
+    deviations: Array,
+    draws: int,
+    *,
+    others: int = 0,
+    seed: int = 0,
+    progress: Any = None,
+) -> Posterior:
+    """Return draws from the posterior distribution of the parameters.
 
     Parameters
     ----------
-    fit : Fit
-        Where to begin, and what to sample.
+    objective : Objective
+        What was fitted.
+    best : ndarray
+        (parameters,) the best trial, around which the walkers start.
+    deviations : ndarray
+        (parameters,) standard deviations there, in SI units.
     draws : int
-        How many, of all walkers together, before the first quarter is thrown away.
+        The number of draws of all walkers, burn-in included.
+    others : int, optional
+        The number of other minima that are known.
     seed : int, optional
-        Of the random numbers: the same seed gives the same draws.
+        The seed of the random numbers: the same seed gives the same draws.
     progress : callable, optional
-        Called with how many draws are done, and with how many there will be.
+        Called with the number of draws done and the number of all draws.
 
     Returns
     -------
@@ -173,67 +187,67 @@ def sample(fit: "Fit", draws: int, *, seed: int = 0, progress: Any = None) -> Po
     InvalidValue
         If the draws are too few.
     InvalidType
-        If a number is no whole one.
+        If a number is not a whole one.
     """
     import emcee
 
-    problem, best = fit.problem, fit.x
     size = len(best)
     least = max(_WALKERS, 4 * size)
     walkers = max(least, 2 * (whole("draws", draws, 20 * least) // (2 * _STEPS)))
     steps = draws // walkers
     random = np.random.RandomState(whole("seed", seed, 0, 2**32 - 1))
-    before = problem.unsolved.total()
+    before = objective.unsolved.total()
     sampler = emcee.EnsembleSampler(
-        walkers, size, _log_probability(problem), vectorize=True, moves=emcee.moves.DEMove()
+        walkers, size, _log_probability(objective), vectorize=True, moves=emcee.moves.DEMove()
     )
     sampler.random_state = random.get_state()
-    first = _first(fit, walkers, random)
+    first = _first_places(objective, best, deviations, walkers, random)
     for k, _ in enumerate(sampler.sample(first, iterations=steps)):
         if progress is not None:
             progress((k + 1) * walkers, steps * walkers)
     burnt = int(_BURNT * steps)
     inner = sampler.get_chain(discard=burnt)
-    chain = np.stack(
-        [one.value(inner[:, :, k]) for k, one in enumerate(problem.parameters)], axis=2
-    )
+    chain = [one.value(inner[:, :, k]) for k, one in enumerate(objective.parameters)]
     return Posterior(
-        fit.names,
-        fit.units,
-        chain,
+        objective.names,
+        objective.units,
+        np.stack(chain, axis=2),
         sampler.get_log_prob(discard=burnt),
         float(np.mean(sampler.acceptance_fraction)),
         seed,
-        problem.unsolved.total() - before,
-        len(fit.minima) - 1,
+        objective.unsolved.total() - before,
+        others,
     )
 
 
-def _log_probability(problem: Any) -> Any:
-    spans = problem.spans
-    # what is told of a number is told of its value, not of its logarithm
-    known = [one.prior is not None and one.logarithmic for one in problem.parameters]
+def _log_probability(objective: Objective) -> Any:
+    spans = objective.spans
+    # a prior is a density of the value, not of its logarithm: that of the coordinate has a factor
+    known = [one.prior is not None and one.logarithmic for one in objective.parameters]
 
-    def at(x: Array) -> Array:
+    def evaluate(x: Array) -> Array:
         inside = np.all((x >= spans[:, 0]) & (x <= spans[:, 1]), axis=1)
         found = np.full(len(x), -np.inf)
         if np.any(inside):
             found[inside] = np.sum(x[inside][:, known], axis=1)
-            found[inside] -= 0.5 * problem.chi_squared(x[inside])
+            found[inside] -= 0.5 * objective.chi_squared(x[inside])
         return found
 
-    return at
+    return evaluate
 
 
-def _first(fit: "Fit", walkers: int, random: np.random.RandomState) -> Array:
-    """Return where the walkers begin: around the best values, inside the bounds."""
-    problem, best = fit.problem, fit.x
-    spans = problem.spans
-    wide = spans[:, 1] - spans[:, 0]
-    slope = np.array([one.slope(x) for one, x in zip(problem.parameters, best, strict=True)])
-    spread = np.sqrt(np.diag(fit.covariance.values)) / np.abs(slope)
-    spread = np.clip(spread, 1e-6 * wide, 0.2 * wide)
+def _first_places(
+    objective: Objective,
+    best: Array,
+    deviations: Array,
+    walkers: int,
+    random: np.random.RandomState,
+) -> Array:
+    """Return (walkers, parameters) trials around the best one, reflected at the bounds."""
+    (low, high), widths = objective.spans.T, objective.widths
+    spread = deviations / np.abs(objective.value_slopes(best))
+    spread = np.clip(spread, 1e-6 * widths, 0.2 * widths)
     places = best + _SPREAD * spread * random.standard_normal((walkers, len(best)))
-    folded = np.where(places < spans[:, 0], 2.0 * spans[:, 0] - places, places)
-    folded = np.where(folded > spans[:, 1], 2.0 * spans[:, 1] - folded, folded)
-    return np.asarray(np.clip(folded, spans[:, 0], spans[:, 1]))
+    folded = np.where(places < low, 2.0 * low - places, places)
+    folded = np.where(folded > high, 2.0 * high - folded, folded)
+    return np.asarray(np.clip(folded, low, high))

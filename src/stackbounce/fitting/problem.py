@@ -1,284 +1,295 @@
-"""What is varied and what was measured -> residuals, for many trials at once."""
+"""A fit problem: drops, what was measured of them, what is varied and what follows from it."""
 
-import math
-from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.engine.batch import Outcomes
-from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.fitting.measured import Measured
-from stackbounce.fitting.parameters import Parameter, current, places
-from stackbounce.fitting.quantities import QUANTITIES
-from stackbounce.fitting.ties import Tie, tied
+from stackbounce.errors import InvalidType, InvalidValue, between, nearest, shown, whole
+from stackbounce.fitting.least_squares import find_minima
+from stackbounce.fitting.measurements import Measured, read_measured
+from stackbounce.fitting.objective import Objective, touch_name
+from stackbounce.fitting.parameters import Parameter, find_numbers, read_parameters, value_in
+from stackbounce.fitting.result import Fit
+from stackbounce.fitting.ties import read_ties
 from stackbounce.model import Drop
-from stackbounce.run.batch import solve
-from stackbounce.run.columns import Rows, base_rows, check, fill
-from stackbounce.run.driver import Options, forces_at
-from stackbounce.run.paths import Number, drop_at, numbers_of
-from stackbounce.run.result import Status
 
-__all__ = ["ABSENT", "Problem", "clock"]
+__all__ = ["FitProblem", "Model", "TooFewData", "fit"]
 
-Array: TypeAlias = NDArray[np.float64]
+_MOST_STARTS = 1_000_000
+_RTOL = 1e-9
 
-ABSENT = 1e4
-"""The residual, in errors, of what a trial does not have: a touch that does not come."""
 
-_EVENTS = 10_000  # of one trial: no measurement has so many
-_DONE = (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
+class TooFewData(InvalidValue):
+    """There is more to vary than was measured."""
 
 
 @dataclass(frozen=True, eq=False)
-class Problem:
-    """A fit to be made: drops, what was measured of each, what may vary.
+class FitProblem:
+    """All that a fit needs: drops, what was measured, what is varied and what follows.
+
+    It is checked when it is made. Without data, or with nothing to vary, it is a model that can be
+    completed by `dataclasses.replace`; `compare` does so with the data.
 
     Parameters
     ----------
-    drops : mapping of str to Drop
-        By their names; one alone has an empty one.
-    measured : mapping of str to Measured
-        Of each drop.
-    parameters : sequence of Parameter
-        What is varied.
-    ties : sequence of Tie
-        What follows.
-    rtol : float
-        To which each trial is solved.
-    unsolved : Counter
-        How many runs came to no end so far, by the name of their `Status`: their residuals are
-        those of what a trial does not have.
+    drops : Drop, or mapping of str to Drop
+        What was dropped. A single drop is kept as a mapping with an empty name.
+    data : mapping, optional
+        What was measured, as `fit` takes it; of several drops by the drop's name.
+    vary : mapping or sequence of str, optional
+        What is varied, as `fit` takes it.
+    tie : mapping, optional
+        What follows from other numbers, as `fit` takes it.
+    rtol : float, optional
+        The relative tolerance of each run if the contact laws are not linear.
+
+    Raises
+    ------
+    InvalidValue
+        If a name is unknown, a number has no error, bounds are not possible, or there is more to
+        vary than was measured.
+    InvalidType
+        If something has the wrong type.
 
     Examples
     --------
     >>> import stackbounce as sb
-    >>> from stackbounce.fitting.question import read_problem
-    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
-    >>> vary = {"contacts.0.stiffness": (0.1, 10.0)}
-    >>> problem = read_problem(drop, {"durations.0": "3.0 ± 0.1 s"}, vary, None, 1e-9)
-    >>> problem.residuals(np.array([[0.0]])).round(3)  # pi seconds at 1 N/m
-    array([[1.416]])
+    >>> drop = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
+    >>> problem = FitProblem(drop, {"durations.0": "5.0 ± 0.1 ms"}, ["contacts.0.stiffness"])
+    >>> print(f"{problem.fit()['contacts.0.stiffness']:.2u} N/m")
+    (2.238+/-0.090)e+04 N/m
     """
 
-    drops: Mapping[str, Drop]
-    measured: Mapping[str, Measured]
-    parameters: tuple[Parameter, ...]
-    ties: tuple[Tie, ...]
-    rtol: float
-    unsolved: Counter[str] = field(default_factory=Counter, init=False)
+    drops: Any
+    data: Any = field(default_factory=dict)
+    vary: Any = field(default_factory=dict)
+    tie: Any = None
+    rtol: float = _RTOL
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rtol", between("rtol", self.rtol, 1e-14, 1e-3))
+        object.__setattr__(self, "drops", _read_drops(self.drops))
+        without_data, without_vary = _is_empty(self.data), _is_empty(self.vary)
+        named = isinstance(self.data, Mapping) and "" in self.data
+        if list(self.drops) == [""] and not without_data and not named:
+            object.__setattr__(self, "data", {"": self.data})
+        if not without_data and not without_vary:
+            _ = self.objective
 
     @property
-    def spans(self) -> Array:
-        """(parameters, 2) bounds in the coordinates that are searched."""
-        return np.array([one.span for one in self.parameters])
-
-    @property
-    def priors(self) -> list[Parameter]:
-        """The parameters of which something is known beforehand."""
-        return [one for one in self.parameters if one.prior is not None]
-
-    @property
-    def records(self) -> list[str]:
-        """The names of drops that have waveforms, each with a clock of its own."""
-        return [key for key, measured in self.measured.items() if measured.waveforms]
-
-    @property
-    def size(self) -> int:
-        """How many residuals there are."""
-        numbers = sum(len(one.data) for one in self.measured.values()) + len(self.priors)
-        waves = [wave for one in self.measured.values() for wave in one.waveforms]
-        return numbers + sum(len(wave.times) for wave in waves)
-
-    @property
-    def linear(self) -> int:
-        """How many baselines and scales of records are fitted besides the parameters."""
-        waves = [wave for one in self.measured.values() for wave in one.waveforms]
-        return sum(1 + wave.scaled for wave in waves)
-
-    def values(self, x: Array) -> dict[str, Array]:
-        """Return what trials vary, by name: (n, parameters) coordinates to (n,) numbers each."""
-        return {one.name: one.value(x[:, k]) for k, one in enumerate(self.parameters)}
-
-    def rows(self, key: str, x: Array) -> Rows:
-        """Return the numbers of one drop in trials (n, parameters), checked to make drops."""
-        layout, values = self._layouts[key], self.values(x)
-        named = {name: array for name, array in values.items() if self._owner[name] in (None, key)}
-        found: dict[Number, Array] = {}
-        for name, number in layout.varied:
-            found[number] = named[number.path] = named[name]
-        follow = tied(layout.ties, layout.numbers, named)
-        for tie in layout.ties:
-            found[tie.number] = follow[tie.number.path]
-        if layout.ties:
-            try:
-                check(self.drops[key], found, lambda _: "")
-            except (InvalidValue, InvalidType) as error:
-                formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in layout.ties)
-                raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
-        return found
+    def drop(self) -> Drop | dict[str, Drop]:
+        """The single drop, or several by name."""
+        drops: dict[str, Drop] = self.drops
+        return drops.get("", drops)
 
     @cached_property
-    def _owner(self) -> dict[str, str | None]:
-        """The only drop that each parameter concerns; None where it is shared.
+    def objective(self) -> Objective:
+        """The residuals and chi squared as functions of the parameters.
 
-        A function of Python is not asked which it uses: it is given those of its own drop, and
-        those that are shared.
+        Raises
+        ------
+        InvalidValue, InvalidType
+            As for the problem itself.
         """
-        found: dict[str, str | None] = {clock(key): key for key in self.drops}
-        for one in self.parameters:
-            at = {key for key, _ in places(self.drops, one.name)}
-            at |= {tie.drop for tie in self.ties if tie.uses and one.name in tie.uses}
-            numbers = bool(places(self.drops, one.name))
-            found.setdefault(one.name, at.pop() if numbers and len(at) == 1 else None)
-        return found
+        measured = self._read_data()
+        parameters = read_parameters(self.drops, self.vary)
+        touches = tuple(_touch(key, one) for key, one in measured.items() if one.waveforms)
+        own = {one.name for one in parameters}
+        for one in touches:
+            if one.name in own:
+                raise InvalidValue(
+                    f"{one.name} is the time of first touch in a force record: take another name"
+                )
+        ties = read_ties(self.drops, parameters, self.tie)
+        objective = Objective(self.drops, measured, parameters + touches, ties, self.rtol)
+        if objective.size < objective.free:
+            asked = _count(objective.free, "number")
+            raise TooFewData(
+                f"vary has {asked} for {_count(objective.size, 'measured number')}: fix some, or "
+                "say what is known of them (a Range with a prior)"
+            )
+        return objective
 
-    def own(self, key: str) -> list[int]:
-        """Return which parameters concern one drop alone."""
-        return [k for k, one in enumerate(self.parameters) if self._owner[one.name] == key]
+    def _read_data(self) -> dict[str, Measured]:
+        data = {"": {}} if _is_empty(self.data) and "" in self.drops else self.data
+        if not isinstance(data, Mapping):
+            raise InvalidType(f"data must map each drop's name to its data, got {shown(data)}")
+        for key in data:
+            if key not in self.drops:
+                raise InvalidValue(f"data of {shown(key)}: no drop; {nearest(key, self.drops)}")
+        return {
+            key: read_measured(self.drops[key], one, f"{key}." if key else "")
+            for key, one in data.items()
+        }
 
-    def alone(self, key: str) -> "Problem":
-        """Return the problem of one drop's data, with all parameters."""
-        return replace(self, measured={key: self.measured[key]})
+    def fit(self, *, starts: int | None = None, seed: int = 0, rtol: float | None = None) -> Fit:
+        """Return the best values of what is varied.
 
-    @cached_property
-    def _layouts(self) -> dict[str, "_Layout"]:
-        return {key: _layout(self, key) for key in self.drops}
+        Parameters
+        ----------
+        starts : int, optional
+            The number of trials that are screened before the best of them are followed.
+        seed : int, optional
+            The seed of their places.
+        rtol : float, optional
+            Another relative tolerance than that of the problem.
 
-    def drop(self, key: str, x: Array) -> Drop:
-        """Return one drop with the numbers of one trial (parameters,) in place."""
-        rows = self.rows(key, x[None])
-        return drop_at(self.drops[key], {number: float(array[0]) for number, array in rows.items()})
-
-    def outcomes(self, key: str, x: Array) -> tuple[Outcomes, Array, Array]:
-        """Return what comes of one drop in trials (n, parameters), impact speeds, gravity (n,)."""
-        drop, rows = self.drops[key], self.rows(key, x)
-        options = Options(math.inf, self.rtol, _EVENTS)
-        out = solve(drop, rows, (len(x),), options, compiled=True)
-        bad = ~np.isin(out.status, _DONE)
-        if np.any(bad):
-            self.unsolved.update(Status(code).name for code in out.status[bad])
-            for array in (out.velocity, out.first_touch, out.last_release, out.energy):
-                array[bad] = np.nan
-        drops = base_rows(drop, len(x))
-        fill(drops, drop, rows)
-        return out, np.max(np.abs(drops.velocity), axis=1), drops.gravity
-
-    def predicted(self, key: str, x: Array) -> Array:
-        """Return the numbers (n, data) that trials (n, parameters) of one drop give."""
-        given, columns = self.outcomes(key, x), []
-        for datum in self.measured[key].data:
-            table = np.asarray(QUANTITIES[datum.quantity].predict(*given))
-            columns.append(table if table.ndim == 1 else table[:, datum.index])
-        return np.stack(columns, axis=1) if columns else np.empty((len(x), 0))
-
-    def counts(self, key: str, x: Array) -> NDArray[np.int64]:
-        """Return the contact intervals (contacts,) of one drop in one trial (parameters,)."""
-        return np.asarray(self.outcomes(key, x[None])[0].collisions[0])
-
-    def forces(self, key: str, x: Array) -> list[Array]:
-        """Return the force (n,) in N at the times of each record of a drop, in one trial."""
-        drop, start = self.drop(key, x), float(self.values(x[None])[clock(key)][0])
-        waves = self.measured[key].waveforms
-        stamps, where = np.unique(
-            np.concatenate([wave.times for wave in waves]), return_inverse=True
-        )
-        times = stamps - start
-        forces = np.zeros((len(drop.balls), len(times)))
-        status, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
-        if status not in _DONE:
-            self.unsolved[status.name] += 1
-            forces[:] = np.nan
-        ends = np.cumsum([len(wave.times) for wave in waves])[:-1]
-        places = np.split(where, ends)
-        return [forces[wave.index, at] for wave, at in zip(waves, places, strict=True)]
-
-    def without(self, key: str, name: str | None) -> "Problem":
-        """Return the problem without what was measured of a drop, or without one number of it."""
-        measured = dict(self.measured)
-        own = measured.pop(key)
-        if name is not None:
-            left = tuple(datum for datum in own.data if datum.name != name)
-            measured[key] = replace(own, data=left)
-        return replace(self, measured=measured)
-
-    def residuals(self, x: Array) -> Array:
-        """Return residuals (n, size), in errors, of trials (n, parameters).
-
-        They are those of each drop's numbers, of priors, then of records.
+        Returns
+        -------
+        Fit
         """
-        parts = [np.empty((len(x), 0))]
-        for key, measured in self.measured.items():
-            if measured.data:
-                value = np.array([datum.value for datum in measured.data])
-                error = np.array([datum.error for datum in measured.data])
-                parts.append((self.predicted(key, x) - value) / error)
-        values = self.values(x)
-        for one in self.priors:
-            mean, known_to = one.prior or (0.0, 1.0)
-            parts.append(((values[one.name] - mean) / known_to)[:, None])
-        parts += [np.stack([self._of_records(key, trial) for trial in x]) for key in self.records]
-        whole = np.concatenate(parts, axis=1)
-        return np.where(np.isfinite(whole), np.clip(whole, -ABSENT, ABSENT), ABSENT)
-
-    def _of_records(self, key: str, x: Array) -> Array:
-        waves = self.measured[key].waveforms
-        forces = self.forces(key, x)
-        return np.concatenate(
-            [wave.linear(force) for wave, force in zip(waves, forces, strict=True)]
-        )
-
-    def chi_squared(self, x: Array) -> Array:
-        """Return the sums of squares (n,) of trials (n, parameters)."""
-        return np.asarray(np.sum(self.residuals(x) ** 2, axis=1))
-
-    def expanded(self, x: Array) -> tuple[Array, Array]:
-        """Return the residuals (size,) of one trial, and their derivatives (size, parameters).
-
-        The derivatives are differences, all trials of which are solved together.
-        """
-        spans = self.spans
-        step = _STEP * (spans[:, 1] - spans[:, 0])
-        high, low = np.minimum(x + step, spans[:, 1]), np.maximum(x - step, spans[:, 0])
-        count = len(x)
-        trials = np.tile(x, (2 * count + 1, 1))
-        each = np.arange(count)
-        trials[each, each], trials[count + each, each] = high, low
-        found = self.residuals(trials)
-        slopes = (found[:count] - found[count:-1]) / (high - low)[:, None]
-        return np.asarray(found[-1]), np.asarray(slopes.T)
+        accuracy = self.rtol if rtol is None else between("rtol", rtol, 1e-14, 1e-3)
+        objective = replace(self.objective, rtol=accuracy)  # with its own count of unsolved runs
+        count = None if starts is None else whole("starts", starts, 1, _MOST_STARTS)
+        first = _first_trial(objective)
+        minima = find_minima(objective, first[None], count, whole("seed", seed, 0))
+        return Fit(objective, minima, dict(objective.unsolved))
 
 
-class _Layout(NamedTuple):
-    """Where in one drop the varied numbers lie, its ties, and all its numbers by path."""
+def Model(  # noqa: N802  the public name of a problem without data
+    drop: Drop | Mapping[str, Drop], vary: Any, tie: Any = None
+) -> FitProblem:
+    """Return a model for `compare`: a `FitProblem` without data.
 
-    varied: list[tuple[str, Number]]
-    ties: list[Tie]
-    numbers: dict[str, float]
+    Parameters
+    ----------
+    drop : Drop, or mapping of str to Drop
+        With all that is known, and the contact laws of the model.
+    vary, tie : optional
+        As `fit` takes them.
+
+    Returns
+    -------
+    FitProblem
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Rigid(0.8)], height=1.0)
+    >>> Model(drop, ["contacts.0.restitution"]).vary
+    ['contacts.0.restitution']
+    """
+    return FitProblem(drop, {}, vary, tie)
 
 
-def _layout(problem: Problem, key: str) -> _Layout:
-    drop = problem.drops[key]
-    varied = [
-        (one.name, number)
-        for one in problem.parameters
-        for own, number in places(problem.drops, one.name)
-        if own == key
-    ]
-    numbers = {path: current(drop, number) for path, number in numbers_of(drop).items()}
-    ties = [tie for tie in problem.ties if tie.drop == key]
-    ends = {one.name: np.array([one.low, one.high]) for one in problem.parameters}
-    check(drop, {number: ends[name] for name, number in varied}, lambda _: "(at the bounds)")
-    return _Layout(varied, ties, numbers)
+def fit(
+    drop: Drop | Mapping[str, Drop],
+    data: Any,
+    vary: Any,
+    *,
+    tie: Any = None,
+    starts: int | None = None,
+    seed: int = 0,
+    rtol: float = _RTOL,
+) -> Fit:
+    """Return the numbers of one or several drops that describe best what was measured.
+
+    Parameters
+    ----------
+    drop : Drop, or mapping of str to Drop
+        What was dropped, with all that is known. Several drops have names, such as ``B2_on_B1``.
+    data : mapping
+        What was measured, by name: ``rebound_ratios.1``, ``rebound_speeds`` (m/s),
+        ``rebound_heights`` (m), ``first_touch.1`` (s, the delay), ``last_release``, ``durations``
+        (s), ``energy_retained``, ``force.0`` (a waveform), each with its error: ``"1.64 ± 0.02"``;
+        ``collisions`` are compared, not fitted. Of several drops: by the drop's name.
+    vary : mapping or sequence of str
+        What may change, by the paths that `sweep` has: ``{"contacts.1.stiffness": (1e3, 1e6)}``,
+        ``{"gaps.0": "0 mm : 5 mm"}``, ``{"gaps.0": "1.3 ± 0.9 mm"}`` for what is known beforehand,
+        `Range` for both; None, or a list of names alone, for bounds around the drop's own numbers.
+        With several drops a path is shared by all that have it; ``B2_on_B1.gaps.0`` belongs to one.
+        A name that is no path can be varied if a tie uses it.
+    tie : mapping, optional
+        Numbers that follow from others: ``{"contacts.1.stiffness": "0.5 * contacts.0.stiffness"}``,
+        a formula of what is varied and of numbers of the same drop, or a Python function that takes
+        a mapping of names to arrays.
+    starts : int, optional
+        The number of trials that are screened before descents start at the best of them; default
+        128 per parameter, 1024 at most.
+    seed : int, optional
+        The seed of their places.
+    rtol : float, optional
+        The relative tolerance of each run if the contact laws are not linear.
+
+    Returns
+    -------
+    Fit
+        Best values with errors and correlations, chi squared, residuals, and what the data cannot
+        determine; `Fit.intervals` gives confidence intervals, `Fit.sample` the posterior.
+
+    Raises
+    ------
+    InvalidValue
+        If a name is unknown, a number has no error, bounds are not possible, or there is more to
+        vary than was measured.
+    InvalidType
+        If something has the wrong type.
+
+    Notes
+    -----
+    Least squares with known errors. Chi squared has kinks where the number of contact intervals
+    changes. Trials spread over the bounds are screened at once, and descents by lmfit start at the
+    best: by trust region, then by Nelder and Mead's simplex if they stop at a kink. Other minima
+    are reported in the notes.
+
+    Examples
+    --------
+    The tennis ball on a basketball of R. Cross, Am. J. Phys. 75, 1009 (2007): which stiffness
+    between the balls throws it up at 1.64 v0, if nothing is lost?
+
+    >>> import stackbounce as sb
+    >>> balls, contacts = [sb.Ball(0.150), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)]
+    >>> drop = sb.Drop(balls, contacts, impact_speed=3.53)
+    >>> data = {"rebound_ratios.1": "1.64 ± 0.02"}
+    >>> found = sb.fit(drop, data, {"contacts.1.stiffness": "0.7 kN/m : 2.5 kN/m"})
+    >>> print(f"{found['contacts.1.stiffness']:.1u} N/m")
+    (1.48+/-0.06)e+03 N/m
+    """
+    return FitProblem(drop, data, vary, tie, rtol).fit(starts=starts, seed=seed)
 
 
-_STEP = 1e-5  # of the bounds' distance
+def _read_drops(drops: object) -> dict[str, Drop]:
+    """Return the drops by name, checked."""
+    if isinstance(drops, Drop):
+        return {"": drops}
+    if not isinstance(drops, Mapping) or not drops:
+        raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(drops)}")
+    for key, one in drops.items():
+        alone = key == "" and len(drops) == 1
+        if not alone and not (isinstance(key, str) and key.isidentifier() and key.isascii()):
+            raise InvalidValue(
+                f"a drop's name must be letters, digits and _, such as B2_on_B1, got {shown(key)}"
+            )
+        if not isinstance(one, Drop):
+            raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(one)}")
+    return dict(drops)
 
 
-def clock(key: str) -> str:
-    """Return the name of the time at which a drop's record has the first touch of the floor."""
-    return f"{key}.touch" if key else "touch"
+def _touch(key: str, measured: Measured) -> Parameter:
+    """Return the parameter for the time of first touch in a drop's force records."""
+    lows, highs = zip(*(wave.begins for wave in measured.waveforms), strict=True)
+    floor = [k for k, wave in enumerate(measured.waveforms) if wave.index == 0]
+    low, high = (lows[floor[0]], highs[floor[0]]) if floor else (min(lows), max(highs))
+    return Parameter(touch_name(key), low, high, None, "s")
+
+
+def _first_trial(objective: Objective) -> Any:
+    """Return the trial (parameters,) of the drops' own numbers, or mid-range outside the bounds."""
+    found = []
+    for one in objective.parameters:
+        at = find_numbers(objective.drops, one.name)
+        value = value_in(objective.drops[at[0][0]], at[0][1]) if at else np.nan
+        inside = one.low <= value <= one.high
+        found.append(one.coordinate(value) if inside else 0.5 * sum(one.span))
+    return np.array(found)
+
+
+def _is_empty(given: object) -> bool:
+    return isinstance(given, Mapping) and not given
+
+
+def _count(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"

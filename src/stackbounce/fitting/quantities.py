@@ -1,4 +1,4 @@
-"""What can be measured of a drop, and what the engine says of it for many drops at once."""
+"""What can be measured of a drop, and how it follows from the engine's results."""
 
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
@@ -10,77 +10,102 @@ from stackbounce.engine.batch import Outcomes
 from stackbounce.errors import InvalidValue, nearest
 from stackbounce.model import STANDARD_GRAVITY, Drop
 
-__all__ = ["QUANTITIES", "Quantity", "place"]
+__all__ = ["QUANTITIES", "Quantity", "find_quantity"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 
 class Quantity(NamedTuple):
-    """A quantity: what it belongs to, its SI unit, its meaning, and how it follows.
+    """A quantity that can be measured.
 
-    `part` is ``ball``, ``contact`` or empty for the whole stack; `predict` takes the outcomes of
-    many drops, their impact speeds in m/s and their gravity, and returns (rows, part) numbers.
+    Parameters
+    ----------
+    part : str
+        What has the quantity: ``ball``, ``contact``, or empty for the whole stack.
+    unit : str
+        The SI unit.
+    meaning : str
+        What it is, in words.
+    example : str
+        How a measured value is written, with its error.
+    predict : callable
+        Takes the outcomes of many drops, their impact speeds (drops,) in m/s and gravity (drops,)
+        in m/s**2; returns the quantity (drops, part).
     """
 
     part: str
     unit: str
     meaning: str
+    example: str
     predict: Callable[[Outcomes, Array, Array], Any]
 
 
-def _height(out: Outcomes, speed: Array, gravity: Array) -> Any:
-    velocity = out.velocity * speed[:, None]
+def _speeds(out: Outcomes, speed: Array, _: Array) -> Any:
+    return out.rebound_ratio * speed[:, None]
+
+
+def _heights(out: Outcomes, speed: Array, gravity: Array) -> Any:
+    velocity = _speeds(out, speed, gravity)
     pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
     return velocity * np.abs(velocity) / (2.0 * pull[:, None])
-
-
-def _duration(out: Outcomes, speed: Array, gravity: Array) -> Any:
-    del speed, gravity
-    return out.last_release - out.first_touch
 
 
 QUANTITIES: dict[str, Quantity] = {
     "rebound_ratios": Quantity(
         "ball",
         "",
-        "velocity after the impact over the impact speed",
-        lambda out, _, __: out.velocity,
+        "velocity after over impact speed",
+        "1.64 ± 0.02",
+        lambda out, *_: out.rebound_ratio,
     ),
     "rebound_speeds": Quantity(
-        "ball",
-        "m/s",
-        "velocity after the impact, up-positive",
-        lambda out, speed, _: out.velocity * speed[:, None],
+        "ball", "m/s", "velocity after the impact, up-positive", "5.8 ± 0.1 m/s", _speeds
     ),
-    "rebound_heights": Quantity("ball", "m", "how far a ball rises at that speed", _height),
+    "rebound_heights": Quantity(
+        "ball", "m", "how far a ball rises at that speed", "1.72 ± 0.03 m", _heights
+    ),
     "first_touch": Quantity(
-        "contact", "s", "when the contact first closes", lambda out, _, __: out.first_touch
+        "contact", "s", "when it first closes", "2.0 ± 0.5 ms", lambda out, *_: out.first_touch
     ),
     "last_release": Quantity(
-        "contact", "s", "when the contact last opens", lambda out, _, __: out.last_release
+        "contact", "s", "when it last opens", "2.0 ± 0.5 ms", lambda out, *_: out.last_release
     ),
-    "durations": Quantity("contact", "s", "from first touch to last release", _duration),
+    "durations": Quantity(
+        "contact",
+        "s",
+        "from first touch to last release",
+        "2.0 ± 0.5 ms",
+        lambda out, *_: out.last_release - out.first_touch,
+    ),
     "energy_retained": Quantity(
-        "", "", "kinetic energy afterwards over that before", lambda out, _, __: out.energy
+        "",
+        "",
+        "kinetic energy after over before",
+        "0.64 ± 0.02",
+        lambda out, *_: out.energy_retained,
     ),
     "collisions": Quantity(
-        "contact", "", "contact intervals: compared, not fitted", lambda out, _, __: out.collisions
+        "contact",
+        "",
+        "contact intervals: compared, not fitted",
+        "2",
+        lambda out, *_: out.collisions,
     ),
 }
-"""By name, as in `Result`; one of a ball or contact is ``rebound_ratios.1``."""
+"""By name, as in `Result`; that of one ball or contact is ``rebound_ratios.1``."""
 
 
-def place(drop: Drop, name: str, path: str) -> tuple[str, int]:
+def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:
     """Return the quantity and the index of a name such as ``rebound_ratios.1``.
 
     Parameters
     ----------
     drop : Drop
-        Whose balls and contacts are counted.
+        The drop, for the number of its balls.
     name : str
         A quantity, with the number of its ball or contact unless it belongs to the whole stack.
     path : str
-        What messages call it.
+        The name in messages.
 
     Returns
     -------
@@ -97,13 +122,13 @@ def place(drop: Drop, name: str, path: str) -> tuple[str, int]:
     --------
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
-    >>> place(drop, "rebound_ratios.0", "measured")
+    >>> find_quantity(drop, "rebound_ratios.0", "measured")
     ('rebound_ratios', 0)
     """
     base, dot, index = name.partition(".")
     if base not in QUANTITIES:
         raise InvalidValue(
-            f"{path[:60]} is nothing that is measured; {nearest(base, [*QUANTITIES, 'force.0'])}"
+            f"{path[:60]} is not a measured quantity; {nearest(base, [*QUANTITIES, 'force.0'])}"
         )
     part, last = QUANTITIES[base].part, len(drop.balls) - 1
     if not part:

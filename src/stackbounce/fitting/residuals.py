@@ -1,28 +1,30 @@
-"""What was measured beside what was fitted."""
+"""The residuals of a fit: each measured number and each force record beside the fitted one."""
 
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Record", "Residual"]
+from stackbounce.fitting.objective import Objective, touch_name
+
+__all__ = ["Record", "Residual", "list_records", "list_residuals"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 
 class Residual(NamedTuple):
-    """A number that was measured beside the fitted one.
+    """A measured number beside the fitted one.
 
     Parameters
     ----------
     drop : str
-        Of which drop; empty where there is one, and for what is known beforehand.
+        The name of its drop; empty for a single drop and for a prior.
     name : str
         Such as ``rebound_ratios.1``.
     measured, error, fitted : float
         In SI units.
     pull : float
-        How far the fitted number is above the measured one, in errors.
+        Fitted less measured, in standard errors.
     unit : str
         The SI unit.
     """
@@ -35,6 +37,11 @@ class Residual(NamedTuple):
     pull: float
     unit: str
 
+    @property
+    def label(self) -> str:
+        """The name with that of its drop, if it has one."""
+        return f"{self.drop}.{self.name}" if self.drop else self.name
+
 
 class Record(NamedTuple):
     """A force record beside the fitted one.
@@ -42,15 +49,15 @@ class Record(NamedTuple):
     Parameters
     ----------
     drop : str
-        Of which drop; empty where there is one.
+        The name of its drop; empty for a single drop.
     name : str
         Such as ``force.0``.
     times : ndarray
         (n,) in s since the first touch.
     measured, fitted : ndarray
-        (n,) in N, or in the record's own unit where its scale was fitted too.
+        (n,) in N, or in the record's own unit if its scale was fitted too.
     error : float
-        Of a sample, in the same unit.
+        The standard error of a sample, in the same unit.
     unit : str
         ``N``, or empty.
 
@@ -69,6 +76,42 @@ class Record(NamedTuple):
     unit: str
 
     @property
+    def label(self) -> str:
+        """The name with that of its drop, if it has one."""
+        return f"{self.drop}.{self.name}" if self.drop else self.name
+
+    @property
     def scatter(self) -> float:
-        """Root mean square of the differences, in errors: about 1 where the model is right."""
+        """Root mean square of the residuals, in errors: about 1 if the model is right."""
         return float(np.sqrt(np.mean(((self.fitted - self.measured) / self.error) ** 2)))
+
+
+def list_residuals(objective: Objective, x: Array) -> list[Residual]:
+    """Return the numbers that were measured, then the priors, beside those of a trial."""
+    found = []
+    for key, measured in objective.measured.items():
+        predicted = objective.predict(key, x[None])[0] if measured.data else []
+        for datum, value in zip(measured.data, predicted, strict=True):
+            pull = (value - datum.value) / datum.error
+            row = (datum.value, datum.error, float(value), float(pull), datum.unit)
+            found.append(Residual(key, datum.name, *row))
+    values = objective.values(x[None])
+    for one in objective.priors:
+        mean, error = one.prior or (0.0, 1.0)
+        fitted = float(values[one.name][0])
+        row = (mean, error, fitted, (fitted - mean) / error, one.unit)
+        found.append(Residual("", f"{one.name} (known)", *row))
+    return found
+
+
+def list_records(objective: Objective, x: Array) -> list[Record]:
+    """Return the force records beside those of a trial."""
+    found = []
+    for key in objective.records:
+        touch = float(objective.values(x[None])[touch_name(key)][0])
+        waves, forces = objective.measured[key].waveforms, objective.forces(key, x)
+        for wave, force in zip(waves, forces, strict=True):
+            curves = (wave.times - touch, wave.force, wave.curve(force))
+            unit = "" if wave.scaled else "N"
+            found.append(Record(key, wave.name, *curves, wave.error, unit))
+    return found

@@ -1,4 +1,4 @@
-"""What a fit found: best values with errors, how good they are, and what the data leave open."""
+"""The result of a fit: best values with errors, goodness of fit, and what is undetermined."""
 
 import functools
 import math
@@ -9,10 +9,14 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.fitting.problem import Problem, clock
-from stackbounce.fitting.residuals import Record, Residual
-from stackbounce.fitting.search import Minimum, directions
+from stackbounce.errors import InvalidValue, nearest, positive, shown
+from stackbounce.fitting import notes, posterior
+from stackbounce.fitting.covariance import estimate_covariance, find_directions
+from stackbounce.fitting.least_squares import Minimum
+from stackbounce.fitting.objective import Objective
+from stackbounce.fitting.posterior import Posterior
+from stackbounce.fitting.profile import Interval, Profile
+from stackbounce.fitting.residuals import Record, Residual, list_records, list_residuals
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 
@@ -20,29 +24,23 @@ if TYPE_CHECKING:
     import xarray as xr
     from uncertainties import UFloat
 
-    from stackbounce.fitting.posterior import Posterior
-    from stackbounce.fitting.profile import Interval
-
 __all__ = ["Fit"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 
-_ANYWHERE = 12.0**-0.5  # of the bounds' distance: standard deviation where any value is as good
-
-
 @dataclass(frozen=True, eq=False)
 class Fit:
-    """What a fit found; made by `stackbounce.fit`.
+    """The result of a fit; made by `stackbounce.fit` and `FitProblem.fit`.
 
     Parameters
     ----------
-    problem : Problem
-        What was fitted to what.
+    objective : Objective
+        What was minimised.
     minima : list of Minimum
         All minima found, the best first.
     unsolved : mapping of str to int
-        How many runs of the search came to no end, by the name of their `Status`.
+        The number of runs of the search that did not finish, by the name of their `Status`.
 
     Examples
     --------
@@ -53,34 +51,38 @@ class Fit:
     (2.238+/-0.090)e+04 N/m
     """
 
-    problem: Problem = field(repr=False)
+    objective: Objective = field(repr=False)
     minima: list[Minimum] = field(repr=False)
     unsolved: Mapping[str, int] = field(repr=False, default_factory=dict)
 
     def __getitem__(self, name: str) -> "UFloat":
-        """The best value of what was varied, with its error, in SI units."""
-        if name not in self.values:
-            raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.values)}")
-        return self.values[name]
+        """The best value of a parameter with its error, in SI units."""
+        return self.values[self._known(name)]
+
+    def _known(self, name: str) -> str:
+        if name not in self.names:
+            raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
+        return name
 
     @property
     def names(self) -> list[str]:
-        """What was varied, in order."""
-        return [one.name for one in self.problem.parameters]
+        """The parameters, in the order in which they were given."""
+        return self.objective.names
 
     @property
     def units(self) -> dict[str, str]:
-        """The SI unit of each; empty for a pure number."""
-        return {one.name: one.unit for one in self.problem.parameters}
+        """The SI unit of each parameter; empty for a pure number."""
+        return self.objective.units
 
     @property
     def best(self) -> dict[str, float]:
-        """The best value of each, in SI units."""
-        return {name: float(array[0]) for name, array in self.problem.values(self.x[None]).items()}
+        """The best value of each parameter, in SI units."""
+        values = self.objective.values(self.x[None])
+        return {name: float(array[0]) for name, array in values.items()}
 
     @functools.cached_property
     def values(self) -> "dict[str, UFloat]":
-        """The best value of each with its error, correlated as the data have it."""
+        """The best value of each parameter with its error, correlated as in `covariance`."""
         from uncertainties import correlated_values
 
         numbers = correlated_values(list(self.best.values()), self.covariance.values)
@@ -90,29 +92,22 @@ class Fit:
     def covariance(self) -> "xr.DataArray":
         """(parameter, other) covariances at the best values, in the products of their units.
 
-        What the data hardly determine lies anywhere between its bounds: in no direction is a
-        standard deviation larger than that of a number of which these are all that is known.
+        What the data hardly determine may lie anywhere between its bounds: in each direction the
+        standard deviation is at most that of a uniform distribution between them.
         """
         import xarray as xr
 
-        slope = np.array(
-            [one.slope(x) for one, x in zip(self.problem.parameters, self.x, strict=True)]
-        )
-        sizes, along = self.directions
-        wide = self.problem.spans[:, 1] - self.problem.spans[:, 0]
-        spread = 1.0 / np.maximum(sizes, 1.0 / _ANYWHERE)
-        inner = (along.T * spread**2) @ along
-        matrix = inner * np.outer(wide * slope, wide * slope)
+        matrix = estimate_covariance(self.objective, self.x, *self.directions)
         where = {"parameter": self.names, "other": self.names}
         return xr.DataArray(matrix, where, ("parameter", "other"), attrs=self._provenance)
 
     @functools.cached_property
     def directions(self) -> tuple[Array, Array]:
-        """(k,) root of chi squared's change from bound to bound, and (k, parameters) along what.
+        """(k,) root of chi squared's change from bound to bound, and its (k, parameters) direction.
 
         The directions are orthogonal in coordinates that run from 0 to 1 between the bounds.
         """
-        return directions(self.problem, self.slopes)
+        return find_directions(self.objective, self.objective.linearise(self.x)[1])
 
     @property
     def correlations(self) -> "xr.DataArray":
@@ -123,35 +118,35 @@ class Fit:
 
     @property
     def drops(self) -> dict[str, Drop]:
-        """All drops with the best values in place, by their names."""
-        return {key: self.problem.drop(key, self.x) for key in self.problem.drops}
+        """All drops with the best values, by name."""
+        return {key: self.objective.drop(key, self.x) for key in self.objective.drops}
 
     @property
     def drop(self) -> Drop:
-        """The drop with the best values in place.
+        """The drop with the best values.
 
         Raises
         ------
         InvalidValue
             If there are several.
         """
-        if len(self.problem.drops) > 1:
+        if len(self.objective.drops) > 1:
             raise InvalidValue(f"there are several drops: take drops[{next(iter(self.drops))!r}]")
         return next(iter(self.drops.values()))
 
     @property
     def chi_squared(self) -> float:
-        """Sum of squares of all residuals, in errors, priors among them."""
+        """The sum of squares of all residuals in errors, those of priors included."""
         return self.minima[0].chi_squared
 
     @property
     def degrees_of_freedom(self) -> int:
-        """How many data and priors there are more than what is fitted."""
-        return self.problem.size - self.free
+        """The number of data and priors less that of the fitted numbers."""
+        return self.objective.size - self.free
 
     @property
     def probability(self) -> float:
-        """How often data scatter so far from a true model; nan without degrees of freedom."""
+        """The probability of so large a chi squared if the model is right; nan without freedom."""
         from scipy.stats import chi2
 
         if not self.degrees_of_freedom:
@@ -160,65 +155,49 @@ class Fit:
 
     @property
     def aicc(self) -> float:
-        """Akaike's criterion, corrected for few data; infinite where these are too few for it."""
-        left = self.problem.size - self.free - 1
+        """Akaike's information criterion, corrected for few data; infinite if these are too few."""
+        left = self.objective.size - self.free - 1
         more = math.inf if left <= 0 else 2.0 * self.free * (self.free + 1) / left
         return self.chi_squared + 2.0 * self.free + more
 
     @property
     def bic(self) -> float:
-        """Schwarz's criterion."""
-        return self.chi_squared + self.free * math.log(self.problem.size)
+        """The Bayesian (Schwarz's) information criterion."""
+        return self.chi_squared + self.free * math.log(self.objective.size)
 
     @functools.cached_property
     def residuals(self) -> list[Residual]:
-        """Each number that was measured beside the fitted one; force records are in `records`."""
-        found = []
-        for key, measured in self.problem.measured.items():
-            fitted = self.problem.predicted(key, self.x[None])[0] if measured.data else []
-            for datum, value in zip(measured.data, fitted, strict=True):
-                pull = (value - datum.value) / datum.error
-                row = (datum.value, datum.error, float(value), float(pull), datum.unit)
-                found.append(Residual(key, datum.name, *row))
-        for one in self.problem.priors:
-            mean, error = one.prior or (0.0, 1.0)
-            value = self.best[one.name]
-            row = (mean, error, value, (value - mean) / error, one.unit)
-            found.append(Residual("", f"{one.name} (known)", *row))
-        return found
+        """Each measured number and prior beside the fitted one; `records` has force records."""
+        return list_residuals(self.objective, self.x)
 
     @functools.cached_property
     def records(self) -> list[Record]:
         """Each force record beside the fitted one."""
-        found = []
-        for key in self.problem.records:
-            touch, forces = self.best[clock(key)], self.problem.forces(key, self.x)
-            for wave, force in zip(self.problem.measured[key].waveforms, forces, strict=True):
-                curves = (wave.times - touch, wave.force, wave.curve(force))
-                unit = "" if wave.scaled else "N"
-                found.append(Record(key, wave.name, *curves, wave.error, unit))
-        return found
+        return list_records(self.objective, self.x)
 
     @functools.cached_property
     def notes(self) -> tuple[str, ...]:
-        """What should be known about the fit, a sentence each."""
-        from stackbounce.fitting.notes import notes
-
-        return notes(self)
+        """Warnings about the fit, a sentence each."""
+        return (
+            *notes.note_search(self.minima[0], self.unsolved),
+            *self.undetermined,
+            *notes.note_bounds(self.objective, self.x),
+            *notes.note_misfits(
+                self.objective, self.minima, self.residuals, self.degrees_of_freedom
+            ),
+        )
 
     @functools.cached_property
     def undetermined(self) -> tuple[str, ...]:
-        """What the data cannot determine, a sentence each; empty where they determine all."""
-        from stackbounce.fitting.notes import undetermined
+        """What the data cannot determine, a sentence each; empty if they determine everything."""
+        return notes.describe_undetermined(self.names, *self.directions)
 
-        return undetermined(self)
+    def intervals(self, *, sigma: float = 1.0) -> dict[str, Interval]:
+        """Return the confidence interval of each parameter from the profile of chi squared.
 
-    def intervals(self, *, sigma: float = 1.0) -> "dict[str, Interval]":
-        """Return how far each parameter may lie, whatever the others then are.
-
-        A limit is where chi squared, all other parameters fitted anew, is `sigma` squared above its
-        least: for one standard deviation these hold 68.3 % without the assumption that chi squared
-        is a parabola, which `values` make.
+        At a limit chi squared, minimised over all other parameters, is `sigma` squared above its
+        minimum. An interval of one standard deviation holds the truth with 68.3 %. Unlike `values`
+        it does not assume that chi squared is a parabola.
 
         Parameters
         ----------
@@ -235,17 +214,16 @@ class Fit:
         InvalidValue
             If `sigma` is not above 0.
         """
-        from stackbounce.fitting.profile import intervals
-
-        return intervals(self, sigma)
+        reach = positive("sigma", sigma)
+        return {name: self._profile(k).interval(reach) for k, name in enumerate(self.names)}
 
     def profile(self, name: str, values: Any) -> Array:
-        """Return chi squared where one parameter has other values and all others are fitted anew.
+        """Return chi squared at values of one parameter, all others fitted anew at each.
 
         Parameters
         ----------
         name : str
-            What was varied.
+            The parameter.
         values : array_like
             (n,) in SI units, between its bounds.
 
@@ -259,21 +237,22 @@ class Fit:
         InvalidValue
             If it was not varied, or a value lies outside the bounds.
         """
-        from stackbounce.fitting.profile import along
+        k = self.names.index(self._known(name))
+        return self._profile(k).evaluate(np.asarray(values, dtype=float))
 
-        if name not in self.names:
-            raise InvalidValue(f"{shown(name)} was not varied; {nearest(name, self.names)}")
-        return along(self, self.names.index(name), np.asarray(values, dtype=float))
+    def _profile(self, k: int) -> Profile:
+        return Profile(self.objective, self.minima[0], self.covariance.values, k)
 
-    def sample(self, draws: int = 16_000, **options: Any) -> "Posterior":
-        """Return draws from what is known of the parameters after the data.
+    def sample(self, draws: int = 16_000, **options: Any) -> Posterior:
+        """Return draws from the posterior distribution of the parameters.
 
         Parameters
         ----------
         draws : int, optional
-            How many, of all walkers together, before the first quarter is thrown away.
+            The number of draws of all walkers; the first quarter is discarded as burn-in.
         **options
-            ``seed``, and ``progress``, which is called with how many are done and will be.
+            ``seed``, and ``progress``, a function that is called with the number of draws done and
+            the number of all draws.
 
         Returns
         -------
@@ -284,20 +263,16 @@ class Fit:
         InvalidValue
             If the draws are too few.
         """
-        from stackbounce.fitting.posterior import sample
-
-        return sample(self, draws, **options)
+        deviations = np.sqrt(np.diag(self.covariance.values))
+        others = len(self.minima) - 1
+        return posterior.sample(self.objective, self.x, deviations, draws, others=others, **options)
 
     def as_dict(self) -> dict[str, Any]:
-        """Return what was found as plain values, for machines."""
+        """Return the result as plain values, for JSON."""
         return {
             **self._provenance,
             "values": {
-                name: {
-                    "value": one.nominal_value,
-                    "error": one.std_dev,
-                    "unit": self.units[name],
-                }
+                name: {"value": one.nominal_value, "error": one.std_dev, "unit": self.units[name]}
                 for name, one in self.values.items()
             },
             "chi_squared": self.chi_squared,
@@ -313,19 +288,19 @@ class Fit:
 
     @property
     def x(self) -> Array:
-        """(parameters,) the best trial, in the coordinates that are searched."""
+        """(parameters,) the best trial, in search coordinates."""
         return self.minima[0].x
 
     @property
     def free(self) -> int:
-        """How many numbers are fitted, with the scales and baselines of records."""
-        return len(self.problem.parameters) + self.problem.linear
+        """The number of fitted numbers, scales and baselines of force records included."""
+        return self.objective.free
 
-    @functools.cached_property
-    def slopes(self) -> Array:
-        """(residuals, parameters) derivatives at the best trial."""
-        return self.problem.expanded(self.x)[1]
+    @property
+    def problem(self) -> Objective:
+        """The former name of `objective`."""
+        return self.objective
 
     @property
     def _provenance(self) -> dict[str, Any]:
-        return {"stackbounce": __version__, "rtol": self.problem.rtol}
+        return {"stackbounce": __version__, "rtol": self.objective.rtol}

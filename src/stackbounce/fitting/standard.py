@@ -1,22 +1,13 @@
 """The usual models of a stack, made from what is known of its contacts."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 from stackbounce.calibration import calibrate, contact_time
 from stackbounce.errors import InvalidValue
-from stackbounce.fitting.model import Model
-from stackbounce.model import (
-    ContactLaw,
-    Drop,
-    Hertz,
-    HuntCrossley,
-    Hysteretic,
-    Rigid,
-    Spring,
-    Viscoelastic,
-)
+from stackbounce.fitting.problem import FitProblem, Model
+from stackbounce.model import LAWS, ContactLaw, Drop, Rigid
 
 __all__ = ["standard_models"]
 
@@ -26,7 +17,9 @@ _FLIGHTS = 4.0  # contact times at the impact speed: the widest gap that is look
 _WEAK, _STRONG = 0.05, 0.999  # between which restitutions
 
 
-def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> dict[str, Model]:
+def standard_models(
+    drop: Drop | Mapping[str, Drop], *, times: bool = False
+) -> dict[str, FitProblem]:
     """Return the usual models of a stack, to be compared.
 
     Parameters
@@ -40,9 +33,9 @@ def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> 
 
     Returns
     -------
-    dict of str to Model
-        `Rigid` with one restitution and with one for each contact; `Spring`; `Hysteretic` from a
-        linear spring and from Hertz's law; `Hertz` without loss; `Viscoelastic`; `HuntCrossley`.
+    dict of str to FitProblem
+        `Rigid` with one restitution and with one for each contact, then the `usual_models` of all
+        laws: those without loss first, then those whose loss does not depend on the rate.
         Those with finite contacts vary their stiffnesses and gaps, lossy ones one loss that all
         contacts share.
 
@@ -67,36 +60,33 @@ def standard_models(drop: Drop | Mapping[str, Drop], *, times: bool = False) -> 
             "ones tell no contact time"
         )
 
-    def made(law: Callable[[Drop, int], ContactLaw], *losses: str) -> Model:
-        changed = {
-            key: replace(one, contacts=[law(one, i) for i in range(len(one.contacts))])
-            for key, one in drops.items()
-        }
-        vary, tie = _finite(next(iter(changed.values())), times, losses)
-        return Model(_as_given(drop, changed), vary, tie)
-
-    def lossy(kind: Any, **shape: Any) -> Callable[[Drop, int], ContactLaw]:
-        return lambda one, i: _alike(one, i, kind, restitution=_LOSSY, **shape)
-
-    return {
-        "Rigid, one restitution": _rigid(drop, drops, times, shared=True),
-        "Rigid, one for each contact": _rigid(drop, drops, times, shared=False),
-        "Spring": made(lambda one, i: _alike(one, i, Spring)),
-        "Hertz": made(lambda one, i: _alike(one, i, Hertz)),
-        "Hysteretic": made(lossy(Hysteretic), "restitution"),
-        "Hysteretic, Hertz loading": made(lossy(Hysteretic, exponent=1.5), "restitution"),
-        "Viscoelastic": made(lossy(Viscoelastic), "dissipative_time"),
-        "HuntCrossley": made(lossy(HuntCrossley, exponent=1.5), "dissipation"),
+    models = {
+        "Rigid, one restitution": _rigid(drops, times, shared=True),
+        "Rigid, one for each contact": _rigid(drops, times, shared=False),
     }
+    for law in sorted(LAWS.values(), key=lambda law: (bool(law.loss), not law.rate_free)):
+        for name, numbers in law.usual_models.items():
+            models[name] = _made(drops, times, law, numbers)
+    return models
 
 
-def _as_given(drop: Drop | Mapping[str, Drop], drops: dict[str, Drop]) -> Any:
-    return drops[""] if isinstance(drop, Drop) else drops
+def _made(
+    drops: Mapping[str, Drop],
+    times: bool,
+    law: type[ContactLaw],
+    numbers: Mapping[str, float],
+) -> FitProblem:
+    """Return the model with all contacts of one finite law that last as long as the true ones."""
+    given = {"restitution": _LOSSY, **numbers} if law.loss else numbers
+    changed = {
+        key: replace(one, contacts=[_alike(one, i, law, given) for i in range(len(one.contacts))])
+        for key, one in drops.items()
+    }
+    vary, tie = _finite(next(iter(changed.values())), times, law.loss)
+    return Model(changed, vary, tie)
 
 
-def _rigid(
-    drop: Drop | Mapping[str, Drop], drops: Mapping[str, Drop], times: bool, *, shared: bool
-) -> Model:
+def _rigid(drops: Mapping[str, Drop], times: bool, *, shared: bool) -> FitProblem:
     changed = {
         key: replace(one, contacts=[Rigid(_LOSSY)] * len(one.contacts))
         for key, one in drops.items()
@@ -107,7 +97,7 @@ def _rigid(
     vary: dict[str, Any] = dict.fromkeys(names, (_WEAK, 1.0))
     if times:  # a gap changes nothing but when the balls meet
         vary |= _gaps(first)
-    return Model(_as_given(drop, changed), vary, tie)
+    return Model(changed, vary, tie)
 
 
 def _gaps(drop: Drop) -> dict[str, Any]:
@@ -116,20 +106,19 @@ def _gaps(drop: Drop) -> dict[str, Any]:
     return {f"gaps.{i}": (0.0, widest) for i in range(len(drop.gaps))}
 
 
-def _finite(drop: Drop, times: bool, losses: tuple[str, ...]) -> tuple[dict[str, Any], Any]:
+def _finite(drop: Drop, times: bool, loss: str) -> tuple[dict[str, Any], Any]:
     """Return what varies in a stack of one finite law, and what follows."""
-    vary: dict[str, Any] = {}
-    for i, law in enumerate(drop.contacts):
-        if i or times:
-            own: float = law.stiffness  # type: ignore[union-attr]
-            vary[f"contacts.{i}.stiffness"] = (own / _FACTOR, own * _FACTOR)
+    laws: list[Any] = list(drop.contacts)
+    own = {
+        f"contacts.{i}.stiffness": laws[i].stiffness for i in range(0 if times else 1, len(laws))
+    }
+    vary: dict[str, Any] = {path: (k / _FACTOR, k * _FACTOR) for path, k in own.items()}
     vary |= _gaps(drop)
-    tie = {}
-    for name in losses:
-        own = getattr(drop.contacts[0], name)
-        vary[name] = (_WEAK, _STRONG) if name == "restitution" else (own / _FACTOR, own * _FACTOR)
-        tie.update({f"contacts.{i}.{name}": name for i in range(len(drop.contacts))})
-    return vary, tie or None
+    if not loss:
+        return vary, None
+    first: float = getattr(laws[0], loss)
+    vary[loss] = (_WEAK, _STRONG) if loss == "restitution" else (first / _FACTOR, first * _FACTOR)
+    return vary, {f"contacts.{i}.{loss}": loss for i in range(len(laws))}
 
 
 def _mass(drop: Drop, i: int) -> float | tuple[float, float]:
@@ -144,10 +133,7 @@ def _lasting(drop: Drop, i: int) -> float:
     return float(contact_time(law, mass=_mass(drop, i), speed=drop.reference_speed))
 
 
-def _alike(drop: Drop, i: int, kind: Any, **numbers: Any) -> ContactLaw:
-    """Return a law of another kind that lasts as long alone at the impact speed."""
+def _alike(drop: Drop, i: int, law: type[ContactLaw], numbers: Mapping[str, float]) -> ContactLaw:
+    """Return a law of another class that lasts as long alone at the impact speed."""
     time, speed = _lasting(drop, i), drop.reference_speed
-    made: ContactLaw = calibrate(
-        kind, mass=_mass(drop, i), contact_time=time, impact_speed=speed, **numbers
-    )
-    return made
+    return calibrate(law, mass=_mass(drop, i), contact_time=time, impact_speed=speed, **numbers)

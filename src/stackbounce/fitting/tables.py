@@ -1,4 +1,4 @@
-"""Drops from a table: each row one drop of the same stack, and what was measured of it."""
+"""Drops from a table: each row is a drop of the same stack with what was measured of it."""
 
 import os
 import re
@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from stackbounce.errors import FileError, InvalidType, InvalidValue, nearest, positive, shown
-from stackbounce.fitting.files import force_record
-from stackbounce.fitting.quantities import QUANTITIES, place
+from stackbounce.fitting.files import read_force_record
+from stackbounce.fitting.quantities import QUANTITIES, find_quantity
+from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.limits import COLUMNS, LINE, content_of, refuse_others
 from stackbounce.measure.reading.text import decode, split
-from stackbounce.measure.uncertain_numbers import quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of
 from stackbounce.units import quantity
@@ -45,29 +45,30 @@ def read_drops(
     Parameters
     ----------
     drop : Drop
-        What all of them have in common.
+        What all drops have in common.
     path : str or path-like
-        A table as spreadsheets write it, with commas, semicolons or tabs, decimal points or commas.
-        Its first line names the columns: numbers of the drop by their paths, ``height (cm)``,
-        ``gaps.0 (mm)``; what was measured, ``rebound_ratios.1``, ``rebound_heights.1 (cm)``,
-        ``collisions.0``, ``force.0`` (a file beside this one), with the error in the cell, ``1.64 ±
-        0.02``, or in a column of its own, ``error of rebound_ratios.1``; and ``name``. Units stand
-        in the heading or in the cell. An empty cell is not measured, or as in `drop`.
+        A table as spreadsheets write it, separated by commas, semicolons or tabs, with decimal
+        points or commas. Its first line names the columns: numbers of the drop by their paths,
+        ``height (cm)``, ``gaps.0 (mm)``; what was measured, ``rebound_ratios.1``,
+        ``rebound_heights.1 (cm)``, ``collisions.0``, ``force.0`` (a file beside this one); and
+        ``name``. The error stands in the cell, ``1.64 ± 0.02``, or in a column of its own,
+        ``error of rebound_ratios.1``; the unit in the heading or in the cell. An empty cell means
+        not measured, or the same as in `drop`.
 
     Returns
     -------
     drops : dict of str to Drop
-        By their names, or ``drop_1``, ``drop_2`` and so on.
+        By name, or ``drop_1``, ``drop_2`` and so on.
     data : dict of str to dict
         By the same names.
 
     Raises
     ------
     FileError
-        If the file cannot be read or is no table, or has more than 1000 rows.
+        If the file cannot be read, is not a table, or has more than 1000 rows.
     InvalidValue
-        If a column is unknown or a cell cannot be read; the message names row and column, the row
-        as spreadsheets count.
+        If a column is unknown or a cell cannot be read; the message names column and row, counted
+        as spreadsheets do.
 
     Examples
     --------
@@ -91,7 +92,7 @@ def read_drops(
 
 
 def _rows(drop: Drop, content: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the lines that are not blank, by their numbers from 1, as cells; the heading first."""
+    """Yield the cells of each line that is not blank, with its number from 1; first the heading."""
     start, line, count, delimiter = 0, 0, 0, ""
     while start < len(content):
         end = content.find("\n", start, start + LINE)
@@ -110,7 +111,7 @@ def _rows(drop: Drop, content: str) -> Iterator[tuple[int, list[str]]]:
 
 
 def _delimiter(drop: Drop, first: str) -> str:
-    """Return the delimiter that makes most names of a heading."""
+    """Return the delimiter with which a heading has most known names."""
     numbers = {*numbers_of(drop), *_FALLS, "name"}
 
     def known(cell: str) -> bool:
@@ -159,16 +160,18 @@ def _drops(
 
 
 def _column(drop: Drop, text: str) -> _Column:
-    """Return what a heading says."""
+    """Return the column that a heading describes."""
     of_error = text.casefold().startswith(_ERROR)
     head = heading(text[len(_ERROR) :] if of_error else text)
     numbers, base = numbers_of(drop), head.name.partition(".")[0]
     known = [*numbers, *(name for name in _FALLS if name not in numbers)]
     if base in QUANTITIES:
-        place(drop, head.name, f"column {shown(text)}")
+        find_quantity(drop, head.name, f"column {shown(text)}")
         kind = "error" if of_error else "count" if base == "collisions" else "data"
     elif of_error:
-        raise InvalidValue(f"column {shown(text)} is no measured one's; {_known(head.name, [])}")
+        raise InvalidValue(
+            f"column {shown(text)} does not belong to a measured quantity; {_known(head.name, [])}"
+        )
     elif not text:
         kind = ""
     elif base == "force":
@@ -186,7 +189,7 @@ def _column(drop: Drop, text: str) -> _Column:
 
 
 def _known(name: str, numbers: Sequence[str]) -> str:
-    """Return the nearest of the known names; one of a ball or contact shows how it is numbered."""
+    """Return a hint with the nearest known name, with the number of a ball or contact."""
     _, dot, index = name.partition(".")
     one = index if dot and index.isdecimal() else "0"
     measured = [f"{key}.{one}" if known.part else key for key, known in QUANTITIES.items()]
@@ -209,7 +212,7 @@ def _numeric(column: _Column) -> bool:
 
 
 def _has_commas(columns: Sequence[_Column], rows: Sequence[tuple[int, list[str]]]) -> bool:
-    """Tell whether commas are decimal marks; refuse what could be read in two ways."""
+    """Tell whether commas are decimal marks; refuse numbers that could be read in two ways."""
     found = [
         (mark[0], f"row {line}, {column.text}")
         for line, cells in rows
@@ -258,7 +261,7 @@ def _data(table: Mapping[_Column, str], line: int, folder: Path) -> dict[str, An
     for column, cell in table.items():
         where = f"row {line}, {column.text}"
         if column.kind == "force":
-            found[column.name] = force_record(column.name, cell, folder)
+            found[column.name] = read_force_record(column.name, cell, folder)
         elif column.kind == "count":
             if not cell.isdecimal():
                 raise InvalidValue(f"{where} must be a whole number, got {shown(cell)}")

@@ -1,4 +1,4 @@
-"""Numbers of a drop that follow from others: formulas of what is varied."""
+"""Ties: numbers of a drop that follow from others by a formula."""
 
 import math
 from collections.abc import Collection, Mapping, Sequence
@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import Formula, read_formula
-from stackbounce.fitting.parameters import Parameter, current, paths, places
+from stackbounce.fitting.parameters import Parameter, find_numbers, list_paths, value_in
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, numbers_of
 
-__all__ = ["Tie", "read_ties", "tied"]
+__all__ = ["Tie", "evaluate_ties", "read_ties"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -32,9 +32,9 @@ class Tie:
     formula : callable
         Takes the values by name, as arrays; returns an array.
     text : str
-        How it was written.
+        The formula as it was written.
     uses : frozenset of str, or None
-        The names in it; None for a function of Python, which may use any.
+        The names in the formula; None for a Python function, which may use any.
 
     Examples
     --------
@@ -52,7 +52,7 @@ class Tie:
 def read_ties(
     drops: Mapping[str, Drop], parameters: Sequence[Parameter], given: object
 ) -> tuple[Tie, ...]:
-    """Return the ties, checked.
+    """Check what follows from other numbers and return it as ties.
 
     Parameters
     ----------
@@ -61,10 +61,10 @@ def read_ties(
     parameters : sequence of Parameter
         What is varied.
     given : mapping or None
-        By the number that follows: a formula such as ``"4/3 * modulus * sqrt(balls.0.diameter/2)"``
-        of what is varied and of numbers of the same drop, tied ones too, or a function of Python
-        that takes a mapping of names to arrays. A number without a drop's name is that of every
-        drop.
+        By the path of the number that follows: a formula such as
+        ``"4/3 * modulus * sqrt(balls.0.diameter/2)"`` of varied numbers and of numbers of the same
+        drop (tied ones too), or a Python function that takes a mapping of names to arrays. A path
+        without a drop's name stands for every drop.
 
     Returns
     -------
@@ -73,8 +73,8 @@ def read_ties(
     Raises
     ------
     InvalidValue
-        If a name is unknown, a formula cannot be read or needs itself, or a number is tied twice,
-        or both varied and tied.
+        If a name is unknown, a formula cannot be read, formulas depend on each other in a circle,
+        or a number is tied twice, or both varied and tied.
     InvalidType
         If something has the wrong type.
 
@@ -90,14 +90,16 @@ def read_ties(
         given = {}
     if not isinstance(given, Mapping):
         raise InvalidType(f"tie must map numbers to formulas, got {shown(given)}")
-    varied = {(key, number.path) for one in parameters for key, number in places(drops, one.name)}
-    places_of = {name: places(drops, name) for name in given if isinstance(name, str)}
+    varied = {
+        (key, number.path) for one in parameters for key, number in find_numbers(drops, one.name)
+    }
+    places_of = {name: find_numbers(drops, name) for name in given if isinstance(name, str)}
     follow = [(key, number.path) for at in places_of.values() for key, number in at]
     found: list[Tie] = []
     for name, formula in given.items():
         at = places_of.get(name, [])
         if not at:
-            right = nearest(name, paths(drops))
+            right = nearest(name, list_paths(drops))
             raise InvalidValue(f"tie: {shown(name)} is no number of the drop; {right}")
         for key, number in at:
             if (key, number.path) in varied:
@@ -105,33 +107,33 @@ def read_ties(
             if follow.count((key, number.path)) > 1:
                 raise InvalidValue(f"{name} is tied twice: only once for each drop")
             found.append(_tie(drops[key], key, number, parameters, formula))
-    told = varied.union(follow)
+    given_here = varied.union(follow)
     for tie in found:
-        _check_told(drops[tie.drop], tie, {path for key, path in told if key == tie.drop})
+        _check_given(drops[tie.drop], tie, {path for key, path in given_here if key == tie.drop})
     _check_used(drops, parameters, found)
     return tuple(
         tie for key in drops for tie in _in_order([one for one in found if one.drop == key])
     )
 
 
-def tied(
+def evaluate_ties(
     ties: Sequence[Tie], numbers: Mapping[str, float], values: Mapping[str, Array]
 ) -> dict[str, Array]:
-    """Return the numbers of one drop that follow, by path.
+    """Return the tied numbers of one drop by path, (n,) each.
 
     Parameters
     ----------
     ties : sequence of Tie
-        Those of the drop, each after those that it needs.
+        The ties of the drop, each after those that it uses.
     numbers : mapping of str to float
         All numbers of the drop by path.
     values : mapping of str to ndarray
-        What is varied, by name, and the drop's varied numbers by path: (n,) each.
+        The varied numbers by parameter name and by path, (n,) each.
 
     Raises
     ------
     InvalidValue
-        If a formula fails or gives something else than finite numbers.
+        If a formula fails, or its result is not a finite number.
     """
     known: dict[str, Any] = {**numbers, **values}
     found: dict[str, Array] = {}
@@ -159,23 +161,23 @@ def _tie(
     return Tie(key, number, run, str(formula), uses)
 
 
-def _check_told(drop: Drop, tie: Tie, told: Collection[str]) -> None:
-    """Refuse a formula of a number that neither the drop nor the fit has."""
+def _check_given(drop: Drop, tie: Tie, given: Collection[str]) -> None:
+    """Refuse a formula that uses a number which neither the drop nor the fit gives."""
     numbers = numbers_of(drop)
-    for word in sorted((tie.uses or frozenset()) & set(numbers) - set(told)):
-        if math.isnan(current(drop, numbers[word])):
-            raise InvalidValue(f"tie: {tie.number.path} needs {word}, which the drop does not tell")
+    for word in sorted((tie.uses or frozenset()) & set(numbers) - set(given)):
+        if math.isnan(value_in(drop, numbers[word])):
+            raise InvalidValue(f"tie: {tie.number.path} needs {word}, which the drop does not give")
 
 
 def _in_order(ties: Sequence[Tie]) -> list[Tie]:
-    """Return the ties of one drop, each after those that it needs."""
+    """Return the ties of one drop, each after those that it uses."""
     left, found = list(ties), []
     while left:
         waiting = {tie.number.path for tie in left}
         ready = next((tie for tie in left if not (tie.uses or set()) & waiting), None)
         if ready is None:
             circle = ", ".join(f"{tie.number.path} = {tie.text}" for tie in left)
-            raise InvalidValue(f"tie: none of these can come first, they go round: {circle}")
+            raise InvalidValue(f"tie: these depend on each other in a circle: {circle}")
         left.remove(ready)
         found.append(ready)
     return found
@@ -184,11 +186,11 @@ def _in_order(ties: Sequence[Tie]) -> list[Tie]:
 def _check_used(
     drops: Mapping[str, Drop], parameters: Sequence[Parameter], ties: Sequence[Tie]
 ) -> None:
-    """Refuse a varied number of the user's own that nothing follows from."""
+    """Refuse a parameter with a user's name that no tie uses."""
     for one in parameters:
         used = any(tie.uses is None or one.name in tie.uses for tie in ties)
-        if not places(drops, one.name) and not used:
+        if not find_numbers(drops, one.name) and not used:
             raise InvalidValue(
                 f"{one.name[:60]} is neither a number of the drop nor used by a tie; "
-                f"{nearest(one.name, paths(drops))}"
+                f"{nearest(one.name, list_paths(drops))}"
             )

@@ -1,4 +1,4 @@
-"""Force records as data: a contact's force against time, in newtons or in an unknown unit."""
+"""Force records as data: the force of a contact over time, in newtons or on an unknown scale."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
-from stackbounce.measure.kinds.waveform import waveform as analysed
+from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
 from stackbounce.model import Drop
 
 if TYPE_CHECKING:
@@ -15,11 +15,12 @@ if TYPE_CHECKING:
 
     from stackbounce.measure.kinds.waveform.result import Waveform as Analysed
 
-__all__ = ["Waveform", "as_waveform"]
+__all__ = ["Waveform", "read_waveform"]
 
-_NEAR = 0.1  # of the first contact's time: how far from where it seems to begin it may begin
-_SIGMAS = 5.0  # the same in the errors of that
-_SAMPLES = 3.0  # and in samples
+# The touch is searched this far from where the analysis finds it, the largest of:
+_NEAR = 0.1  # of the first contact's duration
+_SIGMAS = 5.0  # of the standard error
+_SAMPLES = 3.0  # of the sampling interval
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,17 +32,17 @@ class Waveform:
     name : str
         ``force.0`` for the floor's.
     index : int
-        Which contact.
+        The number of the contact.
     times : ndarray
-        (n,) in s, ascending, of the record's own clock.
+        (n,) in s, ascending, on the record's own clock.
     force : ndarray
-        (n,) in N, or in any unit where the scale is free.
+        (n,) in N, or in any unit if the scale is free.
     error : float
         One standard deviation of a sample, in the same unit.
     scaled : bool
-        Whether a factor between the record and newtons is free.
+        Whether the scale, a factor between the record and newtons, is fitted.
     begins : (float, float)
-        Between which times in s of that clock the lowest ball touches the floor.
+        The bounds in s, on that clock, of the first touch of the floor.
 
     Examples
     --------
@@ -59,9 +60,10 @@ class Waveform:
     begins: tuple[float, float]
 
     def linear(self, predicted: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Return the residuals (n,) in errors after the baseline, and a free scale, are fitted.
+        """Return the residuals (n,) in errors, with the best baseline and, if free, scale.
 
-        Both are linear, and are found exactly for any prediction; nan where that is not finite.
+        Both are linear parameters and found exactly. The residuals are nan if a predicted force is
+        not finite.
         """
         if not np.all(np.isfinite(predicted)):
             return np.full(len(predicted), np.nan)
@@ -80,7 +82,7 @@ class Waveform:
         return np.asarray(self.force + self.error * self.linear(predicted))
 
 
-def as_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
+def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     """Return a force record, from a DataArray over time or a pair or triple of arrays.
 
     Parameters
@@ -90,24 +92,23 @@ def as_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     name : str
         ``force.0`` and so on.
     value : DataArray, or (times, force), or (times, force, error)
-        A DataArray has the dimension ``time`` in s; in units of N its scale is known, in any other
-        free. Arrays are in s and N. Without an error (attribute ``error``, or the third) it is
-        that of the quiet parts.
+        A DataArray has the dimension ``time`` in s. Its scale is known if its units are N, and
+        fitted otherwise. Arrays are in s and N. Without an error (the attribute ``error``, or the
+        third array) the scatter of the quiet parts is taken.
     path : str
-        What messages call it.
+        The name in messages.
 
     Raises
     ------
     InvalidValue
-        If there is no such contact, or the record shows none.
+        If there is no such contact, or no contact can be found in the record.
     InvalidType
-        If it is something else.
+        If the value is of another type.
 
     Notes
     -----
-    Baseline, drift and hum are taken off as `stackbounce.measure.waveform` does, and the touch is
-    looked for around where that finds it. What comes after the drop, such as the next bounce, has
-    to be cut off before.
+    `stackbounce.measure.waveform` removes baseline, drift and hum, and finds the touch, around
+    which it is fitted. What follows the drop, such as the next bounce, has to be cut off before.
 
     Examples
     --------
@@ -116,7 +117,7 @@ def as_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     >>> times = np.arange(-2.0, 6.0, 0.01)
     >>> force = 4.43 * np.sin(np.clip(times, 0.0, np.pi))
     >>> noisy = force + np.random.default_rng(1).normal(0.0, 0.05, len(times))
-    >>> as_waveform(drop, "force.0", (times, noisy), "force.0").scaled
+    >>> read_waveform(drop, "force.0", (times, noisy), "force.0").scaled
     False
     """
     index = name.partition(".")[2]
@@ -130,17 +131,17 @@ def as_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
         raise type(problem)(f"{path}: {problem}") from problem
     if not found.contacts or found.contacts[0].start is None:
         raise InvalidValue(
-            f"{path} must begin before a contact and show it, got {len(times)} samples"
+            f"{path} must begin before a contact and contain it, got {len(times)} samples"
         )
     sigma = found.noise if error is None else positive(f"{path}'s error", error)
     if not sigma > 0.0:
-        raise InvalidValue(f"{path} must come with the error of a sample: its own scatter is 0")
+        raise InvalidValue(f"{path} must have the error of a sample: its own scatter is 0")
     begins = _begins(found, int(index))
     return Waveform(name, int(index), found.times, found.force, sigma, scaled, begins)
 
 
 def _begins(found: "Analysed", index: int) -> tuple[float, float]:
-    """Return between which times the lowest ball touches the floor."""
+    """Return the bounds in s of the first touch of the floor."""
     contact = found.contacts[0]
     assert contact.start is not None
     start, error = contact.start.nominal_value, contact.start.std_dev

@@ -1,12 +1,12 @@
-"""Which gaps, which balls, which masses: what makes the top ball of a stack go high.
+"""How the gaps, the choice of balls and their masses change the rebound of a stack's top ball.
 
-======= ==========================================================================
-gaps    one stack with all gaps from touching to separate
-apart   from which gap on the collisions are separate
-ranking the stacks that can be made of some balls, the one that throws highest first
-masses  the masses in between that throw the top ball highest
-many    drops of one kind with different numbers, solved together
-======= ==========================================================================
+================ =================================================================
+gaps             one stack over all gaps, from touching balls to separate collisions
+separation_limit the gap above which the collisions are separate
+ranking          all stacks of given balls, in the order of the top ball's rebound
+masses           the inner masses that give the top ball the highest rebound
+batch            drops with equal contact laws and different numbers, solved in one sweep
+================ =================================================================
 """
 
 from stackbounce.gaps_and_masses.gaps import transition

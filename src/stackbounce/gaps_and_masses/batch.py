@@ -1,4 +1,4 @@
-"""Drops of one kind with different numbers, solved together."""
+"""Batches: many drops with equal contact laws and different numbers, solved in one sweep."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -6,37 +6,39 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.model import Drop, Hysteretic
+from stackbounce.model import ContactLaw, Drop
+from stackbounce.model.laws import contact_numbers
 from stackbounce.run.paths import numbers_of
 from stackbounce.sweeps import sweep
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["joined", "solved"]
+__all__ = ["join_sweeps", "solve_drops"]
 
 
-def solved(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> "xr.Dataset":
-    """Return what comes of many drops, as `sweep` does.
+def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> "xr.Dataset":
+    """Solve many drops and return their results as `sweep` does.
 
     Parameters
     ----------
     drops : sequence of Drop
-        At least one; all have as many balls, the same gaps and the same impact speed.
+        At least one. All have the same number of balls, the same gaps and the same impact speed.
     gaps : sequence of float, optional
-        In m: each drop is solved with each of them between all neighbours; by default with its own.
+        In m. Each drop is solved once for each value, which replaces all of its gaps. By default
+        each drop keeps its own gaps.
 
     Returns
     -------
     xarray.Dataset
-        As from `sweep`, (stack, ...), or (stack, gap, ...) where there are `gaps`.
+        As from `sweep`, with the dimensions (stack, ...), or (stack, gap, ...) with `gaps`.
 
     Examples
     --------
     >>> from stackbounce.model import Ball, Hysteretic, Spring
     >>> laws = Spring(1e4), Hysteretic(1e4, restitution=0.8)
     >>> drops = [Drop([Ball(1.0)], [law], impact_speed=1.0) for law in laws]
-    >>> solved(drops).rebound_ratio.values.round(6)
+    >>> solve_drops(drops).rebound_ratio.values.round(6)
     array([[1. ],
            [0.8]])
     """
@@ -53,11 +55,11 @@ def solved(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> "xr.Da
             one = xr.DataArray(list(gaps), dims="gap")
             values |= {f"gaps.{i}": one for i in range(len(own[0].gaps))}
         parts.append(sweep(own[0], values).drop_vars(values).assign_coords(stack=places))
-    return joined(parts, "stack")
+    return join_sweeps(parts, "stack")
 
 
-def joined(parts: "Sequence[xr.Dataset]", dim: str) -> "xr.Dataset":
-    """Return sweeps along a dimension of all of them as one, in the order of its values."""
+def join_sweeps(parts: "Sequence[xr.Dataset]", dim: str) -> "xr.Dataset":
+    """Join sweeps along a dimension that all of them have, sorted by its values."""
     import xarray as xr
 
     how: Any = {"data_vars": "all", "coords": "minimal", "compat": "override", "join": "outer"}
@@ -65,14 +67,14 @@ def joined(parts: "Sequence[xr.Dataset]", dim: str) -> "xr.Dataset":
 
 
 def _kind(drop: Drop) -> tuple[Any, ...]:
-    """Return what drops of one sweep have in common."""
-    return tuple((type(law), getattr(law, "reloading", None)) for law in drop.contacts)
+    """Return the contact laws of a drop; one sweep can solve only drops with the same laws."""
+    return tuple((type(law), contact_numbers(law)[0]) for law in drop.contacts)
 
 
 def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
-    """Return the numbers of balls and contacts that are not the same in all drops, by their paths.
+    """Return the numbers of balls and contacts that differ between the drops, by their paths.
 
-    The lowest ball's mass is one of them in any case, so that there is one.
+    The lowest ball's mass is always included, because a sweep needs at least one number.
     """
     found = {}
     for path, number in numbers_of(drops[0]).items():
@@ -80,10 +82,10 @@ def _varied(drops: Sequence[Drop]) -> dict[str, NDArray[np.float64]]:
             continue
         parts = [getattr(drop, number.part)[number.index] for drop in drops]
         first = parts[0]
-        if isinstance(first, Hysteretic) and number.field == first.derived:
+        if isinstance(first, ContactLaw) and number.field == first.derived_field():
             continue
         if getattr(first, number.field) is None:
-            continue  # a ball's size or material, which no run depends on
+            continue  # a ball's size or material, which does not affect a run
         row = np.array([getattr(part, number.field) for part in parts], dtype=float)
         if path == "balls.0.mass" or np.ptp(row) > 0.0:
             found[path] = row

@@ -1,4 +1,4 @@
-"""One stack with gaps from touching to separate: the transition between the two models."""
+"""One stack over all gaps: the transition from simultaneous to separate collisions."""
 
 import math
 from typing import TYPE_CHECKING
@@ -8,10 +8,15 @@ from numpy.typing import NDArray
 
 from stackbounce.calibration import separate
 from stackbounce.errors import InvalidValue, positive, shown, whole
-from stackbounce.gaps_and_masses.batch import joined
-from stackbounce.gaps_and_masses.separation_limit import distance, separate_from, with_gap
+from stackbounce.gaps_and_masses.batch import join_sweeps
+from stackbounce.gaps_and_masses.separation_limit import (
+    find_separation_limit,
+    measure_fall,
+    replace_gaps,
+)
 from stackbounce.model import Drop
-from stackbounce.run.driver import run_options, simulate
+from stackbounce.run.driver import simulate
+from stackbounce.run.options import run_options
 from stackbounce.sweeps import sweep
 
 if TYPE_CHECKING:
@@ -19,33 +24,31 @@ if TYPE_CHECKING:
 
 __all__ = ["transition"]
 
-_EVEN, _LOG, _LOWEST = (
-    1025,
-    97,
-    1e-4,
-)  # gaps to begin with: in even steps, in even ratios from there
-_BEYOND = 1.1  # of the gap from which on nothing changes
-_NEVER = 20.0  # of the distance fallen during the touching impact, where it always changes
-_STRAIGHT = 2e-3  # a curve may leave the line between the neighbours by so much
-_EXACT = 1e-7  # relative, to which gaps are known where a count changes or a curve jumps
-_MOST = 20_000  # gaps, where curves bend ever more
+_EVEN, _LOG = 1025, 97  # first gaps: so many linearly and logarithmically spaced ones
+_LOWEST = 1e-4  # the smallest logarithmically spaced gap, over the largest gap
+_BEYOND = 1.1  # the largest gap, over the separation limit
+_NEVER = 20.0  # the same over the fall during the touching impact, where there is no limit
+_STRAIGHT = 2e-3  # tolerated distance of a rebound ratio from the chord of its neighbours
+_EXACT = 1e-7  # relative accuracy of a gap at which a count changes or a curve jumps
+_MOST = 20_000  # gaps at most
 
 
 def transition(
     drop: Drop, only: int | None = None, *, stop: float | None = None, rtol: float = 1e-12
 ) -> "xr.Dataset":
-    """Return what a stack does with gaps from touching to where the collisions are separate.
+    """Return the outcome of a stack for gaps from touching balls to separate collisions.
 
     Parameters
     ----------
     drop : Drop
-        Two balls or more on finite contacts, without gravity. Its gaps do not count, unless `only`
-        one of them varies.
+        Two balls or more on finite contacts, without gravity. Its own gaps are used only if
+        `only` is given.
     only : int, optional
-        The gap that varies, all others as they are; by default all gaps, with the same value.
+        The index of the gap that varies while the others stay as they are. By default all gaps
+        vary together, with the same value.
     stop : float, optional
-        The largest gap in m; by default a little beyond the one at which the separate collisions
-        begin, or, if there is none, 20 times the distance fallen during the touching impact.
+        The largest gap in m. By default 1.1 times the separation limit or, if there is none, 20
+        times the distance that the stack falls in the duration of the impact of touching balls.
     rtol : float, optional
         As in `simulate`.
 
@@ -54,38 +57,38 @@ def transition(
     xarray.Dataset
         With the dimension `gap`, in m, all that `sweep` returns: `rebound_ratio` (gap, ball);
         `collisions`, `first_touch` and `last_release` (gap, contact); `energy_retained`; `status`.
-        The gaps lie as close as the curves need, and around each change of a count. Without the
-        dimension: `textbook_ratio` (ball), `textbook_collisions` (contact) and `textbook_energy`,
-        of `separate`. Attributes: `separate_from`, the gap in m from which on nothing changes
-        (inf: there is none); `changes`, the gaps from which on a contact has another number of
-        collisions, each one of the dimension.
+        The gaps are refined where a curve bends or a count of collisions changes. Without the
+        dimension, from `separate`: `textbook_ratio` (ball), `textbook_collisions` (contact) and
+        `textbook_energy`. Attributes: `separate_from`, the separation limit in m, above which the
+        outcome does not change (inf if there is none); `changes`, the gaps at which a contact gets
+        another number of collisions, each one a value of the dimension.
 
     Raises
     ------
     InvalidValue
-        If there is one ball only, gravity, rigid contacts, or no contact that closes, or a number
-        is out of its range.
+        If there is only one ball, gravity is not 0, contacts are rigid, no contact ever closes, or
+        a number is out of its range.
     InvalidType
         If something has the wrong type.
 
     Notes
     -----
-    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), section II. `separate_from` is exact: at that
-    gap one contact closes just when another at the same ball has opened. Beyond it, all that grows
-    are the flights. It is `inf` above all where the textbook has infinitely many collisions: these
-    follow each other faster than any contact can open.
+    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), section II. The separation limit is exact: at
+    that gap one contact closes at the moment when another contact of the same ball opens. Above
+    it only the flights between collisions get longer. The limit is `inf` mostly where separate
+    collisions are infinitely many: they follow each other faster than any contact can open.
 
-    The textbook has one restitution for each contact. It is met exactly where that does not depend
-    on the speed, and all gaps vary.
+    `separate` uses one restitution for each contact. The curves reach its values exactly if
+    the restitutions do not depend on the speed and all gaps vary.
 
-    Counts that change there and back between two neighbouring gaps, of which there are at least
-    1025, are not seen. Where balls part at one speed, or come to rest, but for round-off, so are
-    the counts.
+    A count that changes and changes back between two neighbouring gaps, of which there are at
+    least 1025, is missed. Where two balls part with equal speeds or come to rest, the counts depend
+    on round-off.
 
     Examples
     --------
-    Two equal balls on equal springs. The ball below has left the floor, half a period after its
-    touch, when the gap has been closed:
+    Two equal balls on equal springs. At the separation limit the lower ball leaves the floor, half
+    a period after its touch, at the moment when the gap closes:
 
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, impact_speed=1.0)
@@ -98,12 +101,12 @@ def transition(
     """
     run_options(drop, None, rtol, 1)
     _check(drop, only)
-    length = distance(drop, only, rtol)
-    limit = separate_from(drop, only, length, rtol)
+    length = measure_fall(drop, only, rtol)
+    limit = find_separation_limit(drop, only, length, rtol)
     last = min(_BEYOND * limit, _NEVER * length) if math.isinf(limit) else _BEYOND * limit
     last = (last or length) if stop is None else positive("stop", stop, "metres")
     ds = _refined(drop, only, _first_gaps(last, limit), rtol)
-    textbook = simulate(separate(with_gap(drop, only, last)))
+    textbook = simulate(separate(replace_gaps(drop, only, last)))
     ds["textbook_ratio"] = ("ball", textbook.rebound_ratios)
     ds["textbook_collisions"] = ("contact", textbook.collisions)
     ds["textbook_energy"] = ((), textbook.energy_retained)
@@ -132,16 +135,16 @@ def _check(drop: Drop, only: object) -> None:
 
 
 def _first_gaps(last: float, limit: float) -> NDArray[np.float64]:
-    """Return the gaps to begin with, of which the limit is one."""
+    """Return the first gaps; the separation limit is one of them."""
     even, log = np.linspace(0.0, last, _EVEN), np.geomspace(_LOWEST * last, last, _LOG)
     return np.unique([*even, *log[:-1], min(limit, last)])
 
 
 def _refined(drop: Drop, only: int | None, gaps: NDArray[np.float64], rtol: float) -> "xr.Dataset":
-    """Return the sweep over some gaps, and over more where it bends or a count changes."""
+    """Sweep over gaps, refined until no curve bends and no count changes between neighbours."""
     ds = _swept(drop, only, gaps, rtol)
     while len(more := _between(ds)) and ds.sizes["gap"] < _MOST:
-        ds = joined([ds, _swept(drop, only, more, rtol)], "gap")
+        ds = join_sweeps([ds, _swept(drop, only, more, rtol)], "gap")
     return ds
 
 
@@ -156,7 +159,7 @@ def _swept(drop: Drop, only: int | None, gaps: NDArray[np.float64], rtol: float)
 
 
 def _between(ds: "xr.Dataset") -> NDArray[np.float64]:
-    """Return the gaps that are missing."""
+    """Return the gaps at which the sweep must be refined."""
     gap = ds.gap.values
     low, high = gap[:-1], gap[1:]
     width = high - low
@@ -169,7 +172,7 @@ def _between(ds: "xr.Dataset") -> NDArray[np.float64]:
 
 
 def _bent(gap: NDArray[np.float64], ratios: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell beside which inner points a ratio leaves the line between the point's neighbours."""
+    """Tell in which intervals a ratio is curved: one of its ends is off its neighbours' chord."""
     share = (gap[1:-1] - gap[:-2]) / (gap[2:] - gap[:-2])
     line = ratios[:-2] + share[:, None] * (ratios[2:] - ratios[:-2])
     off = (np.abs(ratios[1:-1] - line) > _STRAIGHT).any(axis=1)

@@ -1,4 +1,4 @@
-"""The masses in between that throw the top ball of a stack highest."""
+"""The masses of the inner balls that give the top ball of a stack its highest rebound."""
 
 import dataclasses
 from collections.abc import Callable, Sequence
@@ -9,43 +9,43 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, positive, shown
 from stackbounce.extras import need
-from stackbounce.gaps_and_masses.batch import solved
+from stackbounce.gaps_and_masses.batch import solve_drops
 from stackbounce.model import Ball, ContactLaw, Drop
-from stackbounce.run.driver import run_options
+from stackbounce.run.options import run_options
 
-__all__ = ["Contacts", "best_masses", "geometric_masses", "with_masses"]
+__all__ = ["Contacts", "best_masses", "geometric_masses", "replace_masses"]
 
 Contacts: TypeAlias = Callable[[Sequence[Ball]], Sequence[ContactLaw | None]]
-"""Returns the contacts of balls, the lowest first."""
+"""A function of the balls that returns their contacts, the lowest first."""
 
-_STARTS = 24  # stacks of the first generation, for each mass
+_STARTS = 24  # stacks in a generation, for each inner mass
 _GENERATIONS = 400
 _SEED = 2007
-_ALIKE = 1e-13  # rebound ratios of a generation that is done
+_ALIKE = 1e-13  # standard deviation of the rebound ratios at which the search stops
 
 
 def best_masses(
     drop: Drop, contacts: Contacts | None = None, *, within: Sequence[float] | None = None
 ) -> Drop:
-    """Return the stack with the masses between the outer balls that throw the top one highest.
+    """Return the stack with the inner masses that give the top ball its highest rebound.
 
     Parameters
     ----------
     drop : Drop
-        Three balls or more. The lowest and the top one stay; the masses of those between them do
-        not count.
+        Three balls or more. The lowest and the top one stay as they are; the masses of the inner
+        balls are replaced.
     contacts : callable, optional
-        Returns the contacts of balls, the lowest first, where they depend on the masses. By default
-        those of the drop, whatever the masses.
+        A function of the balls that returns their contacts, the lowest first, for contacts that
+        depend on the masses. By default the contacts of the drop for all masses.
     within : (float, float), optional
-        The smallest and the largest mass in kg that are tried; by default those of the two outer
-        balls.
+        The smallest and the largest mass in kg that are tried. By default the masses of the two
+        outer balls.
 
     Returns
     -------
     Drop
-        The drop with other masses in between, and diameters, where there are any, at the same
-        density. A mass at the end of what was tried is not the best: that lies beyond.
+        The drop with other inner masses. Diameters, where given, change at constant density. A
+        mass at an end of the range `within` means that the optimum lies outside of the range.
 
     Raises
     ------
@@ -56,15 +56,15 @@ def best_masses(
 
     Notes
     -----
-    Rebound ratios have kinks where a count of collisions changes, and several maxima; so they are
-    searched by differential evolution (R. Storn and K. Price, J. Global Optim. 11, 341, 1997) on
-    the logarithms of the masses, a generation in one sweep, the same in each run. Nothing proves
-    that there is no higher maximum.
+    The rebound ratio has kinks where a count of collisions changes, and several maxima. The search
+    is differential evolution (R. Storn and K. Price, J. Global Optim. 11, 341, 1997) on the
+    logarithms of the masses, with a fixed seed and one sweep for each generation. It does not prove
+    that the maximum is the global one.
 
-    Rigid balls that collide once each, from the bottom up, are best with geometric means, whatever
-    the restitution: ``m[i]**2 = m[i - 1] m[i + 1]``, as ball i gets ``(1 + e) m[i - 1]/(m[i - 1] +
-    m[i])`` of the speed, seen from the falling balls, of the one below, and the product of these is
-    largest where all mass ratios are equal.
+    For rigid balls that collide once each, from the bottom up, the geometric means are best for any
+    restitution: ``m[i]**2 = m[i - 1] m[i + 1]``. In the frame of the falling balls, ball i gets
+    ``(1 + e) m[i - 1]/(m[i - 1] + m[i])`` times the speed of the ball below, and the product of
+    these factors is largest if all mass ratios are equal.
 
     Examples
     --------
@@ -88,8 +88,8 @@ def best_masses(
     ends = np.log(_limits(drop, within))
 
     def lost(logs: NDArray[np.float64]) -> NDArray[np.float64]:
-        stacks = [with_masses(drop, np.exp(row), contacts) for row in logs.T]
-        ds = solved(stacks)
+        stacks = [replace_masses(drop, np.exp(row), contacts) for row in logs.T]
+        ds = solve_drops(stacks)
         ratio = ds.rebound_ratio.values[:, -1]
         return -np.where(np.isfinite(ratio), ratio, -np.inf)
 
@@ -105,11 +105,11 @@ def best_masses(
         init="sobol",
         **search,
     )
-    return with_masses(drop, np.exp(found.x), contacts)
+    return replace_masses(drop, np.exp(found.x), contacts)
 
 
 def geometric_masses(drop: Drop) -> list[float]:
-    """Return the masses in kg of a stack whose neighbours all have one mass ratio.
+    """Return the masses in kg of a stack in which all neighbours have the same mass ratio.
 
     Examples
     --------
@@ -122,14 +122,14 @@ def geometric_masses(drop: Drop) -> list[float]:
     return [float(mass) for mass in masses]
 
 
-def with_masses(drop: Drop, between: Sequence[float], contacts: Contacts | None = None) -> Drop:
-    """Return a stack with other masses between its outer balls, each at its density.
+def replace_masses(drop: Drop, between: Sequence[float], contacts: Contacts | None = None) -> Drop:
+    """Return a stack with other inner masses; diameters change at constant density.
 
     Examples
     --------
     >>> from stackbounce.model import Spring
     >>> balls = [Ball(1.0), Ball(0.5, diameter=0.1), Ball(0.01)]
-    >>> with_masses(Drop(balls, [Spring(1.0)] * 3, impact_speed=1.0), [4.0]).balls[1]
+    >>> replace_masses(Drop(balls, [Spring(1.0)] * 3, impact_speed=1.0), [4.0]).balls[1]
     Ball(mass=4.0, diameter=0.2, name=None, young_modulus=None, poisson_ratio=None)
     """
     balls = list(drop.balls)

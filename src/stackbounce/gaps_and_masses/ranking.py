@@ -1,4 +1,4 @@
-"""The stacks that can be made of some balls, the one that throws its top ball highest first."""
+"""All stacks of given balls, in the order of the top ball's rebound."""
 
 import functools
 import itertools
@@ -19,18 +19,14 @@ from stackbounce.errors import (
     shown,
     whole,
 )
-from stackbounce.gaps_and_masses.batch import solved
-from stackbounce.gaps_and_masses.separation_limit import with_gap
+from stackbounce.gaps_and_masses.batch import solve_drops
+from stackbounce.gaps_and_masses.separation_limit import replace_gaps
 from stackbounce.model import (
     STANDARD_GRAVITY,
     Ball,
     ContactLaw,
     Drop,
-    Hertz,
     Hysteretic,
-    PowerLaw,
-    Rigid,
-    Spring,
 )
 from stackbounce.model.catalogue import BALLS, catalogue_ball
 from stackbounce.version import __version__
@@ -38,20 +34,20 @@ from stackbounce.version import __version__
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Candidate", "candidates", "highest", "stacked"]
+__all__ = ["Candidate", "build_stack", "highest", "list_candidates"]
 
 _GAPS = (0.0, 0.001, 0.005)
 _HEIGHT = 1.0  # m
 _MOST = 100_000  # drops
-_LOSSLESS = (Spring, Hertz, PowerLaw)
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """A ball that a stack can have: its contact is that with a hard floor.
+    """A ball for a stack, with its contact on a hard floor.
 
     Examples
     --------
+    >>> from stackbounce.model import Spring
     >>> Candidate("B1", Ball(0.101), Spring(54000.0)).contact
     Spring(stiffness=54000.0)
     """
@@ -70,51 +66,51 @@ def highest(
     law: type[ContactLaw] = Hysteretic,
     impact_speed: float | None = None,
 ) -> "xr.Dataset":
-    """Return all stacks of some balls, the one that throws its top ball highest first.
+    """Return all stacks of given balls, in the order of the top ball's rebound, highest first.
 
     Parameters
     ----------
     balls : sequence of str or Drop, optional
-        The balls there are: names of the catalogue, or drops of one ball each onto its floor, such
-        as `Drop.from_toml` reads and `stackbounce measure --save` writes, of which ball and contact
-        count. By default the whole catalogue. A ball given twice can be used twice.
+        The balls: names of the catalogue, or drops of one ball on the floor, as `Drop.from_toml`
+        reads and `stackbounce measure --save` writes them, of which the ball and the contact are
+        used. By default the whole catalogue. A ball that is given twice can be used twice.
     count : int, optional
-        How many balls a stack has, 2 or more.
+        The number of balls in a stack, 2 or more.
     gaps : sequence of float, optional
-        In m, 0 or above: each stack is dropped with each of them between all neighbours. The order
-        is that at the first one.
+        In m, 0 or above. Each stack is dropped once for each value, with that gap between all
+        neighbours. The stacks are in the order at the first gap.
     repeat : bool, optional
         Whether each ball can be used any number of times.
     law : type, optional
-        The class of the catalogue's contacts, with the contact time and, unless it is lossless,
-        the restitution of each ball on the floor.
+        The contact law of the catalogue's balls, calibrated to the contact time of each ball on the
+        floor and, unless the law is lossless, to its restitution.
     impact_speed : float, optional
-        In m/s, above 0; by default that after a fall from 1 m.
+        In m/s, above 0. By default the speed after a fall from 1 m.
 
     Returns
     -------
     xarray.Dataset
-        With the dimensions `stack`, in order, and `gap`, in m: `balls` (stack, ball), their names,
-        the lowest first; `place` (stack, gap) in the order at each
-        gap, from 1; `rebound_ratio` (stack, gap, ball);
-        `height_ratio` (stack, gap), to which the top ball goes over the height of the drop;
-        `energy_share` (stack, gap), the top ball's kinetic energy over that of all balls before;
-        `energy_retained` and `status` (stack, gap); `collisions` (stack, gap, contact). The
-        attribute `best` is the first stack, with the first gap, as a scenario file.
+        With the dimensions `stack`, in order, and `gap`, in m: `balls` (stack, ball), the names,
+        the lowest first; `place` (stack, gap), the rank at each gap, from 1; `rebound_ratio`
+        (stack, gap, ball); `height_ratio` (stack, gap), the top ball's rebound height over the drop
+        height; `energy_share` (stack, gap), the top ball's kinetic energy over that of all balls
+        before the impact; `energy_retained` and `status` (stack, gap); `collisions`
+        (stack, gap, contact). The attribute `best` is the first stack with the first gap as a
+        scenario file.
 
     Raises
     ------
     InvalidValue
-        If there are too few balls or too many stacks, two balls make no contact of one law, or a
-        number is out of its range.
+        If there are too few balls or too many stacks, the contacts of two balls cannot be combined
+        into one law, or a number is out of its range.
     InvalidType
         If something has the wrong type.
 
     Notes
     -----
-    Two balls press on each other by both their contacts in series, as in `calibrate.between`. The
-    springs that the paper fitted to three of the catalogue's pairs do not count, since other pairs
-    have none. The gap matters, and is seldom known: mind how the places change with it.
+    The contact of two balls is both their floor contacts in series, as in `calibration.between`.
+    The springs that the paper fitted to three of the catalogue's pairs are not used, because the
+    other pairs have none. The ranks depend on the gap, which is seldom known.
 
     Examples
     --------
@@ -127,32 +123,33 @@ def highest(
     """
     if impact_speed is None:
         impact_speed = math.sqrt(2.0 * STANDARD_GRAVITY * _HEIGHT)
-    chosen = candidates(balls, law, impact_speed)
+    chosen = list_candidates(balls, law, impact_speed)
     widths = _checked_gaps(gaps)
     stacks = _stacks(chosen, count, repeat, len(widths))
-    drops = [stacked(stack, impact_speed) for stack in stacks]
-    ds = solved(drops, widths).assign_coords(gap=("gap", widths, {"units": "m"}))
+    drops = [build_stack(stack, impact_speed) for stack in stacks]
+    ds = solve_drops(drops, widths).assign_coords(gap=("gap", widths, {"units": "m"}))
     ds = _ranked(stacks, ds)
-    best = with_gap(drops[int(ds["stack"][0])], None, widths[0])
+    best = replace_gaps(drops[int(ds["stack"][0])], None, widths[0])
     attrs = {"stackbounce": __version__, "impact_speed": impact_speed, "best": best.to_toml()}
     return ds.drop_vars("stack").assign_attrs(attrs)
 
 
-def candidates(
+def list_candidates(
     balls: Sequence[str | Drop] | None, law: type[ContactLaw], impact_speed: float
 ) -> list[Candidate]:
-    """Return the balls there are, each with its contact with the floor; see `highest`.
+    """Return the balls for the stacks, each with its floor contact; see `highest`.
 
     Examples
     --------
-    >>> [one.name for one in candidates(["b1", "b3"], Spring, 1.0)]
+    >>> from stackbounce.model import Spring
+    >>> [one.name for one in list_candidates(["b1", "b3"], Spring, 1.0)]
     ['B1', 'B3']
     """
     positive("impact_speed", impact_speed, "m/s")
-    if law is Rigid:
+    if law.rigid:
         raise InvalidValue(
-            "law must be one with a stiffness, such as Spring, got Rigid: what two rigid balls "
-            "lose in a collision does not follow from their bounces on a floor"
+            f"law must be one with a stiffness, such as Spring, got {law.__name__}: what two rigid "
+            "balls lose in a collision does not follow from their bounces on a floor"
         )
     if balls is None:
         balls = [str(entry.ball.name) for entry in BALLS]
@@ -164,7 +161,7 @@ def candidates(
 def _candidate(one: object, i: int, law: type[ContactLaw], impact_speed: float) -> Candidate:
     if isinstance(one, Drop):
         contact = one.contacts[0]
-        if len(one.balls) != 1 or contact is None or isinstance(contact, Rigid):
+        if len(one.balls) != 1 or contact is None or contact.rigid:
             raise InvalidValue(
                 f"balls.{i} must be a drop of one ball on a floor of finite stiffness, got "
                 f"{len(one.balls)} on {shown(contact)}"
@@ -179,22 +176,23 @@ def _candidate(one: object, i: int, law: type[ContactLaw], impact_speed: float) 
         "contact_time": entry.contact_time or math.pi * math.sqrt(mass / entry.stiffness),
         "impact_speed": impact_speed,
     }
-    if law not in _LOSSLESS:
+    if law.loss:
         measured["restitution"] = entry.restitution
     return Candidate(str(entry.ball.name), entry.ball, calibrate(law, **measured))
 
 
-def stacked(stack: Sequence[Candidate], impact_speed: float) -> Drop:
-    """Return the drop of some balls on top of each other, the lowest first, without gaps.
+def build_stack(stack: Sequence[Candidate], impact_speed: float) -> Drop:
+    """Return the drop of a stack of balls, the lowest first, without gaps.
 
     Raises
     ------
     InvalidValue
-        If two neighbours make no contact of one law.
+        If the contacts of two neighbours cannot be combined into one law.
 
     Examples
     --------
-    >>> stacked(candidates(["B1", "B2"], Spring, 1.0), 1.0).balls[1].name
+    >>> from stackbounce.model import Spring
+    >>> build_stack(list_candidates(["B1", "B2"], Spring, 1.0), 1.0).balls[1].name
     'B2'
     """
     contacts = [stack[0].contact]
@@ -224,7 +222,7 @@ def _checked_gaps(gaps: Any) -> list[float]:
 def _stacks(
     balls: Sequence[Candidate], count: object, repeat: bool, gaps: int
 ) -> list[tuple[Candidate, ...]]:
-    """Return all stacks of so many balls, equal ones once."""
+    """Return all different stacks of `count` balls."""
     high = whole("count", count, 2, math.inf if repeat else len(balls))
     many = len(balls) ** high if repeat else math.perm(len(balls), high)
     if many * gaps > _MOST:
@@ -239,11 +237,11 @@ def _stacks(
 
 
 def _ranked(stacks: Sequence[tuple[Candidate, ...]], ds: "xr.Dataset") -> "xr.Dataset":
-    """Return what came of the stacks in order, and what follows from it."""
+    """Return the sweep sorted by the top ball's rebound, with ranks, heights and energy shares."""
     top = ds.rebound_ratio.isel(ball=-1)
     mass = np.array([[one.ball.mass for one in stack] for stack in stacks])
     share = top**2 * (mass[:, -1] / mass.sum(axis=1))[:, None]
-    order = np.argsort(-top.values, axis=0, kind="stable")  # nan, of the unfinished, last
+    order = np.argsort(-top.values, axis=0, kind="stable")  # nan of unfinished runs comes last
     ds["balls"] = ("stack", "ball"), [[one.name for one in stack] for stack in stacks]
     ds["place"] = top.dims, np.argsort(order, axis=0, kind="stable") + 1
     ds["height_ratio"] = top.clip(min=0.0) ** 2
@@ -251,7 +249,7 @@ def _ranked(stacks: Sequence[tuple[Candidate, ...]], ds: "xr.Dataset") -> "xr.Da
     ds = ds[list(_MEANINGS)].isel(stack=order[:, 0])
     for name, meaning in _MEANINGS.items():
         ds[name].attrs = {"units": "1", "long_name": meaning} | ds[name].attrs
-    ds.attrs = {}  # the sweep's, of one of them
+    ds.attrs = {}  # those of the sweep describe one stack only
     return ds
 
 

@@ -1,4 +1,4 @@
-"""From which gap on the collisions of a stack are separate."""
+"""The separation limit: the gap above which the collisions of a stack are separate."""
 
 import dataclasses
 import math
@@ -8,11 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
-from stackbounce.model import ContactLaw, Dashpot, Drop, Viscoelastic
+from stackbounce.model import Drop
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Status
 
-__all__ = ["distance", "separate_from", "with_gap"]
+__all__ = ["find_separation_limit", "measure_fall", "replace_gaps"]
 
 _TRIES, _WIDER = 10, 4.0  # up to 250 000 times the distance fallen during the touching impact
 _STEADY = 1e-6  # relative; durations that do not depend on the gap differ by less
@@ -20,29 +20,29 @@ _SAME_PACE = 1e-9  # over 1/v0; collisions that keep their distance in time have
 _NEGLIGIBLE = 1e-9  # of the largest impulse: touches of balls that are at rest but for round-off
 
 
-def with_gap(drop: Drop, only: int | None, gap: float) -> Drop:
-    """Return a drop with one other gap, or all gaps the same.
+def replace_gaps(drop: Drop, only: int | None, gap: float) -> Drop:
+    """Return a drop with another gap at index `only`, or with the same gap everywhere.
 
     Examples
     --------
     >>> from stackbounce.model import Ball, Spring
     >>> drop = Drop([Ball(1.0)] * 3, [Spring(1.0)] * 3, [0.1, 0.2], impact_speed=1.0)
-    >>> with_gap(drop, 1, 0.5).gaps, with_gap(drop, None, 0.5).gaps
+    >>> replace_gaps(drop, 1, 0.5).gaps, replace_gaps(drop, None, 0.5).gaps
     ((0.1, 0.5), (0.5, 0.5))
     """
     gaps = [gap if only in (None, i) else own for i, own in enumerate(drop.gaps)]
     return dataclasses.replace(drop, gaps=gaps)
 
 
-def distance(drop: Drop, only: int | None, rtol: float) -> float:
-    """Return how far in m the stack would fall while it bounces with touching balls.
+def measure_fall(drop: Drop, only: int | None, rtol: float) -> float:
+    """Return the impact speed times the duration of the impact of touching balls, in m.
 
     Raises
     ------
     InvalidValue
         If no contact ever closes.
     """
-    last = simulate(with_gap(drop, only, 0.0), rtol=rtol).last_release
+    last = simulate(replace_gaps(drop, only, 0.0), rtol=rtol).last_release
     if np.isnan(last).all():
         raise InvalidValue(
             "drop must have contacts that close, got balls that neither meet a floor nor each other"
@@ -50,37 +50,37 @@ def distance(drop: Drop, only: int | None, rtol: float) -> float:
     return float(drop.reference_speed * np.nanmax(last))
 
 
-def separate_from(drop: Drop, only: int | None, length: float, rtol: float) -> float:
-    """Return the gap in m from which on the outcome does not depend on it.
+def find_separation_limit(drop: Drop, only: int | None, length: float, rtol: float) -> float:
+    """Return the separation limit in m: above it the outcome does not depend on the gap.
 
     Parameters
     ----------
     drop : Drop
         On finite contacts, without gravity.
     only : int or None
-        The gap that grows; None for all of them, with the same value.
+        The index of the gap that varies; None for all gaps, with the same value.
     length : float
-        In m, from `distance`: where the search begins.
+        In m, from `measure_fall`: where the search begins.
     rtol : float
         As in `simulate`.
 
     Returns
     -------
     float
-        inf if there is none, or none below 250 000 times that length.
+        inf if there is none below 250 000 times `length`.
 
     Notes
     -----
-    Once the gap is wide enough the impact falls apart into events: collisions, or several of them
-    together where other gaps are narrow. A wider gap makes the flights between the events longer
-    and changes nothing else, so that each contact interval begins at ``a + b g`` and lasts as long
-    as before. Two runs tell all a and b. This holds down to the gap at which an event begins just
-    when another one, at the same ball, ends: the largest of these gaps is the one returned.
-    Contacts whose force would pull before their compression is gone end when it is.
+    With a wide gap g the impact consists of separate events: single collisions, or groups of them
+    where other gaps are narrow. A wider gap only lengthens the flights between the events, so that
+    each contact interval begins at ``a + b g`` and keeps its duration. Two runs determine all a and
+    b. This holds down to the gap at which one event begins at the moment when another event of the
+    same ball ends; the largest of these gaps is returned. A contact with a clipped force counts as
+    closed until its compression is gone.
     """
     gap = length
     for _ in range(_TRIES):
-        narrow, wide = (_intervals(with_gap(drop, only, g), rtol) for g in (gap, 2.0 * gap))
+        narrow, wide = (_intervals(replace_gaps(drop, only, g), rtol) for g in (gap, 2.0 * gap))
         if narrow is not None and wide is not None and _alike(narrow, wide):
             found = _latest_end(drop, narrow, wide, gap)
             if found <= gap:
@@ -110,7 +110,7 @@ def _alike(one: NDArray[Any], other: NDArray[Any]) -> bool:
 
 def _latest_end(drop: Drop, narrow: NDArray[Any], wide: NDArray[Any], gap: float) -> float:
     """Return the largest gap at which an event begins when another at the same ball ends."""
-    linger = np.array([_linger(law) for law in drop.contacts])
+    linger = np.array([0.0 if law is None else law.linger for law in drop.contacts])
     contact, start = narrow["contact"], narrow["start"]
     end = narrow["end"] + linger[contact]
     pace = (wide["start"] - start) / gap
@@ -122,17 +122,3 @@ def _latest_end(drop: Drop, narrow: NDArray[Any], wide: NDArray[Any], gap: float
     first, second = np.nonzero(later)
     meets = gap + (end[first] - start[second]) / faster[first, second]
     return max(0.0, float(meets.max()))
-
-
-def _linger(law: ContactLaw | None) -> float:
-    """Return for how many s two balls that fly apart are still compressed without a force.
-
-    The force ends at ``c = -b ċ/k`` and ``c = -1.5 A ċ``, with a constant ċ from then on.
-    """
-    match law:
-        case Dashpot():
-            return law.damping / law.stiffness
-        case Viscoelastic():
-            return 1.5 * law.dissipative_time
-        case _:
-            return 0.0

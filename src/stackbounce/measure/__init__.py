@@ -1,41 +1,42 @@
 """From the files that people have to parameters with uncertainties.
 
-============= ========================================================================
+============= ================================================================
 reading/      files -> Dataset
-waveform/     force waveform -> contacts, stiffness, gap
-sound         recording -> knocks
-bounces       times of knocks -> restitutions
-few_bounces   one knock or two -> what they tell all the same
-track         positions -> flights, speeds, heights
-track_notes   what should be known of a track
-heights       bounce heights -> restitutions
-press/        press curve -> stiffness, exponent, loss
-stiffness     contact time -> stiffness, or the constants of any law
-accelerometer acceleration of what falls -> flights, restitutions
-floor_gap     force on the floor with and without the upper ball -> gap
-sensor_gap    forces on the floor and between the balls -> gap
-analysis      which of these a file needs
-told          what a file does not say: numbers of ball and drop, with units
-assembly      what was found -> a law, a ball to drop
-synthetic/    from the simulator to noisy records
-============= ========================================================================
+kinds/        a folder for each kind of measurement: analysis, result, notes
+kind          the record of a kind; `kinds.KINDS` lists all
+finding       the shape that all results share
+options       the table of options, for all faces
+option_values texts that a face gives -> values that the analyses take
+analysis      the right analysis for what a file holds
+measurement   a file or typed numbers, and what was found, for all faces
+constants     contact time and restitution -> stiffness, constants of any law
+assembly      results -> a law, a ball to drop
+quantities    numbers with errors; a row of a table
+statistics/   regression, change points, AR noise
+============= ================================================================
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
 from stackbounce.extras import need
-from stackbounce.measure.analyse_file import analyse
-from stackbounce.measure.assembly import one_ball, one_law
-from stackbounce.measure.kinds.acceleration.analysis import accelerometer
-from stackbounce.measure.kinds.bounces.analysis import bounces
-from stackbounce.measure.kinds.gap.delay import gap_from_delay
-from stackbounce.measure.kinds.gap.floor_gap import floor_gap
-from stackbounce.measure.kinds.gap.sensor_gap import sensor_gap
-from stackbounce.measure.kinds.heights.analysis import heights
-from stackbounce.measure.kinds.press import press, series_stiffness, split_series
-from stackbounce.measure.kinds.sound.analysis import knocks
-from stackbounce.measure.kinds.track.analysis import track
-from stackbounce.measure.kinds.waveform import waveform
-from stackbounce.measure.law_constants import dynamic_stiffness, law_constants
-from stackbounce.measure.reading import read
+
+if TYPE_CHECKING:
+    from stackbounce.measure.analysis import analyse
+    from stackbounce.measure.assembly import one_ball, one_law
+    from stackbounce.measure.constants import dynamic_stiffness, law_constants
+    from stackbounce.measure.kinds.acceleration.analysis import accelerometer
+    from stackbounce.measure.kinds.bounces.analysis import bounces
+    from stackbounce.measure.kinds.heights.analysis import heights
+    from stackbounce.measure.kinds.press.analysis import press
+    from stackbounce.measure.kinds.press.series import series_stiffness, split_series
+    from stackbounce.measure.kinds.sound.analysis import knocks
+    from stackbounce.measure.kinds.track.analysis import track
+    from stackbounce.measure.kinds.waveform.analysis import waveform
+    from stackbounce.measure.kinds.waveform.gap.delay import gap_from_delay
+    from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
+    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
+    from stackbounce.measure.reading import read
 
 __all__ = [
     "accelerometer",
@@ -58,4 +59,37 @@ __all__ = [
     "waveform",
 ]
 
-need("measure", "stackbounce measure")
+# Each name is imported when it is first used: the command line's help needs only the options.
+_HOMES = {
+    "accelerometer": "kinds.acceleration.analysis",
+    "analyse": "analysis",
+    "bounces": "kinds.bounces.analysis",
+    "dynamic_stiffness": "constants",
+    "floor_gap": "kinds.waveform.gap.floor_gap",
+    "gap_from_delay": "kinds.waveform.gap.delay",
+    "heights": "kinds.heights.analysis",
+    "knocks": "kinds.sound.analysis",
+    "law_constants": "constants",
+    "one_ball": "assembly",
+    "one_law": "assembly",
+    "press": "kinds.press.analysis",
+    "read": "reading",
+    "sensor_gap": "kinds.waveform.gap.sensor_gap",
+    "series_stiffness": "kinds.press.series",
+    "split_series": "kinds.press.series",
+    "track": "kinds.track.analysis",
+    "waveform": "kinds.waveform.analysis",
+}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    need("measure", f"stackbounce.measure.{name}")
+    value = getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

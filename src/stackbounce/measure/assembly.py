@@ -1,24 +1,16 @@
-"""From what was found in one or more files to a contact law, and the ball that `simulate` drops."""
+"""Results of one or more files -> a contact law, or the ball that `simulate` drops."""
 
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from stackbounce.calibration.inverse import needed_by
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.kinds.acceleration.analysis import Accelerometer
-from stackbounce.measure.kinds.bounces.analysis import Bounces
-from stackbounce.measure.kinds.heights.analysis import Heights
-from stackbounce.measure.kinds.track.analysis import Tracks
-from stackbounce.measure.kinds.waveform.result import Waveform
-from stackbounce.measure.law_constants import LawConstants, law_constants
+from stackbounce.measure.constants import LawConstants, law_constants
 from stackbounce.model import Drop
-from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.model.laws import ContactLaw, law_named
 
 __all__ = ["one_ball", "one_law"]
 
-_EXPONENTS = {"Spring": 1.0, "Hertz": 1.5, "PowerLaw": 1.0, "Hysteretic": 1.0}  # where not told
 _HEIGHT = 1.0  # m: from where a ball falls whose drop height is not known
 _SOURCES = {
     "contact_time": "a force waveform",
@@ -33,9 +25,8 @@ def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
     Parameters
     ----------
     parts : sequence of mapping
-        What each analysis found, as its ``parts()`` tells: ``ball``, ``contact``, ``height``,
-        ``impact_speed``. A contact of known stiffness and one of known restitution make one that
-        is `Hysteretic`.
+        The ``parts()`` of each result: ``ball``, ``contact``, ``height``, ``impact_speed``. A
+        contact of known stiffness and one of known restitution are combined to a `Hysteretic` one.
     **ball
         What is known of the ball otherwise: mass in kg, diameter in m, name.
 
@@ -47,7 +38,7 @@ def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
     Raises
     ------
     InvalidValue
-        If no contact was found, or several that do not go together, or the mass is not known.
+        If no contact was found, several cannot be combined, or the mass is not known.
 
     Examples
     --------
@@ -73,20 +64,17 @@ def one_ball(parts: Sequence[Mapping[str, Any]], **ball: Any) -> Drop:
 
 
 def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> LawConstants:
-    """Return the law of a class that the ball's contact has, by all that was found of it.
+    """Return the contact law of a given class that fits all results.
 
     Parameters
     ----------
     law : type or str
         The law's class or its name, such as ``"HuntCrossley"``.
     found : sequence
-        What the analyses returned. Taken are the contact time of a `Waveform`; the mean restitution
-        of `Bounces`, `Heights` and an `Accelerometer`, and that of the first bounce of a `Tracks`
-        of one ball; the impact speed that a `Tracks` has or the one that belongs to a drop height.
-        Where two tell the same, the later one counts.
+        What the analyses returned; each result's ``told()`` names the contact time, restitution
+        and impact speed that it has. Where two results have the same one, the later counts.
     **given
-        What is known otherwise, and counts before what was found: the arguments of
-        `law_constants`.
+        Other arguments of `law_constants`, which take precedence over the results.
 
     Returns
     -------
@@ -109,9 +97,11 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
     kind = law_named(law) if isinstance(law, str) else law
     known: dict[str, Any] = {}
     for one in found:
-        known |= _told_by(one)
+        told = one.told().items()
+        known |= {name: _usable(value) for name, value in told if value is not None}
     known |= {name: value for name, value in given.items() if value is not None}
-    needed = needed_by(kind, getattr(known.get("exponent"), "nominal_value", known.get("exponent")))
+    exponent = known.get("exponent")
+    needed = kind.calibration_needs(getattr(exponent, "nominal_value", exponent))
     missing = [name for name in needed if name not in known]
     if missing:
         words = [
@@ -121,32 +111,6 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
         raise InvalidValue(f"{kind.__name__} needs what was not found: {', '.join(words)}")
     used = {name: known[name] for name in (*needed, "exponent") if name in known}
     return law_constants(kind, **used)
-
-
-def _told_by(found: Any) -> dict[str, Any]:
-    """Return what an analysis tells of a contact, by the arguments of `law_constants`."""
-    told: dict[str, Any] = {}
-    match found:
-        case Waveform():
-            times = (one.time for one in found.contacts)
-            told["contact_time"] = next((time for time in times if time is not None), None)
-            told["impact_speed"] = found.impact_speed
-        case Bounces():
-            told["restitution"] = found.mean
-            if found.drop_height is not None and not found.inferred:
-                told["impact_speed"] = (2.0 * found.gravity * found.drop_height) ** 0.5
-        case Heights():
-            told["restitution"] = found.mean
-            told["impact_speed"] = (2.0 * STANDARD_GRAVITY * found.drop_height) ** 0.5
-        case Accelerometer():
-            told["restitution"] = found.mean
-            told["impact_speed"] = found.impact_speeds[0] if found.fall is not None else None
-            told["contact_time"] = found.contact_times[0] if found.fall is not None else None
-        case Tracks():
-            told["impact_speed"] = found.balls[0].impact_speeds[0]
-            if len(found.balls) == 1:
-                told["restitution"] = found.balls[0].restitutions[0]
-    return {name: _usable(value) for name, value in told.items() if value is not None}
 
 
 def _usable(value: Any) -> Any:
@@ -163,14 +127,14 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
         )
     if len(contacts) == 1:
         return dict(contacts[0])
-    rigid = [one for one in contacts if one["law"] == "Rigid"]
-    sprung = [one for one in contacts if one["law"] in _EXPONENTS]
+    rigid = [one for one in contacts if law_named(one["law"]).rigid]
+    sprung = [one for one in contacts if law_named(one["law"]).rate_free]
     if len(contacts) == 2 and len(rigid) == len(sprung) == 1:
         law = sprung[0]
         return {
             "law": "Hysteretic",
             "stiffness": law["stiffness"],
-            "exponent": law.get("exponent", _EXPONENTS[law["law"]]),
+            "exponent": law.get("exponent", law_named(law["law"]).default_exponent() or 1.0),
             "restitution": rigid[0]["restitution"],
         }
     names = ", ".join(one["law"] for one in contacts)

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, non_negative, positive, shown
 from stackbounce.model.ball import Ball
-from stackbounce.model.laws import LAWS, ContactLaw, Rigid
+from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.units import Unit
 
 __all__ = ["STANDARD_GRAVITY", "Drop"]
@@ -140,7 +140,7 @@ class Drop:
     @property
     def rigid(self) -> bool:
         """Whether every contact is `Rigid`, so that the drop is a sequence of collisions."""
-        return all(isinstance(law, Rigid) for law in self.contacts if law is not None)
+        return all(law.rigid for law in self.contacts if law is not None)
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[str, Any]) -> "Drop":
@@ -271,10 +271,10 @@ def _check_contacts(contacts: tuple[object, ...], count: int) -> None:
     for i, law in enumerate(contacts):
         if law is None and i > 0:
             raise InvalidValue(f"contacts.{i} must be a contact law, got None (for the floor only)")
-        if law is not None and not isinstance(law, tuple(LAWS.values())):
+        if law is not None and not isinstance(law, ContactLaw):
             known = ", ".join(LAWS)
             raise InvalidType(f"contacts.{i} must be a contact law ({known}), got {shown(law)}")
-    rigid = [i for i, law in enumerate(contacts) if isinstance(law, Rigid)]
+    rigid = [i for i, law in enumerate(contacts) if isinstance(law, ContactLaw) and law.rigid]
     finite_ones = [i for i, law in enumerate(contacts) if law is not None and i not in rigid]
     if rigid and finite_ones:
         other = type(contacts[finite_ones[0]]).__name__

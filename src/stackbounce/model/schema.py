@@ -11,7 +11,7 @@ from typing import Any, TypeVar, get_type_hints
 
 from stackbounce.errors import InvalidType, InvalidValue, ScenarioError, between, nearest, shown
 from stackbounce.model.ball import Ball
-from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, Hysteretic, law_named
+from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw, law_named
 from stackbounce.units import Unit, quantity, unit_of
 
 __all__ = ["NO_FLOOR", "read_ball", "read_law", "read_mapping", "write_law", "write_mapping"]
@@ -76,14 +76,7 @@ def write_mapping(drop: Any) -> dict[str, Any]:
 
 def write_law(law: ContactLaw | None) -> dict[str, Any]:
     """Return a contact law as plain values, with its name as ``law``."""
-    if law is None:
-        return {"law": NO_FLOOR}
-    plain = {"law": type(law).__name__} | _given(law)
-    if isinstance(law, Hysteretic):
-        del plain[law.derived]
-        if law.reloading == "free":
-            del plain["reloading"]
-    return plain
+    return {"law": NO_FLOOR} if law is None else law.to_mapping()
 
 
 def _given(instance: Any) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Pictures: bounces, sweeps, designs, what a measurement, a fit or a comparison found."""
+"""Pictures of bounces, sweeps, stacks, measurements, fits and model comparisons."""
 
 from stackbounce.extras import need
 from stackbounce.plots.fit_result import fitted

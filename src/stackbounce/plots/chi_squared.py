@@ -1,4 +1,4 @@
-"""Chi squared around its least: against one parameter, and as a map over two."""
+"""Chi squared around its minimum: against one parameter, and as a map over two."""
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -16,20 +16,20 @@ __all__ = ["draw_map", "draw_profile"]
 
 Array: TypeAlias = NDArray[np.float64]
 
-_REACH = 4.0  # errors on both sides
-_WORTH = 9.0  # of chi squared above the least: other minima below are shown
-_FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of a map's side, of a profile
-_TOP = 10.0  # of a profile
+_REACH = 4.0  # standard errors drawn on both sides
+_WORTH = 9.0  # other minima are drawn if chi squared is less than this above the minimum
+_FINE, _CELLS, _STEPS = 401, 81, 41  # values of a curve, of each side of a map, of a profile
+_TOP = 10.0  # upper end of a profile's axis
 _BANDS = (0.0, 1.0, 4.0, 9.0, 16.0, 25.0, 100.0)
 _CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
 
 
 def draw_profile(axes: "Axes", fit: Any) -> None:
-    """Draw chi squared against the only parameter, with its error and where it has kinks."""
+    """Draw chi squared against the only parameter, with its error and the kinks."""
     x = np.linspace(*_extent(fit, 0), _FINE)
-    parameter = fit.problem.parameters[0]
+    parameter = fit.objective.parameters[0]
     values = parameter.value(x)
-    above = fit.problem.chi_squared(x[:, None]) - fit.chi_squared
+    above = fit.objective.chi_squared(x[:, None]) - fit.chi_squared
     _draw_curve(axes, values, above)
     for kink in _kinks(fit, x[:, None]):
         where = kink[1:] != kink[:-1]
@@ -45,7 +45,7 @@ def draw_profile(axes: "Axes", fit: Any) -> None:
     axes.set_xlim(values[0], values[-1])
     axes.set_ylim(0.0, _TOP)
     label(axes, "x", parameter.name, _scale(fit, 0, values))
-    axes.set_ylabel("chi squared above its least")
+    axes.set_ylabel("chi squared above its minimum")
 
 
 def draw_map(figure: "SubFigure", fit: Any) -> None:
@@ -55,8 +55,8 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
     corner.set_axis_off()
     across, up = (np.linspace(*_extent(fit, k), _CELLS) for k in (0, 1))
     trials = np.stack([one.ravel() for one in np.meshgrid(across, up)], axis=1)
-    above = (fit.problem.chi_squared(trials) - fit.chi_squared).reshape(_CELLS, _CELLS)
-    x, y = (one.value(own) for one, own in zip(fit.problem.parameters, (across, up), strict=True))
+    above = (fit.objective.chi_squared(trials) - fit.chi_squared).reshape(_CELLS, _CELLS)
+    x, y = (one.value(own) for one, own in zip(fit.objective.parameters, (across, up), strict=True))
     _draw_bands(axes, x, y, np.maximum(above, 0.0))
     near = above < _BANDS[-1]
     for kink in _kinks(fit, trials[near.ravel()]):
@@ -78,8 +78,8 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
 
 
 def _extent(fit: Any, k: int) -> tuple[float, float]:
-    """Return between which coordinates something is to be seen, inside the bounds."""
-    parameter = fit.problem.parameters[k]
+    """Return the range of coordinates that is drawn: around the minima, within the bounds."""
+    parameter = fit.objective.parameters[k]
     low, high = parameter.span
     slope = abs(parameter.slope(float(fit.x[k])))
     reach = _REACH * fit[parameter.name].std_dev / slope
@@ -88,22 +88,22 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
 
 
 def _scale(fit: Any, k: int, values: Array) -> Scale:
-    parameter = fit.problem.parameters[k]
+    parameter = fit.objective.parameters[k]
     log = parameter.logarithmic and values[-1] > 3.0 * values[0]
     return Scale(values, log, [], parameter.unit)
 
 
 def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
-    """Return for each contact how often it closes in trials, as far as that changes."""
+    """Return the numbers of contact intervals in trials, of each contact in which they differ."""
     found = []
-    for key in fit.problem.measured:
-        counts = fit.problem.outcomes(key, trials)[0].collisions
+    for key in fit.objective.measured:
+        counts = fit.objective.outcomes(key, trials)[0].collisions
         found += [one for one in counts.T if np.ptp(one) > 0]
     return found
 
 
 def _draw_curve(axes: "Axes", values: Array, above: Array, *, turned: bool = False) -> None:
-    """Draw a profile, with lines where it stands for one and for two standard deviations."""
+    """Draw a profile, with lines at one and at two standard deviations."""
     line, plot = (axes.axvline, (above, values)) if turned else (axes.axhline, (values, above))
     for rise, text in ((1.0, "1 σ"), (4.0, "2 σ")):
         line(rise, color="#404040", linestyle="--", linewidth=0.8)
@@ -126,7 +126,7 @@ def _draw_bands(axes: "Axes", x: Array, y: Array, above: Array) -> None:
 
 
 def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
-    """Draw lines between regions of other counts; nan far from the least."""
+    """Draw lines between regions with different counts; counts are nan far from the minimum."""
     own = np.unique(counts[np.isfinite(counts)])
     levels = (0.5 * (own[1:] + own[:-1])).tolist()
     look: Any = {"colors": _KINK, "linewidths": 0.9, "linestyles": ":"}
@@ -134,7 +134,7 @@ def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
 
 
 def _draw_minima(axes: "Axes", fit: Any) -> None:
-    """Mark the best trial with its errors, and the other minima."""
+    """Mark the best values with their errors, and the other minima."""
     first, second = (fit[name] for name in fit.names)
     axes.errorbar(
         first.nominal_value,
@@ -148,5 +148,5 @@ def _draw_minima(axes: "Axes", fit: Any) -> None:
         zorder=4,
     )
     for one in fit.minima[1:]:
-        place = [p.value(x) for p, x in zip(fit.problem.parameters, one.x, strict=True)]
+        place = [p.value(x) for p, x in zip(fit.objective.parameters, one.x, strict=True)]
         axes.plot(*place, "s", color=_OTHER, markeredgecolor="black", markersize=6, zorder=3)

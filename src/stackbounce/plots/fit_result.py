@@ -1,4 +1,4 @@
-"""Pictures of a fit: pulls, force records, and chi squared around its least."""
+"""Pictures of a fit: pulls, force records, and chi squared around its minimum."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -19,8 +19,8 @@ _MEASURED, _FITTED = "#4d4d4d", COLORS[1]
 _MOST_PULLS, _MOST_RECORDS = 40, 4
 _ROW = 0.26  # inches of a pull
 _WIDE = 7.2  # inches
-_BESIDE = 0.25  # of the contact's time, drawn before and after it
-_HELD = 5.0  # pulls beyond are arrows at the edge
+_BESIDE = 0.25  # of the contact's duration: drawn before and after it
+_HELD = 5.0  # larger pulls are arrows at the edge
 
 
 def fitted(fit: Any) -> "Figure":
@@ -34,11 +34,11 @@ def fitted(fit: Any) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved. Differences between fitted and measured numbers in units of their
-        errors; force records with the fitted curve; below, for one varied number chi squared
-        against it, for two its map with the profile of each, where dotted lines are kinks: the
-        balls touch another number of times beyond. With force records, every trial of which takes
-        a while, chi squared is not drawn.
+        Not shown and not saved. Differences between fitted and measured numbers in standard errors;
+        force records with the fitted curve; below, for one parameter chi squared against it, for
+        two its map with the profile of each. Dotted lines are kinks, where the number of contact
+        intervals changes. With force records, of which each trial takes long, chi squared is not
+        drawn.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def _title(fit: Any) -> str:
 
 
 def _draw_pulls(axes: "Axes", residuals: Sequence[Any], count: int) -> None:
-    """Draw a dot for each number that was measured, from the first one down."""
+    """Draw a dot for each measured number, the first on top."""
     places = np.arange(len(residuals))
     pulls = np.array([one.pull for one in residuals])
     wide = min(max(3.0, 1.15 * float(np.abs(pulls).max())), _HELD)
@@ -107,7 +107,7 @@ def _draw_pulls(axes: "Axes", residuals: Sequence[Any], count: int) -> None:
 
 
 def _both(one: Any) -> str:
-    """Return a measured number with its error, and the fitted one, with as many decimals."""
+    """Return a measured number with its error and the fitted one, with the same decimals."""
     unit, factor = handy(max(abs(one.measured), one.error), one.unit)
     numbers = [factor * value for value in (one.measured, one.error, one.fitted)]
     text = "{} ± {}, fitted {} ".format(*rounded(numbers, factor * one.error)) + unit
@@ -115,7 +115,7 @@ def _both(one: Any) -> str:
 
 
 def _draw_record(axes: "Axes", record: Any) -> None:
-    """Draw a force record and the fitted curve, over the contact and a little on both sides."""
+    """Draw a force record and the fitted curve, from shortly before to shortly after contact."""
     force = np.abs(record.fitted - np.median(record.fitted))
     during = record.times[force > 0.02 * force.max()]
     low, high = float(min(during[0], 0.0)), float(during[-1])

@@ -1,4 +1,4 @@
-"""Pictures of a result: where the balls go, and what presses them."""
+"""Pictures of a result: the balls' positions, and the contacts' forces or impulses."""
 
 import math
 from typing import TYPE_CHECKING
@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType
-from stackbounce.plots.impact_window import impact_window, moments
+from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.plots.style import STYLE, color_of, written
 from stackbounce.run.result import Result
 
@@ -60,8 +60,8 @@ def bounce(result: Result) -> "Figure":
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(7.2, 5.6))
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
-        times = np.linspace(*impact_window(result), _SAMPLES)
-        sample = moments(result, times)
+        times = np.linspace(*choose_window(result), _SAMPLES)
+        sample = sample_with_approach(result, times)
         _draw_positions(above, result, times, sample.position.values)
         if result.drop.rigid:
             _draw_impulses(below, result)
@@ -95,7 +95,7 @@ def _label_ends(
     ends: list[tuple[float, int, str]],
     ratios: NDArray[np.float64],
 ) -> None:
-    """Write each ball's name and rebound ratio where its path ends, from below, none on another."""
+    """Write each ball's name and rebound ratio at the end of its path, without overlaps."""
     low, high = axes.get_ylim()
     apart = _LABEL * (high - low)
     place = -math.inf
@@ -159,7 +159,7 @@ def _between(result: Result, contact: int) -> str:
 
 
 def _summary(result: Result) -> str:
-    """Return one line on what came in and what was kept."""
+    """Return the title: the impact speed and the kinetic energy retained."""
     speed = result.drop.reference_speed
     kept = result.energy_retained
     words = f"v₀ = {speed:.3g} m/s"

@@ -1,4 +1,4 @@
-"""What a picture of an impact shows: from a little before it to a little after."""
+"""The time window of a picture of an impact, and the motion in it."""
 
 from typing import TYPE_CHECKING
 
@@ -10,20 +10,20 @@ from stackbounce.run.result import Result
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["impact_window", "moments"]
+__all__ = ["choose_window", "sample_with_approach"]
 
-_BEFORE, _AFTER = 0.15, 0.35  # of the impact's duration
-_INSTANT = 0.010  # s, where it has none
+_BEFORE, _AFTER = 0.15, 0.35  # margins, over the duration of the impact
+_INSTANT = 0.010  # s: used as the duration of an instantaneous impact
 
 
-def impact_window(result: Result) -> tuple[float, float]:
-    """Return when to begin and to end in s, from a little before the first touch.
+def choose_window(result: Result) -> tuple[float, float]:
+    """Return the start and the end of the window in s; the first touch is at 0.
 
     Examples
     --------
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(22500.0)], impact_speed=3.5)
-    >>> [round(1e3 * time, 2) for time in impact_window(sb.simulate(drop))]
+    >>> [round(1e3 * time, 2) for time in choose_window(sb.simulate(drop))]
     [-0.75, 6.75]
     """
     ends = result.intervals["end"]
@@ -33,15 +33,15 @@ def impact_window(result: Result) -> tuple[float, float]:
     return -_BEFORE * span, last if stopped else last + _AFTER * span
 
 
-def moments(result: Result, times: NDArray[np.float64]) -> "xr.Dataset":
-    """Return where everything is at given times, as `Result.sample`, also before the first touch.
+def sample_with_approach(result: Result, times: NDArray[np.float64]) -> "xr.Dataset":
+    """Return `Result.sample` at given times, extended to times before the first touch.
 
     Examples
     --------
     >>> import numpy as np
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(22500.0)], impact_speed=3.5)
-    >>> moments(sb.simulate(drop), np.array([-1e-3])).position.values
+    >>> sample_with_approach(sb.simulate(drop), np.array([-1e-3])).position.values
     array([[0.0035]])
     """
     drop = result.drop

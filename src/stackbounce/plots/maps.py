@@ -1,41 +1,41 @@
-"""Maps: colors and contours of numbers, colors of counts."""
+"""Maps: colors and contours for numbers, discrete colors for counts."""
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.plots.scales import Scale, flat, shown_in
+from stackbounce.plots.scales import Scale, is_flat, show_in_handy_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.contour import ContourSet
 
-__all__ = ["draw_counts", "draw_levels", "groups", "hatch"]
+__all__ = ["draw_counts", "draw_levels", "group_counts", "hatch"]
 
-_LEVELS = 7  # contours, about
-_LEAST = 5  # values in both directions, below which contours would be invented
-_BELOW = 0.05  # negative values that count, over the largest
-_SINGLE = 8  # counts that have a color of their own, if there are more
-_MOST = 12  # counts, up to which all have one
+_LEVELS = 7  # approximate number of contours
+_LEAST = 5  # values in each direction that contours need
+_BELOW = 0.05  # a smaller share of the other sign does not make a map signed
+_MOST = 12  # up to so many counts each have a color of their own
+_SINGLE = 8  # of more counts, so many
 _INFINITE = (0.75, 0.75, 0.75, 1.0)
 
 
 def hatch(axes: "Axes") -> None:
-    """Hatch what no color covers."""
+    """Hatch the cells without a value."""
     axes.patch.set(facecolor="white", edgecolor="#b0b0b0", hatch="////", linewidth=0.0)
 
 
 def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: str) -> str:
-    """Draw numbers as colors with contours, and return the unit that the color bar tells.
+    """Draw numbers as colors with contours, and return the unit of the color bar.
 
-    The colors go from dark to light; from blue over white to red where the sign changes.
+    The colors go from dark to light, or from blue through white to red if the sign changes.
     """
     from matplotlib.colors import Normalize
 
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
-    level = flat(values)
+    level = is_flat(values)
     span = max(-low, high)
     signed = not level and low < -_BELOW * span and high > _BELOW * span
     norm = Normalize(-span, span) if signed else Normalize(low, high)
@@ -45,7 +45,7 @@ def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: st
     mesh = axes.pcolormesh(x.edges(), y.edges(), values, **look)
     assert axes.figure is not None
     bar = axes.figure.colorbar(mesh, ax=axes)
-    unit, factor = shown_in(bar.ax.yaxis, values, unit)
+    unit, factor = show_in_handy_unit(bar.ax.yaxis, values, unit)
     if level:
         bar.set_ticks([low] if finite.size else [])
         bar.ax.minorticks_off()
@@ -62,7 +62,7 @@ def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: st
 
 
 def _name_contours(axes: "Axes", drawn: "ContourSet", color: str, factor: float) -> None:
-    """Write the levels on their lines, none near another or across the edge."""
+    """Write the levels on their lines, without overlaps and inside the frame."""
     from matplotlib.figure import Figure
     from matplotlib.patheffects import withStroke
 
@@ -70,7 +70,7 @@ def _name_contours(axes: "Axes", drawn: "ContourSet", color: str, factor: float)
         drawn.set_path_effects([withStroke(linewidth=1.2, foreground="#404040")])
     figure = axes.figure
     assert isinstance(figure, Figure)
-    figure.draw_without_rendering()  # now the places are known
+    figure.draw_without_rendering()  # computes the places of the labels
     look: Any = {"fontsize": 8, "fmt": lambda level: f"{level * factor:.3g}"}
     frame = axes.get_window_extent()
     kept: list[Any] = []
@@ -90,14 +90,14 @@ def _name_contours(axes: "Axes", drawn: "ContourSet", color: str, factor: float)
         text.set(color="black", path_effects=[withStroke(linewidth=2.0, foreground="white")])
 
 
-def groups(low: int, high: int) -> list[tuple[int, int]]:
-    """Return the first and last count of each color: one each, or the high ones by doubling.
+def group_counts(low: int, high: int) -> list[tuple[int, int]]:
+    """Return the first and the last count of each color; the ranges of high counts double.
 
     Examples
     --------
-    >>> groups(1, 3)
+    >>> group_counts(1, 3)
     [(1, 1), (2, 2), (3, 3)]
-    >>> groups(1, 40)[6:]
+    >>> group_counts(1, 40)[6:]
     [(7, 7), (8, 8), (9, 16), (17, 32), (33, 40)]
     """
     if high - low < _MOST:
@@ -110,13 +110,13 @@ def groups(low: int, high: int) -> list[tuple[int, int]]:
 
 
 def draw_counts(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any]) -> None:
-    """Give each count a color, high ones in groups; infinity is grey, on top."""
+    """Draw counts in discrete colors, high counts in groups and infinity in grey."""
     from matplotlib import colormaps
     from matplotlib.colors import BoundaryNorm, ListedColormap
 
     finite = values[values >= 0]
     low, high = (int(finite.min()), int(finite.max())) if finite.size else (0, 0)
-    parts = groups(low, high)
+    parts = group_counts(low, high)
     names = [f"{first}" if first == last else f"{first}–{last}" for first, last in parts]
     shades = np.linspace(0.0, 1.0, len(parts)) if len(parts) > 1 else [0.5]
     colors = list(colormaps["viridis"](shades))

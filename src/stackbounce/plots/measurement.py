@@ -1,4 +1,4 @@
-"""What was measured, and what was found in it: one picture for each kind of analysis."""
+"""The picture of a result, drawn by the module that the result names."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -9,17 +9,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 __all__ = ["measured"]
-
-_PICTURES = {
-    "Accelerometer": "measured_acceleration",
-    "Knocks": "measured_sound",
-    "Bounces": "measured_bounces",
-    "FloorGap": "measured_gap",
-    "Heights": "measured_heights",
-    "Tracks": "measured_track",
-    "Waveform": "measured_waveform",
-    "Press": "measured_press",
-}
 
 
 def measured(data: Any, found: Any) -> "Figure":
@@ -46,8 +35,8 @@ def measured(data: Any, found: Any) -> "Figure":
     >>> from stackbounce.measure import bounces
     >>> figure = measured(None, bounces([0.0, 0.8, 1.44, 1.952]))
     """
-    name = type(found).__name__
-    if name not in _PICTURES:
+    picture = getattr(found, "picture", None)
+    if not isinstance(picture, str):
         raise InvalidType(f"found must be what an analysis returns, got {shown(found)}")
-    figure: Figure = import_module(f"stackbounce.plots.{_PICTURES[name]}").draw(data, found)
+    figure: Figure = import_module(f"stackbounce.plots.measurements.{picture}").draw(data, found)
     return figure

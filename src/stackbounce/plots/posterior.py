@@ -18,12 +18,12 @@ _OWN_STYLE = {
     "lines.linewidth": 1.2,
 }
 _SIDE = 2.5  # inches of a panel
-_MOST = 20_000  # draws: more are thinned evenly
+_MOST = 20_000  # draws; more are thinned evenly
 _WITHIN = (0.393, 0.865)  # of the draws of two: one and two standard deviations of a Gaussian
 
 
 def corner(posterior: Any) -> "Figure":
-    """Draw what is known of the parameters after the data: each one, and each pair.
+    """Draw the posterior distribution of each parameter and of each pair.
 
     Parameters
     ----------
@@ -33,8 +33,9 @@ def corner(posterior: Any) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved. Above each column the middle of its draws, and how far 68 % of them
-        reach; the contours hold 39 % and 86 % of the draws, as one and two standard deviations do.
+        Not shown and not saved. Above each column stand the median of its draws and the limits of
+        68 % of them. The contours contain 39 % and 86 % of the draws, as those of one and two
+        standard deviations of a Gaussian do.
         By the package ``corner`` (D. Foreman-Mackey, J. Open Source Softw. 1, 24, 2016).
 
     Examples

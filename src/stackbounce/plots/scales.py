@@ -1,4 +1,4 @@
-"""The axes of a sweep's pictures: places, edges of cells, units, ticks."""
+"""The axes of a sweep's pictures: positions, cell edges, units, ticks."""
 
 import math
 import re
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.axis import Axis
 
-__all__ = ["Scale", "flat", "label", "scale_of", "shown_in"]
+__all__ = ["Scale", "is_flat", "label", "read_scale", "show_in_handy_unit"]
 
 _ROUND_OFF = 1e-9  # relative; smaller differences are none
 
@@ -25,11 +25,11 @@ class Scale(NamedTuple):
     Parameters
     ----------
     places : ndarray
-        (n,) ascending; the values, or 0, 1, … if they are no numbers.
+        (n,) ascending; the values, or 0, 1, … if they are not numbers.
     log : bool
-        Whether they have even ratios.
+        Whether the values are logarithmically spaced.
     names : list of str
-        What stands at the places, if they are no numbers.
+        The labels at the places, if the values are not numbers.
     unit : str
         SI, or empty.
 
@@ -56,8 +56,8 @@ class Scale(NamedTuple):
         return np.exp(edges) if self.log else edges
 
 
-def scale_of(data: "xr.Dataset", dim: Any) -> Scale:
-    """Return where the values of a dimension lie; `data` is sorted by it."""
+def read_scale(data: "xr.Dataset", dim: Any) -> Scale:
+    """Return the scale of a dimension; `data` is sorted by it."""
     size = data.sizes[dim]
     if dim not in data.coords:
         return Scale(np.arange(size), False, [], "")
@@ -72,18 +72,20 @@ def scale_of(data: "xr.Dataset", dim: Any) -> Scale:
 
 
 def label(axes: "Axes", which: str, name: str, scale: Scale) -> None:
-    """Name an axis and its unit, and choose its ticks; the data stay in SI units."""
+    """Label an axis with name and unit, and set its ticks; the data stay in SI units."""
     axis: Axis = getattr(axes, f"{which}axis")
     if scale.log:
         getattr(axes, f"set_{which}scale")("log")
-    unit, _ = shown_in(axis, scale.places, scale.unit, scale.log)
+    unit, _ = show_in_handy_unit(axis, scale.places, scale.unit, scale.log)
     axis.set_label_text(_with_unit(name, unit))
     if scale.names:
         axis.set_ticks(scale.places.tolist(), scale.names)
 
 
-def shown_in(axis: "Axis", values: NDArray[Any], unit: str, log: bool = False) -> tuple[str, float]:
-    """Let the ticks of an axis tell values in a handy unit; return it, and what to multiply by."""
+def show_in_handy_unit(
+    axis: "Axis", values: NDArray[Any], unit: str, log: bool = False
+) -> tuple[str, float]:
+    """Show the ticks of an axis in a handy unit; return the unit and its factor."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     finite = np.abs(values[np.isfinite(values)])
@@ -99,12 +101,12 @@ def shown_in(axis: "Axis", values: NDArray[Any], unit: str, log: bool = False) -
     return name, factor
 
 
-def flat(values: NDArray[Any]) -> bool:
+def is_flat(values: NDArray[Any]) -> bool:
     """Return whether values differ by no more than round-off; those not finite do not count.
 
     Examples
     --------
-    >>> flat(np.array([1.0, 1.0 + 1e-14, np.nan])), flat(np.array([0.0, 1e-5]))
+    >>> is_flat(np.array([1.0, 1.0 + 1e-14, np.nan])), is_flat(np.array([0.0, 1e-5]))
     (True, False)
     """
     finite = values[np.isfinite(values)]

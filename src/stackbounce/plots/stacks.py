@@ -1,13 +1,13 @@
-"""Pictures of a design: one stack from touching to separate, and stacks in order."""
+"""Pictures of stacks: one stack over its gaps, and the ranking of many."""
 
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.plots.scales import shown_in
+from stackbounce.plots.scales import show_in_handy_unit
 from stackbounce.plots.style import STYLE, color_of
-from stackbounce.plots.sweep_curves import legend, name_of
+from stackbounce.plots.sweep_curves import draw_legend, name_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,13 +16,13 @@ if TYPE_CHECKING:
 
 __all__ = ["highest", "transition"]
 
-_IN_A_ROW = 4  # names
-_BARS = 12  # stacks that are drawn
+_IN_A_ROW = 4  # names in a horizontal legend
+_BARS = 12  # stacks that are drawn at most
 _MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
 def transition(data: "xr.Dataset") -> "Figure":
-    """Draw what a stack does with gaps from touching to where the collisions are separate.
+    """Draw the outcome of a stack for gaps from touching balls to separate collisions.
 
     Parameters
     ----------
@@ -32,9 +32,9 @@ def transition(data: "xr.Dataset") -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Above, the rebound ratio of each ball against the gap, and thin lines for the textbook's;
-        below, the collisions of each contact. Grey: nothing changes any more. Not shown and not
-        saved.
+        Above, the rebound ratio of each ball against the gap, with thin lines for separate
+        collisions; below, the collisions of each contact. The grey area is above the separation
+        limit. Not shown and not saved.
 
     Raises
     ------
@@ -71,15 +71,15 @@ def transition(data: "xr.Dataset") -> "Figure":
                 axes.axvspan(limit, gap[-1], color="#efefef", linewidth=0.0, zorder=-2.0)
             axes.set_xlim(0.0, gap[-1])
         above.set_ylabel("rebound ratio")
-        legend(above, data.sizes["ball"])
-        unit, _ = shown_in(below.xaxis, gap, "m")
+        draw_legend(above, data.sizes["ball"])
+        unit, _ = show_in_handy_unit(below.xaxis, gap, "m")
         below.set_xlabel(f"gap ({unit})")
         figure.align_ylabels()
     return figure
 
 
 def highest(data: "xr.Dataset") -> "Figure":
-    """Draw how high the best stacks throw their top balls, gap by gap.
+    """Draw the rebound height of the top ball for the best stacks, for each gap.
 
     Parameters
     ----------
@@ -134,7 +134,7 @@ def highest(data: "xr.Dataset") -> "Figure":
 
 
 def _draw_collisions(axes: "Axes", data: "xr.Dataset") -> None:
-    """Draw the counts as steps, the lowest contact's widest, as one may hide another."""
+    """Draw the counts as steps; the lower the contact, the wider, so that none is hidden."""
     from matplotlib.ticker import MaxNLocator
 
     count = data.sizes["contact"]

@@ -1,11 +1,11 @@
-"""The look that all pictures share."""
+"""The style of all pictures."""
 
 from typing import Any
 
 __all__ = ["COLORS", "STYLE", "color_of", "written"]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
-"""Okabe and Ito's: told apart by everybody."""
+"""The palette of Okabe and Ito, which colour-blind readers can tell apart."""
 
 STYLE: Any = {
     "axes.spines.top": False,
@@ -34,7 +34,7 @@ def color_of(index: int) -> str:
 
 
 def written(name: str) -> str:
-    r"""Return a name as matplotlib writes it out: no formula, no character that a file cannot have.
+    r"""Return a name as plain text for matplotlib: no formula, no unprintable character.
 
     Examples
     --------

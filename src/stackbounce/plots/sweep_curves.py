@@ -1,4 +1,4 @@
-"""Pictures of a sweep: lines over one number, maps over two."""
+"""Pictures of a sweep: lines for one varied number, maps for two."""
 
 import tomllib
 from typing import TYPE_CHECKING, Any
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.plots.maps import draw_counts, draw_levels, hatch
-from stackbounce.plots.scales import flat, label, scale_of, shown_in
+from stackbounce.plots.scales import is_flat, label, read_scale, show_in_handy_unit
 from stackbounce.plots.style import COLORS, STYLE, color_of
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["TITLES", "heatmap", "legend", "lines", "name_of"]
+__all__ = ["TITLES", "draw_legend", "heatmap", "lines", "name_of"]
 
 TITLES = {
     "rebound_ratio": "rebound ratio",
@@ -25,15 +25,15 @@ TITLES = {
     "first_touch": "first touch",
     "last_release": "last release",
 }
-"""What can be drawn, and how it is called."""
+"""The variables that can be drawn, with their titles."""
 
 _STROKES = ("-", "--", ":", "-.")
-_FEW = 25  # values: each one gets a dot
-_IN_A_ROW = 4  # names
+_FEW = 25  # up to so many values are marked with dots
+_IN_A_ROW = 4  # names in a horizontal legend
 
 
 def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None) -> "Figure":
-    """Draw a sweep over one number: a line for each ball, or for each contact.
+    """Draw a sweep of one number: a line for each ball or each contact.
 
     Parameters
     ----------
@@ -43,12 +43,12 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
         What to draw: ``rebound_ratio``, ``collisions``, ``energy_retained``, ``first_touch`` or
         ``last_release``.
     index : int, optional
-        The only ball or contact to draw; default all of them.
+        The only ball or contact to draw; by default all of them.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved. Drops that could not be finished are left out, and counted above.
+        Not shown and not saved. Unfinished drops are left out; the title has their number.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(6.4, 4.0))
         axes = figure.subplots()
-        scale = scale_of(data, dim)
+        scale = read_scale(data, dim)
         rows = [own.isel({part: k}).values if part else own.values for k in chosen]
         if show == "collisions":
             rows = _counts_on(axes, np.array(rows))
@@ -85,7 +85,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
             name = name_of(data, part, k) if part else None
             axes.plot(scale.places, row, label=name, **_look(show, k, chosen, row))
         if part:
-            legend(axes, len(rows))
+            draw_legend(axes, len(rows))
         label(axes, "x", str(dim), scale)
         if len(scale.places) > 1 and not np.isfinite(rows).any():
             axes.set_xlim(scale.places[0], scale.places[-1])
@@ -95,12 +95,12 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
 
 
 def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) -> "Figure":
-    """Draw a sweep over two numbers as a map, with contours, or with a color for each count.
+    """Draw a sweep of two numbers as a map, with contours or with a color for each count.
 
     Parameters
     ----------
     data : xarray.Dataset
-        From `sweep`, with two dimensions; the first one goes up.
+        From `sweep`, with two dimensions; the first one is the vertical axis.
     show : str, optional
         As in `lines`.
     index : int, optional
@@ -109,8 +109,8 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved. Where there is nothing to show it is hatched: drops that could not
-        be finished, which are counted above, and times of contacts that never close.
+        Not shown and not saved. Cells without a value are hatched: unfinished drops, whose number
+        the title has, and times of contacts that never close.
 
     Raises
     ------
@@ -141,7 +141,7 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
         mpl.rcParams.update(STYLE | {"axes.grid": False})
         figure = Figure(figsize=(6.4, 4.8))
         axes = figure.subplots()
-        x, y = scale_of(data, across), scale_of(data, up)
+        x, y = read_scale(data, across), read_scale(data, up)
         label(axes, "x", str(across), x)
         label(axes, "y", str(up), y)
         values = own.values.astype(float)
@@ -157,19 +157,19 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
 
 
 def _look(show: str, k: int, chosen: range, row: NDArray[Any]) -> dict[str, Any]:
-    """Return color, stroke and width of a line: they tell more than six apart, and equal counts."""
+    """Return the style of a line: strokes repeat the colors, widths keep equal counts visible."""
     stroke = _STROKES[k // len(COLORS) % len(_STROKES)]
     look: dict[str, Any] = {"color": color_of(k), "linestyle": stroke}
     above = chosen.stop - 1 - k
-    if show == "collisions":  # one may hide another
+    if show == "collisions":  # equal counts would hide each other
         look |= {"drawstyle": "steps-mid", "linewidth": 1.5 + min(2.0, 6.0 / chosen.stop) * above}
     elif len(row) <= _FEW:
         look |= {"marker": "o", "markersize": 4}
     return look
 
 
-def legend(axes: "Axes", count: int) -> None:
-    """Put the names where no line goes: above, or many of them to the right."""
+def draw_legend(axes: "Axes", count: int) -> None:
+    """Put the legend outside of the axes: above or, with many names, to the right."""
     look: Any = {"frameon": False, "handlelength": 1.6, "borderpad": 0.0}
     if count <= _IN_A_ROW:
         look |= {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "ncols": count}
@@ -179,11 +179,11 @@ def legend(axes: "Axes", count: int) -> None:
 
 
 def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[Any]) -> None:
-    """Name the upward axis; differences of round-off are not drawn out."""
+    """Label the vertical axis; its range is not narrowed to differences of round-off."""
     unit = own.attrs.get("units", "1").removeprefix("1")
     if show != "collisions":
-        unit, _ = shown_in(axes.yaxis, rows, unit)
-        if flat(rows):
+        unit, _ = show_in_handy_unit(axes.yaxis, rows, unit)
+        if is_flat(rows):
             middle = float(np.nanmean(rows)) if np.isfinite(rows).any() else 0.0
             wide = 0.5 * abs(middle) or 1.0
             axes.set_ylim(middle - wide, middle + wide)
@@ -191,7 +191,7 @@ def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[An
 
 
 def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
-    """Return counts as they are drawn: infinity above all others, where a tick names it."""
+    """Return counts as they are drawn, with infinity at a labelled tick above all others."""
     from matplotlib.ticker import MaxNLocator
 
     finite = rows[rows >= 0]
@@ -209,7 +209,7 @@ def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
 
 
 def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, ...]]:
-    """Return a sweep in ascending order and its dimensions, of which there must be so many."""
+    """Return a sweep in ascending order and its dimensions; there must be `count` of them."""
     import xarray as xr
 
     if not isinstance(data, xr.Dataset) or "status" not in data:
@@ -226,7 +226,7 @@ def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, 
 
 
 def _finished(data: "xr.Dataset", show: str) -> tuple[str, "xr.DataArray", str]:
-    """Return balls or contacts, what to draw (nan for unfinished drops), and a line on these."""
+    """Return "ball" or "contact", the values (nan: unfinished), and a note on unfinished drops."""
     from stackbounce.run.result import Status
 
     wrong = data["status"].isin([int(Status.EVENT_LIMIT), int(Status.INVALID)])
@@ -247,7 +247,7 @@ def _index(own: "xr.DataArray", part: str, index: int) -> int:
 
 
 def name_of(data: "xr.Dataset", part: str, index: int) -> str:
-    """Return what a ball or a contact is called, with the ball's name if it has one."""
+    """Return a label for a ball or a contact, with the ball's name if it has one."""
     balls = tomllib.loads(data.attrs.get("drop", "")).get("balls", [])
     own = balls[index].get("name", "") if part == "ball" and index < len(balls) else ""
     return f"{part} {index}" + (f" ({own})" if own else "")

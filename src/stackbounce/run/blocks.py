@@ -1,4 +1,4 @@
-"""A grid of drops cut into blocks that follow each other in memory."""
+"""A grid of drops cut into blocks, each contiguous in memory."""
 
 import itertools
 import math
@@ -12,7 +12,7 @@ Block: TypeAlias = tuple[slice, ...]
 
 
 def sides(shape: Sequence[int], most: int) -> tuple[int, ...]:
-    """Return the sides of a block of at most so many drops, filled from the last dimension on.
+    """Return the sides of a block of at most ``most`` drops, filled from the last dimension on.
 
     Examples
     --------
@@ -28,7 +28,7 @@ def sides(shape: Sequence[int], most: int) -> tuple[int, ...]:
 
 
 def blocks(shape: Sequence[int], sides: Sequence[int]) -> Iterator[Block]:
-    """Yield all blocks of a shape, in the order of memory; those at the ends are smaller.
+    """Yield all blocks of a shape, in the order of memory; the last ones may be smaller.
 
     Examples
     --------
@@ -43,5 +43,5 @@ def blocks(shape: Sequence[int], sides: Sequence[int]) -> Iterator[Block]:
 
 
 def size(block: Block) -> int:
-    """Return how many drops a block has."""
+    """Return the number of drops in a block."""
     return math.prod(side.stop - side.start for side in block)

@@ -1,4 +1,4 @@
-"""Rows of numbers that vary -> what the engine takes for many drops, checked."""
+"""The numbers of one drop, or of many that vary, as the engine takes them; checked."""
 
 import itertools
 import math
@@ -10,24 +10,35 @@ from numpy.typing import NDArray
 
 from stackbounce.engine.batch import Drops
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.model import STANDARD_GRAVITY, Drop, Hysteretic
-from stackbounce.run.driver import contact_numbers
+from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.model.laws import contact_numbers
 from stackbounce.run.paths import Number, drop_at
 
-__all__ = ["Rows", "base_rows", "check", "fill"]
+__all__ = ["Rows", "base_rows", "check", "drop_numbers", "fill"]
 
 Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
 """The numbers that vary, in SI units: arrays that broadcast with each other."""
 
 
+def drop_numbers(drop: Drop) -> Drops:
+    """Return a drop's numbers as the engine takes them, in lists."""
+    rows = zip(*map(contact_numbers, drop.contacts), strict=True)
+    kind, stiffness, exponent, law_parameter = map(list, rows)
+    return Drops(
+        mass=[ball.mass for ball in drop.balls],
+        kind=kind,
+        stiffness=stiffness,
+        exponent=exponent,
+        law_parameter=law_parameter,
+        gap=[0.0, *drop.gaps],
+        velocity=list(drop.start_velocities),
+        gravity=drop.gravity,
+    )
+
+
 def base_rows(drop: Drop, count: int) -> Drops:
-    """Return a drop so many times, as the engine takes many."""
-    laws = np.array([contact_numbers(law) for law in drop.contacts])
-    kind, stiffness, exponent, extra = laws.T
-    each = ([ball.mass for ball in drop.balls], kind.astype(np.int64), stiffness, exponent, extra)
-    gap, velocity = [0.0, *drop.gaps], drop.start_velocities
-    rows = [np.full((count, len(laws)), numbers) for numbers in (*each, gap, velocity)]
-    return Drops._make([*rows, np.full(count, drop.gravity)])
+    """Return a drop's numbers so many times over, in arrays (count, balls) and (count,)."""
+    return Drops._make(np.full((count, *np.shape(one)), one) for one in drop_numbers(drop))
 
 
 def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
@@ -42,11 +53,7 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
     rows : mapping
         The numbers that vary: they broadcast to (...,).
     """
-    places: dict[str, Any] = {
-        "mass": drops.mass,
-        "stiffness": drops.stiffness,
-        "exponent": drops.exponent,
-    }
+    laws: dict[int, dict[str, Any]] = {}
     for number, values in rows.items():
         if number.part == "gaps":
             drops.gap[..., number.index + 1] = values
@@ -56,40 +63,25 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
             drops.gravity[...] = values
         elif number.field == "impact_speed":
             drops.velocity[...] = -values[..., None]
-        elif number.field in places:
-            places[number.field][..., number.index] = values
-        elif number.part == "contacts" and number.field != "restitution":
-            drops.extra[..., number.index] = values
-    _set_restitutions(drop, rows, drops.exponent, drops.extra)
+        elif number.field == "mass":
+            drops.mass[..., number.index] = values
+        elif number.part == "contacts":
+            laws.setdefault(number.index, {})[number.field] = values
+    for i, varied in laws.items():
+        _, stiffness, exponent, law_parameter = contact_numbers(drop.contacts[i], varied)
+        drops.stiffness[..., i], drops.exponent[..., i] = stiffness, exponent
+        drops.law_parameter[..., i] = law_parameter
     if drop.height is not None:
         height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
         pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)
         drops.velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
 
 
-def _set_restitutions(
-    drop: Drop, rows: Rows, exponent: NDArray[np.float64], extra: NDArray[np.float64]
-) -> None:
-    """Fill in n of each Hysteretic contact that is known by its e: e^2 = (p + 1)/(n + 1)."""
-    for i, law in enumerate(drop.contacts):
-        own = {
-            n.field: values for n, values in rows.items() if (n.part, n.index) == ("contacts", i)
-        }
-        if not isinstance(law, Hysteretic):
-            if "restitution" in own:
-                extra[..., i] = own["restitution"]
-            continue
-        known_by_e = law.derived == "unloading_exponent" and "unloading_exponent" not in own
-        if "restitution" in own or (known_by_e and "exponent" in own):
-            e, p = own.get("restitution", law.restitution), exponent[..., i]
-            extra[..., i] = np.maximum(p, (p + 1.0) / e / e - 1.0)
-
-
 def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> None:
-    """Raise for the first drop that cannot be.
+    """Raise for the first row of numbers that makes no drop.
 
-    What a number may be is an interval, and one end of it may depend on another number of the same
-    part: if all combinations of smallest and largest values make a drop then so do all rows.
+    The valid values of a number are an interval, one end of which may depend on another number of
+    the same part. So if all combinations of smallest and largest values are valid, all rows are.
 
     Parameters
     ----------
@@ -98,12 +90,12 @@ def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> No
     rows : mapping
         The numbers that vary.
     where : callable
-        Returns what a message says of the place with an index.
+        Returns the words of a message for the row with an index.
 
     Raises
     ------
     InvalidValue, InvalidType
-        As `Drop` does, with the place of the row.
+        As `Drop` does, with the words for the row.
     """
     shape = np.broadcast_shapes(*(values.shape for values in rows.values()))
     if 0 in shape or (_corners_hold(drop, rows) and _all_move(drop, rows)):
@@ -117,7 +109,7 @@ def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> No
 
 
 def _corners_hold(drop: Drop, rows: Rows) -> bool:
-    """Tell whether each part of the drop can be made of all smallest and largest values."""
+    """Tell whether all combinations of smallest and largest values are valid, part by part."""
     parts: dict[tuple[str, int], dict[Number, tuple[float, float]]] = {}
     for number, values in rows.items():
         ends = float(np.min(values)), float(np.max(values))
@@ -135,7 +127,7 @@ def _corners_hold(drop: Drop, rows: Rows) -> bool:
 
 
 def _all_move(drop: Drop, rows: Rows) -> bool:
-    """Tell whether in each row some ball moves."""
+    """Tell whether some ball moves in each row."""
     if drop.velocities is None:
         return True
     varied = {n.index: values for n, values in rows.items() if n.part == "velocities"}

@@ -1,52 +1,33 @@
-"""From a Drop to a Result: picks the engine, in plain Python or compiled."""
+"""One drop: from a `Drop` to a `Result`.
+
+The way of a drop: its numbers (`columns.drop_numbers`) fill an empty stack (`Engine.prepare`), the
+first events are scheduled (`Engine.begin`), the engine goes from event to event and logs them
+(`Engine.advance`), and the log, in SI units, becomes a `Result`.
+"""
 
 import functools
 import itertools
-import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from stackbounce.engine import codes, prepare
-from stackbounce.engine.kernel import compiled as compile_kernel
-from stackbounce.engine.motion import velocity_at
-from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
-from stackbounce.engine.simultaneous import advance, start, write_unfinished
-from stackbounce.engine.stack import (
-    Samples,
-    as_arrays,
-    new_rigid_stack,
-    new_samples,
-    new_stack,
-)
-from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown, whole
-from stackbounce.model import (
-    ContactLaw,
-    Dashpot,
-    Drop,
-    Hertz,
-    HuntCrossley,
-    Hysteretic,
-    PowerLaw,
-    Rigid,
-    Spring,
-    Viscoelastic,
-)
+from stackbounce.engine import codes
+from stackbounce.engine.compiler import compile_kernel
+from stackbounce.engine.slots import LAST_CHECK, LAST_EVENT, LOG_ROWS, RECORDS_PEAKS
+from stackbounce.engine.stack import Samples, as_arrays, new_samples
+from stackbounce.errors import InvalidType, shown
+from stackbounce.model import Drop
+from stackbounce.run.columns import drop_numbers
+from stackbounce.run.engines import OUT_OF_RANGE, Engine, Kernel, Mode, choose_engine, choose_mode
+from stackbounce.run.options import Options, run_options
 from stackbounce.run.result import Result, Status
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["simulate"]
+__all__ = ["forces_at", "simulate"]
 
-_MOST_BALLS = 2000  # their matrices are quadratic
-_MOST_EVENTS = 10**18  # a compiled counter's range
-_LOG_ROWS = 512
-_PLAIN_BALLS = 20  # up to this size plain Python is done before compiled code has been loaded
-_PLAIN_EVENTS = 2000  # after so many events, or steps without one, a run goes on compiled
-_Kernel = Callable[..., Any]
-_FINITE_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (start, advance, velocity_at)
-_RIGID_ENGINE: tuple[_Kernel, _Kernel, _Kernel] = (begin_collisions, collide_all, rigid_velocity)
+LOG_ROWS_AT_ONCE = 512  # after so many events the log is emptied
 
 
 def simulate(
@@ -57,25 +38,25 @@ def simulate(
     event_limit: int = 1_000_000,
     compiled: bool | None = None,
 ) -> Result:
-    """Return what happens to a drop, from the lowest ball's first touch of the floor.
+    """Run a drop from the lowest ball's first touch of the floor; return the result.
 
     Parameters
     ----------
     drop : Drop
-        The stack and how fast it comes in. All contacts `Rigid`: a sequence of collisions
+        The stack and its impact speed. All contacts `Rigid`: a sequence of collisions
         (eqs 1 to 4). None of them: simultaneous contacts (eqs 5, 6 and section V).
     until : float, optional
         A time in s at which to stop; by default the run ends once all contacts are open and none
         approaches, or all is at rest.
     rtol : float, optional
-        From 1e-14 to 1e-3: the relative error to aim at where a contact follows a law that is not
-        linear. Springs and dashpots, and rigid balls, are exact to round-off whatever it is.
+        From 1e-14 to 1e-3: the relative error to aim at for nonlinear contacts. Springs, dashpots
+        and rigid balls are exact to round-off whatever it is.
     event_limit : int, optional
-        After how many events (touches, releases, and turns of the force in between), or steps
-        between two of them, to give up, with the status EVENT_LIMIT and all that was reached.
+        Events (touches, releases, and changes of the force between them), or steps between two
+        events, after which to stop with the status EVENT_LIMIT and the results so far.
     compiled : bool, optional
-        Whether to run compiled by numba rather than as plain Python; by default where the stack is
-        tall or the run long. Both give the same bits.
+        Whether to run compiled code rather than plain Python; by default if the stack is tall or
+        the run long, see `stackbounce.run.engines`. Both give the same bits.
 
     Returns
     -------
@@ -105,116 +86,9 @@ def simulate(
     options = run_options(drop, until, rtol, event_limit)
     if compiled is not None and not isinstance(compiled, bool):
         raise InvalidType(f"compiled must be True, False or None, got {shown(compiled)}")
-    status, time, velocities, log, infinite, _ = _run(drop, options, compiled, ())
-    rerun = functools.partial(_samples, drop, options, compiled)
-    return Result(drop, Status(status), time, velocities, log, infinite, rerun)
-
-
-class Options(NamedTuple):
-    """How to run a drop: until when (s), to which tolerance, for how many events."""
-
-    until: float
-    rtol: float
-    event_limit: int
-
-
-def run_options(drop: object, until: object, rtol: object, event_limit: object) -> Options:
-    """Return the options of a run, checked; see `simulate`."""
-    if not isinstance(drop, Drop):
-        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
-    if len(drop.balls) > _MOST_BALLS:
-        raise InvalidValue(f"balls must be at most {_MOST_BALLS} for a run, got {len(drop.balls)}")
-    return Options(
-        until=math.inf if until is None else positive("until", until, "seconds"),
-        rtol=between("rtol", rtol, 1e-14, 1e-3),
-        event_limit=whole("event_limit", event_limit, 1, _MOST_EVENTS),
-    )
-
-
-_Run = tuple[int, float, list[float], list[float], list[int], Samples]
-
-
-def _run(drop: Drop, options: Options, compiled: bool | None, times: Sequence[float]) -> _Run:
-    """Run an engine; return status, time, velocities, log, infinite contacts and samples."""
-    until, rtol, event_limit = options
-    rigid = drop.rigid
-    begin, go_on, speed = _RIGID_ENGINE if rigid else _FINITE_ENGINE
-    stack, unit = _prepared(drop, rtol)
-    samples = new_samples([time / unit for time in times], len(drop.balls))
-    until /= unit
-    rows = max(_LOG_ROWS, len(drop.balls))
-    log: Any = [0.0] * (rows * codes.LOG_COLUMNS)
-    handle, mode = stack, _as_it_is
-    swift = bool(compiled) or (compiled is None and len(drop.balls) > _PLAIN_BALLS)
-    entries: list[float] = []
-    try:
-        begin(stack)
-        status = codes.RUNNING
-        while status == codes.RUNNING:
-            if swift and mode is _as_it_is:
-                stack, samples, log, handle = _for_numba(stack, samples, rows)
-                mode = compile_kernel
-            stack.counter[0] = 0
-            trial = compiled is None and not swift
-            limit = min(_PLAIN_EVENTS, event_limit) if trial else event_limit
-            status = int(mode(go_on)(handle, until, limit, log, samples))
-            entries.extend(_entries(stack, log))
-            if status == codes.EVENT_LIMIT and limit < event_limit:
-                status, swift = codes.RUNNING, True
-        time = float(stack.clock[0])
-        if status != codes.FINISHED:
-            time = until if status == codes.TIME_REACHED else float(max(stack.clock))
-        if not rigid and status != codes.FINISHED:
-            stack.counter[0] = 0
-            mode(write_unfinished)(handle, time, log)
-            entries.extend(_entries(stack, log))
-        velocities = [float(mode(speed)(handle, b, time)) for b in range(len(drop.balls))]
-    except (ArithmeticError, TypeError, ValueError):  # where compiled code has inf, nan or complex
-        status, time = codes.INVALID, float(stack.clock[0])
-        entries.extend(_entries(stack, log))
-        velocities = [float(velocity) for velocity in stack.velocity]
-    infinite = list(stack.infinite) if rigid else [0] * len(drop.balls)
-    entries = _in_seconds(entries, _UNITS, unit)
-    samples = samples._replace(
-        velocity=_in_seconds(samples.velocity, ("m/s",), unit),
-        force=_in_seconds(samples.force, ("N",), unit),
-        stored=_in_seconds(samples.stored, ("N",), unit),
-    )
-    return status, time * unit, _in_seconds(velocities, ("m/s",), unit), entries, infinite, samples
-
-
-# of the columns of a log; with kg and m fixed an impulse goes with a speed, an energy with a force
-_UNITS = ("s", "", "", "m/s", "m/s", "s", "N", "", "m/s")
-
-
-def _in_seconds(values: Iterable[float], units: Sequence[str], unit: float) -> list[float]:
-    """Return values of rows with these units, measured with another unit of time, in SI."""
-    factors = {"s": unit, "m/s": 1.0 / unit, "N": 1.0 / unit**2, "": 1.0}
-    columns = itertools.cycle([factors[name] for name in units])
-    return [value * factor for value, factor in zip(values, columns, strict=False)]
-
-
-def _entries(stack: Any, log: Any) -> list[float]:
-    """Return the log's entries as numbers of Python."""
-    used = log[: stack.counter[0] * codes.LOG_COLUMNS]
-    return used if isinstance(used, list) else used.tolist()
-
-
-def _for_numba(stack: Any, samples: Samples, rows: int) -> tuple[Any, Samples, Any, Any]:
-    """Return stack, samples and a log as arrays, and what compiled kernels take for the stack."""
-    import numpy as np
-
-    from stackbounce.engine.structure import Structure
-
-    arrays = as_arrays(stack)
-    return arrays, as_arrays(samples), np.zeros(rows * codes.LOG_COLUMNS), Structure(arrays)
-
-
-def _samples(
-    drop: Drop, options: Options, compiled: bool | None, times: Sequence[float]
-) -> Samples:
-    """Run an engine once more and return its samples at times in ascending order."""
-    return _run(drop, options, compiled, times)[-1]
+    run = _run(drop, options, compiled, ())
+    sample = functools.partial(_sample, drop, options, compiled)
+    return Result(drop, Status(run.status), run.time, run.velocities, run.log, run.infinite, sample)
 
 
 def forces_at(
@@ -223,53 +97,117 @@ def forces_at(
     """Return how a run ends, and the forces (contacts, times) in N at ascending times in s."""
     import numpy as np
 
-    options = run_options(drop, None, rtol, 1_000_000)
-    status, *_, samples = _run(drop, options, True, times.tolist())
-    forces = np.reshape(np.asarray(samples.force, dtype=float), (-1, len(drop.balls))).T
-    return Status(status), forces
+    run = _run(drop, run_options(drop, None, rtol, 1_000_000), True, times.tolist())
+    forces = np.reshape(np.asarray(run.samples.force, dtype=float), (-1, len(drop.balls))).T
+    return Status(run.status), forces
 
 
-def _as_it_is(kernel: _Kernel) -> _Kernel:
-    return kernel
+def _sample(drop: Drop, options: Options, compiled: bool | None, times: Sequence[float]) -> Samples:
+    """Repeat a run and return its samples at times in ascending order."""
+    return _run(drop, options, compiled, times).samples
 
 
-def contact_numbers(law: ContactLaw | None) -> tuple[int, float, float, float]:
-    """Return kind, stiffness, exponent and the last number of a law; see `engine.prepare`."""
-    match law:
-        case Spring(k):
-            return prepare.POWER_LAW, k, 1.0, 0.0
-        case Hertz(k):
-            return prepare.POWER_LAW, k, 1.5, 0.0
-        case PowerLaw(k, p):
-            return prepare.POWER_LAW, k, p, 0.0
-        case Dashpot(k, damping):
-            return prepare.DASHPOT, k, 1.0, damping
-        case Viscoelastic(k, time):
-            return prepare.VISCOELASTIC, k, 1.5, time
-        case HuntCrossley(k, p, dissipation):
-            return prepare.HUNT_CROSSLEY, k, p, dissipation
-        case Hysteretic():
-            kind = prepare.LOSSY if law.reloading == "lossy" else prepare.HYSTERETIC
-            return kind, law.stiffness, law.exponent, law.unloading_exponent
-        case Rigid(restitution):
-            return prepare.RIGID, 1.0, 1.0, restitution
-        case _:
-            return prepare.NO_CONTACT, 1.0, 1.0, 0.0
+class _Run(NamedTuple):
+    """What an engine has found, in SI units: the parts of a `Result`, and samples."""
+
+    status: int
+    time: float  # of the end, s
+    velocities: list[float]  # then, m/s
+    log: list[float]
+    infinite: list[int]
+    samples: Samples
 
 
-def _prepared(drop: Drop, rtol: float) -> tuple[Any, float]:
-    """Return a drop's stack at t = 0, of lists, and its unit of time in s."""
-    size = len(drop.balls)
-    mass = [ball.mass for ball in drop.balls]
-    rows = zip(*map(contact_numbers, drop.contacts), strict=True)
-    kind, stiffness, exponent, extra = map(list, rows)
-    gap = [0.0, *drop.gaps]
-    velocity = list(drop.start_velocities)
-    if drop.rigid:
-        rigid = new_rigid_stack(size)
-        prepare.prepare_rigid(rigid, mass, kind, extra, gap, velocity, drop.gravity)
-        return rigid, 1.0
-    stack = new_stack(size)
-    stack.setting[2] = 1
-    numbers = (mass, kind, stiffness, exponent, extra, gap, velocity, drop.gravity, rtol)
-    return stack, prepare.prepare(stack, *numbers)
+class _Workspace:
+    """A stack with its log and samples: lists for plain Python, arrays once it is compiled."""
+
+    def __init__(self, engine: Engine, drop: Drop, rtol: float, times: Sequence[float]) -> None:
+        size = len(drop.balls)
+        self.stack: Any = engine.new_stack(size)
+        if engine.log_unfinished is not None:
+            self.stack.setting[RECORDS_PEAKS] = 1
+        self.unit = float(engine.prepare(self.stack, *drop_numbers(drop), rtol))
+        self.samples = new_samples([time / self.unit for time in times], size)
+        self.log: Any = [0.0] * (max(LOG_ROWS_AT_ONCE, size) * codes.LOG_COLUMNS)
+        self.compiled = False
+        self._handle = self.stack
+
+    def compile(self) -> None:
+        """Go on with arrays and compiled kernels."""
+        import numpy as np
+
+        from stackbounce.engine.structure import Structure
+
+        self.stack, self.samples = as_arrays(self.stack), as_arrays(self.samples)
+        self.log, self._handle = np.array(self.log), Structure(self.stack)
+        self.compiled = True
+
+    def call(self, kernel: Kernel, *arguments: Any) -> Any:
+        """Call a kernel with the stack and other arguments."""
+        return (compile_kernel(kernel) if self.compiled else kernel)(self._handle, *arguments)
+
+    def take_log(self) -> list[float]:
+        """Return the log's rows in a flat list, and empty the log."""
+        used: Any = self.log[: self.stack.counter[LOG_ROWS] * codes.LOG_COLUMNS]
+        self.stack.counter[LOG_ROWS] = 0
+        return list(used.tolist() if self.compiled else used)
+
+
+def _run(drop: Drop, options: Options, compiled: bool | None, times: Sequence[float]) -> _Run:
+    """Run a drop, with samples at times in ascending order."""
+    engine, balls = choose_engine(drop), range(len(drop.balls))
+    mode = choose_mode(compiled, drops=1, balls=len(balls))
+    space = _Workspace(engine, drop, options.rtol, times)
+    until, log = options.until / space.unit, []
+    try:
+        space.call(engine.begin)
+        status = codes.RUNNING
+        while status == codes.RUNNING:
+            if mode is Mode.COMPILED and not space.compiled:
+                space.compile()
+            limit = mode.event_limit(options.event_limit)
+            status = int(space.call(engine.advance, until, limit, space.log, space.samples))
+            log += space.take_log()
+            if status == codes.EVENT_LIMIT and limit < options.event_limit:
+                status, mode = codes.RUNNING, Mode.COMPILED
+        clock = space.stack.clock
+        time = float(clock[LAST_EVENT])
+        if status == codes.TIME_REACHED:
+            time = until
+        elif status != codes.FINISHED:
+            time = max(time, float(clock[LAST_CHECK]))
+        if engine.log_unfinished is not None and status != codes.FINISHED:
+            space.call(engine.log_unfinished, time, space.log)
+            log += space.take_log()
+        velocities = [float(space.call(engine.velocity, b, time)) for b in balls]
+    except OUT_OF_RANGE:
+        status, time = codes.INVALID, float(space.stack.clock[LAST_EVENT])
+        log += space.take_log()
+        velocities = [float(velocity) for velocity in space.stack.velocity]
+    infinite = list(space.stack.infinite) if drop.rigid else [0] * len(balls)
+    return _in_si(_Run(status, time, velocities, log, infinite, space.samples), space.unit)
+
+
+# of the columns of a log; with kg and m fixed an impulse goes with a speed, an energy with a force
+_UNITS = ("s", "", "", "m/s", "m/s", "s", "N", "", "m/s")
+
+
+def _in_si(run: _Run, unit: float) -> _Run:
+    """Return a run, measured with a unit of time in s, in SI units."""
+    factors = {"s": unit, "m/s": 1.0 / unit, "N": 1.0 / unit**2, "": 1.0}
+
+    def converted(values: Iterable[float], *units: str) -> list[float]:
+        columns = itertools.cycle([factors[name] for name in units])
+        return [value * factor for value, factor in zip(values, columns, strict=False)]
+
+    samples = run.samples._replace(
+        velocity=converted(run.samples.velocity, "m/s"),
+        force=converted(run.samples.force, "N"),
+        stored=converted(run.samples.stored, "N"),
+    )
+    return run._replace(
+        time=run.time * unit,
+        velocities=converted(run.velocities, "m/s"),
+        log=converted(run.log, *_UNITS),
+        samples=samples,
+    )

@@ -1,147 +1,163 @@
-"""Which engine solves many drops: as plain Python or compiled, two springs by their own."""
+"""The one place that chooses how drops are run: the engine, and plain Python or compiled code.
 
-import functools
+============= ==========================================================================
+engine        solves
+============= ==========================================================================
+`RIGID`       sequences of instantaneous collisions (eqs 1 to 4)
+`FINITE`      simultaneous contacts of finite duration (eqs 5, 6 and section V)
+two springs   batches of two balls on springs, many at a time (`engine.two_springs`); drops
+              near the limits of its accuracy are passed on to `FINITE`
+============= ==========================================================================
+
+All modes give the same bits; they differ in speed only. Loading compiled code takes about as long
+as plain Python takes up to the thresholds below.
+
+============== ===== =====================================================================
+threshold      value meaning
+============== ===== =====================================================================
+`PLAIN_DROPS`  24    drops in a batch up to which it is run as plain Python
+`PLAIN_BALLS`  20    balls in a stack up to which it is run as plain Python
+`PLAIN_EVENTS` 2000  events, or checks between two of them, after which compiled code takes
+                     over
+============== ===== =====================================================================
+"""
+
+import enum
 import math
-import threading
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-import numpy as np
-
-from stackbounce.engine import codes
-from stackbounce.engine.batch import Drops, Outcomes, run_many, run_many_rigid
-from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.kernel import compiled
-from stackbounce.engine.prepare import POWER_LAW
-from stackbounce.engine.stack import (
-    as_arrays,
-    in_one_room,
-    new_rigid_stack,
-    new_samples,
-    new_stack,
-)
-from stackbounce.engine.two_springs import SCRATCH, scratch, two_springs
+from stackbounce.engine.batch import run_batch, run_rigid_batch
+from stackbounce.engine.codes import POWER
+from stackbounce.engine.motion import velocity_at
+from stackbounce.engine.preparation import prepare, prepare_rigid
+from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
+from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
+from stackbounce.engine.stack import new_rigid_stack, new_stack
 from stackbounce.model import Drop
-from stackbounce.run.driver import Options, contact_numbers
+from stackbounce.model.laws import contact_numbers
+from stackbounce.run.options import Options
 from stackbounce.run.paths import Number
 
-__all__ = ["Engine", "engine_for", "ready"]
+__all__ = [
+    "FINITE",
+    "OUT_OF_RANGE",
+    "RIGID",
+    "TWO_SPRINGS_EVENTS",
+    "Engine",
+    "Mode",
+    "choose_engine",
+    "choose_mode",
+    "suits_two_springs",
+]
 
-Engine: TypeAlias = Callable[[Drops, Outcomes, Options, bool], None]
-"""Solves drops, as plain Python if they are so few that loading compiled code would take longer."""
+PLAIN_DROPS = 24
+PLAIN_BALLS = 20
+PLAIN_EVENTS = 2000
+TWO_SPRINGS_EVENTS = 10_000
+"""An event limit that two springs never reach where their own engine gives an answer."""
 
-_LOG_ROWS = 512
-_FEW_BALLS, _FEW_EVENTS = 20, 2000  # up to which a drop is run as plain Python
-_NO_ROOM: Any = ([], [])  # what is new needs no clearing
-_UNLIMITED = 10_000  # events that two springs never have where their own engine is sure of them
-_local = threading.local()
-_lock = threading.Lock()
+OUT_OF_RANGE = (OverflowError, ZeroDivisionError, ValueError)
+"""What plain Python raises where compiled code goes on with inf or nan.
+
+``1e300**2``, ``1.0 / 0.0``, ``math.sqrt(-1.0)``, ``math.cos(math.inf)`` and ``round(math.nan)`` are
+all there are. Any other exception in a kernel is a programming error and is not caught.
+"""
+
+Kernel: TypeAlias = Callable[..., Any]
 
 
-def engine_for(drop: Drop, numbers: Iterable[Number], options: Options) -> Engine:
-    """Return what solves all drops that differ from a base in these numbers.
+@dataclass(frozen=True)
+class Engine:
+    """The kernels that solve stacks of one kind.
 
-    It does not depend on their values, so that what comes of a drop does not depend on others.
+    Parameters
+    ----------
+    new_stack : callable
+        Returns an empty stack for a number of balls.
+    prepare : kernel
+        Fills it with a drop's numbers; returns its unit of time in s.
+    begin : kernel
+        Schedules the first events.
+    advance : kernel
+        Goes from event to event; returns a status.
+    velocity : kernel
+        Returns a ball's velocity at a time.
+    log_unfinished : kernel or None
+        Logs the contact intervals that had not ended; None where intervals have no duration.
+    run_batch : kernel
+        Runs many drops one after the other.
     """
-    if drop.rigid:
-        return _run_rigid
-    linear = all(contact_numbers(law)[::2] == (POWER_LAW, 1.0) for law in drop.contacts)
+
+    new_stack: Callable[[int], Any]
+    prepare: Kernel
+    begin: Kernel
+    advance: Kernel
+    velocity: Kernel
+    log_unfinished: Kernel | None
+    run_batch: Kernel
+
+
+FINITE = Engine(
+    new_stack, prepare, begin_contacts, advance_contacts, velocity_at, log_unfinished, run_batch
+)
+RIGID = Engine(
+    new_rigid_stack,
+    prepare_rigid,
+    begin_collisions,
+    collide_all,
+    rigid_velocity,
+    None,
+    run_rigid_batch,
+)
+
+
+class Mode(enum.Enum):
+    """How kernels are run."""
+
+    PLAIN = "plain Python"
+    TRIAL = "plain Python, then compiled from PLAIN_EVENTS on"
+    COMPILED = "compiled"
+
+    def event_limit(self, limit: int) -> int:
+        """Return the event limit of a run in this mode that is to end at a limit."""
+        return min(PLAIN_EVENTS, limit) if self is Mode.TRIAL else limit
+
+
+def choose_mode(compiled: bool | None, drops: int, balls: int) -> Mode:
+    """Return how to run a number of drops of a number of balls.
+
+    Parameters
+    ----------
+    compiled : bool or None
+        What the user asked for; None leaves the choice to the thresholds.
+    drops, balls : int
+        How many drops, and balls in each.
+
+    Examples
+    --------
+    >>> choose_mode(None, drops=1, balls=2), choose_mode(None, drops=1000, balls=2)
+    (<Mode.TRIAL: 'plain Python, then compiled from PLAIN_EVENTS on'>, <Mode.COMPILED: 'compiled'>)
+    """
+    if compiled is not None:
+        return Mode.COMPILED if compiled else Mode.PLAIN
+    return Mode.TRIAL if drops <= PLAIN_DROPS and balls <= PLAIN_BALLS else Mode.COMPILED
+
+
+def choose_engine(drop: Drop) -> Engine:
+    """Return the engine that solves a drop."""
+    return RIGID if drop.rigid else FINITE
+
+
+def suits_two_springs(drop: Drop, numbers: Iterable[Number], options: Options) -> bool:
+    """Tell whether a batch of drops that differ in some numbers is two balls on springs.
+
+    The values of these numbers do not count: a drop's result must not depend on other drops.
+    """
+    linear = all(contact_numbers(law)[::2] == (POWER, 1.0) for law in drop.contacts)
     together = len(set(drop.start_velocities)) == 1 and drop.start_velocities[0] < 0.0
     free = any(n.part == "velocities" or n.field in ("exponent", "gravity") for n in numbers)
-    whole = options.until == math.inf and options.event_limit >= _UNLIMITED
-    if len(drop.balls) == 2 and linear and together and drop.gravity == 0.0 and whole and not free:
-        return _run_two_springs
-    return _run_finite
-
-
-def ready(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the compiled form of a kernel; threads that ask together take turns.
-
-    For as long as one is made numba's cache folder is the package's own: another thread would find
-    a wrong one, and leave its files in the working directory.
-    """
-    with _lock:
-        return compiled(function)
-
-
-def _run_two_springs(drops: Drops, out: Outcomes, options: Options, few: bool) -> None:
-    """Run drops by the engine for two springs, and those it is not sure of by the general one."""
-    go: Any = two_springs if few else ready(two_springs)
-    room: Any = [0.0] * SCRATCH if few else scratch()
-    speed, gap = -drops.velocity[:, 0], np.ascontiguousarray(drops.gap[:, 1])
-    given = (drops.mass, drops.stiffness, gap, speed, _UNLIMITED)
-    times = out.first_touch, out.last_release
-    go(*given, out.velocity, out.collisions, *times, out.status, room)
-    asked = np.flatnonzero(out.status == codes.ASK)
-    if len(asked):
-        some = Drops._make(array[asked] for array in drops)
-        answers = Outcomes._make(array[asked] for array in out)
-        _run_finite(some, answers, options, few)
-        for array, answer in zip(out, answers, strict=True):
-            array[asked] = answer
-
-
-def _run_finite(drops: Drops, out: Outcomes, options: Options, few: bool) -> None:
-    """Run drops on finite contacts."""
-    if not few or not _run_plainly(drops, out, False, options):
-        _run_compiled(drops, out, False, options)
-
-
-def _run_rigid(drops: Drops, out: Outcomes, options: Options, few: bool) -> None:
-    """Run drops of rigid balls."""
-    if not few or not _run_plainly(drops, out, True, options):
-        _run_compiled(drops, out, True, options)
-
-
-def _run_plainly(drops: Drops, out: Outcomes, rigid: bool, options: Options) -> bool:
-    """Run a few drops as plain Python, sooner done than compiled code is loaded, if they are short.
-
-    Returns whether they were.
-    """
-    balls = drops.mass.shape[1]
-    if balls > _FEW_BALLS:
-        return False
-    limit = min(options.event_limit, _FEW_EVENTS)
-    samples, log = new_samples([], balls), [0.0] * (_LOG_ROWS * LOG_COLUMNS)
-    for row in range(len(out.status)):
-        one = Drops._make(array[row : row + 1].tolist() for array in drops)
-        outcome = Outcomes._make(array[row : row + 1] for array in out)
-        try:
-            if rigid:
-                pebbles = new_rigid_stack(balls)
-                run_many_rigid(pebbles, _NO_ROOM, one, options.until, limit, samples, log, outcome)
-            else:
-                stack = new_stack(balls)
-                run_many(stack, _NO_ROOM, one, *options[:2], limit, samples, log, outcome)
-        except (ArithmeticError, TypeError, ValueError):  # where compiled code has inf or nan
-            return False
-        if out.status[row] == codes.EVENT_LIMIT and limit < options.event_limit:
-            return False
-    return True
-
-
-def _run_compiled(drops: Drops, out: Outcomes, rigid: bool, options: Options) -> None:
-    stack, room, samples, log = _arrays(out.velocity.shape[1], rigid)
-    limit = options.event_limit
-    if rigid:
-        go: Any = ready(run_many_rigid)
-        go(stack, room, drops, options.until, limit, samples, log, out)
-    else:
-        go = ready(run_many)
-        go(stack, room, drops, options.until, options.rtol, limit, samples, log, out)
-
-
-def _arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
-    """Return this thread's stack, the two arrays that its own lie in, no samples, and a log."""
-    if not hasattr(_local, "made"):
-        _local.made = functools.cache(_new_arrays)
-    made: tuple[Any, ...] = _local.made(balls, rigid)
-    return made
-
-
-def _new_arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
-    from stackbounce.engine.structure import Structure
-
-    stack, room = in_one_room(new_rigid_stack(balls) if rigid else new_stack(balls))
-    log = np.zeros(max(_LOG_ROWS, balls) * LOG_COLUMNS)
-    return Structure(stack), room, as_arrays(new_samples([], balls)), log
+    whole = options.until == math.inf and options.event_limit >= TWO_SPRINGS_EVENTS
+    two = len(drop.balls) == 2 and drop.gravity == 0.0
+    return two and linear and together and whole and not free

@@ -7,12 +7,10 @@ from types import UnionType
 from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
-from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic
+from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.units import Unit
 
 __all__ = ["Number", "drop_at", "number_at", "numbers_of"]
-
-_LOSSES = {"restitution": "unloading_exponent", "unloading_exponent": "restitution"}
 
 
 @dataclass(frozen=True)
@@ -61,17 +59,10 @@ def numbers_of(drop: Drop) -> dict[str, Number]:
             for name, unit in _units(Ball).items()
         ]
     for i, law in enumerate(drop.contacts):
-        exponent = getattr(law, "exponent", 1.0)
-        power = "" if exponent == 1.0 else f"**{exponent:g}"
+        units = {} if law is None else law.units()
         found += [
-            Number(
-                f"contacts.{i}.{name}",
-                "contacts",
-                i,
-                name,
-                unit.replace("**exponent", power),
-            )
-            for name, unit in _fields_of(law).items()
+            Number(f"contacts.{i}.{name}", "contacts", i, name, unit)
+            for name, unit in units.items()
         ]
     found += [Number(f"gaps.{i}", "gaps", i, "", "m") for i in range(len(drop.gaps))]
     if drop.velocities is not None:
@@ -141,21 +132,10 @@ def drop_at(drop: Drop, values: Mapping[Number, float]) -> Drop:
 
 
 def _changed(part: Any, chosen: Mapping[str, float], path: str) -> Any:
-    others: dict[str, Any] = {}
-    if isinstance(part, Hysteretic):
-        given = [name for name in _LOSSES if name in chosen] or [
-            name for name in _LOSSES if name != part.derived
-        ]
-        others = {_LOSSES[name]: None for name in given if _LOSSES[name] not in chosen}
     try:
-        return replace(part, **(others | dict(chosen)))
+        return part.replaced(chosen) if isinstance(part, ContactLaw) else replace(part, **chosen)
     except (InvalidValue, InvalidType) as error:
         raise type(error)(f"{path}.{error}") from error
-
-
-def _fields_of(law: ContactLaw | None) -> dict[str, str]:
-    kind: Any = type(law)
-    return {} if law is None else _units(kind)
 
 
 @functools.cache

@@ -1,4 +1,4 @@
-"""What came out of a drop, and everything derived from it."""
+"""The result of one run, and the quantities derived from it."""
 
 import dataclasses
 import enum
@@ -75,23 +75,26 @@ _ADVICE = {
     Status.TIME_REACHED: "the time asked for was reached first: raise until to see more",
     Status.EVENT_LIMIT: "the limit of events, or of steps between two events, was met: "
     "raise event_limit, or stop earlier with until",
-    Status.INVALID: "numbers left the range of floating point, or a contact came too late for the "
-    "clock: bring masses, stiffnesses, gaps and speeds closer together",
+    Status.INVALID: "numbers left the range of floating point, or a contact was shorter than the "
+    "resolution of time: bring masses, stiffnesses, gaps and speeds closer together",
 }
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
 class Result:
-    """What happened to a drop; made by `simulate`.
+    """The result of a run; made by `simulate`.
+
+    It holds the log of events, not the motion between them: `sample`, and `apexes` by it, repeat
+    the run. To sample at many times, pass them all in one call.
 
     Parameters
     ----------
     drop : Drop
-        What was dropped.
+        The drop that was run.
     status : Status
         How the run ended.
     end_time : float
-        Time in s of the last event, or at which the run was stopped.
+        Time in s of the last event, or of the stop.
     final_velocities : sequence of float
         (N,) velocity of each ball in m/s at `end_time`, up-positive.
     log : sequence of float
@@ -188,7 +191,7 @@ class Result:
 
     @functools.cached_property
     def energy_retained(self) -> float:
-        """Kinetic energy of all balls at the end as a fraction of the one that came in."""
+        """Kinetic energy of all balls at the end over that at the start."""
         mass = [ball.mass for ball in self.drop.balls]
         return energy_kept(mass, list(self.drop.start_velocities), list(self.final_velocities))
 
@@ -218,7 +221,7 @@ class Result:
         return _frozen(np.array(rows, dtype=APEX))
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return what came out as a dict: how the run ended, speeds, ratios, collisions, energy.
+        """Return the result as a dict: status, speeds, ratios, collisions, energy.
 
         Examples
         --------
@@ -240,7 +243,7 @@ class Result:
         }
 
     def sample(self, times: ArrayLike) -> "xarray.Dataset":
-        """Return where everything is at given times.
+        """Return positions, velocities, forces and energy at given times, by repeating the run.
 
         Parameters
         ----------
@@ -254,7 +257,7 @@ class Result:
             `position` (m, up-positive, from where everything just touches) and `velocity` (m/s) by
             (ball, time); `force` (N) and `compression` (m, minus the gap while open) by
             (contact, time); `energy` (J) by time: kinetic, potential, and what the contacts would
-            give back if they opened now.
+            give back if they were unloaded now.
 
         Raises
         ------
@@ -300,7 +303,7 @@ class Result:
     @functools.cached_property
     def _rows(self) -> NDArray[np.float64]:
         rows = np.reshape(np.array(self.log, dtype=float), (-1, codes.LOG_COLUMNS))
-        # a clipped contact's end is known, and logged, only once its compression is gone
+        # the end of a clipped contact's interval is logged late, once its compression is gone
         return rows[np.argsort(rows[:, codes.TIME], kind="stable")]
 
     def _per_contact(self, field: str, choose: np.ufunc) -> NDArray[np.float64]:
@@ -327,7 +330,7 @@ class Result:
     def _flights(self) -> Iterator[tuple[int, float, float, float]]:
         """Yield the flights of all balls: ball, start, velocity then, end.
 
-        A ball flies while the contacts below and above it are open.
+        A ball is in flight while the contacts below and above it are open.
         """
         count = len(self.drop.balls)
         closed: list[set[int]] = [set() for _ in range(count)]

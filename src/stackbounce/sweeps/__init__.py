@@ -1,16 +1,13 @@
-"""A Drop and the numbers that vary -> xarray, in chunks and lazily where they are dask's.
+"""A Drop and the numbers that vary -> an xarray Dataset; lazily, in chunks, for dask arrays.
 
 ======= ==========================================================================
-paths   the numbers of a drop by their paths
-columns rows of numbers -> what the engine takes for many drops, checked
-blocks  a grid of drops cut into blocks
-engines which engine solves them
-solve   many drops at once, in blocks and threads
-dataset the numbers that vary as named dimensions, and the Dataset that comes of them
-store   a sweep larger than memory, block by block to a file, resumed
-files   the kinds of file: Zarr, NetCDF
+dataset the numbers that vary as named dimensions, and the resulting Dataset
+store   a sweep larger than memory, written block by block to a file; resumable
+files   the file formats: Zarr, NetCDF
 axes    texts such as those of ``--over`` -> numbers and their values
 ======= ==========================================================================
+
+The drops of a sweep are run by `stackbounce.run.batch`.
 """
 
 from stackbounce.sweeps.axes import grid

@@ -1,4 +1,4 @@
-"""The numbers that vary as named dimensions, and the Dataset that comes of them."""
+"""The numbers that vary as named dimensions, and the resulting Dataset."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -9,10 +9,9 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
-from stackbounce.model.laws.table import FORMULAS
 from stackbounce.run.batch import solve
 from stackbounce.run.columns import check
-from stackbounce.run.driver import Options, run_options
+from stackbounce.run.options import Options, run_options
 from stackbounce.run.paths import Number, number_at
 from stackbounce.run.result import Status
 from stackbounce.units import factor
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
 
 __all__ = ["sweep"]
 
-_OUTPUTS = {  # name: (dimension of its own, type, unit, meaning)
+_OUTPUTS = {  # name in `Outcomes`: (dimension of its own, type, unit, meaning)
     "rebound_ratio": ("ball", float, "1", "velocity after the impact over the impact speed v0"),
     "collisions": ("contact", np.int64, "1", "contact intervals; -1 where infinitely many"),
     "first_touch": ("contact", float, "s", "first touch; nan where there is none"),
@@ -41,7 +40,7 @@ def sweep(
     rtol: float = 1e-12,
     event_limit: int = 1_000_000,
 ) -> "xr.Dataset":
-    """Return what happens to a drop for all combinations of other numbers in it.
+    """Run a drop for all combinations of other numbers in it; return the results.
 
     Parameters
     ----------
@@ -67,18 +66,17 @@ def sweep(
     Raises
     ------
     InvalidValue
-        If a path is none of this drop, or a value makes no drop; the message tells which element
-        it is and what all numbers are there. What depends on lazy values is raised when they are
-        computed.
+        If the drop has no such path, or a value is not valid; the message gives the element and
+        all its numbers. Errors in lazy values are raised when they are computed.
     InvalidType
         If something has the wrong type.
 
     Notes
     -----
-    Every drop is solved as `simulate` solves it, but for two balls on springs: these have a faster
-    engine, which differs by round-off, and asks the general one where it is not sure. A drop
-    depends on its own numbers only: the results are the same bit for bit whatever the chunks,
-    blocks or threads.
+    Every drop is solved as by `simulate`, except two balls on springs: they have a faster engine,
+    which differs by round-off and passes drops near its limits of accuracy on to the general one.
+    The result of a drop depends on its own numbers only: it is the same bit for bit whatever the
+    chunks, blocks or threads.
 
     Examples
     --------
@@ -102,7 +100,7 @@ def sweep(
 
 
 def _check_together(numbers: Sequence[Number]) -> None:
-    """Refuse two numbers that say the same."""
+    """Refuse two numbers that determine each other."""
     for number in numbers:
         if number.field == "restitution":
             other = f"{number.part}.{number.index}.unloading_exponent"
@@ -149,7 +147,7 @@ def _dataset(
 
     dims = tuple(dict.fromkeys(dim for array in arrays for dim in array.dims))
     if any(array.chunks is not None for array in arrays):
-        dims = ()  # a chunk does not know where it lies
+        dims = ()  # a chunk does not know its place in the array
     size = len(drop.balls)
     own = [[dim] if dim else [] for dim, *_ in _OUTPUTS.values()]
 
@@ -178,7 +176,7 @@ def _dataset(
 
 
 def check_axis(drop: Drop, path: str, values: NDArray[np.float64]) -> None:
-    """Raise for the first value that a number of a drop, all others as they are, cannot have."""
+    """Raise for the first value that is not valid for a number, all others as in the drop."""
     check(drop, {number_at(drop, path): values}, lambda index: f"(at {path} {index[0]})")
 
 
@@ -203,12 +201,13 @@ def run_block(
 
     check(drop, rows, where)
     out = solve(drop, rows, shape, options)
-    return tuple(array.reshape(shape + array.shape[1:]) for array in out)
+    found = (getattr(out, name) for name in _OUTPUTS)
+    return tuple(array.reshape(shape + array.shape[1:]) for array in found)
 
 
 def _provenance(drop: Drop, numbers: Sequence[Number], options: Options) -> dict[str, Any]:
-    """Return what made the results: no times of day, so that the same sweep is the same file."""
-    laws = {type(law).__name__: FORMULAS[type(law)] for law in drop.contacts if law is not None}
+    """Return the provenance of results, without times of day: equal sweeps make equal files."""
+    laws = {type(law).__name__: law.formula for law in drop.contacts if law is not None}
     return {
         "stackbounce": __version__,
         "drop": drop.to_toml(),

@@ -1,9 +1,9 @@
-"""The files that a sweep larger than memory can go to: a Zarr store, or NetCDF-4.
+"""The file formats of a sweep larger than memory: a Zarr store, or NetCDF-4.
 
-A file is made with all its coordinates and no results; the results are then written block by
-block, and a block that was being written when the process died is simply written again. A block is
-a chunk of the Zarr store. In a NetCDF file each array lies in one piece, so that a block goes to a
-place of its own and nothing else is touched: neither kind remembers in which order it was written.
+A file is first made with all its coordinates and no results. The results are then written block by
+block; a block whose writing was interrupted is written again. A block is a chunk of the Zarr store.
+In a NetCDF file each array is contiguous, so that a block has a fixed place. In neither format do
+the bytes depend on the order of writing.
 """
 
 import contextlib
@@ -29,16 +29,16 @@ Writer: TypeAlias = Callable[[Block, "xr.Dataset"], None]
 
 
 class Form:
-    """What a file is to hold.
+    """The contents of a file.
 
     Parameters
     ----------
     sample : xarray.Dataset
-        The sweep with one value of each number that varies.
+        The sweep of the first value of each number.
     axes : mapping
         All values, by dimension.
     sides : sequence of int
-        Of a block, by dimension.
+        The sides of a block, by dimension.
     """
 
     def __init__(
@@ -59,7 +59,7 @@ class Form:
         return self.sides + self.shape(one)[len(self.sides) :]
 
     def is_of(self, found: "xr.Dataset") -> bool:
-        """Tell whether a file that was found is of this sweep."""
+        """Tell whether a file is of this sweep."""
         return found.attrs == self.attrs and all(
             name in found.coords and np.array_equal(found[name].values, values)
             for name, values in self.values.items()
@@ -67,7 +67,7 @@ class Form:
 
 
 class Format(Protocol):
-    """A kind of file."""
+    """A file format."""
 
     def create(self, path: Path, form: Form) -> None:
         """Make a file without results."""
@@ -76,7 +76,7 @@ class Format(Protocol):
         """Open a file that results can be written to, block by block."""
 
     def opened(self, path: Path) -> "xr.Dataset":
-        """Open a file; numbers are read when they are needed."""
+        """Open a file; numbers are read lazily."""
 
     def remove(self, path: Path) -> None:
         """Remove a file."""
@@ -175,14 +175,14 @@ _FORMATS: dict[str, Format] = {".zarr": _Zarr(), ".nc": _NetCDF()}
 
 
 def format_of(path: Path) -> Format:
-    """Return the kind of file that a name stands for.
+    """Return the file format for a name.
 
     Raises
     ------
     InvalidValue
-        If its suffix is none that is known.
+        If its suffix is not known.
     MissingExtra
-        If what it needs is not installed.
+        If a library that it needs is not installed.
 
     Examples
     --------

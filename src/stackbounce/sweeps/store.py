@@ -1,8 +1,8 @@
-"""A sweep larger than memory, written to a file block by block; stopped, it can be resumed.
+"""A sweep larger than memory, written to a file block by block; it can be stopped and resumed.
 
-Until it is complete the file is called ``NAME.partial``; beside it ``NAME.progress`` tells the
-sides of a block, and then the number of each block that is written. A sweep ends with the same
-bytes however often it was stopped.
+Until it is complete the file is called ``NAME.partial``. The file ``NAME.progress`` beside it holds
+the sides of a block in its first line, and the number of each block written in the lines after it.
+The final bytes do not depend on how often the sweep was stopped.
 """
 
 import contextlib
@@ -31,7 +31,7 @@ __all__ = ["Grid", "opened", "write"]
 BLOCK = 2**16
 """Drops in a block, at most."""
 
-_AHEAD = 3  # blocks that a cluster has in hand for each of its threads
+_AHEAD = 3  # blocks submitted to a cluster for each of its threads
 Grid: TypeAlias = Mapping[str, NDArray[np.float64]]
 _Todo: TypeAlias = Iterator[tuple[int, Block]]
 _Done: TypeAlias = Iterator[tuple[int, Block, "xr.Dataset"]]
@@ -47,7 +47,7 @@ def write(
     progress: Callable[[int, int], None] | None = None,
     **options: Any,
 ) -> Path:
-    """Sweep a drop over a grid into a file, or go on where that was stopped.
+    """Sweep a drop over a grid into a file, or resume a sweep that was stopped.
 
     Parameters
     ----------
@@ -61,10 +61,9 @@ def write(
     client : distributed.Client, optional
         A cluster to solve the blocks on; by default they are solved here, on all cores.
     block : int, optional
-        How many drops are solved and written at once, at most; a sweep that goes on keeps what it
-        began with.
+        The most drops that are solved and written at once; a resumed sweep keeps its first value.
     progress : callable, optional
-        Told how many drops are done, and of how many, after each block.
+        Called after each block with the number of drops done and the number of all.
     **options
         `until`, `rtol` and `event_limit`, as in `simulate`.
 
@@ -135,7 +134,7 @@ def _tell_nobody(done: int, total: int) -> None:
 
 
 def _is_complete(out: Path, kind: Format, form: Form, log: Path) -> bool:
-    """Tell whether the file is there, and complete; refuse to touch another one."""
+    """Tell whether the file exists and is complete; raise if it is another sweep's."""
     if not out.exists():
         return False
     if not _is_same(out, kind, form):
@@ -145,7 +144,7 @@ def _is_complete(out: Path, kind: Format, form: Form, log: Path) -> bool:
 
 
 def _begin(partial: Path, kind: Format, form: Form, log: Path) -> tuple[tuple[int, ...], set[int]]:
-    """Make an empty file, or go on with the one found; return a block's sides and what is done."""
+    """Make an empty file, or resume one; return a block's sides and the blocks done."""
     lines = log.read_text("ascii").splitlines(keepends=True) if log.exists() else []
     whole = [line for line in lines if line.endswith("\n")]  # the last one may be half written
     if whole and partial.exists():
@@ -156,7 +155,7 @@ def _begin(partial: Path, kind: Format, form: Form, log: Path) -> tuple[tuple[in
             )
         os.truncate(log, sum(map(len, whole)))
         return tuple(map(int, whole[0].split())), {int(line) for line in whole[1:]}
-    if partial.exists():  # stopped before it was all there
+    if partial.exists():  # stopped while it was being made
         kind.remove(partial)
     kind.create(partial, form)
     log.write_text(" ".join(map(str, form.sides)) + "\n", "ascii")
@@ -172,14 +171,14 @@ def _is_same(path: Path, kind: Format, form: Form) -> bool:
 
 
 def solve_block(drop: Drop, values: Grid, options: Mapping[str, Any]) -> "xr.Dataset":
-    """Return one block, whose numbers fit in memory."""
+    """Return the results of one block, which fits in memory."""
     return sweep(drop, values, **options)
 
 
 def _solved(
     drop: Drop, values: Grid, todo: _Todo, options: Mapping[str, Any], client: "Client | None"
 ) -> _Done:
-    """Yield blocks with their results as they are ready, never many at a time."""
+    """Yield blocks with their results as they become ready, few at a time."""
     jobs = ((k, block, (drop, _part(values, block), options)) for k, block in todo)
     if client is None:
         return ((k, block, solve_block(*job)) for k, block, job in jobs)
@@ -215,7 +214,7 @@ def _next(running: Any, waiting: dict[Any, tuple[int, Block]]) -> tuple[int, Blo
 
 @contextlib.contextmanager
 def _cluster_errors() -> Iterator[None]:
-    """Say that it was the cluster, and that nothing is lost."""
+    """Raise errors of the cluster as FileError, with the words that nothing is lost."""
     from distributed import KilledWorker
     from distributed.client import ClosedClientError
 

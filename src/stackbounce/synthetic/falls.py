@@ -123,8 +123,6 @@ def _bounce(
     law: ContactLaw | Callable[[float], float], mass: float | None, speed: float
 ) -> tuple[float, float]:
     """Return restitution and contact time of a bounce at a speed."""
-    if isinstance(law, Rigid):
-        return law.restitution, 0.0
     if isinstance(law, ContactLaw):
         time = 0.0 if mass is None else contact_time(law, mass, speed)
         return restitution(law, mass, speed), time

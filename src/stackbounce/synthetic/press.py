@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, finite, fraction, non_negative, positive, shown, whole
-from stackbounce.model.laws import Hertz, Hysteretic, PowerLaw, Spring
+from stackbounce.model.laws import LAWS, ContactLaw
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 
 
 def press_record(
-    law: Spring | Hertz | PowerLaw | Hysteretic,
+    law: ContactLaw,
     *,
     peak: float,
     points: int = 400,
@@ -39,8 +39,8 @@ def press_record(
 
     Parameters
     ----------
-    law : Spring, Hertz, PowerLaw or Hysteretic
-        The contact; each cycle starts afresh.
+    law : ContactLaw
+        The contact, whose force must not depend on the rate; each cycle starts afresh.
     peak : float
         Compression from contact to peak, in m.
     points : int, optional
@@ -89,10 +89,10 @@ def press_record(
     >>> data.force.values.round(1)
     array([ 0. ,  6.7, 13.3, 20. , 15. , 10. ,  5. ,  0. ])
     """
-    if not isinstance(law, Spring | Hertz | PowerLaw | Hysteretic):
+    if not (isinstance(law, ContactLaw) and law.rate_free):
+        known = " or ".join(name for name, one in LAWS.items() if one.rate_free)
         raise InvalidType(
-            "law must be Spring, Hertz, PowerLaw or Hysteretic, whose force does not depend on the "
-            f"rate, got {shown(law)}"
+            f"law must be {known}, whose force does not depend on the rate, got {shown(law)}"
         )
     positive("peak", peak, "metres")
     whole("points", points, 4)

@@ -164,12 +164,21 @@ def _add_answers(app: FastAPI, workers: Workers, limits: Limits) -> None:
 def _add_records(app: FastAPI, workers: Workers, limits: Limits) -> None:
     """Add the addresses that take a file."""
 
+    @app.get("/api/measure/options", response_model=schema.MeasureOptions)
+    async def measure_options() -> Response:
+        """List the kinds of measurement, and the options that a file may need."""
+        return _json(records.options())
+
     @app.post("/api/measure", response_model=schema.Measured)
     async def measure(
-        file: Annotated[UploadFile, File()], options: Annotated[str, Form()] = "{}"
+        file: Annotated[UploadFile, File()],
+        options: Annotated[str, Form()] = "{}",
+        alone: Annotated[UploadFile | None, File()] = None,
     ) -> Response:
         """Tell what a file of measurements is, and what is found in it."""
-        job = (records.measured, _name(file), await file.read(), _object("options", options))
+        other = None if alone is None else (_name(alone), await alone.read())
+        known = _object("options", options)
+        job = (records.measured, _name(file), await file.read(), known, other)
         return _json(await workers.run(*job, seconds=limits.fit_seconds))
 
     @app.post("/api/fit", response_model=schema.Fitted)

@@ -140,7 +140,9 @@ Contact = Annotated[
 _Finite = Annotated[float, Field(allow_inf_nan=False)]
 _Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
 _Name = Annotated[str, Field(max_length=100)]
-_Law = Annotated[str, Field(max_length=40, json_schema_extra={"enum": list(LAWS)})]
+_Law = Annotated[
+    str, Field(max_length=40, json_schema_extra=lambda schema: schema.update(enum=list(LAWS)))
+]
 
 ExportKind = Literal["csv", "toml", "python", "svg", "png"]
 """What a drop can be written to."""
@@ -335,6 +337,13 @@ class Curve(BaseModel):
     unit: str
     time: list[float]
     values: list[float]
+
+
+class MeasureOptions(BaseModel):
+    """Kinds of measurement, and the options that a file may need, in a form's order."""
+
+    kinds: list[_Json]
+    options: list[_Json]
 
 
 class Measured(BaseModel):

@@ -8,9 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import stackbounce as sb
-from stackbounce.engine.kernel import compiled
 from stackbounce.measure.reading import numbers
-from stackbounce.measure.reading.grid import POWERS, grid
+from stackbounce.measure.reading.text import Text
 
 CELLS = st.one_of(
     st.from_regex(r"[+-]?[0-9]{0,17}(\.[0-9]{0,17})?([eE][+-]?[0-9]{0,4})?", fullmatch=True),
@@ -19,47 +18,37 @@ CELLS = st.one_of(
 )
 
 
-def parsed(cells, width):
-    """Return what the kernel makes of cells, row by row, or None where it gives up."""
-    rows = [",".join(cells[k : k + width]) for k in range(0, len(cells), width)]
-    raw = np.frombuffer("\n".join(rows).encode(), dtype=np.uint8)
-    values = np.empty((len(rows), width))
-    places = np.arange(width)
-    found = grid(raw, ord(","), ord("."), 1000, places, POWERS, values)
-    return values if found == len(rows) else None
+def parsed(cells):
+    """Return the numbers of a column of cells, or None where one of them is no plain number."""
+    table = numbers.Table(np.empty((0, 1)), np.zeros(1, dtype=np.int64))
+    text = Text("", "\t", ".", [], [])
+    return numbers._parsed("\n".join(f"{cell}\t0" for cell in cells), text, [0], table)
 
 
 @given(st.lists(CELLS, min_size=1, max_size=6))
 def test_a_number_is_what_python_makes_of_it_or_none(cells):
-    found = parsed(cells, len(cells))
+    found = parsed(cells)
     if found is not None:
-        wanted = np.array([float(cell) for cell in cells])  # which refuses what is no number
-        assert found[0].tobytes() == wanted.tobytes()
+        wanted = [math.nan if cell in ("", "-", "--") else float(cell) for cell in cells]
+        assert found[:, 0].tobytes() == np.array(wanted).tobytes()
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1, max_size=40))
+def test_numbers_of_seventeen_digits_are_rounded_as_python_rounds_them(values):
+    assert parsed([repr(one) for one in values])[:, 0].tolist() == values
 
 
 @given(st.lists(st.decimals(-1000, 1000, places=6), min_size=2, max_size=40))
 def test_numbers_of_instruments_are_all_read(values):
-    found = parsed([str(one) for one in values], 1)
-    assert found is not None
-    assert found[:, 0].tolist() == [float(one) for one in values]
+    assert parsed([str(one) for one in values])[:, 0].tolist() == [float(one) for one in values]
 
 
 @pytest.mark.parametrize(
-    "text",
-    ["1,2\n3", "1,2\n3,4,5", "1,2\n\n3,4", "1,,2", "1,2\n3,x", "1,2,", "1;2", "1, 2", "1.2.3"],
+    "cell", ["x", "1;2", "1.2.3", "True", "false", "0x10", "1_000", "1 000", "1e", "1\0", "1\xa02"]
 )
-def test_what_is_no_grid_is_left_to_others(text):
-    raw = np.frombuffer(text.encode(), dtype=np.uint8)
-    arguments = (ord(","), ord("."), 100, np.arange(2), POWERS, np.empty((9, 2)))
-    assert grid(raw, *arguments) == -1
-    assert compiled(grid)(raw, *arguments) == -1
-
-
-def test_no_row_is_written_beyond_the_last_one():
-    raw = np.frombuffer(b"1\n2\n3", dtype=np.uint8)
-    arguments = (ord(","), ord("."), 100, np.arange(1), POWERS, np.empty((2, 1)))
-    assert compiled(grid)(raw, *arguments) == -1
-    assert grid(raw, *arguments) == -1
+def test_a_cell_that_is_no_plain_number_is_left_to_python(cell):
+    assert parsed(["1", cell]) is None
+    assert parsed([cell]) is None
 
 
 LINES = {

@@ -51,6 +51,15 @@ def test_a_stream_does_not_know_its_end(read, size):
     assert data.attrs["doubt"] == ""
 
 
+def test_the_high_byte_may_be_first(read):
+    wave = np.round(made.sound() * 32767.0).astype(">i2").tobytes()
+    form = struct.pack(">HHIIHH", 1, 1, made.RATE, 2 * made.RATE, 2, 16)
+    chunks = b"WAVE" + struct.pack(">4sI", b"fmt ", 16) + form
+    chunks += struct.pack(">4sI", b"data", len(wave)) + wave
+    data = read(struct.pack(">4sI", b"RIFX", len(chunks)) + chunks)
+    np.testing.assert_array_equal(data.sound, read(made.wav()).sound)
+
+
 def test_clipping_is_told(read):
     content = bytearray(made.wav(8))
     content[-3] = 255
@@ -75,13 +84,14 @@ def changed(offset, kind, value):
     (made.wav()[:30], "its format is cut off"),
     (made.wav()[:40], "sound is missing"),
     (made.wav()[:58], "without a sample"),
-    (changed(20, "<H", 0x11), "compressed as IMA ADPCM"),
-    (changed(20, "<H", 0x1234), "number 0x1234"),
+    (changed(20, "<H", 0x11), "save it as PCM: Unknown wave file format: DVI_ADPCM"),
+    (changed(20, "<H", 0x1234), "Unknown wave file format: 0x1234"),
     (changed(22, "<H", 0), "0 channels"),
-    (changed(24, "<I", 0), "of 0 Hz"),
-    (changed(34, "<H", 99), "99 bits"),
+    (changed(24, "<I", 0), "1 channels in 2 bytes at 0 Hz"),
+    (changed(34, "<H", 99), "99-bit integer"),
     (changed(16, "<I", 2**32 - 1), "sound is missing"),
-    (b"RIFX" + made.wav()[4:], "high byte first"),
+    (b"RIFX" + made.wav()[4:], "is missing"),
+    (changed(16, "<I", 17), "is missing"),
     (b"RIFF\0\0\0\0AVI LIST", "no text"),
 ])  # fmt: skip
 def test_broken(read, content, message):

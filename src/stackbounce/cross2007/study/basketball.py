@@ -1,7 +1,7 @@
-"""The sixth row of Table II: the tennis ball on the basketball, by itself.
+"""The sixth row of Table II, the tennis ball on the basketball, fitted separately.
 
-Of the hollow ball nothing is known but its restitution and how long the impact lasts: stiffness,
-ratio of stiffnesses and gap are fitted to three numbers. What is asked is only where the loss is.
+For the hollow ball only the restitution and the impact duration are known. Stiffness, stiffness
+ratio and gap are fitted to three values, with loss at the floor only or in both contacts.
 """
 
 import math
@@ -12,13 +12,13 @@ import numpy as np
 
 from stackbounce.calibration import calibrate
 from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.study import given
-from stackbounce.cross2007.study.fitting import fitted
+from stackbounce.cross2007.study import inputs
+from stackbounce.cross2007.study.searches import fit_model
 from stackbounce.cross2007.study.theories import ELASTIC, SHARED
-from stackbounce.fitting import Model
+from stackbounce.fitting import FitProblem, Model
 from stackbounce.model import Ball, Drop, HuntCrossley
 
-__all__ = ["Stack", "stacks"]
+__all__ = ["Stack", "fit_stacks"]
 
 _EXPONENTS = (1.0, 1.5)
 _SOFT = {1.0: (5e2, 2e4), 1.5: (5e3, 2e5)}  # N/m**exponent, of the basketball on the floor
@@ -26,9 +26,10 @@ _RATIOS = (1.0, 6.0)
 
 
 class Stack(NamedTuple):
-    """A model of the basketball's row, fitted: `where` two balls lose, and what came out.
+    """A fit of the basketball's row; `where` says whether the ball-ball contact loses energy.
 
-    `ratio` is that of stiffnesses, floor over balls; `gap` is in m, `chi_squared` of three data.
+    `ratio` is the stiffness ratio, floor over ball-ball; `gap` is in m; `ratios` are the fitted
+    rebound ratios; `chi_squared` is that of three values.
     """
 
     exponent: float
@@ -39,19 +40,19 @@ class Stack(NamedTuple):
     chi_squared: float
 
 
-def stacks() -> list[Stack]:
-    """Return the fits: linear and Hertz's contacts, loss at the floor only or everywhere."""
+def fit_stacks() -> list[Stack]:
+    """Fit linear and Hertzian contacts, with loss at the floor only and in both contacts."""
     return [_fitted(p, where) for where in (ELASTIC, SHARED) for p in _EXPONENTS]
 
 
-def restitution(name: str) -> float:
-    """Return the restitution of a ball alone, from the heights that the paper tells."""
+def read_restitution(name: str) -> float:
+    """Return the restitution of a single ball, from the heights that the paper gives."""
     return math.sqrt(PAPER[f"{name}.rebound_height"].value / PAPER["stack.drop_height"].value)
 
 
 def _fitted(exponent: float, where: str) -> Stack:
     model, data = _model(exponent, where), _data()
-    found = fitted(model, {"stack": data})
+    found = fit_model(model, {"stack": data})
     lower, upper = (one.fitted for one in found.residuals[:2])
     best = found.best
     own = best["ratio"], best["gaps.0"], (lower, upper)
@@ -60,7 +61,7 @@ def _fitted(exponent: float, where: str) -> Stack:
 
 def _data() -> dict[str, Any]:
     ratios = [
-        (PAPER[f"tennis_on_basketball.{one}"].value, given.ERROR) for one in ("lower", "upper")
+        (PAPER[f"tennis_on_basketball.{one}"].value, inputs.ERROR) for one in ("lower", "upper")
     ]
     return {
         "rebound_ratios": ratios,
@@ -68,22 +69,22 @@ def _data() -> dict[str, Any]:
     }
 
 
-def _model(p: float, where: str) -> Model:
+def _model(p: float, where: str) -> FitProblem:
     speed = PAPER["stack.impact_speed"].value
     tennis = calibrate(
         HuntCrossley,
         mass=PAPER["tennis.mass"].value,
         contact_time=PAPER["tennis.contact_time"].value,
-        restitution=restitution("tennis"),
+        restitution=read_restitution("tennis"),
         impact_speed=speed,
         exponent=p,
     )
-    # dissipation times speed depends on the restitution alone, so any contact time will do
+    # dissipation times speed depends on the restitution only, so the contact time is arbitrary
     floor = calibrate(
         HuntCrossley,
         mass=1.0,
         contact_time=1.0,
-        restitution=restitution("basketball"),
+        restitution=read_restitution("basketball"),
         impact_speed=speed,
         exponent=p,
     ).dissipation

@@ -1,8 +1,8 @@
-"""The models that the study compares, by short names."""
+"""The models that the study compares, by their short names."""
 
 import math
 
-from stackbounce.cross2007.study.given import PRINTED
+from stackbounce.cross2007.study.inputs import PRINTED
 from stackbounce.cross2007.study.theories import ELASTIC, OWN, SHARED, Theory
 from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
 
@@ -12,10 +12,10 @@ AS_PRINTED = {f"e_{ball}": value for ball, value in PRINTED.items()}
 """Table I's COR taken as restitutions."""
 
 AS_HEIGHTS = {name: math.sqrt(value) for name, value in AS_PRINTED.items()}
-"""Table I's COR taken as ratios of heights, of which the restitution is the root."""
+"""Table I's COR taken as ratios of heights; the restitution is the square root."""
 
 MISPRINT = {**AS_PRINTED, "e_B1": 0.88}
-"""B1's 0.78 taken as a slip for 0.88."""
+"""B1's 0.78 taken as a misprint of 0.88."""
 
 _BOTH = ("e_B1", "e_B2")
 _SMALL = {"e_B2": PRINTED["B2"]}
@@ -72,10 +72,10 @@ THEORIES: dict[str, Theory] = {
         ("e_B1", "e_B2", "e_B3", "exponent", "between", "stiffer"),
     ),
 }
-"""With finite contacts; separate collisions are in `stackbounce.cross2007.study.compared`."""
+"""The models with finite contacts; `NAMES` has those with separate collisions."""
 
 CHOSEN = ("A", "S", "L", "B")
-"""Whose predictions are told: the paper's own idea without its fit, and three that do better."""
+"""The models whose predictions are shown: the paper's idea, and three that fit better."""
 
 NAMES = {"rigid, one": ("e",), "rigid, two": ("e_floor", "e_between")}
-"""Separate collisions, and what they fit."""
+"""The models with separate collisions, and the restitutions that they fit."""

@@ -1,25 +1,25 @@
-"""What energy alone says, whatever happens between the balls.
+"""A bound on the energy after the impact that holds for any contact between the balls.
 
-A floor contact that loses the share 1 - e**2 of what it stores loses at least that of the lower
-ball's own energy: on the way down the upper ball can only push the lower one further. At most
-``(m1 e**2 + m2)/(m1 + m2)`` of the energy is then left, however the balls meet.
+A floor contact that loses the share 1 - e**2 of its stored energy loses at least this share of the
+lower ball's kinetic energy, because during the compression the upper ball can only add energy to
+it. The energy retained is therefore at most ``(m1 e**2 + m2)/(m1 + m2)`` of the initial energy.
 """
 
 import math
 from typing import NamedTuple
 
-from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED
 
-__all__ = ["Kept", "kept"]
+__all__ = ["EnergyBound", "bound_energy", "kept"]
 
 
-class Kept(NamedTuple):
-    """Shares of the energy that a pair brings: what is left, and what can be left.
+class EnergyBound(NamedTuple):
+    """The energy that a pair retains and its upper bounds, over the initial energy.
 
-    `printed` and `heights` are the most that Table I allows with its COR taken as restitution and
-    as ratio of heights; `needed` is the least restitution of the lower ball that what is left asks
-    for, with its error (nan where any will do).
+    `printed` and `heights` are the bounds with Table I's COR taken as restitution and as ratio of
+    heights. `needed` is the smallest restitution of the lower ball that is compatible with the
+    measured energy, with its error (nan if any restitution is).
     """
 
     pair: str
@@ -32,28 +32,31 @@ class Kept(NamedTuple):
 
     @property
     def excess(self) -> float:
-        """By how many errors more is left than Table I as printed allows."""
+        """By how many errors the measured energy exceeds the bound from Table I as printed."""
         return (self.measured - self.printed) / self.error
 
 
-def kept(pair: str) -> Kept:
-    """Return what energy says of a pair.
+def bound_energy(pair: str) -> EnergyBound:
+    """Return the measured energy of a pair and its bounds.
 
     Examples
     --------
-    >>> [round(number, 3) for number in kept("B2_on_B1")[1:5]]
+    >>> [round(number, 3) for number in bound_energy("B2_on_B1")[1:5]]
     [0.76, 0.017, 0.683, 0.822]
     """
-    lower, upper = (ball.mass for ball in given.balls(pair))
+    lower, upper = (ball.mass for ball in inputs.make_balls(pair))
     whole = lower + upper
-    (first, error), (second, other) = given.MEASURED[pair]["rebound_ratios"]
+    (first, error), (second, other) = inputs.MEASURED[pair]["rebound_ratios"]
     measured = (lower * first**2 + upper * second**2) / whole
     spread = 2.0 * math.hypot(lower * first * error, upper * second * other) / whole
-    name = f"e_{given.PAIRS[pair][0]}"
+    name = f"e_{inputs.PAIRS[pair][0]}"
     printed, heights = (
         (lower * one[name] ** 2 + upper) / whole for one in (AS_PRINTED, AS_HEIGHTS)
     )
     squared = (measured * whole - upper) / lower
     needed = math.sqrt(squared) if squared > 0.0 else math.nan
     off = 0.5 * spread * whole / lower / needed
-    return Kept(pair, measured, spread, printed, heights, needed, off)
+    return EnergyBound(pair, measured, spread, printed, heights, needed, off)
+
+
+kept = bound_energy  # the name in earlier releases

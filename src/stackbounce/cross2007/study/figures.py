@@ -1,21 +1,21 @@
-"""The study's figures of what was fitted: the comparison, the misfits, ratios and delays."""
+"""The study's figures of the fits: criteria, misfits, and ratios against delays."""
 
 import math
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import CHOSEN
-from stackbounce.cross2007.study.compared import Compared
-from stackbounce.cross2007.study.predictions import by_gap
+from stackbounce.cross2007.study.comparison import FittedModels
+from stackbounce.cross2007.study.predictions import sweep_gap
 from stackbounce.cross2007.style import BLACK, FLOOR, GREY, UPPER, Picture
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["LINES", "comparison", "delays", "misfits", "wide"]
+__all__ = ["LINES", "draw_comparison", "draw_delays", "draw_misfits", "make_wide_figure"]
 
 _WIDE = 7.4  # inches
 _GREEN = "#009E73"
@@ -27,28 +27,28 @@ _GAPS = {"B2_on_B1": 5e-3, "B1_on_B2": 9e-3, "B3_on_B1": 6e-3, "B1_on_B3": 13e-3
 _MOST = 6.0  # errors: where the colours end
 
 
-def wide(height: float, width: float = _WIDE) -> "Figure":
+def make_wide_figure(height: float, width: float = _WIDE) -> "Figure":
     """Return an empty figure of a page's width."""
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height))
 
 
-def named(pair: str) -> str:
+def name_pair(pair: str) -> str:
     """Return a pair's name in words.
 
     Examples
     --------
-    >>> named("B2_on_B1")
+    >>> name_pair("B2_on_B1")
     'B2 on B1'
     """
     return pair.replace("_", " ")
 
 
-def comparison(compared: Compared) -> Picture:
-    """Return AICc and chi squared of every model."""
+def draw_comparison(compared: FittedModels) -> Picture:
+    """Draw AICc and chi squared of every model."""
     scores = compared.comparison.scores[::-1]
-    figure = wide(0.27 * len(scores) + 0.75)
+    figure = make_wide_figure(0.27 * len(scores) + 0.75)
     ax = figure.subplots()
     figure.subplots_adjust(left=0.57, right=0.97, bottom=0.5 / figure.get_figheight(), top=0.99)
     places = np.arange(len(scores))
@@ -74,12 +74,12 @@ def comparison(compared: Compared) -> Picture:
     )
 
 
-def misfits(compared: Compared) -> Picture:
-    """Return the pulls of every datum under every model, as a map."""
+def draw_misfits(compared: FittedModels) -> Picture:
+    """Draw the pulls of all values for every model as a map."""
     pulls = compared.comparison.pulls
     order = [one.model for one in compared.comparison.scores]
     table = pulls.sel(model=order).values
-    figure = wide(0.27 * len(order) + 1.1)
+    figure = make_wide_figure(0.27 * len(order) + 1.1)
     ax = figure.subplots()
     high = figure.get_figheight()
     figure.subplots_adjust(left=0.13, right=0.95, bottom=0.05 / high, top=1.0 - 0.95 / high)
@@ -109,17 +109,17 @@ def misfits(compared: Compared) -> Picture:
 def _datum(name: str) -> str:
     pair, rest = name.split(".", 1)
     what = {"rebound_ratios.0": "$e_1$", "rebound_ratios.1": "$e_2$"}.get(rest, "delay")
-    return f"{named(pair)}: {what}"
+    return f"{name_pair(pair)}: {what}"
 
 
-def delays(compared: Compared) -> Picture:
-    """Return e1 and e2 of each pair against the delay, with what was measured."""
-    figure = wide(4.0)
-    panels = figure.subplots(2, len(given.PAIRS), sharex="col")
+def draw_delays(compared: FittedModels) -> Picture:
+    """Draw e1 and e2 of each pair against the delay, with the measured values."""
+    figure = make_wide_figure(4.0)
+    panels = figure.subplots(2, len(inputs.PAIRS), sharex="col")
     figure.subplots_adjust(
         left=0.065, right=0.99, bottom=0.105, top=0.885, wspace=0.36, hspace=0.08
     )
-    for pair, column in zip(given.PAIRS, panels.T, strict=True):
+    for pair, column in zip(inputs.PAIRS, panels.T, strict=True):
         _column(compared, pair, list(column[::-1]))
     panels[0, 0].set_ylabel("$e_2$")
     panels[1, 0].set_ylabel("$e_1$")
@@ -137,22 +137,22 @@ def delays(compared: Compared) -> Picture:
     )
 
 
-def _column(compared: Compared, pair: str, panels: "list[Axes]") -> None:
+def _column(compared: FittedModels, pair: str, panels: "list[Axes]") -> None:
     """Draw one pair: e1 below, e2 above."""
     gaps = np.linspace(1e-4, _GAPS[pair], 160)
-    delay, spread = (1e3 * one for one in given.MEASURED[pair][given.DELAY])
+    delay, spread = (1e3 * one for one in inputs.MEASURED[pair][inputs.DELAY])
     ends = []
     for name in CHOSEN:
-        *ratios, touch = by_gap(compared, name, pair, gaps)
+        *ratios, touch = sweep_gap(compared, name, pair, gaps)
         color, style = LINES[name]
         for ax, ratio in zip(panels, ratios, strict=True):
             ax.plot(1e3 * touch, ratio, style, color=color, label=name)
         ends.append(1e3 * float(touch[-1]))
-    for ax, measured in zip(panels, given.printed(pair), strict=True):
-        ax.axhspan(measured - given.ERROR, measured + given.ERROR, color=GREY, alpha=0.3, lw=0)
+    for ax, measured in zip(panels, inputs.read_ratios(pair), strict=True):
+        ax.axhspan(measured - inputs.ERROR, measured + inputs.ERROR, color=GREY, alpha=0.3, lw=0)
         ax.axvspan(delay - spread, delay + spread, color=GREY, alpha=0.15, lw=0)
         ax.set_ylim(measured + _SHOWN[0], measured + _SHOWN[1])
         ax.set_xlim(0.5, math.floor(min(ends) * 2.0) / 2.0)
         ax.tick_params(labelsize=8.5)
     panels[0].set_xlabel("delay (ms)")
-    panels[1].set_title(named(pair), fontsize=10.5, pad=4)
+    panels[1].set_title(name_pair(pair), fontsize=10.5, pad=4)

@@ -1,64 +1,69 @@
-"""The study's page, its figures and its numbers as files."""
+"""The files of the study: its page, its figures and its numbers."""
 
 import json
 import math
 from collections.abc import Callable
 from typing import Any
 
-from stackbounce.cross2007.pages import data_uri, environment
-from stackbounce.cross2007.study import given
+from stackbounce.cross2007.pages import data_uri, make_environment
+from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED, CHOSEN
-from stackbounce.cross2007.study.compared import Compared
-from stackbounce.cross2007.study.figures import comparison, delays, misfits, named
-from stackbounce.cross2007.study.figures_answers import decisive, energy
+from stackbounce.cross2007.study.comparison import FittedModels
+from stackbounce.cross2007.study.figures import (
+    draw_comparison,
+    draw_delays,
+    draw_misfits,
+    name_pair,
+)
+from stackbounce.cross2007.study.figures_predictions import draw_decisive, draw_energy
 from stackbounce.cross2007.study.readings import LAWS
-from stackbounce.cross2007.study.study import Study, study
-from stackbounce.cross2007.style import Picture, rendered, styled
+from stackbounce.cross2007.study.results import Study, run_study
+from stackbounce.cross2007.style import Picture, render, use_style
 from stackbounce.fitting import Residual
 from stackbounce.version import __version__
 
-__all__ = ["files", "page", "pictures"]
+__all__ = ["draw_pictures", "make_files", "render_page"]
 
 
-def files(progress: Callable[[str], None] = lambda _: None) -> dict[str, bytes]:
+def make_files(progress: Callable[[str], None] = lambda _: None) -> dict[str, bytes]:
     """Return ``study.html``, ``study.json`` and the study's figures as bytes, by their names.
 
     Parameters
     ----------
     progress : callable, optional
-        Is told what is being done, in a line each.
+        Receives a line of text for each step.
     """
-    done = study(progress)
+    done = run_study(progress)
     found: dict[str, bytes] = {}
     drawn: dict[str, tuple[Picture, str]] = {}
-    for picture in pictures(done):
+    for picture in draw_pictures(done):
         progress(f"figure {picture.name}")
-        images = rendered(picture.figure)
+        images = render(picture.figure)
         found |= {f"figures/{picture.name}.{end}": data for end, data in images.items()}
         drawn[picture.name.removeprefix("study-")] = picture, data_uri(images["svg"])
     found["study.json"] = (json.dumps(_plain(done.as_dict()), indent=1) + "\n").encode()
-    found["study.html"] = page(done, drawn).encode()
+    found["study.html"] = render_page(done, drawn).encode()
     return found
 
 
-def pictures(done: Study) -> list[Picture]:
+def draw_pictures(done: Study) -> list[Picture]:
     """Return the study's figures, in the order of the page."""
-    with styled():
+    with use_style():
         return [
-            comparison(done.compared),
-            misfits(done.compared),
-            delays(done.compared),
-            energy(done.kept),
-            decisive(done.compared),
+            draw_comparison(done.compared),
+            draw_misfits(done.compared),
+            draw_delays(done.compared),
+            draw_energy(done.kept),
+            draw_decisive(done.compared),
         ]
 
 
-def page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
+def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
     """Return the page as HTML."""
-    pages = environment()
+    pages = make_environment()
     pages.filters["number"] = _number
     pages.filters["misses"] = _misses
-    pages.filters["named"] = named
+    pages.filters["named"] = name_pair
     pages.filters["fitted"] = _fitted
     own = done.compared
     return pages.get_template("study.html.j2").render(
@@ -68,7 +73,7 @@ def page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         pairs={name: own.pairs(name) for name in CHOSEN},
         biggest={name: _biggest(own, name) for name in ("S", "S, six")},
         firm=_firm(own),
-        measured={pair: given.printed(pair) for pair in given.PAIRS},
+        measured={pair: inputs.read_ratios(pair) for pair in inputs.PAIRS},
         balls={"printed": AS_PRINTED, "heights": AS_HEIGHTS},
         said={one.what: one for one in done.predictions},
         laws=list(LAWS),
@@ -77,20 +82,19 @@ def page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
     )
 
 
-def _firm(compared: Compared) -> tuple[float, float]:
-    """Return the least and the most restitution of B1 that laws with loss in every contact fit."""
+def _firm(compared: FittedModels) -> tuple[float, float]:
+    """Return the range of B1's fitted restitution over the laws with loss in every contact."""
     found = [compared.shared(name)["e_B1"] for name in ("S, fitted", "V", "H", "L", "L, linear")]
     return min(found), max(found)
 
 
-def _biggest(compared: Compared, name: str) -> Residual:
-    """Return the value of Table II that a model misses most."""
-    rows = [one for one in compared[name].residuals if one.name in given.RATIOS]
-    return max(rows, key=lambda one: abs(one.pull))
+def _biggest(compared: FittedModels, name: str) -> Residual:
+    """Return the residual of Table II with the largest pull."""
+    return max(compared.ratios(name), key=lambda one: abs(one.pull))
 
 
 def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
-    """A number with its sign as it is printed.
+    """Format a number with a typographic minus sign.
 
     Examples
     --------
@@ -103,7 +107,7 @@ def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
 
 
 def _misses(rows: list[Residual]) -> str:
-    """What a model gets wrong, in words."""
+    """Format the residuals that a model misses."""
     found = [
         f"{_datum(one)} ({_number(one.pull, 1 if abs(one.pull) < 10 else 0, sign=True)})"
         for one in rows
@@ -112,7 +116,7 @@ def _misses(rows: list[Residual]) -> str:
 
 
 def _datum(one: Residual) -> str:
-    return f"{'e2' if one.name.endswith('1') else 'e1'} of {named(one.drop)}"
+    return f"{'e2' if one.name.endswith('1') else 'e1'} of {name_pair(one.drop)}"
 
 
 _WORDS = {
@@ -130,12 +134,12 @@ _WORDS = {
 
 
 def _fitted(shared: dict[str, float]) -> str:
-    """What a model fitted, in words."""
+    """Format the fitted numbers of a model."""
     return ", ".join(f"{_WORDS[name]} {value:.3g}" for name, value in shared.items()) or "nothing"
 
 
 def _plain(value: Any) -> Any:
-    """Return named tuples as mappings, nan as None, for JSON."""
+    """Return named tuples as dicts and nan as None, for JSON."""
     if hasattr(value, "_asdict"):
         return _plain(value._asdict())
     if isinstance(value, dict):

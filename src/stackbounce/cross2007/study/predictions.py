@@ -1,4 +1,4 @@
-"""What each of the rival models says of measurements that nobody has made."""
+"""Predictions of the competing models for measurements that have not been made."""
 
 from dataclasses import replace
 from typing import NamedTuple, TypeAlias
@@ -7,14 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.cross2007.drops import fallen_speed, risen_height
-from stackbounce.cross2007.study import given
+from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import CHOSEN
-from stackbounce.cross2007.study.compared import Compared
+from stackbounce.cross2007.study.comparison import FittedModels
 from stackbounce.model import Drop
 from stackbounce.run.driver import simulate
 from stackbounce.sweeps import sweep
 
-__all__ = ["Prediction", "bounces", "by_gap", "predictions"]
+__all__ = ["Prediction", "predict", "predict_restitutions", "sweep_gap"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -25,7 +25,7 @@ _PENDULUMS = "two B1 as pendulums, closing at 2.0 m/s: restitution", ""
 
 
 class Prediction(NamedTuple):
-    """A measurement, its unit, and what each model says of it."""
+    """A measurement, its unit, and the prediction of each model."""
 
     what: str
     unit: str
@@ -33,19 +33,19 @@ class Prediction(NamedTuple):
 
     @property
     def spread(self) -> float:
-        """From the least to the most."""
+        """The difference of the largest and the smallest prediction."""
         return max(self.values.values()) - min(self.values.values())
 
 
-def predictions(compared: Compared) -> list[Prediction]:
-    """Return what the chosen models say of a few measurements that would tell them apart."""
-    speed = fallen_speed(given.HEIGHT)
+def predict(compared: FittedModels) -> list[Prediction]:
+    """Predict measurements that would discriminate between the chosen models."""
+    speed = fallen_speed(inputs.HEIGHT)
     rows: dict[tuple[str, str], list[float]] = {}
     for name in CHOSEN:
-        alone = {height: _alone(compared, name, height) for height in (_LOW, given.HEIGHT, _HIGH)}
-        usual, low = _stack(compared, name, given.HEIGHT), _stack(compared, name, _LOW)
+        alone = {height: _alone(compared, name, height) for height in (_LOW, inputs.HEIGHT, _HIGH)}
+        usual, low = _stack(compared, name, inputs.HEIGHT), _stack(compared, name, _LOW)
         for what, value in (
-            (_REBOUND, 100.0 * risen_height(alone[given.HEIGHT] * speed)),
+            (_REBOUND, 100.0 * risen_height(alone[inputs.HEIGHT] * speed)),
             (("B1 alone from 5 cm: restitution", ""), alone[_LOW]),
             (("B1 alone from 80 cm: restitution", ""), alone[_HIGH]),
             (_PENDULUMS, _meeting(compared, name, speed)),
@@ -60,12 +60,14 @@ def predictions(compared: Compared) -> list[Prediction]:
     ]
 
 
-def bounces(compared: Compared, name: str, heights: Array) -> Array:
+def predict_restitutions(compared: FittedModels, name: str, heights: Array) -> Array:
     """Return the restitution of B1 alone after falls from heights in m."""
     return np.array([_alone(compared, name, height) for height in heights.tolist()])
 
 
-def by_gap(compared: Compared, name: str, pair: str, gaps: Array) -> tuple[Array, Array, Array]:
+def sweep_gap(
+    compared: FittedModels, name: str, pair: str, gaps: Array
+) -> tuple[Array, Array, Array]:
     """Return e1, e2 and the delay in s of a pair for gaps in m."""
     found = sweep(compared.drop(name, pair), {"gaps.0": gaps}, rtol=1e-8)
     ratios = found["rebound_ratio"]
@@ -77,13 +79,13 @@ def by_gap(compared: Compared, name: str, pair: str, gaps: Array) -> tuple[Array
     )
 
 
-def _alone(compared: Compared, name: str, height: float) -> float:
+def _alone(compared: FittedModels, name: str, height: float) -> float:
     drop = compared.drop(name, "B2_on_B1")
     own = Drop(drop.balls[:1], drop.contacts[:1], height=height)
     return float(simulate(own, rtol=1e-8).rebound_ratios[0])
 
 
-def _meeting(compared: Compared, name: str, speed: float) -> float:
+def _meeting(compared: FittedModels, name: str, speed: float) -> float:
     """Return the restitution of two balls B1 that meet at a speed in m/s."""
     drop = compared.drop(name, "B1_on_B1")
     own = Drop(drop.balls, [None, drop.contacts[1]], velocities=[speed, 0.0])
@@ -91,6 +93,6 @@ def _meeting(compared: Compared, name: str, speed: float) -> float:
     return float((upper - lower) / speed)
 
 
-def _stack(compared: Compared, name: str, height: float) -> Array:
+def _stack(compared: FittedModels, name: str, height: float) -> Array:
     drop = replace(compared.drop(name, "B1_on_B2"), gaps=(_GAP,), height=height)
     return np.asarray(simulate(drop, rtol=1e-8).rebound_ratios)

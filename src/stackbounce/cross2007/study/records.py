@@ -1,4 +1,4 @@
-"""What the force records show and no fit was told: durations, and how many peaks."""
+"""Observations of the force records that no fit uses: durations and numbers of peaks."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -9,33 +9,37 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import peak_times
 from stackbounce.cross2007.stacks import gap_for_delay
 from stackbounce.cross2007.study.catalogue import CHOSEN
-from stackbounce.cross2007.study.compared import Compared
+from stackbounce.cross2007.study.comparison import FittedModels
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 
-__all__ = ["Fact", "at_delay", "facts"]
+__all__ = ["Fact", "compare_records", "simulate_at_delay"]
 
 _RTOL = 1e-9
 
 
 class Fact(NamedTuple):
-    """A fact of the force records: as printed, and by model in words."""
+    """An observation of the force records: as printed, and as each model gives it."""
 
     what: str
     printed: str
     found: dict[str, str]
 
 
-def at_delay(compared: Compared, name: str, pair: str, delay: float) -> Result:
-    """Return a pair that meets at a delay in s, by a fitted model."""
+def simulate_at_delay(compared: FittedModels, name: str, pair: str, delay: float) -> Result:
+    """Simulate a pair by a fitted model, with the gap for a delay in s."""
     drop = compared.drop(name, pair)
     return simulate(replace(drop, gaps=(gap_for_delay(Bench(PAPER), drop, delay),)), rtol=_RTOL)
 
 
-def facts(compared: Compared) -> list[Fact]:
-    """Return the facts of Figs 10 to 12, as the chosen models have them at the recorded delays."""
+def compare_records(compared: FittedModels) -> list[Fact]:
+    """Return the observations of Figs 10 to 12 beside the chosen models at the recorded delays."""
     return [
-        Fact(what, shown, {name: look(at_delay(compared, name, pair, delay)) for name in CHOSEN})
+        Fact(
+            what,
+            shown,
+            {name: look(simulate_at_delay(compared, name, pair, delay)) for name in CHOSEN},
+        )
         for what, shown, pair, delay, look in _FACTS
     ]
 

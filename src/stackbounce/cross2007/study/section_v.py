@@ -1,14 +1,14 @@
-"""Section V's two fits made again: its model, its pairs, with confidence intervals."""
+"""Section V's two fits repeated with its model, and with confidence intervals."""
 
 from dataclasses import replace
 from typing import NamedTuple
 
 from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.datasets import dataset
-from stackbounce.cross2007.study import given
+from stackbounce.cross2007.datasets import load_dataset
+from stackbounce.cross2007.study import inputs
 from stackbounce.fitting import Interval, fit
 
-__all__ = ["Refit", "refits"]
+__all__ = ["Refit", "refit_section_v"]
 
 _FITS = {"B2_on_B1": ("B1-B2", "fig13"), "B3_on_B1": ("B1-B3", "B3_fit")}
 _NAMES = {
@@ -42,17 +42,17 @@ class Refit(NamedTuple):
     data: list[str]
 
 
-def refits() -> list[Refit]:
-    """Return both fits: stiffnesses and gap from Table II's row and the times of the records.
+def refit_section_v() -> list[Refit]:
+    """Fit stiffnesses and gap of both pairs to Table II's rows and the times of the records.
 
-    B1 has the 105 g that Table II's mass ratios ask for.
+    B1 has 105 g, from Table II's mass ratios.
     """
     return [_refit(pair, *names) for pair, names in _FITS.items()]
 
 
 def _refit(pair: str, name: str, key: str) -> Refit:
-    own = dataset(name)
-    found = fit(replace(own.drop, balls=given.balls(pair)), own.data, own.vary, rtol=_RTOL)
+    own = load_dataset(name)
+    found = fit(replace(own.drop, balls=inputs.make_balls(pair)), own.data, own.vary, rtol=_RTOL)
     intervals = found.intervals()
     numbers = []
     for path, short in _NAMES.items():
@@ -64,7 +64,7 @@ def _refit(pair: str, name: str, key: str) -> Refit:
         numbers,
         (lower, upper),
         _PRINTED[pair],
-        given.printed(pair),
+        inputs.read_ratios(pair),
         found.chi_squared,
         found.degrees_of_freedom,
         [one.name for one in found.residuals],

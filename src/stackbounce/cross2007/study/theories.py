@@ -1,4 +1,4 @@
-"""From a few numbers of the balls to the contacts of every pair: what makes a model of Table II."""
+"""Theories: models of all pairs of Table II, from a few numbers of the balls."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
@@ -8,17 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.cross2007.drops import fallen_speed
-from stackbounce.cross2007.study import given
-from stackbounce.cross2007.study.alone import LOSS, Numbers, numbers
-from stackbounce.fitting import Model
-from stackbounce.model import Drop, HuntCrossley, Hysteretic, Rigid, Viscoelastic
+from stackbounce.cross2007.study import inputs
+from stackbounce.cross2007.study.single_ball import Numbers, calibrate_numbers, loss_unit
+from stackbounce.fitting import FitProblem, Model
+from stackbounce.model import Drop, Rigid
 
-__all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "rigid"]
+__all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "make_rigid_model"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 ELASTIC, SHARED, OWN = "elastic", "shared", "own"
-"""What two balls lose on each other: nothing; each as on the floor; as one number tells."""
+"""The loss between two balls: none; that of each ball on the floor; a number of its own."""
 
 _BOUNDS = {
     "e": (0.7, 1.0),
@@ -33,7 +33,7 @@ _BOUNDS = {
 }
 _WIDEST = 0.03  # m: of the gaps that are searched
 _GAP = 4e-3  # m: where a search begins
-_SPEED = fallen_speed(given.HEIGHT)  # m/s: of a ball alone, at which Table I has its numbers
+_SPEED = fallen_speed(inputs.HEIGHT)  # m/s: of a ball alone, at which Table I has its numbers
 
 
 @dataclass(frozen=True)
@@ -43,29 +43,30 @@ class Theory:
     Parameters
     ----------
     title : str
-        In plain words.
+        One line for people.
     law : type
         Of every contact: `HuntCrossley`, `Viscoelastic` or `Hysteretic`.
     where : str
-        What two balls lose on each other: `ELASTIC`, `SHARED`, or `OWN` (of `Hysteretic` only).
+        The loss between two balls: `ELASTIC`, `SHARED`, or `OWN` (`Hysteretic` only).
     known : mapping of str to float
-        What is told beforehand, of the names below.
+        Fixed values of the names below.
     vary : tuple of str
-        What is fitted: ``e_B1``, the restitution of B1 that falls alone, ``e_B2`` and ``e_B3``
-        (that of B2 unless told); ``e_between``, of two balls on each other; ``loss``, a factor on
-        what all balls lose; ``between``, one on what two balls lose on each other; ``stiffer``, one
-        on the stiffness between them; ``exponent``.
+        The fitted numbers: ``e_B1``, the restitution of B1 alone on the floor, ``e_B2`` and
+        ``e_B3`` (by default that of B2); ``e_between``, that of two balls; ``loss``, a factor on
+        all losses; ``between``, a factor on the loss between two balls; ``stiffer``, a factor on
+        the stiffness between them; ``exponent``.
     exponent : float
         Of the law.
     reloading : str
-        Of a hysteretic contact that is pressed anew before it has opened.
+        Of a hysteretic contact that is compressed again before it has opened.
     heavy, height : float
-        B1's mass in kg, and the pairs' fall in m; balls alone fall from 20 cm.
+        B1's mass in kg, and the drop height of the pairs in m; single balls fall from 20 cm.
     longer : mapping of str to float
-        By ball: s, what is added to its contact time.
+        Time in s that is added to the contact time of a ball, by its name.
 
     Examples
     --------
+    >>> from stackbounce.model import HuntCrossley
     >>> theory = Theory("nothing fitted", HuntCrossley, SHARED, {"e_B1": 0.88, "e_B2": 0.95})
     >>> floor, between = theory.drop("B2_on_B1").contacts
     >>> round(floor.stiffness / between.stiffness, 2)
@@ -79,12 +80,12 @@ class Theory:
     vary: tuple[str, ...] = ()
     exponent: float = 1.5
     reloading: str = "free"
-    heavy: float = given.HEAVY
-    height: float = given.HEIGHT
+    heavy: float = inputs.HEAVY
+    height: float = inputs.HEIGHT
     longer: Mapping[str, float] = field(default_factory=dict)
 
-    def model(self, pairs: tuple[str, ...] = tuple(given.PAIRS)) -> Model:
-        """Return what `stackbounce.fitting.compare` takes: drops, what varies, what follows."""
+    def model(self, pairs: tuple[str, ...] = tuple(inputs.PAIRS)) -> FitProblem:
+        """Return the model for `stackbounce.fitting`: drops, varied numbers and ties."""
         vary: dict[str, Any] = {name: _BOUNDS[name] for name in self.vary}
         vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in pairs}
         middle = {name: 0.5 * sum(_BOUNDS[name]) for name in self.vary}
@@ -92,33 +93,33 @@ class Theory:
         return Model(drops, vary, self._ties(pairs) if self.vary else None)
 
     def drop(self, key: str, gap: float = 0.0, varied: Mapping[str, float] | None = None) -> Drop:
-        """Return one pair with a gap in m and values for what is varied."""
+        """Return one pair with a gap in m and values of the varied numbers."""
         values = self._values(varied or {})
         contacts = [self._law(values, one) for one in self.contacts(values)[key]]
-        return Drop(given.balls(key, self.heavy), contacts, gaps=[gap], height=self.height)
+        return Drop(inputs.make_balls(key, self.heavy), contacts, gaps=[gap], height=self.height)
 
     def contacts(self, values: Mapping[str, Any]) -> dict[str, tuple[Numbers, Numbers]]:
         """Return the numbers of each pair's contacts: the floor's, and that of the balls."""
-        alone = {ball: self.alone(ball, values) for ball in given.PRINTED}
+        alone = {ball: self.alone(ball, values) for ball in inputs.PRINTED}
         return {
             key: (alone[lower], self.between(alone[lower], alone[upper], values))
-            for key, (lower, upper) in given.PAIRS.items()
+            for key, (lower, upper) in inputs.PAIRS.items()
         }
 
     def alone(self, ball: str, values: Mapping[str, Any]) -> Numbers:
         """Return the numbers of a ball's contact with the floor."""
-        mass, time = given.solo(ball, self.heavy)
-        own = given.Solo(mass, time + self.longer.get(ball, 0.0))
+        mass, time = inputs.read_solo(ball, self.heavy)
+        own = inputs.Solo(mass, time + self.longer.get(ball, 0.0))
         p = values["exponent"]
-        found = numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
-        if self.law is HuntCrossley:
+        found = calibrate_numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
+        if loss_unit(self.law) == "s/m":
             found = found._replace(loss=found.loss * values["loss"])
         return found
 
     def between(self, lower: Numbers, upper: Numbers, values: Mapping[str, Any]) -> Numbers:
         """Return the numbers of the contact of two balls, from those of each with the floor.
 
-        Both in series: at equal force the compressions add, so that ``k**(-1/p)`` adds, and the
+        The two are in series: at equal force the compressions add, so that ``k**(-1/p)`` adds. The
         lower ball has the share f of the compression and of the work.
         """
         p = values["exponent"]
@@ -128,28 +129,27 @@ class Theory:
         return Numbers(stiffness, self._lost(f, lower.loss, upper.loss, values))
 
     def _lost(self, f: Array, lower: Array, upper: Array, values: Mapping[str, Any]) -> Array:
-        """Return the loss between two balls, the lower one of which has the share f."""
+        """Return the loss between two balls; the lower one has the share f of the compression."""
         if self.where == OWN:
             return np.asarray(values["e_between"])
-        if self.law is Hysteretic:  # shares of the energy, as `stackbounce.calibration.between`
+        if self.law.loss == "restitution":  # shares of the energy, as `calibration.between`
             elastic = self.where == ELASTIC
             return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
         if self.where == ELASTIC:
             return np.zeros_like(f)
-        if self.law is Viscoelastic:
-            return np.asarray(values["between"] * (f * lower + (1.0 - f) * upper))
-        # Hunt and Crossley's loss goes with the speed of compression, of which each ball has its
-        # share, and the work has that share once more
-        return np.asarray(values["between"] * (f**2 * lower + (1.0 - f) ** 2 * upper))
+        # A ball has its share of the work. A loss per speed also counts its share of the speed.
+        power = 2 if loss_unit(self.law) == "s/m" else 1
+        share = f**power * lower + (1.0 - f) ** power * upper
+        return np.asarray(values["between"] * share)
 
     def _law(self, values: Mapping[str, Any], own: Numbers) -> Any:
         options: dict[str, Any] = {
             "stiffness": float(own.stiffness),
-            LOSS[self.law]: float(own.loss),
+            self.law.loss: float(own.loss),
         }
-        if self.law is not Viscoelastic:
+        if self.law.fixed_exponent() is None:
             options["exponent"] = float(values["exponent"])
-        if self.law is Hysteretic:
+        if self.reloading != "free":
             options["reloading"] = self.reloading
         return self.law(**options)
 
@@ -161,7 +161,7 @@ class Theory:
         return {"e_B3": found["e_B2"], **found}
 
     def _ties(self, pairs: tuple[str, ...]) -> dict[str, Any]:
-        """Return the ties of all contacts; trials that come again are not computed again."""
+        """Return the ties of all contacts; those of the latest trials are cached."""
         kept: dict[bytes, dict[str, tuple[Numbers, Numbers]]] = {}
 
         def contacts(varied: Mapping[str, Array]) -> dict[str, tuple[Numbers, Numbers]]:
@@ -177,18 +177,20 @@ class Theory:
         ties: dict[str, Any] = {}
         for key in pairs:
             for i in (0, 1):
-                for name, path in (("stiffness", "stiffness"), ("loss", LOSS[self.law])):
+                for name, path in (("stiffness", "stiffness"), ("loss", self.law.loss)):
                     ties[f"{key}.contacts.{i}.{path}"] = tie(key, i, name)
                 if "exponent" in self.vary:
                     ties[f"{key}.contacts.{i}.exponent"] = "exponent"
         return ties
 
 
-def rigid(*names: str) -> Model:
+def make_rigid_model(*names: str) -> FitProblem:
     """Return separate collisions: with one restitution, ``e``, or ``e_floor`` and ``e_between``."""
     drops = {
-        key: Drop(given.balls(key), [Rigid(0.9), Rigid(0.9)], gaps=[_GAP], height=given.HEIGHT)
-        for key in given.PAIRS
+        key: Drop(
+            inputs.make_balls(key), [Rigid(0.9), Rigid(0.9)], gaps=[_GAP], height=inputs.HEIGHT
+        )
+        for key in inputs.PAIRS
     }
     vary: dict[str, Any] = dict.fromkeys(names, _BOUNDS["e"])
     vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in drops}

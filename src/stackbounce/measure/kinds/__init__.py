@@ -1,1 +1,22 @@
-"""The kinds of measurement: a folder for each, with its analysis and its result."""
+"""The kinds of measurement: a folder for each, with its analysis, its result and its `Kind`."""
+
+from stackbounce.measure.kind import Kind
+from stackbounce.measure.kinds.acceleration.kind import ACCELERATION
+from stackbounce.measure.kinds.bounces.kind import BOUNCES, KNOCKS
+from stackbounce.measure.kinds.contact.kind import CONTACT
+from stackbounce.measure.kinds.heights.kind import TABLE
+from stackbounce.measure.kinds.press.kind import PRESS
+from stackbounce.measure.kinds.sound.kind import SOUND
+from stackbounce.measure.kinds.track.kind import TRACK
+from stackbounce.measure.kinds.waveform.kind import WAVEFORM
+
+__all__ = ["KINDS", "TYPED", "Kind"]
+
+KINDS: dict[str, Kind] = {
+    kind.name: kind
+    for kind in (KNOCKS, BOUNCES, PRESS, WAVEFORM, SOUND, TRACK, ACCELERATION, TABLE)
+}
+"""What a file can hold; the first one that a file's columns fit is what it holds."""
+
+TYPED: tuple[Kind, ...] = (TABLE, CONTACT)
+"""What numbers without a file can tell."""

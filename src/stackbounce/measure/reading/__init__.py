@@ -5,16 +5,16 @@ reader   the one function: a path -> a Dataset
 options  what the caller tells of a file
 limits   what is refused before it can hurt: size, folders, other kinds of file
 text     bytes -> text -> delimiter, decimal mark, the cells of the first lines
-numbers  the rows below -> an array, fast where they are plain
+numbers  the rows below -> an array, by pandas where they are plain
 headings "Run 1: Time (ms)" -> name, unit, run
 roles    names and units -> what a column is
 layouts  which program wrote a table, and where its columns are
-scopes   the same for oscilloscopes
+formats/ a file for each program whose tables are recognised
 dataset  columns -> the Dataset of what they hold
 series   its rows in time: runs, gaps, repeats
 bounces  the table of phyphox's (in)elastic collision
 zipped   the tables of a zip archive
-wav      sound
+wav      sound, decoded by scipy
 ======== ======================================================================
 """
 

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue
+from stackbounce.measure.kind import Kind
+from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.reading.bounces import INFERRED, bounces
 from stackbounce.measure.reading.roles import ACCELERATIONS, Column
 from stackbounce.measure.reading.series import in_time, step_of
@@ -15,46 +17,28 @@ from stackbounce.measure.reading.series import in_time, step_of
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["HOLDS", "assemble", "holds_of"]
+__all__ = ["assemble", "holds_of"]
 
 Values = NDArray[np.float64]
-_NEEDS: dict[str, tuple[tuple[str, ...], ...]] = {  # what a kind needs: one role of each
-    "waveform": (("time",), ("force", "voltage")),
-    "sound": (("time",), ("sound",)),
-    "track": (("time",), ("y", "x")),
-    "knocks": (("knock_time",),),
-    "bounces": (),
-    "press curve": (("force",), ("compression",)),
-    "acceleration": (("time",), tuple(reversed(ACCELERATIONS))),
-    "table": (),
-}
-HOLDS = tuple(_NEEDS)
-"""What a file can hold."""
-
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
 _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
 
 
 def holds_of(columns: Sequence[Column]) -> str:
     """Return what columns hold, by their roles."""
-    roles = {one.role for one in columns}
-    lengths = [one for one in columns if one.unit == "m" and one.role != "force"]
-    if "knock_time" in roles:
-        return "knocks"
-    if "time" not in roles:
-        pressed = "force" in roles and ("compression" in roles or len(lengths) == 1)
-        return "press curve" if pressed else "table"
-    if {"force", "compression"} <= roles:
-        return "press curve"
-    for kind, signs in (
-        ("waveform", {"force", "voltage"}),
-        ("sound", {"sound"}),
-        ("track", {"x", "y"}),
-        ("acceleration", set(ACCELERATIONS)),
-    ):
-        if signs & roles:
-            return kind
-    return "table"
+    return next((kind.name for kind in KINDS.values() if _fits(kind, columns)), "table")
+
+
+def _fits(kind: Kind, columns: Sequence[Column]) -> bool:
+    if kind.recognised is not None:
+        return kind.recognised(columns)
+    needed = [any(_is(one, what) for one in columns for what in each) for each in kind.columns]
+    return bool(needed) and all(needed)
+
+
+def _is(column: Column, what: str) -> bool:
+    """Tell whether a column has a role or, where that is none of the reader's, a name."""
+    return column.role == what or (what not in _UNITS and column.variable == what)
 
 
 def assemble(
@@ -65,7 +49,7 @@ def assemble(
     Parameters
     ----------
     holds : str
-        What it is to hold, one of `HOLDS`.
+        What it is to hold, one of `stackbounce.measure.kinds.KINDS`.
     columns : sequence of Column
         What they are.
     values : numpy.ndarray, shape (rows, columns)
@@ -88,7 +72,7 @@ def assemble(
     for k, one in enumerate(columns):
         if one.factor != 1.0:
             values[:, k] *= one.factor
-    data, more = _BUILDERS.get(holds, _series)(columns, values, run)
+    data, more = _builder(KINDS[holds])(columns, values, run)
     return data, doubts + more
 
 
@@ -97,19 +81,20 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
     found = list(columns)
     taken: set[int] = set()
     missing = []
-    for roles in _NEEDS[holds]:
-        at = next((k for k, one in enumerate(found) if one.role in roles), None)
+    for roles in KINDS[holds].columns:
+        fit = [k for k, one in enumerate(found) if any(_is(one, role) for role in roles)]
+        at = fit[0] if fit else None
         if at is None:
             missing.append(roles)
         else:
             taken.add(at)
     for roles in missing:
-        wanted = _UNITS[roles[0]]
+        wanted = _UNITS.get(roles[0], "")
         fits = ("", wanted, "V") if roles[0] == "sound" else ("", wanted)
         free = [k for k, one in enumerate(found) if k not in taken and one.unit in fits]
         free.sort(key=lambda k: found[k].unit != wanted)
         if not free:
-            needs = " and ".join(" or ".join(one) for one in _NEEDS[holds])
+            needs = " and ".join(" or ".join(one) for one in KINDS[holds].columns)
             names = ", ".join(one.heading.text or f"column {one.index + 1}" for one in found[:20])
             raise InvalidValue(
                 f"holds: a {holds} needs columns of {needs}; it has {names}: "
@@ -227,13 +212,14 @@ def _rows(dimension: str, *roles: str) -> Callable[[Sequence[Column], Values, ob
     return build
 
 
-_BUILDERS: dict[str, Callable[[Sequence[Column], Values, object], _Built]] = {
-    "track": _track,
-    "press curve": _rows("point", "force", "compression"),
-    "knocks": _rows("knock", "knock_time"),
-    "table": _rows("row"),
-}
+def _builder(kind: Kind) -> Callable[[Sequence[Column], Values, object], _Built]:
+    """Return what makes the Dataset of a kind from its columns."""
+    if kind.dimension == "time":
+        return _series
+    if kind.dimension == "track":
+        return _track
+    return _rows(kind.dimension, *(roles[0] for roles in kind.columns))
 
 
 def _at(columns: Sequence[Column], role: str) -> int:
-    return next(k for k, one in enumerate(columns) if one.role == role)
+    return next(k for k, one in enumerate(columns) if _is(one, role))

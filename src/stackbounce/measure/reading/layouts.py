@@ -1,15 +1,20 @@
-"""Which program wrote a table, and where its columns are."""
+"""Which program wrote a table, and where its columns are: one registry of layouts.
+
+The format of a program is one file in `formats/`: a function of the table's first lines, marked
+with `layout`, that returns a `Layout`, or None if another program wrote the table.
+"""
 
 import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TypeAlias
 
 from stackbounce.errors import FileError
-from stackbounce.measure.reading.headings import Heading, heading, is_unit
+from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
 from stackbounce.measure.reading.text import Text, number
 
-__all__ = ["Layout", "first_row", "generic", "tables"]
+__all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "general", "layout"]
 
 _NOT_NAMED = "no header names the columns: name them, as in names={1: 'time', 2: 'force'}"
 
@@ -32,6 +37,8 @@ class Layout:
         What is unsure.
     clock : tuple of float, optional
         Start and step in s, where the column of times counts samples.
+    holds : str, optional
+        What the table holds, where its columns alone do not tell.
     """
 
     format: str
@@ -40,6 +47,19 @@ class Layout:
     first: int
     doubts: tuple[str, ...] = ()
     clock: tuple[float, float] | None = None
+    holds: str = ""
+
+
+_Recognise: TypeAlias = Callable[[Text], Layout | None]
+
+LAYOUTS: list[_Recognise] = []
+"""What recognises the table of a program, in the order in which they are asked."""
+
+
+def layout(recognise: _Recognise) -> _Recognise:
+    """Register a function that recognises the table of a program."""
+    LAYOUTS.append(recognise)
+    return recognise
 
 
 def first_row(text: Text, start: int = 0) -> int:
@@ -57,110 +77,38 @@ def first_row(text: Text, start: int = 0) -> int:
     raise FileError("it has a header and no row of numbers below it")
 
 
-def tracker(text: Text) -> Layout | None:
-    """Tracker: ``#multi:`` over the tracks' names, or one track's name over ``t``, ``x``, ``y``."""
-    head = text.head
-    multi = bool(head[0]) and head[0][0].startswith("#multi:")
-    at = 2 if multi else 1
-    if len(head) <= at or not head[at] or head[at][0] != "t" or not {"x", "y"} & set(head[at]):
-        return None
-    above = head[at - 1]
-    names = [cell for cell in above if cell]
-    if not multi and (len(names) != 1 or not above[0]):
-        return None
-    columns, track = [column(0, Heading("t", "t", "s"), "time")], names[0] if names else ""
-    for k, cell in enumerate(head[at][1:], 1):
-        if multi and k < len(above) and above[k]:
-            track = above[k]
-        if cell:
-            role = cell if cell in ("x", "y") else ""
-            columns.append(column(k, Heading(cell, cell), role, track))
-    told = "its line '#multi:'" if multi else "the name of a track"
-    return Layout(
-        "Tracker",
-        f"{told} over the columns t, x, y is how Tracker exports data",
-        tuple(columns),
-        first_row(text, at + 1),
-    )
+def columns_of(
+    names: Sequence[str], width: int, units: Sequence[str] | None = None
+) -> tuple[Column, ...]:
+    """Return the columns of a header, without those at its end that have no name.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The header's cells.
+    width : int
+        Cells of a row.
+    units : sequence of str, optional
+        Where another line has them.
+    """
+    columns = []
+    for k in range(width):
+        name = names[k] if k < len(names) else ""
+        if k < len(names) and not any(names[k:]):  # a delimiter at the end of the header
+            continue
+        unit = None if units is None else units[k] if k < len(units) else ""
+        columns.append(column(k, heading(name, unit)))
+    return tuple(columns)
 
 
-def logger_pro(text: Text) -> Layout | None:
-    """Logger Pro's text: names, short names and units on lines of their own."""
-    if not text.line(0).startswith("Vernier Format"):
-        return None
-    first = first_row(text, 3)
-    lines = [k for k in range(first) if any(text.head[k])]
-    if len(lines) < 5:
-        raise FileError("it begins as a text of Logger Pro but lacks the names of its columns")
-    names, units = text.head[lines[-3]], text.head[lines[-1]]
-    width = len(text.head[first])
-    if len(lines) < 6:  # without short names
-        names = text.head[lines[-2]]
-    run = text.head[lines[2]][0]
-    columns = [
-        column(k, heading(names[k] if k < len(names) else "", units[k] if k < len(units) else ""))
-        for k in range(width)
-    ]
-    why = f"its first line 'Vernier Format' is that of a text from Logger Pro ({run!r})"
-    return Layout("Logger Pro", why, tuple(columns), first)
-
-
-def phyphox(text: Text) -> Layout | None:
-    """The experiments of phyphox, by the names of their columns."""
-    header = text.head[0]
-    names = [heading(cell).name.casefold() for cell in header if cell]
-    if "bounce 0" in names and "bounce 1" in names:
-        experiment = "(in)elastic collision"
-    elif names[:2] == ["event time", "interval"]:
-        experiment = "acoustic stopwatch"
-    elif names[:2] == ["time", "recording"]:
-        experiment = "audio scope"
-    elif names[:2] == ["time", "acceleration x"]:
-        experiment = "acceleration with g"
-    elif names[:2] == ["time", "linear acceleration x"]:
-        experiment = "acceleration without g"
-    else:
-        return None
-    if experiment == "(in)elastic collision":  # its one row may be all that is there
-        columns = tuple(Column(k, heading(cell)) for k, cell in enumerate(header) if cell)
-    else:
-        columns = _columns(header, len(header))
-    why = f"its columns {header[0]!r}, {header[1]!r} are those of phyphox's {experiment}"
-    return Layout(f"phyphox: {experiment}", why, columns, first_row(text, 1))
-
-
-def vernier(text: Text) -> Layout | None:
-    """Vernier's CSV: each column's name with its run before it."""
-    header = text.head[0]
-    headings = [heading(cell) for cell in header if cell]
-    runs = [one.run for one in headings]
-    if len(runs) < 2 or not all(runs) or "#" in runs[0] or not headings[0].text.startswith(runs[0]):
-        return None
-    why = f"each column's name has its run before it, as in {header[0]!r}"
-    return Layout("Vernier", why, _columns(header, len(header)), first_row(text, 1))
-
-
-def capstone(text: Text) -> Layout | None:
-    """PASCO Capstone: each column's name has ``Run #1`` after it; lines above that are skipped."""
-    for k, row in enumerate(text.head):
-        cells = [cell for cell in row if cell]
-        if len(cells) > 1 and all(
-            re.search(r"(Run|Set|Lauf|Ensayo|Essai) #\d+$", cell) for cell in cells
-        ):
-            why = f"each column's name has its run after it, as in {cells[0]!r}"
-            columns = _columns(row, len(row))
-            return Layout("PASCO Capstone", why, columns, first_row(text, k + 1))
-    return None
-
-
-def generic(text: Text) -> Layout:
-    """Any table of numbers, with names and units above it or not."""
+def general(text: Text) -> Layout:
+    """Return the layout of any table of numbers, with names and units above it or not."""
     first = _body(text)
     width = _width(text, first)
     above = [k for k in range(first) if any(text.head[k])]
     if not above or first - above[-1] > 2:
         why = "rows of numbers without a header"
-        return Layout("table of numbers", why, _columns([], width), first, (_NOT_NAMED,))
+        return Layout("table of numbers", why, columns_of([], width), first, (_NOT_NAMED,))
     names = _named(text, above[-1], width)
     units = None
     if len(above) > 1 and all(is_unit(cell) for cell in names if cell):
@@ -173,27 +121,13 @@ def generic(text: Text) -> Layout:
     beyond = sum(any(row[len(names) :]) for row in text.head[first:])
     if 2 * beyond <= len(text.head) - first:  # a few rows that are too long make no column
         width = len(names)
-    columns = _columns(names, max(width, len(names)), units)
+    columns = columns_of(names, max(width, len(names)), units)
     shown = ", ".join(one.heading.text for one in columns[:3])
     more = " …" if len(columns) > 3 else ""
     doubts = () if len(names) >= width else (f"columns from {len(names) + 1} on have no name",)
     return Layout(
         "table of numbers", f"a header names its columns: {shown}{more}", columns, first, doubts
     )
-
-
-def _columns(
-    names: Sequence[str], width: int, units: Sequence[str] | None = None
-) -> tuple[Column, ...]:
-    """Return the columns of a header; those at its end that have no name are none."""
-    columns = []
-    for k in range(width):
-        name = names[k] if k < len(names) else ""
-        if k < len(names) and not any(names[k:]):  # a delimiter at the end of the header
-            continue
-        unit = None if units is None else units[k] if k < len(units) else ""
-        columns.append(column(k, heading(name, unit)))
-    return tuple(columns)
 
 
 def _body(text: Text) -> int:
@@ -232,13 +166,3 @@ def _named(text: Text, index: int, width: int) -> list[str]:
         if len(found) == width:
             return [one.strip() for one in found]
     return line.split()
-
-
-tables: tuple[Callable[[Text], Layout | None], ...] = (
-    logger_pro,
-    tracker,
-    phyphox,
-    capstone,
-    vernier,
-)
-"""Those that know a program, in the order in which they are asked."""

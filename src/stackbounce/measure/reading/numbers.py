@@ -1,23 +1,24 @@
-"""The rows of a table -> an array; what is no number there is counted, not hidden."""
+"""The rows of a table -> an array; cells that are not numbers are counted, never hidden."""
 
+import csv
+import io
 import math
-import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.kernel import compiled
 from stackbounce.errors import FileError
-from stackbounce.measure.reading.grid import POWERS, grid
 from stackbounce.measure.reading.limits import CELLS, LINE
-from stackbounce.measure.reading.text import Text, number, split
+from stackbounce.measure.reading.text import MISSING, Text, number, split
 
 __all__ = ["Table", "rows_of"]
 
-_CHUNK = 2**22  # characters that are read at once
-_ODD = 2**23  # characters that are looked at one by one, at most: some seconds
+_CHUNK = LINE  # characters that are parsed at once, so that no line in them is too long
+_ODD = 2**23  # characters that are parsed cell by cell in Python, at most: some seconds
+_BLANKS = sorted({word for one in MISSING for word in (one, one.upper(), one.title(), "NaN")})
+_TRUTH = "uUsS"  # of the letters of "true" and "false" those that no number has
 
 
 @dataclass
@@ -67,28 +68,24 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
     Raises
     ------
     FileError
-        If a line is endless, or there are more than `limits.CELLS` numbers.
+        If a line is longer than `limits.LINE`, or there are more than `limits.CELLS` numbers.
     """
     table = Table(np.empty((0, len(used))), np.zeros(len(used), dtype=np.int64))
     start = text.starts[first]
     most = min(text.content.count("\n", start) + 1, CELLS // len(used) + 1)
-    values = np.empty((len(used), most)).T  # a column is one piece; what stays empty costs nothing
-    plain = compiled(grid) if len(text.content) - start > _CHUNK else None  # worth a second
-    count, odd = 0, 0
+    values = np.empty((len(used), most)).T  # columns are contiguous; rows not written cost nothing
+    count = odd = 0
     for chunk in _chunks(text.content, start):
-        if not chunk or chunk.isspace():
-            continue
-        rows = _gridded(plain, chunk, text, used, values[count:]) if plain else -1
-        if rows < 0:
-            block, strange = _lines(chunk, text, used, table)
-            odd += strange
+        block = _parsed(chunk, text, used, table)
+        if block is None:
+            odd += len(chunk)
             if odd > _ODD:
                 raise FileError("too many of its lines are not just numbers")
-            rows = len(block)
-            if (count + rows) * len(used) > CELLS:
-                raise FileError(f"it has more than {CELLS} numbers: cut out what is of interest")
-            values[count : count + rows] = block
-        count += rows
+            block = _cell_by_cell(chunk.split("\n"), text, used, table)
+        if (count + len(block)) * len(used) > CELLS:
+            raise FileError(f"it has more than {CELLS} numbers: cut out what is of interest")
+        values[count : count + len(block)] = block
+        count += len(block)
     values = values[:count]
     blank = np.isnan(values).all(axis=1)
     table.values = values[~blank] if blank.any() else values
@@ -99,82 +96,67 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
     return table
 
 
-def _gridded(
-    plain: Callable[..., int],
-    chunk: str,
-    text: Text,
-    used: Sequence[int],
-    values: NDArray[np.float64],
-) -> int:
-    """Write the numbers of a chunk that has nothing else; return how many rows, or -1."""
-    chunk = chunk.strip("\n")
-    places = np.full(len(split(chunk.partition("\n")[0], text.delimiter)), -1)
-    if max(used) >= len(places) or len(set(used)) < len(used) or not chunk.isascii():
-        return -1
-    places[list(used)] = np.arange(len(used))
-    decimal = ord(text.decimal) if text.decimal != text.delimiter else -1
-    raw = np.frombuffer(chunk.encode(), dtype=np.uint8)
-    return plain(raw, ord(text.delimiter), decimal, LINE, places, POWERS, values)
-
-
-def _lines(
-    chunk: str, text: Text, used: Sequence[int], table: Table
-) -> tuple[NDArray[np.float64], int]:
-    """Return the rows of a chunk, and how many of its characters had to be looked at one by one."""
-    lines = chunk.split("\n")
-    if len(max(lines, key=len)) > LINE:
-        raise FileError(f"it has a line of more than {LINE} characters")
-    block = _plain(lines, text, used)
-    if block is None:  # perhaps for blank cells only
-        block = _plain(_filled(chunk, text.delimiter), text, used)
-    return (_any(lines, text, used, table), len(chunk)) if block is None else (block, 0)
-
-
 def _chunks(content: str, start: int) -> Iterator[str]:
+    """Yield whole lines, together at most `_CHUNK` characters, without chunks that are blank."""
     while start < len(content):
         end = content.rfind("\n", start, start + _CHUNK) if len(content) > start + _CHUNK else -1
         if end < 0 and len(content) > start + _CHUNK:
             raise FileError(f"it has a line of more than {LINE} characters")
         end = len(content) if end < 0 else end
-        yield content[start:end]
+        chunk = content[start:end]
+        if chunk and not chunk.isspace():
+            yield chunk
         start = end + 1
 
 
-def _plain(lines: list[str], text: Text, used: Sequence[int]) -> NDArray[np.float64] | None:
-    """Return rows in which each wanted cell is a plain number, or None where they are others."""
-    if text.decimal == ",":
-        if any("." in line for line in lines):  # between thousands
-            return None
-        lines = [line.replace(",", ".") for line in lines] if text.delimiter != "," else lines
-    width = len(split(lines[0], text.delimiter))
-    if width < 1 or max(used) >= width or not any(line.strip() for line in lines):
+def _parsed(
+    chunk: str, text: Text, used: Sequence[int], table: Table
+) -> NDArray[np.float64] | None:
+    """Return rows whose wanted cells are all plain numbers or missing, else None.
+
+    The parser is that of pandas, which since 3.1 rounds every number to the nearest float, as
+    Python's ``float`` does.
+    """
+    import pandas as pd
+
+    blanks = text.delimiter == " "
+    if blanks and not chunk.isascii():  # Python splits at blanks that pandas takes for letters
         return None
-    every = list(used) == list(range(width))
+    quoted = not blanks and '"' in chunk
+    wanted = sorted(set(used))
+    width = len(split(chunk.lstrip("\n").partition("\n")[0], text.delimiter))
     try:
-        block = np.loadtxt(
-            lines,
-            delimiter=None if text.delimiter == " " else text.delimiter,
-            comments=None,
-            quotechar='"',
-            usecols=None if every else list(used),
-            ndmin=2,
+        frame = pd.read_csv(
+            io.StringIO(chunk),
+            sep=r"\s+" if blanks else text.delimiter,
+            decimal=text.decimal,
+            header=None,
+            usecols=None if wanted == list(range(width)) else wanted,
+            # asked for floats, pandas reads "True" as 1.0
+            dtype=None if any(letter in chunk for letter in _TRUTH) else np.float64,
+            na_values=_BLANKS,
+            keep_default_na=False,
+            skipinitialspace=True,
+            quoting=csv.QUOTE_MINIMAL if quoted else csv.QUOTE_NONE,
+            low_memory=False,
         )
     except (ValueError, OverflowError):
         return None
-    return block if block.shape[1] == len(used) else None
+    if any(kind.kind not in "fiu" for kind in frame.dtypes):
+        return None
+    block: NDArray[np.float64] = frame[list(used)].to_numpy(dtype=np.float64)
+    need = max(used) + 1
+    if quoted or np.isnan(block).any():
+        widths = [len(split(one, text.delimiter)) for one in chunk.split("\n") if one.strip()]
+        if len(widths) != len(block):  # a quotation mark that joined lines
+            return None
+        table.shorter += sum(width < need for width in widths)
+    return block
 
 
-def _filled(chunk: str, delimiter: str) -> list[str]:
-    """Return lines in which blank cells say that they are none."""
-    if delimiter == " ":
-        return chunk.split("\n")
-    ends = rf"{delimiter}\n"
-    return re.sub(rf"(?m)(?<={delimiter})(?=[{ends}]|\Z)|^(?={delimiter})", "nan", chunk).split(
-        "\n"
-    )
-
-
-def _any(lines: list[str], text: Text, used: Sequence[int], table: Table) -> NDArray[np.float64]:
+def _cell_by_cell(
+    lines: list[str], text: Text, used: Sequence[int], table: Table
+) -> NDArray[np.float64]:
     """Return rows of whatever cells."""
     rows = []
     need, nan = max(used) + 1, math.nan

@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
-from stackbounce.measure.reading.dataset import HOLDS
+from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.reading.headings import slug
 from stackbounce.measure.reading.roles import Column
 from stackbounce.units import in_si
@@ -30,9 +30,9 @@ def told_by(
     holds: object, table: object, run: object, names: object, units: object, decimal: object
 ) -> Told:
     """Return the options of `read`, checked as far as they can be without a file."""
-    if holds is not None and not (isinstance(holds, str) and holds in HOLDS):
+    if holds is not None and not (isinstance(holds, str) and holds in KINDS):
         raise InvalidValue(
-            f"holds must be what a file holds, got {shown(holds)}; {nearest(holds, HOLDS)}"
+            f"holds must be what a file holds, got {shown(holds)}; {nearest(holds, KINDS)}"
         )
     if not isinstance(table, str | None):
         raise InvalidType(f"table must be a name, got {shown(table)}")

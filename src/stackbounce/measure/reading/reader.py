@@ -14,13 +14,14 @@ from stackbounce.errors import (
     StackbounceError,
     shown,
 )
-from stackbounce.measure.reading import layouts, wav, zipped
+from stackbounce.measure.reading import wav, zipped
 from stackbounce.measure.reading.dataset import assemble, holds_of
+from stackbounce.measure.reading.formats import layout_of
+from stackbounce.measure.reading.layouts import Layout
 from stackbounce.measure.reading.limits import content_of, refuse_others
 from stackbounce.measure.reading.numbers import Table, rows_of
 from stackbounce.measure.reading.options import Told, as_told, of_run, told_by
 from stackbounce.measure.reading.roles import Column
-from stackbounce.measure.reading.scopes import scopes
 from stackbounce.measure.reading.text import decode, tabulate
 
 if TYPE_CHECKING:
@@ -203,38 +204,29 @@ def _from_text(content: bytearray, told: Told) -> "xr.Dataset":
     if layout.clock:
         table.values[:, 0] = layout.clock[0] + layout.clock[1] * table.values[:, 0]
     doubts += _flaws(table)
-    is_bounces = layout.format == "phyphox: (in)elastic collision"
     values = table.values
-    if not is_bounces:
+    if layout.holds != "bounces":
         columns, values = _numeric(columns, table)
-    holds = told.holds or ("bounces" if is_bounces else holds_of(columns))
-    if holds == "bounces" and not is_bounces:
+    holds = told.holds or layout.holds or holds_of(columns)
+    if holds == "bounces" != layout.holds:
         raise InvalidValue("holds: only phyphox's (in)elastic collision holds bounces")
     data, more = assemble(holds, columns, values, None if runs else told.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 
 
-def _table(
-    content: bytearray, told: Told
-) -> tuple[layouts.Layout, list[Column], Table, list[str], bool]:
+def _table(content: bytearray, told: Told) -> tuple[Layout, list[Column], Table, list[str], bool]:
     """Return the layout of a text, its columns, numbers and doubts, and whether it has runs.
 
     The text itself, which may be larger than all of that, is gone then.
     """
     refuse_others(content)
     text = tabulate(decode(content), told.decimal)
-    asked = (*layouts.tables, *scopes)
-    layout = next((found for one in asked if (found := one(text))), None) or layouts.generic(text)
+    layout = layout_of(text)
     columns = as_told(layout.columns, told)
     doubts = [*text.doubts, *(() if told.names else layout.doubts)]
     columns, runs = of_run(columns, told.run, doubts)
-    return (
-        layout,
-        columns,
-        rows_of(text, layout.first, [one.index for one in columns]),
-        doubts,
-        runs,
-    )
+    table = rows_of(text, layout.first, [one.index for one in columns])
+    return layout, columns, table, doubts, runs
 
 
 def _signed(

@@ -9,13 +9,14 @@ from dataclasses import dataclass, field
 from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.measure.reading.limits import COLUMNS, LINE
 
-__all__ = ["Text", "decode", "number", "split", "tabulate"]
+__all__ = ["MISSING", "Text", "decode", "number", "split", "tabulate"]
 
 HEAD = 200
 """Lines that are looked at to tell what a table is."""
 
 _DELIMITERS = "\t;, "
-_MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "-", "--", "---", "null", "none", "*"])
+MISSING = frozenset(["", "nan", "na", "n/a", "#n/a", "-", "--", "---", "null", "none", "*"])
+"""What stands in a cell without a number, in lower case."""
 _INFINITE = frozenset(["inf", "infinity", "∞", "1.#inf"])
 _EXPONENT = r"(?:[eE][+-]?[0-9]{1,4})?"
 _NUMBER = re.compile(rf"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+){_EXPONENT}")
@@ -119,7 +120,7 @@ def number(cell: str, decimal: str) -> float | None:
     cell = cell.strip().replace("−", "-")
     if not _NUMBER.fullmatch(cell):
         word = cell.casefold()
-        if word in _MISSING:
+        if word in MISSING:
             return float("nan")
         if word.lstrip("+-") in _INFINITE:
             return float("-inf" if word.startswith("-") else "inf")

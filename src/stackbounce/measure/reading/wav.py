@@ -1,9 +1,9 @@
-"""Sound: WAV files of 8, 16, 24 or 32 bits or floating point, read chunk by chunk."""
+"""Sound: WAV files, decoded by scipy once their sizes are right."""
 
+import io
 import struct
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,20 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["is_wav", "read_wav"]
 
-_INTEGER, _FLOAT, _EXTENSIBLE = 1, 3, 0xFFFE
-_CODES = {2: "ADPCM", 6: "A-law", 7: "µ-law", 0x11: "IMA ADPCM", 0x31: "GSM", 0x55: "MP3"}
-_KINDS = {
-    (_INTEGER, 1): "u1", (_INTEGER, 2): "<i2", (_INTEGER, 3): "u1", (_INTEGER, 4): "<i4",
-    (_FLOAT, 4): "<f4", (_FLOAT, 8): "<f8",
-}  # fmt: skip
-
-
-@dataclass(frozen=True)
-class _Form:
-    code: int
-    channels: int
-    rate: int
-    size: int  # bytes of a number
+_STREAMED = (0, 0xFFFFFFFF)  # sizes that recorders write before they know the end
 
 
 def is_wav(content: bytearray) -> bool:
@@ -43,8 +30,8 @@ def is_wav(content: bytearray) -> bool:
 def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     """Return the sound over time, why it is one, and what is unsure.
 
-    Channels are averaged, and full scale is 1. Of a file that is cut off, what is there is read,
-    and the doubt tells how much.
+    Channels are averaged, and full scale is 1. If the file is cut off, the samples that are there
+    are read, and the doubt says how many are missing.
 
     Raises
     ------
@@ -53,102 +40,96 @@ def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
     """
     import xarray as xr
 
-    if content[:4] == b"RIFX":
-        raise FileError("it is a WAV sound with the high byte first: save it as an ordinary one")
-    form, start, size = _found(content)
-    frame = form.channels * form.size
-    streamed = size in (0, 0xFFFFFFFF)  # written without knowing the end
+    order = ">" if content[:4] == b"RIFX" else "<"
+    form, start, size = _found(content, order)
+    channels, rate, _, frame = struct.unpack_from(f"{order}HIIH", form, 2)
+    if not 0 < channels <= frame or rate < 1:
+        raise FileError(
+            f"it is a WAV sound, but broken: {channels} channels in {frame} bytes at {rate} Hz"
+        )
     there = len(content) - start
-    frames = (there if streamed else min(size, there)) // frame
+    frames = (there if size in _STREAMED else min(size, there)) // frame
     doubts = []
-    if not streamed and there < size:
-        whole = size // frame / form.rate
-        doubts.append(f"it is cut off: {frames / form.rate:.3f} s of {whole:.3f} s are there")
+    if size not in _STREAMED and there < size:
+        whole = size // frame / rate
+        doubts.append(f"it is cut off: {frames / rate:.3f} s of {whole:.3f} s are there")
     if frames < 1:
         raise FileError("it is a WAV sound without a sample")
-    if frames * form.channels > CELLS:
+    if frames * channels > CELLS:
         raise FileError(f"it is a WAV sound of more than {CELLS} samples: cut out the bounces")
-    sound = _folded(content[start : start + frames * frame], form)
+    part = memoryview(content)[start : start + frames * frame]
+    samples = _decoded(form, part, order, frames)
+    sound = _folded(samples)
+    integers = samples.dtype.kind in "iu"
     bad = ~np.isfinite(sound)
     if bad.any():
         doubts.append(f"{int(bad.sum())} samples are no numbers: taken as 0")
         sound[bad] = 0.0
-    peak = float(np.abs(sound).max())
-    if form.code == _INTEGER and peak >= 1.0 - 2.0 ** (2 - 8 * form.size):
+    depth = 8 * (frame // channels)
+    if integers and float(np.abs(sound).max()) >= 1.0 - 2.0 ** (2 - depth):
         doubts.append("it reaches full scale: the loudest knocks may be clipped")
-    time = np.arange(frames) / form.rate
-    kind = "floating point" if form.code == _FLOAT else "integers"
-    many = f"{form.channels} channels, averaged" if form.channels > 1 else "1 channel"
-    said = {"units": "1", "long_name": "sound", "rate": float(form.rate)}
-    data = xr.Dataset(
-        {"sound": ("time", sound, said)},
-        coords={"time": ("time", time, {"units": "s", "long_name": "time"})},
-    )
-    why = f"it begins as RIFF WAVE: {8 * form.size} bit {kind}, {many}, {form.rate} Hz"
-    return data, why, doubts
+    said = {"units": "1", "long_name": "sound", "rate": float(rate)}
+    time = ("time", np.arange(frames) / rate, {"units": "s", "long_name": "time"})
+    data = xr.Dataset({"sound": ("time", sound, said)}, coords={"time": time})
+    kind = "integers" if integers else "floating point"
+    many = f"{channels} channels, averaged" if channels > 1 else "1 channel"
+    return data, f"it begins as RIFF WAVE: {depth} bit {kind}, {many}, {rate} Hz", doubts
 
 
-def _chunks(content: bytearray) -> Iterator[tuple[bytes, int, int]]:
-    """Yield name, start and size of each chunk, a limited number of them."""
-    start = 12
-    for _ in range(10_000):
-        if start + 8 > len(content):
-            return
-        name, size = struct.unpack_from("<4sI", content, start)
-        yield name, start + 8, size
-        start += 8 + size + size % 2
-
-
-def _found(content: bytearray) -> tuple[_Form, int, int]:
-    form = None
-    for name, start, size in _chunks(content):
+def _found(content: bytearray, order: str) -> tuple[bytearray, int, int]:
+    """Return the format chunk, and where the samples start and their size as the file has it."""
+    form = bytearray()
+    for name, start, size in _chunks(content, order):
         if name == b"fmt ":
-            form = _form(content[start : start + size])
-        elif name == b"data":
-            if form is None:
-                break
+            form = content[start : start + size - size % 2]
+            if len(form) < 16:
+                raise FileError("it is a WAV sound, but broken: its format is cut off")
+        elif name == b"data" and form:
             return form, start, size
     missing = "sound" if form else "the format of its sound"
     raise FileError(f"it is a WAV sound, but broken: {missing} is missing")
 
 
-def _form(chunk: bytearray) -> _Form:
-    if len(chunk) < 16:
-        raise FileError("it is a WAV sound, but broken: its format is cut off")
-    code, channels, rate, _, frame, bits = struct.unpack_from("<HHIIHH", chunk)
-    if code == _EXTENSIBLE and len(chunk) >= 26:
-        (code,) = struct.unpack_from("<H", chunk, 24)
-    size = frame // channels if channels else 0
-    if code not in (_INTEGER, _FLOAT):
-        name = _CODES.get(code, f"in a format of number {code:#x}")
-        raise FileError(f"it is a WAV sound compressed as {name}: save it as PCM")
-    if (code, size) not in _KINDS or frame != size * channels or not 0 < bits <= 8 * size:
+def _chunks(content: bytearray, order: str) -> Iterator[tuple[bytes, int, int]]:
+    """Yield name, start and size of each chunk, a limited number of them."""
+    start = 12
+    for _ in range(10_000):
+        if start + 8 > len(content):
+            return
+        name, size = struct.unpack_from(f"{order}4sI", content, start)
+        yield name, start + 8, size
+        start += 8 + size + size % 2
+
+
+def _decoded(form: bytearray, samples: memoryview, order: str, frames: int) -> NDArray[Any]:
+    """Return samples (frames, channels), from a WAV file of these two chunks with true sizes."""
+    from scipy.io import wavfile
+
+    rate, _, frame = struct.unpack_from(f"{order}IIH", form, 4)
+    kind, size = b"RIFX" if order == ">" else b"RIFF", f"{order}I"
+    try:
+        struct.pack_into(size, form, 8, rate * frame)  # which some recorders get wrong
+        head = kind + struct.pack(size, 20 + len(form) + len(samples)) + b"WAVEfmt "
+        head += struct.pack(size, len(form)) + form + b"data" + struct.pack(size, len(samples))
+        _, decoded = wavfile.read(io.BytesIO(b"".join([head, samples])))
+        return np.asarray(decoded).reshape(frames, -1)
+    except (ValueError, TypeError, ArithmeticError, struct.error) as error:
+        words = " ".join(str(error).split())
         raise FileError(
-            f"it is a WAV sound of {channels} channels with {bits} bits in {frame} bytes: "
-            "8, 16, 24 or 32 bits, or floating point, can be read"
-        )
-    if rate < 1:
-        raise FileError("it is a WAV sound of 0 Hz")
-    return _Form(code, channels, rate, size)
+            f"it is a WAV sound that cannot be read, save it as PCM: {words}"
+        ) from error
 
 
-def _folded(samples: bytearray, form: _Form) -> NDArray[np.float64]:
-    """Return the mean of the channels, of full scale 1."""
-    raw = np.frombuffer(samples, dtype=_KINDS[form.code, form.size])
-    full = 1.0
-    if form.size == 3:
-        wide = np.zeros((raw.size // 3, 4), dtype=np.uint8)
-        wide[:, 1:] = raw.reshape(-1, 3)  # the highest byte carries the sign
-        raw = wide.view("<i4").ravel()
-        full = 2.0**31
-    elif form.code == _INTEGER:
-        full = 2.0 ** (8 * form.size - 1)
+def _folded(samples: NDArray[Any]) -> NDArray[np.float64]:
+    """Return the mean of the channels, (frames, channels), of full scale 1."""
+    sound = np.zeros(len(samples))
     with np.errstate(all="ignore"):
-        sound = np.zeros(raw.size // form.channels)
-        for k in range(form.channels):
-            sound += raw[k :: form.channels]
-        sound /= form.channels
-        if raw.dtype == np.uint8:
-            sound -= full
-        sound /= full
-    return sound
+        for channel in samples.T:
+            sound += channel
+        sound /= samples.shape[1]
+    if samples.dtype.kind == "f":
+        return sound
+    full = 2.0 ** (8 * samples.dtype.itemsize - 1)  # scipy widens 24 bits to the upper ones of 32
+    if samples.dtype == np.uint8:
+        sound -= full
+    return sound / full

@@ -1,14 +1,7 @@
-"""What the residuals of a fit say about its errors: white noise, and noise with a memory.
+"""Autocorrelated noise: AR(1) noise in regressions, linear prediction, autocorrelation times.
 
-The points of a press curve come one after the other, and what disturbs one often disturbs the next:
-a drift, a filter, steps of a converter, a law that does not quite fit. Errors that take them for
-independent are then far too small. The model here is
-
-    residual = scale · (white noise + noise with a memory of τ points),
-
-with both shares and τ open. Each combination on a grid is weighed by its likelihood, with the
-parameters of the fit integrated out (REML) and Schwarz's price of two more numbers for the memory
-(G. Schwarz, Ann. Stat. 6, 461, 1978); the covariance is the mean over the grid.
+Neighbouring points of a record are disturbed alike: by a drift, a filter, the steps of a converter,
+a law that does not quite fit. Assuming independent errors makes error bars far too small.
 """
 
 from functools import cached_property
@@ -17,18 +10,38 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Noise", "spread"]
+from stackbounce.measure.statistics.regression import Fit, average_fits
+
+__all__ = [
+    "Noise",
+    "correlation_factor",
+    "difference_noise",
+    "fit_with_ar_noise",
+    "linear_prediction_residual",
+]
 
 Array = NDArray[np.float64]
 
-_SHARES = (0.2, 0.6, 0.9, 1.0)  # of the variance that has a memory
-_MEMORIES = 7  # of them, from one point on
-_LONGEST = 0.5  # of the record
+_SHARES = (0.2, 0.6, 0.9, 1.0)  # of the variance that is AR(1) noise
+_TIMES = 7  # correlation times on the grid, from one point on
+_LONGEST = 0.5  # of the record, the longest correlation time
 _NONE = 1e-6  # a weight that does not count
+_TELLING = 8  # degrees of freedom, above which residuals tell a correlation
+_CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # below 0: interlaced frames
+_CHUNK = 1024  # samples over which a linear prediction is learned
+_LAGS = 200
+_ENOUGH = 48  # samples that tell an autocorrelation
+_MAD = 0.6745  # median absolute value of a standard normal variable
 
 
 class Noise:
-    """The noise of a branch, learned from the residuals of a fit.
+    """The noise of a series, estimated from the residuals of a fit.
+
+    The model is white noise plus AR(1) noise of a correlation time of τ points, with both variances
+    and τ unknown. Each combination on a grid is weighted by its restricted likelihood (REML), in
+    which the parameters of the fit are integrated out, and by Schwarz's penalty for the two numbers
+    of the AR(1) noise (G. Schwarz, Ann. Stat. 6, 461, 1978). The covariance is the mean over the
+    grid.
 
     Parameters
     ----------
@@ -55,69 +68,209 @@ class Noise:
         ndarray
             (m, m).
         """
-        white, remembered = self._grid
+        white, correlated = self._grid
         result = white * (rows @ rows.T)
-        for phi, weight in remembered:
-            product = _remember(rows, phi) @ rows.T
+        for phi, weight in correlated:
+            product = _correlated(rows, phi) @ rows.T
             result = result + 0.5 * weight * (product + product.T)
         return np.asarray(result)
 
     @cached_property
     def _grid(self) -> tuple[float, list[tuple[float, float]]]:
-        """Return the mean variance of the white part, and that of the part with each memory."""
+        """Return the mean variance of the white noise, and of AR(1) noise of each correlation."""
         count, width = self.jacobian.shape
         longest = max(2.0, _LONGEST * count)
         both = np.column_stack([self.residual, self.jacobian])
         free = max(1, count - width)
         found = [(1.0, 0.0, *_likelihood(both, both, 0.0, free))]
 
-        def look(memories: Array) -> None:
-            for memory in memories.tolist():
+        def add(times: Array) -> None:
+            for time in times.tolist():
                 for share in _SHARES:
-                    solved, log_det = _solved(both, float(np.exp(-1.0 / memory)), share)
-                    found.append((memory, share, *_likelihood(both, solved, log_det, free)))
+                    solved, log_det = _solved(both, float(np.exp(-1.0 / time)), share)
+                    found.append((time, share, *_likelihood(both, solved, log_det, free)))
 
-        look(np.geomspace(1.0, longest, _MEMORIES))
+        add(np.geomspace(1.0, longest, _TIMES))
         best = max(found[1:], key=lambda row: row[2])
-        if best[2] - np.log(count) > found[0][2]:  # it has one: look closer
-            ratio = longest ** (1.0 / (_MEMORIES - 1))
-            look(best[0] * ratio ** (np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]) / 4.0))
+        if best[2] - np.log(count) > found[0][2]:  # the noise is autocorrelated: refine the grid
+            ratio = longest ** (1.0 / (_TIMES - 1))
+            add(best[0] * ratio ** (np.array([-3.0, -2.0, -1.0, 1.0, 2.0, 3.0]) / 4.0))
         return _mean(found, count)
 
 
 def _mean(
     found: list[tuple[float, float, float, float]], count: int
 ) -> tuple[float, list[tuple[float, float]]]:
-    """Return the mean over (memory, share, log-likelihood, variance), white noise being first."""
+    """Return the mean over (time, share, log-likelihood, variance), white noise being first."""
     best = max(row[2] for row in found)
     weights = np.array([np.exp(row[2] - best) for row in found])
-    # all with a memory together: the best likelihood, less for two numbers more (Schwarz)
+    # all AR(1) models together count as the best of them, less Schwarz's penalty
     weights[1:] *= weights[1:].max() / max(weights[1:].sum(), 1e-300) / count
     weights /= weights.sum()
     white = 0.0
     kept: dict[float, float] = {}
-    for (memory, share, _, variance), weight in zip(found, weights.tolist(), strict=True):
+    for (time, share, _, variance), weight in zip(found, weights.tolist(), strict=True):
         white += weight * variance * (1.0 - share)
         if share * weight > _NONE:
-            phi = float(np.exp(-1.0 / memory))
+            phi = float(np.exp(-1.0 / time))
             kept[phi] = kept.get(phi, 0.0) + weight * variance * share
     return white, list(kept.items())
 
 
-def spread(values: Array) -> float:
-    """Return the noise of a smooth series from point to point, by its second differences.
+def fit_with_ar_noise(design: Array, values: Array, apart: Array) -> tuple[Fit, float, float]:
+    """Return the fit of ``values = design @ parameters`` with AR(1) errors of unknown correlation.
+
+    Generalised least squares are done for each correlation on a grid and averaged, weighted by its
+    restricted likelihood (D. Harville, J. Am. Stat. Assoc. 72, 320, 1977), so that the covariance
+    includes the uncertainty of the correlation. Few points are taken as uncorrelated.
+
+    Parameters
+    ----------
+    design, values : ndarray
+        (N, P) and (N,).
+    apart : ndarray
+        (N,) steps between a point and the one before it, infinite where a new series begins.
+
+    Returns
+    -------
+    fit : Fit
+    sigma : float
+        Standard deviation of an error.
+    correlation : float
+        Of errors that are one step apart.
+
+    Examples
+    --------
+    >>> noise = np.random.default_rng(1).normal(0.0, 1.0, 4000)
+    >>> for k in range(1, 4000):
+    ...     noise[k] = 0.8 * noise[k - 1] + 0.6 * noise[k]
+    >>> fit, sigma, correlation = fit_with_ar_noise(np.ones((4000, 1)), noise, np.ones(4000))
+    >>> round(sigma, 1), round(correlation, 1)
+    (1.0, 0.8)
+    """
+    count = len(values) - design.shape[1]
+    tried = _CORRELATIONS if count > _TELLING else np.zeros(1)
+    freedom = max(count, 1e-9)
+    both = np.column_stack([design, values])
+    shares = tried[:, None] ** apart  # of a point's error that it has from the one before
+    innovations = np.sqrt(1.0 - shares**2)
+    before = np.roll(both, 1, axis=0)
+    whitened = [
+        (both - share[:, None] * before) / new[:, None]
+        for share, new in zip(shares, innovations, strict=True)
+    ]
+    products = np.stack([one.T @ one for one in whitened])
+    normal, right = products[:, :-1, :-1], products[:, :-1, -1]
+    spreads = np.linalg.pinv(normal, hermitian=True)
+    each = (spreads @ right[:, :, None])[:, :, 0]
+    left = [one[:, -1] - one[:, :-1] @ row for one, row in zip(whitened, each, strict=True)]
+    squares = np.array([max(float(one @ one), 1e-300) for one in left])
+    variances = squares / freedom
+    score = -np.log(innovations).sum(axis=1) - 0.5 * np.linalg.slogdet(normal)[1]
+    score -= 0.5 * freedom * np.log(variances)
+    score += np.log(1.0 - tried**2)  # the prior: strong correlations are rare
+    weights = np.exp(score - score.max())
+    weights /= weights.sum()
+    fitted = average_fits(weights, each, variances[:, None, None] * spreads)
+    sigma = float(np.exp(0.5 * (weights @ np.log(variances))))
+    return Fit(*fitted, float(weights @ squares), count), sigma, float(weights @ tried)
+
+
+def linear_prediction_residual(
+    values: NDArray[np.float32], order: int, rounding: float
+) -> NDArray[np.float32]:
+    """Return the linear-prediction residual of a signal, learned from its quiet half.
+
+    The prediction removes hum and stationary noise of any spectrum; what comes suddenly remains.
+
+    Parameters
+    ----------
+    values : ndarray
+        (N,).
+    order : int
+        Samples that a prediction is made from.
+    rounding : float
+        Variance of the quantisation error, which cannot be predicted.
+
+    Returns
+    -------
+    ndarray
+        (N,), 0 in the first `order` samples; the values themselves where all is 0.
+
+    Examples
+    --------
+    >>> hum = np.sin(np.arange(48000) * 2 * np.pi * 50 / 48000).astype(np.float32)
+    >>> bool(np.abs(linear_prediction_residual(hum, 24, 0.0)[1000:]).max() < 0.01)
+    True
+    """
+    from scipy.linalg import solve_toeplitz
+    from scipy.signal import lfilter
+
+    chunks = values[: len(values) // _CHUNK * _CHUNK].reshape(-1, _CHUNK)
+    energies = np.einsum("ij,ij->i", chunks, chunks)
+    middle = np.median(energies) if len(chunks) else 0.0
+    quiet = chunks[energies <= middle]
+    some = quiet[:: max(1, len(quiet) // 512)].astype(np.float64)
+    products = [
+        float(np.einsum("ij,ij->", some[:, lag:], some[:, : _CHUNK - lag]))
+        for lag in range(order + 1)
+    ]
+    products[0] = products[0] * (1.0 + 1e-7) + some.size * rounding
+    if not products[0] > 0.0:
+        return values
+    prediction = solve_toeplitz(products[:-1], products[1:])
+    weights = np.concatenate([[1.0], -prediction]).astype(np.float32)
+    residual = np.asarray(lfilter(weights, np.float32(1.0), values), dtype=np.float32)
+    residual[:order] = 0.0
+    return residual
+
+
+def correlation_factor(residuals: Array) -> float:
+    """Return the factor by which autocorrelation increases the variance of an average.
+
+    Examples
+    --------
+    >>> noise = np.random.default_rng(1).normal(0.0, 1.0, 10_000)
+    >>> correlation_factor(noise), round(correlation_factor(np.repeat(noise, 4)))
+    (1.0, 4)
+    """
+    count = len(residuals)
+    if count < _ENOUGH:
+        return 1.0
+    power = float(np.mean(residuals**2))
+    total = 1.0
+    for lag in range(1, min(_LAGS, count // 4)):
+        rho = float(np.mean(residuals[lag:] * residuals[:-lag])) / power if power > 0.0 else 0.0
+        if rho < 2.0 / np.sqrt(count):
+            break
+        total += 2.0 * rho
+    return total
+
+
+def difference_noise(values: Array, order: int = 2) -> float:
+    """Return the standard deviation of white noise on a smooth series, by its differences.
+
+    It is the median absolute difference over that of unit noise, so that outliers do not matter.
+
+    Parameters
+    ----------
+    values : ndarray
+        (N,).
+    order : int, optional
+        Of the differences: 1 for a constant series, 2 for one that changes evenly.
 
     Examples
     --------
     >>> noise = np.random.default_rng(1).normal(0.0, 0.1, 10_000)
-    >>> round(spread(np.linspace(0.0, 5.0, 10_000) + noise), 2)
+    >>> round(difference_noise(np.linspace(0.0, 5.0, 10_000) + noise), 2)
     0.1
     """
+    from math import comb
+
     if len(values) < 4:
         return 0.0
-    bends = np.abs(np.diff(values, 2))
-    # the median of a normal variable's absolute value is 0.6745 of its deviation
-    return float(np.median(bends) / 0.6745 / np.sqrt(6.0))
+    middle = float(np.median(np.abs(np.diff(values, order))))
+    return float(middle / _MAD / np.sqrt(float(comb(2 * order, order))))
 
 
 def _likelihood(both: Array, solved: Array, log_det: float, free: int) -> tuple[float, float]:
@@ -157,7 +310,7 @@ def _solved(both: Array, phi: float, share: float) -> tuple[Array, float]:
     return solved, log_det
 
 
-def _remember(rows: Array, phi: float) -> Array:
+def _correlated(rows: Array, phi: float) -> Array:
     """Return rows times R, with R_ij = φ**|i-j|."""
     from scipy.signal import lfilter
 

@@ -1,17 +1,16 @@
-"""Straight fits to values whose errors go together, and error bars from few points."""
+"""Linear regression with correlated errors and excess scatter; error bars from few points."""
 
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Fit", "least_squares", "scattered", "widening"]
+__all__ = ["Fit", "average_fits", "fit_with_excess_scatter", "least_squares", "widening"]
 
-_RARE = 0.01
-"""How improbable a scatter must be before it is taken for more than the errors that were given."""
-_LEAST, _SCATTERS = 0.1, 20  # the least scatter in errors, and how many are tried
-_NONE = 4.0  # odds, before the values are seen, that there is no scatter
-_ONE = 0.6826894921370859  # what one sigma holds
+_RARE = 0.01  # p-value of chi squared below which an excess scatter is reported
+_LEAST, _SCATTERS = 0.1, 20  # the smallest excess scatter, in errors; size of the grid
+_NONE = 4.0  # prior odds of no excess scatter
+_ONE = 0.6826894921370859  # probability within one sigma
 
 
 class Fit(NamedTuple):
@@ -62,19 +61,19 @@ def _fits(
     return parameters, spreads, np.einsum("ki,kij,kj->k", residuals, inverses, residuals)
 
 
-def scattered(
+def fit_with_excess_scatter(
     design: NDArray[np.float64],
     values: NDArray[np.float64],
     covariance: NDArray[np.float64],
     most: float,
 ) -> tuple[Fit, float]:
-    """Return the fit to values that may scatter beyond their errors, and by how much they do.
+    """Return the fit to values that may scatter by more than their errors, and the excess scatter.
 
-    How much is not known beforehand: with odds of four to one not at all, else by any amount from a
-    tenth of the least error to `most`, each power of ten being equally likely. The parameters are
-    their posterior's means; their errors are half as wide as what holds 68.3 % of it, as Student's
-    t would have it where the scatter is large. A scatter that is somewhat larger than the errors
-    cannot be told from none by few values; error bars are too short then.
+    The prior of the excess scatter has odds of four to one for none; else it is log-uniform from a
+    tenth of the smallest error to `most`. The parameters are posterior means, and an error is half
+    the width of the interval around the mean that holds 68.3 % of the posterior; for a large
+    scatter this is Student's t. Few values cannot distinguish an excess scatter slightly above the
+    errors from none, and then the error bars are too short.
 
     Parameters
     ----------
@@ -86,17 +85,17 @@ def scattered(
     Returns
     -------
     fit : Fit
-        With χ² of the errors alone.
+        With χ² of the given errors alone.
     scatter : float
-        Its median where χ² would be as large in less than one case of a hundred; else 0.
+        The posterior median of the excess scatter where the p-value of χ² is below 0.01; else 0.
 
     Examples
     --------
-    >>> one = np.ones((4, 1))
-    >>> fit, scatter = scattered(one, np.array([0.1, 0.2, 0.3, 0.4]), 1e-6 * np.eye(4), 1.0)
+    >>> one, values = np.ones((4, 1)), np.array([0.1, 0.2, 0.3, 0.4])
+    >>> fit, scatter = fit_with_excess_scatter(one, values, 1e-6 * np.eye(4), 1.0)
     >>> round(float(fit.covariance[0, 0] ** 0.5), 2), round(scatter, 2)
     (0.08, 0.14)
-    >>> scattered(one, np.array([0.1, 0.2, 0.3, 0.4]), 0.01 * np.eye(4), 1.0)[1]
+    >>> fit_with_excess_scatter(one, values, 0.01 * np.eye(4), 1.0)[1]
     0.0
     """
     from scipy.stats import chi2
@@ -111,9 +110,8 @@ def scattered(
     evidence = np.linalg.slogdet(spreads)[1] - np.linalg.slogdet(every)[1] - squares
     weights = np.exp(0.5 * (evidence - evidence.max())) * [_NONE * _SCATTERS, *[1.0] * _SCATTERS]
     weights /= weights.sum()
-    mean = weights @ means
+    mean, total = average_fits(weights, means, spreads)
     off = means - mean
-    total = np.einsum("k,kij->ij", weights, spreads) + (weights[:, None] * off).T @ off
     errors = np.sqrt(np.diagonal(spreads, axis1=1, axis2=2))
     halves = [_half(weights, off[:, i], errors[:, i]) for i in range(len(mean))]
     stretch = np.array(halves) / np.sqrt(np.diag(total))
@@ -124,10 +122,39 @@ def scattered(
     return fit, float(scatters[1 + np.searchsorted(share, 0.5)])
 
 
+def average_fits(
+    weights: NDArray[np.float64], values: NDArray[np.float64], covariances: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the parameters and their covariance, averaged over fits under several noise models.
+
+    Parameters
+    ----------
+    weights : ndarray
+        (K,) posterior probabilities of the noise models.
+    values, covariances : ndarray
+        (K, P) and (K, P, P) of each fit.
+
+    Returns
+    -------
+    values, covariance : ndarray
+        (P,) and (P, P): the mean covariance and that of the parameters between the fits.
+
+    Examples
+    --------
+    >>> values, covariance = average_fits(np.array([0.5, 0.5]), np.eye(2), np.zeros((2, 2, 2)))
+    >>> values.tolist(), covariance.tolist()
+    ([0.5, 0.5], [[0.25, -0.25], [-0.25, 0.25]])
+    """
+    mean = weights @ values
+    off = values - mean
+    total = np.einsum("k,kij->ij", weights, covariances) + (weights[:, None] * off).T @ off
+    return mean, total
+
+
 def _half(
     weights: NDArray[np.float64], off: NDArray[np.float64], errors: NDArray[np.float64]
 ) -> float:
-    """Return half the width of what holds 68.3 % of a sum of normal distributions, around 0."""
+    """Return half the width of the interval around 0 that holds 68.3 % of a normal mixture."""
     from scipy.optimize import brentq
     from scipy.special import ndtr
 
@@ -138,7 +165,7 @@ def _half(
 
 
 def widening(freedom: float) -> float:
-    """Return how much wider one sigma is when it was itself estimated, by Student's t.
+    """Return the factor by which an error bar grows if sigma itself was estimated: Student's t.
 
     Parameters
     ----------
@@ -148,7 +175,7 @@ def widening(freedom: float) -> float:
     Returns
     -------
     float
-        So that the error bar still covers the truth in 68.3 % of all cases.
+        With it the error bar covers the truth in 68.3 % of all cases.
 
     Examples
     --------

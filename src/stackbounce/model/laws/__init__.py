@@ -1,17 +1,26 @@
-"""The contact laws: what the force between two balls, or ball and floor, is while compressed.
+"""The contact laws: the force between two balls, or ball and floor, while they are compressed.
 
-Each is a small frozen value with its formula, its source and the end of its contact. Forces never
-pull. A force that a formula would make negative is 0, which leaves no trace: the compression goes
-on, and so does the formula. A contact ends when its force is back at zero for good, and
-``k c**(p + 1)/(p + 1)`` counts as stored energy while the compression c is above 0.
+Each is a small frozen value in a file of its own, which holds all that is known of the law. Forces
+never pull: where a formula would be negative the force is 0, while the compression and the formula
+go on. A contact ends when its force is back at zero for good, and ``k c**(p + 1)/(p + 1)`` counts
+as stored energy while the compression c is above 0.
 """
 
-from stackbounce.model.laws.elastic import STEEPEST, Hertz, PowerLaw, Spring
-from stackbounce.model.laws.hysteretic import Hysteretic
-from stackbounce.model.laws.lossy import Dashpot, HuntCrossley, Viscoelastic
+# The laws are imported in the order in which people are shown them: each registers itself.
+# isort: off
 from stackbounce.model.laws.rigid import Rigid
-from stackbounce.model.laws.stacked import series
-from stackbounce.model.laws.table import LAWS, ContactLaw, law_named
+from stackbounce.model.laws.spring import Spring
+from stackbounce.model.laws.hertz import Hertz
+from stackbounce.model.laws.power_law import PowerLaw
+from stackbounce.model.laws.dashpot import Dashpot
+from stackbounce.model.laws.viscoelastic import Viscoelastic
+from stackbounce.model.laws.hunt_crossley import HuntCrossley
+from stackbounce.model.laws.hysteretic import Hysteretic
+
+# isort: on
+from stackbounce.model.laws.law import STEEPEST, ContactLaw, contact_numbers
+from stackbounce.model.laws.registry import LAWS, law_named, register, usual_laws
+from stackbounce.model.laws.series import series
 
 __all__ = [
     "LAWS",
@@ -25,6 +34,9 @@ __all__ = [
     "Rigid",
     "Spring",
     "Viscoelastic",
+    "contact_numbers",
     "law_named",
+    "register",
     "series",
+    "usual_laws",
 ]

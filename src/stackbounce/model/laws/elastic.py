@@ -1,189 +1,50 @@
-"""Contacts without loss: the force follows from the compression alone."""
+"""The base of the laws without loss: the force is a power of the compression, in and out."""
 
-from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import TYPE_CHECKING, Self
 
-from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
-from stackbounce.model.ball import Ball
-from stackbounce.units import Unit
+from stackbounce.engine import codes
+from stackbounce.model.collision import elastic
+from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given
 
-__all__ = ["STEEPEST", "Hertz", "PowerLaw", "Spring"]
+if TYPE_CHECKING:
+    from stackbounce.model.laws.hysteretic import Hysteretic
 
-STEEPEST = 1e6
-"""The largest exponent of a loading or unloading curve; beyond it a curve is a step."""
+__all__ = ["ElasticLaw"]
 
-
-@dataclass(frozen=True)
-class Spring:
-    """A linear spring without loss that can be compressed and cannot pull.
-
-    ``F = k c`` while the compression c is above 0, else 0. The contact ends when force and
-    compression are back at zero.
-
-    Parameters
-    ----------
-    stiffness : float
-        k, in N/m, above 0.
-
-    Raises
-    ------
-    InvalidValue
-        If `stiffness` is not positive and finite.
-    InvalidType
-        If it is no number.
-
-    Notes
-    -----
-    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 5 and 6.
-
-    Examples
-    --------
-    >>> Spring(2500)
-    Spring(stiffness=2500.0)
-    """
-
-    exponent: ClassVar[float] = 1.0
-    stiffness: Annotated[float, Unit("N/m")]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness, "N/m"))
+_STEEPEST_FLANK = 2.5  # the largest exponent that a force record of an unknown power law may have
 
 
-@dataclass(frozen=True)
-class PowerLaw:
-    """A spring without loss whose force grows as a power of the compression.
+class ElasticLaw(ContactLaw):
+    """A law ``F = k c**p`` without loss; a class sets `exponent` or has it as a field."""
 
-    ``F = k c**p`` while the compression c is above 0, else 0. The contact ends when force and
-    compression are back at zero; it stores ``k c**(p + 1)/(p + 1)``.
+    form = codes.POWER
+    rate_free = True
 
-    Parameters
-    ----------
-    stiffness : float
-        k, in N/m**exponent, above 0.
-    exponent : float
-        p, from 1, a linear spring, to 1e6.
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Return 1."""
+        return 1.0
 
-    Raises
-    ------
-    InvalidValue
-        If `stiffness` is not positive and finite, or `exponent` is out of its range.
-    InvalidType
-        If one of them is no number.
-
-    Notes
-    -----
-    Source: P. Patricio, "The Hertz contact in chain elastic collisions", Am. J. Phys. 72, 1488
-    (2004).
-
-    Examples
-    --------
-    >>> PowerLaw(1e7, exponent=1.3)
-    PowerLaw(stiffness=10000000.0, exponent=1.3)
-    """
-
-    stiffness: Annotated[float, Unit("N/m**exponent")]
-    exponent: Annotated[float, Unit()]
-
-    def __post_init__(self) -> None:
-        k = positive("stiffness", self.stiffness, "N/m**exponent")
-        object.__setattr__(self, "stiffness", k)
-        object.__setattr__(self, "exponent", between("exponent", self.exponent, 1.0, STEEPEST))
-
-
-@dataclass(frozen=True)
-class Hertz:
-    """The contact of two elastic spheres, or of one and a flat floor, without loss.
-
-    ``F = k c**1.5`` while the compression c is above 0, else 0. The contact ends when force and
-    compression are back at zero; it stores ``k c**2.5/2.5``.
-
-    Parameters
-    ----------
-    stiffness : float
-        k, in N/m**1.5, above 0; `between` computes it from the balls' materials.
-
-    Raises
-    ------
-    InvalidValue
-        If `stiffness` is not positive and finite.
-    InvalidType
-        If it is no number.
-
-    Notes
-    -----
-    Source: H. Hertz, J. Reine Angew. Math. 92, 156 (1881); K. L. Johnson, Contact Mechanics
-    (Cambridge, 1985), section 4.2. The `exponent`, 1.5, can be read.
-
-    Examples
-    --------
-    >>> Hertz(2e9), Hertz(2e9).exponent
-    (Hertz(stiffness=2000000000.0), 1.5)
-    """
-
-    exponent: ClassVar[float] = 1.5
-    stiffness: Annotated[float, Unit("N/m**1.5")]
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "stiffness", positive("stiffness", self.stiffness, "N/m**1.5"))
+    def duration_at(self, mass: float, speed: float) -> float:
+        """Return the contact time in units of C/v."""
+        return elastic.duration(self.exponent)
 
     @classmethod
-    def between(cls, ball_a: Ball, ball_b: Ball | None = None) -> "Hertz":
-        """Return the contact of two balls, or of one and a flat rigid floor.
+    def calibrated(cls, given: Given) -> Self:
+        """Return the law that has a measured contact time."""
+        p = given["exponent"]
+        numbers = {"stiffness": elastic.measured_stiffness(given, elastic.duration(p))}
+        if cls.fixed_exponent() is None:
+            numbers["exponent"] = p
+        return cls(**numbers)
 
-        ``k = (4/3) E* sqrt(R*)`` with ``1/E* = (1 - ν1**2)/E1 + (1 - ν2**2)/E2`` and
-        ``1/R* = 1/R1 + 1/R2``; a flat rigid floor has no share in either sum.
+    @classmethod
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+        """Return the same power for touch and release."""
+        either = Flank(exponent or 1.0, exponent or _STEEPEST_FLANK, exact=True)
+        return either, either
 
-        Parameters
-        ----------
-        ball_a : Ball
-            One ball, with its `diameter`, `young_modulus` and `poisson_ratio`.
-        ball_b : Ball, optional
-            The other one; by default a flat rigid floor.
+    def as_hysteretic(self) -> "Hysteretic":
+        """Return the law as a `Hysteretic` one that loses nothing."""
+        from stackbounce.model.laws.hysteretic import Hysteretic
 
-        Returns
-        -------
-        Hertz
-
-        Raises
-        ------
-        InvalidValue
-            If a ball lacks one of these three, or they give no finite stiffness.
-        InvalidType
-            If one of them is no Ball.
-
-        Notes
-        -----
-        Source: K. L. Johnson, Contact Mechanics (Cambridge, 1985), eqs 4.17, 4.18 and 4.23.
-
-        Examples
-        --------
-        >>> steel = {"young_modulus": 206e9, "poisson_ratio": 0.3}
-        >>> lower, upper = Ball(0.228, 0.0381, **steel), Ball(0.081, 0.0270, **steel)
-        >>> print(f"{Hertz.between(lower).stiffness:.3e}")
-        4.166e+10
-        >>> print(f"{Hertz.between(lower, upper).stiffness:.3e}")
-        1.341e+10
-        """
-        shares = [_shares("ball_a", ball_a)]
-        if ball_b is not None:
-            shares.append(_shares("ball_b", ball_b))
-        compliance = sum(share for share, _ in shares)  # 1/E*, in 1/Pa
-        curvature = sum(share for _, share in shares)  # 1/R*, in 1/m
-        return cls(4.0 / 3.0 / compliance / curvature**0.5)
-
-
-def _shares(name: str, ball: object) -> tuple[float, float]:
-    """Return a ball's shares in 1/E* and 1/R*."""
-    if not isinstance(ball, Ball):
-        raise InvalidType(f"{name} must be a Ball, got {shown(ball)}")
-    missing = [
-        one for one in ("diameter", "young_modulus", "poisson_ratio") if getattr(ball, one) is None
-    ]
-    if missing:
-        listed = ", ".join(f"{name}.{one}" for one in missing)
-        raise InvalidValue(f"{listed} must be given for a Hertz contact, got None")
-    assert ball.diameter is not None
-    assert ball.young_modulus is not None
-    assert ball.poisson_ratio is not None
-    share = (1.0 - ball.poisson_ratio) * (1.0 + ball.poisson_ratio) / ball.young_modulus
-    return share, 2.0 / ball.diameter
+        return Hysteretic(self.stiffness, exponent=self.exponent, restitution=1.0)

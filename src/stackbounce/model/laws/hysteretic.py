@@ -1,26 +1,34 @@
-"""A contact that loses energy by its history: a softer curve on the way out."""
+"""A contact that loses energy by its history: its unloading curve lies below its loading curve."""
 
 import math
+from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
-from typing import Annotated
+from typing import Annotated, Any, ClassVar, Self
 
-from stackbounce.errors import (
-    InvalidType,
-    InvalidValue,
-    between,
-    fraction,
-    nearest,
-    positive,
-    shown,
+from stackbounce.engine import codes
+from stackbounce.errors import InvalidType, InvalidValue, between, fraction, nearest, shown
+from stackbounce.model.collision import elastic
+from stackbounce.model.laws.law import (
+    EXPONENT,
+    STEEPEST,
+    ContactLaw,
+    Flank,
+    Flanks,
+    Given,
+    Quantity,
+    stiffness_in,
 )
-from stackbounce.model.laws.elastic import STEEPEST
-from stackbounce.units import Unit
+from stackbounce.model.laws.registry import register
 
 __all__ = ["Hysteretic"]
 
+_STIFFNESS = stiffness_in("N/m**exponent")
+_SOFTEST, _STEEPEST_FLANK = 6.0, 100.0  # exponents of a release that is not known, and that is
 
+
+@register
 @dataclass(frozen=True)
-class Hysteretic:
+class Hysteretic(ContactLaw):
     """A spring that gives back less than it took: a softer curve on the way out.
 
     Loading follows ``F = k c**p``; from the peak compression C it unloads along
@@ -69,12 +77,24 @@ class Hysteretic:
     7.0
     """
 
-    stiffness: Annotated[float, Unit("N/m**exponent")]
+    says = "A spring that gives back less than it took: a softer curve on the way out."
+    formula = (
+        "F = stiffness c**exponent; from the peak C on, "
+        "F = stiffness C**exponent (c/C)**unloading_exponent"
+    )
+    source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section V"
+    form = codes.HYSTERETIC
+    rate_free = True
+    loss = "restitution"
+    usual_exponent = 1.0
+    usual_models: ClassVar = {"Hysteretic": {}, "Hysteretic, Hertz loading": {"exponent": 1.5}}
+
+    stiffness: Annotated[float, _STIFFNESS]
     _: KW_ONLY
-    exponent: Annotated[float, Unit()] = 1.0
-    # One of these is given and the other derived in __post_init__: neither is ever None to read.
-    restitution: Annotated[float, Unit()] = None  # type: ignore[assignment]
-    unloading_exponent: Annotated[float, Unit()] = None  # type: ignore[assignment]
+    exponent: Annotated[float, EXPONENT] = 1.0
+    # One of these is given and __post_init__ derives the other: neither is ever None to read.
+    restitution: Annotated[float, Quantity("", slider=(0.8, 0.05, 1.0))] = None  # type: ignore[assignment]
+    unloading_exponent: Annotated[float, Quantity("", slider=(2.0, 1.0, 20.0))] = None  # type: ignore[assignment]
     reloading: str = "free"
     derived: str = field(init=False, repr=False, compare=False)
 
@@ -84,8 +104,8 @@ class Hysteretic:
         if self.reloading not in _RELOADINGS:
             words = nearest(self.reloading, _RELOADINGS)
             raise InvalidValue(f"reloading must name a rule, got {shown(self.reloading)}; {words}")
-        k = positive("stiffness", self.stiffness, "N/m**exponent")
-        p = between("exponent", self.exponent, 1.0, STEEPEST)
+        k = _STIFFNESS.check("stiffness", self.stiffness)
+        p = EXPONENT.check("exponent", self.exponent)
         e, n, derived = _losses(p, self.restitution, self.unloading_exponent)
         object.__setattr__(self, "stiffness", k)
         object.__setattr__(self, "exponent", p)
@@ -101,8 +121,95 @@ class Hysteretic:
             f"{given}={getattr(self, given)!r}{rule})"
         )
 
+    def derived_field(self) -> str:
+        """Return the one of restitution and unloading exponent that was not given."""
+        return self.derived
+
+    def replaced(self, changes: Mapping[str, Any]) -> Self:
+        """Return the law with other numbers; restitution or unloading exponent is derived anew."""
+        given = [name for name in _ONE_OF if name in changes]
+        given = given or [name for name in _ONE_OF if name != self.derived]
+        others = {_OTHER[name]: None for name in given if _OTHER[name] not in changes}
+        return super().replaced({**others, **changes})
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return the law as plain values, without what follows from them."""
+        plain = super().to_mapping()
+        del plain[self.derived]
+        if self.reloading == "free":
+            del plain["reloading"]
+        return plain
+
+    def _described_fields(self) -> list[str]:
+        shape = [] if self.exponent == 1.0 else ["exponent"]
+        return ["stiffness", *shape, "restitution"]
+
+    def engine_numbers(self, varied: Mapping[str, Any] = {}) -> tuple[int, Any, Any, Any]:
+        """Return the law's numbers, with n from e where e is what is known of the loss."""
+        form = codes.LOSSY if self.reloading == "lossy" else self.form
+        k, p = (varied.get(name, getattr(self, name)) for name in ("stiffness", "exponent"))
+        n = varied.get("unloading_exponent", self.unloading_exponent)
+        by_restitution = self.derived == "unloading_exponent" and "unloading_exponent" not in varied
+        if "restitution" in varied or (by_restitution and "exponent" in varied):
+            import numpy as np
+
+            e = varied.get("restitution", self.restitution)
+            n = np.maximum(p, (p + 1.0) / e / e - 1.0)
+        return form, k, p, n
+
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Return the restitution, which is the same for all collisions."""
+        return self.restitution
+
+    def duration_at(self, mass: float, speed: float) -> float:
+        """Return the contact time in units of C/v."""
+        return elastic.hysteretic_duration(self.exponent, self.unloading_exponent, self.restitution)
+
+    @classmethod
+    def calibrated(cls, given: Given) -> Self:
+        """Return the law that has a measured restitution and contact time."""
+        p, e = given["exponent"], given["restitution"]
+        unit = cls(1.0, exponent=p, restitution=e)
+        k = elastic.measured_stiffness(given, unit.duration_at(1.0, 1.0))
+        return cls(k, exponent=p, restitution=e)
+
+    @classmethod
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+        """Return the flanks: the release is never harder than the touch."""
+        touch = Flank(exponent or 1.0, exponent or 1.5, exact=True)
+        if law is None:
+            least = exponent or 1.0
+            return touch, Flank(least, max(least, _SOFTEST))
+        n = min(law.unloading_exponent, _STEEPEST_FLANK)
+        return touch, Flank(n, n)
+
+    def series_constants(self) -> dict[str, Any]:
+        """Return what two laws in series must have in common."""
+        names = ("exponent", "unloading_exponent", "reloading")
+        return {name: getattr(self, name) for name in names}
+
+    def as_hysteretic(self) -> "Hysteretic":
+        """Return the law itself."""
+        return self
+
+    def pressed_on(self, other: "Hysteretic") -> "Hysteretic":
+        """Return a law that gives back as much energy as this one and another one in series.
+
+        Both have one exponent and one rule for reloading. The part f of the compression that this
+        law takes is its part of the work, too, so that ``e**2 = f e_a**2 + (1 - f) e_b**2``.
+        """
+        p = self.exponent
+        soft_a, soft_b = self.stiffness ** (-1.0 / p), other.stiffness ** (-1.0 / p)
+        f = soft_a / (soft_a + soft_b)
+        kept = f * self.restitution**2 + (1.0 - f) * other.restitution**2
+        stiffness = (soft_a + soft_b) ** -p
+        return Hysteretic(
+            stiffness, exponent=p, restitution=math.sqrt(kept), reloading=self.reloading
+        )
+
 
 _ONE_OF = ("restitution", "unloading_exponent")
+_OTHER = dict(zip(_ONE_OF, reversed(_ONE_OF), strict=True))
 _RELOADINGS = ("free", "lossy")
 
 

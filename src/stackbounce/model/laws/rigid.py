@@ -1,19 +1,22 @@
 """A contact that takes no time."""
 
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Self
 
+from stackbounce.engine import codes
 from stackbounce.errors import fraction
-from stackbounce.units import Unit
+from stackbounce.model.laws.law import ContactLaw, Given, Quantity
+from stackbounce.model.laws.registry import register
 
 __all__ = ["Rigid"]
 
 
+@register
 @dataclass(frozen=True)
-class Rigid:
+class Rigid(ContactLaw):
     """An instantaneous collision with Newton's restitution.
 
-    The two part at the restitution times the speed at which they met,
+    The two balls part at the restitution times the speed at which they met,
     ``v_upper' - v_lower' = -e (v_upper - v_lower)``, and momentum is conserved; at the floor
     ``v' = -e v``.
 
@@ -39,7 +42,36 @@ class Rigid:
     Rigid(restitution=0.9)
     """
 
-    restitution: Annotated[float, Unit()]
+    says = "An instantaneous collision with Newton's restitution."
+    formula = "v' = -restitution v"
+    source = "R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4"
+    form = codes.RIGID
+    law_parameter = "restitution"
+    rigid = True
+    exact = True
+    loss = "restitution"
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "restitution", fraction("restitution", self.restitution))
+    restitution: Annotated[float, Quantity("", fraction, (0.8, 0.05, 1.0))]
+
+    @property
+    def contact_time_depends_on(self) -> tuple[str, ...]:
+        """Nothing."""
+        return ()
+
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Return the restitution, which is the same for all collisions."""
+        return self.restitution
+
+    def contact_time_at(self, mass: float, speed: float) -> float:
+        """Return 0."""
+        return 0.0
+
+    @classmethod
+    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
+        """Return the one number that is needed."""
+        return ["restitution"]
+
+    @classmethod
+    def calibrated(cls, given: Given) -> Self:
+        """Return the law with the measured restitution."""
+        return cls(given["restitution"])

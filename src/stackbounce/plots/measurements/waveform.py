@@ -40,7 +40,7 @@ def draw(data: Any, found: Any) -> "Figure":
     --------
     >>> import stackbounce as sb
     >>> from stackbounce.synthetic.waveform import waveform as record_of
-    >>> from stackbounce.measure.kinds.waveform import waveform
+    >>> from stackbounce.measure.kinds.waveform.analysis import waveform
     >>> drop = sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0)
     >>> record = record_of(drop, rate=1e5, noise=1.0)
     >>> draw(record, waveform(record)).axes[0].get_ylabel()

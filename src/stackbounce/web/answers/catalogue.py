@@ -2,36 +2,20 @@
 
 import dataclasses
 import functools
-import inspect
-import re
-from typing import Any, get_type_hints
+from typing import Any
 
 from stackbounce.calibration import calibrate, contact_time, restitution
-from stackbounce.cross2007.cases import cases
+from stackbounce.cross2007.cases import list_cases
 from stackbounce.errors import InvalidValue
 from stackbounce.json_values import as_json
-from stackbounce.model import LAWS, ContactLaw, Drop, Rigid, law_named
+from stackbounce.model import LAWS, ContactLaw, Drop, law_named
 from stackbounce.model.catalogue import BALLS, stack
-from stackbounce.model.laws.table import FORMULAS
 from stackbounce.version import __version__
 from stackbounce.web.limits import Limits
 
 __all__ = ["catalogue", "like", "measured_law", "stacked"]
 
-_ELASTIC = ("Spring", "Hertz", "PowerLaw")
 _DEFAULT_CONTACT_TIME = 5e-3  # s, a tennis ball's, where a rigid contact has none
-
-# What a slider offers: the value it begins with, its ends, and what people call it.
-_FIELDS: dict[str, tuple[float, float, float, str]] = {
-    "stiffness": (5e3, 1e2, 1e6, "stiffness"),
-    "stiffness**1.5": (2e5, 1e3, 1e10, "stiffness"),
-    "exponent": (1.5, 1.0, 4.0, "exponent"),
-    "damping": (2.0, 1e-2, 1e3, "damping"),
-    "dissipative_time": (3e-4, 1e-6, 1e-2, "dissipative time"),
-    "dissipation": (0.2, 1e-3, 10.0, "dissipation"),
-    "restitution": (0.8, 0.05, 1.0, "restitution"),
-    "unloading_exponent": (2.0, 1.0, 20.0, "unloading exponent"),
-}
 
 
 @functools.cache
@@ -40,7 +24,7 @@ def catalogue(limits: Limits) -> str:
     presets = [
         {"name": one.name, "group": one.group, "title": one.title, "says": one.says}
         | {"drop": one.drop.to_mapping()}
-        for one in cases()
+        for one in list_cases()
     ]
     return as_json(
         {
@@ -54,42 +38,32 @@ def catalogue(limits: Limits) -> str:
 
 
 def _law(kind: type[ContactLaw]) -> dict[str, Any]:
-    """Return a law's name, formula and numbers, and its docstring's first line and source."""
-    text = inspect.getdoc(kind) or ""
-    _, _, rest = text.partition("Source: ")
-    source = re.split(r"\n\n|(?<=[\d)])\.\s+(?=[A-Z])|(?<=section V)\.\s", rest)[
-        0
-    ]  # a sentence ends after a number
+    """Return what the page shows of a law, and what it has to know of it."""
+    defaults = {one.name: one.default for one in dataclasses.fields(kind)}  # type: ignore[arg-type]
+    fields = []
+    for name, number in kind.quantities().items():
+        given = defaults[name]
+        default, low, high = number.slider
+        fields.append(
+            {
+                "name": name,
+                "unit": number.symbol,
+                "required": given is dataclasses.MISSING,
+                "default": given if isinstance(given, float) else default,
+                "low": low,
+                "high": high,
+                "says": name.replace("_", " "),
+            }
+        )
     return {
         "law": kind.__name__,
-        "says": text.partition("\n")[0],
-        "formula": FORMULAS[kind],
-        "source": " ".join(source.split()).removesuffix("."),
-        "fields": [_field(kind, one) for one in dataclasses.fields(kind) if _is_number(kind, one)],
-    }
-
-
-def _is_number(kind: type, one: "dataclasses.Field[Any]") -> bool:
-    hint = get_type_hints(kind, include_extras=True)[one.name]
-    return one.init and hasattr(hint, "__metadata__")
-
-
-def _field(kind: type[ContactLaw], one: "dataclasses.Field[Any]") -> dict[str, Any]:
-    hint = get_type_hints(kind, include_extras=True)[one.name]
-    unit = hint.__metadata__[0].symbol
-    steep = one.name == "stiffness" and unit != "N/m"
-    default, low, high, said = _FIELDS["stiffness**1.5" if steep else one.name]
-    required = one.default is dataclasses.MISSING
-    if one.name == "exponent" and isinstance(one.default, float):
-        default = one.default
-    return {
-        "name": one.name,
-        "unit": unit,
-        "required": required,
-        "default": default,
-        "low": low,
-        "high": high,
-        "says": said,
+        "says": kind.says,
+        "formula": kind.formula,
+        "source": kind.source,
+        "fields": fields,
+        "loses": bool(kind.loss),
+        "rigid": kind.rigid,
+        "exact": kind.exact,
     }
 
 
@@ -121,19 +95,15 @@ def like(
     if kept is None:
         kept = restitution(contact, mass=mass, speed=impact_speed)
     if lasts is None:
-        rigid = isinstance(contact, Rigid)
-        lasts = (
-            _DEFAULT_CONTACT_TIME if rigid else contact_time(contact, mass=mass, speed=impact_speed)
-        )
+        lasts = contact_time(contact, mass=mass, speed=impact_speed) or _DEFAULT_CONTACT_TIME
+    law = law_named(to)
     given: dict[str, float] = {"contact_time": lasts, "impact_speed": impact_speed, "mass": mass}
-    if to not in _ELASTIC:
+    if law.loss:
         given["restitution"] = kept
-    if to == "PowerLaw":
+    if law.default_exponent() is None and not law.rigid:
         given["exponent"] = getattr(contact, "exponent", 1.5)
-    return _contact(calibrate(law_named(to), **given))
+    return _contact(calibrate(law, **given))
 
 
 def _contact(law: ContactLaw) -> str:
-    from stackbounce.model.schema import write_law
-
-    return as_json({"contact": write_law(law)})
+    return as_json({"contact": law.to_mapping()})

@@ -9,7 +9,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue
 from stackbounce.model import Drop
 from stackbounce.plots import bounce
-from stackbounce.plots.impact_window import impact_window, moments
+from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import ran
 
@@ -90,9 +90,9 @@ def _call(name: str, value: Any) -> str:
 def _table(drop: Drop, until: float | None, events: int) -> str:
     """Return positions, velocities, forces, compressions and energy over time, as CSV."""
     result = ran(drop, until, events)
-    begin, end = impact_window(result)
+    begin, end = choose_window(result)
     times = np.linspace(begin, end, _SAMPLES)
-    sample = moments(result, times)
+    sample = sample_with_approach(result, times)
     columns: dict[str, Any] = {"time (s)": times}
     for b, path in enumerate(sample.position.values):
         columns[f"position {b} (m)"] = path

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from stackbounce.calibration import separate
 from stackbounce.errors import StackbounceError
 from stackbounce.json_values import as_json
-from stackbounce.model import STANDARD_GRAVITY, Drop, Rigid
-from stackbounce.plots.impact_window import impact_window, moments
+from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from stackbounce.version import __version__
@@ -80,7 +80,7 @@ def _last_release(result: Result) -> float:
 
 def _times(result: Result, until: float | None, frames: int) -> _Times:
     """Return times in s, ascending: evenly spread, and where contacts begin and end."""
-    begin, end = impact_window(result)
+    begin, end = choose_window(result)
     drop = result.drop
     if until is not None:
         end = min(until, result.end_time) if _stopped(result) else until
@@ -100,7 +100,7 @@ def _stopped(result: Result) -> bool:
 
 
 def _frames(result: Result, times: _Times) -> dict[str, Any]:
-    sample = moments(result, times)
+    sample = sample_with_approach(result, times)
     mass = np.array([ball.mass for ball in result.drop.balls])[:, None]
     kinetic = 0.5 * mass * sample.velocity.values**2
     potential = np.sum(mass * result.drop.gravity * sample.position.values, axis=0)
@@ -131,11 +131,11 @@ def _separate(drop: Drop, until: float | None, times: _Times, events: int) -> di
             textbook = dataclasses.replace(textbook, gravity=drop.gravity)
         result = ran(textbook, until, events)
         reached = result.end_time if _stopped(result) else math.inf
-        place = moments(result, np.minimum(times, reached)).position.values
+        place = sample_with_approach(result, np.minimum(times, reached)).position.values
     except StackbounceError as error:
         return {"error": str(error)}
     laws = textbook.contacts
     return _numbers(result) | {
-        "restitutions": [one.restitution if isinstance(one, Rigid) else None for one in laws],
+        "restitutions": [None if one is None else one.restitution for one in laws],
         "position": _short(place),
     }

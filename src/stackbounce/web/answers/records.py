@@ -7,16 +7,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, StackbounceError, nearest, shown
+from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.fitting import Fit, fit
 from stackbounce.json_values import as_json
-from stackbounce.measure import analyse
-from stackbounce.measure.kinds.track.analysis import Tracks
-from stackbounce.measure.kinds.waveform import Waveform
-from stackbounce.measure.reading import read_content
-from stackbounce.measure.told_numbers import NUMBERS, told_number
+from stackbounce.measure.finding import Curve
+from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.measurement import Measurement, measure_file
+from stackbounce.measure.option_values import read_options
+from stackbounce.measure.options import options_for
 from stackbounce.model import Drop
-from stackbounce.model.laws import law_named
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import ran
 
@@ -25,18 +24,32 @@ if TYPE_CHECKING:
 
     from stackbounce.fitting.residuals import Record
 
-__all__ = ["fitted", "measured"]
+__all__ = ["fitted", "measured", "options"]
 
 _Array = NDArray[np.float64]
 _Series = dict[str, Any]
 
 _SHOWN = 4000  # points of a curve that a page draws, at most
-_READING = ("holds", "table", "run", "names", "units", "decimal")
-_WORDS = ("measured_to", "repeated", "law", "exponent")
 _AFTER = 1.5  # of a simulated impact that is kept of a record
 
 
-def measured(name: str, content: bytes, options: Mapping[str, Any]) -> str:
+def options() -> str:
+    """Return, as JSON, the kinds of measurement and the options that the page's form offers."""
+    offered = options_for("read", "analyse").values()
+    return as_json(
+        {
+            "kinds": [{"name": kind.name, "says": kind.says} for kind in KINDS.values()],
+            "options": [option.to_mapping() for option in offered],
+        }
+    )
+
+
+def measured(
+    name: str,
+    content: bytes,
+    options: Mapping[str, Any],
+    alone: tuple[str, bytes] | None = None,
+) -> str:
     """Return, as JSON, what a file is, what is found in it, and curves to be drawn.
 
     Parameters
@@ -47,6 +60,8 @@ def measured(name: str, content: bytes, options: Mapping[str, Any]) -> str:
         What is in it.
     options : mapping
         What the file does not say: those of `read` and `analyse`; numbers may carry units.
+    alone : (str, bytes), optional
+        Name and content of a record of the lower ball alone.
 
     Returns
     -------
@@ -59,18 +74,14 @@ def measured(name: str, content: bytes, options: Mapping[str, Any]) -> str:
     StackbounceError
         If it cannot be read, or nothing that it should hold is there.
     """
-    data, found = _analysed(name, content, options)
-    rows = [row for one in found for row in one.rows() if row.name != "note"]
+    one = _measured(name, content, options, alone)
     return as_json(
         {
             "stackbounce": __version__,
-            "file": name,
-            **{key: data.attrs[key] for key in ("format", "why", "doubt", "holds")},
-            "found": [_row(row) for row in rows],
-            "notes": list(dict.fromkeys(note for one in found for note in one.notes)),
-            "series": _series(data, found),
-            "zero": _zero(found),
-            "measured": _usable(data, found),
+            **one.to_mapping(),
+            "series": _drawn(one.curves),
+            "zero": one.first_touch,
+            "measured": one.measured,
         }
     )
 
@@ -115,8 +126,8 @@ def fitted(
         if what.startswith("force."):
             if not content:
                 raise InvalidValue(f"{what} needs a file with a force over time")
-            record = record or _analysed(name, content, options)
-            data[what] = _channel(drop, what, value, name, *record)
+            record = record or _measured(name, content, options)
+            data[what] = _channel(drop, what, value, record)
         elif re.fullmatch(r"collisions\.\d+", what) and re.fullmatch(r"\s*[0-9]{1,9}\s*", value):
             data[what] = int(value)
     done = fit(drop, data, list(vary))
@@ -135,90 +146,19 @@ def fitted(
     )
 
 
-def _analysed(name: str, content: bytes, options: Mapping[str, Any]) -> tuple[Any, Any]:
-    for key in options:
-        known = (*_READING, *NUMBERS, *_WORDS)
-        if key not in known:
-            raise InvalidValue(f"{shown(key)} is no option; {nearest(key, known)}")
-    given = {key: value for key, value in options.items() if value not in (None, "")}
-    data = read_content(name, content, **_of(_READING, given))
-    known_of_it = {key: told_number(key, given[key], key) for key in NUMBERS if key in given}
-    words = _of(_WORDS, given)
-    if "law" in words:
-        words["law"] = law_named(words["law"])
-    try:
-        return data, analyse(data, **known_of_it, **words)
-    except StackbounceError as error:
-        raise type(error)(f"{name}: {error}") from error
-    except (ArithmeticError, IndexError, ValueError) as error:
-        raise InvalidValue(f"{name}: its numbers cannot be analysed ({error})") from error
+def _measured(
+    name: str,
+    content: bytes,
+    options: Mapping[str, Any],
+    alone: tuple[str, bytes] | None = None,
+) -> Measurement:
+    given = dict(options) if alone is None else {**options, "alone": alone}
+    known = read_options(given, lambda option: option.name, to=("read", "analyse"))
+    return measure_file((name, content), known)
 
 
-def _of(keys: Sequence[str], options: Mapping[str, Any]) -> dict[str, Any]:
-    return {key: options[key] for key in keys if key in options}
-
-
-def _row(row: Any) -> dict[str, Any]:
-    value, error = row.value, None
-    if hasattr(value, "nominal_value"):
-        value, error = value.nominal_value, value.std_dev
-    return {"name": row.name, "value": value, "error": error, "unit": row.unit}
-
-
-def _zero(found: Sequence[Any]) -> float | None:
-    """Return when the lowest ball first touches the floor, on the file's clock."""
-    for one in found:
-        if isinstance(one, Tracks):
-            return float(one.first_impact.nominal_value)
-        if isinstance(one, Waveform) and one.contacts and one.contacts[0].start is not None:
-            return float(one.contacts[0].start.nominal_value)
-    return None
-
-
-def _usable(data: "xr.Dataset", found: Sequence[Any]) -> dict[str, str]:
-    """Return what a fit can use of what was found, by the names that it takes."""
-    usable: dict[str, str] = {}
-    for one in found:
-        if isinstance(one, Waveform):
-            usable |= {f"force.{i}": name for i, name in enumerate(_channels(data)[:2])}
-        elif isinstance(one, Tracks) and one.rebound_ratios:
-            for i, ratio in enumerate(one.rebound_ratios):
-                usable[f"rebound_ratios.{i}"] = _written(ratio)
-        else:
-            of_one = one.balls[0] if isinstance(one, Tracks) else one
-            for kept in getattr(of_one, "restitutions", ())[:1]:
-                usable["rebound_ratios.0"] = _written(kept)
-    return usable
-
-
-def _written(value: Any) -> str:
-    number = f"{value.nominal_value:.6g}"
-    return f"{number} ± {value.std_dev:.2g}" if value.std_dev > 0.0 else number
-
-
-def _series(data: "xr.Dataset", found: Sequence[Any]) -> list[_Series]:
-    """Return the curves of a record over time."""
-    tracks = next((one for one in found if isinstance(one, Tracks)), None)
-    if tracks is not None:
-        return [
-            _curve(ball.name, "position", ball.times, ball.heights - ball.levels[0].nominal_value)
-            | {"index": i, "unit": "m"}
-            for i, ball in enumerate(tracks.balls)
-        ]
-    wave = next((one for one in found if isinstance(one, Waveform)), None)
-    curves: list[_Series] = []
-    for name, values in data.data_vars.items():
-        if values.dims != ("time",):
-            continue
-        times, unit = data["time"].values, str(values.attrs.get("units", ""))
-        force = _is_force(str(name))
-        if force and wave is not None and not curves:
-            curve = _curve(str(name), "force", wave.times, wave.force) | {"unit": wave.unit}
-        else:
-            curve = _curve(str(name), "force" if force else "other", times, values.values)
-            curve |= {"unit": unit}
-        curves.append(curve | {"index": len(curves)})
-    return curves
+def _drawn(curves: Sequence[Curve]) -> list[_Series]:
+    return [_curve(*one[:4]) | {"unit": one.unit, "index": i} for i, one in enumerate(curves)]
 
 
 def _curve(label: str, what: str, times: _Array, values: _Array) -> _Series:
@@ -233,37 +173,21 @@ def _curve(label: str, what: str, times: _Array, values: _Array) -> _Series:
     return {"label": label.replace("_", " "), "what": what, "time": times, "values": values}
 
 
-def _channels(data: "xr.Dataset") -> list[str]:
-    """Return the names of a record's forces, the first one the floor's by custom."""
-    return [str(name) for name in data.data_vars if _is_force(str(name))]
-
-
-def _is_force(name: str) -> bool:
-    return name.split("_", maxsplit=1)[0] in ("force", "voltage")
-
-
-def _channel(
-    drop: Drop, what: str, which: str, name: str, data: "xr.Dataset", found: Sequence[Any]
-) -> "xr.DataArray":
+def _channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr.DataArray":
     """Return the channel of a file that is the force of a contact, cut to one impact."""
-    own = _channels(data)
-    wave = next((one for one in found if isinstance(one, Waveform)), None)
-    if wave is None or not own:
-        raise InvalidValue(f"{what}: {name} holds no force over time, but a {data.attrs['holds']}")
+    lasting = _AFTER * ran(drop, None, 1000).end_time
+    own = {
+        name: force
+        for one in record.found
+        for name, force in one.forces(record.data, lasting).items()
+    }
+    if not own:
+        raise InvalidValue(
+            f"{what}: {record.source} holds no force over time, but a {record.told['holds']}"
+        )
     if which not in own:
         raise InvalidValue(f"{what} must be a channel, got {shown(which)}; {nearest(which, own)}")
-    record: xr.DataArray = data[which].dropna("time").sortby("time")
-    first = wave.contacts[0]
-    if first.start is None:
-        return record
-    begin = first.start.nominal_value
-    lasts = 0.0 if first.end is None else first.end.nominal_value - begin
-    end = begin + max(2.0 * lasts, _AFTER * ran(drop, None, 1000).end_time)
-    later = [one.start.nominal_value for one in wave.contacts[1:] if one.start is not None]
-    beyond = [start for start in later if start > end]
-    if beyond:  # the next bounce is of another drop
-        record = record.sel(time=slice(None, 0.5 * (end + min(beyond))))
-    return record
+    return own[which]
 
 
 def _value(done: Fit, path: str) -> dict[str, Any]:

@@ -1,7 +1,6 @@
 """An accelerometer that fell and bounced -> flights, restitution of each bounce, drop height."""
 
 import math
-from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -9,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
-from stackbounce.measure.rows import Row
+from stackbounce.measure.kinds.acceleration.result import Accelerometer
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
-    from uncertainties import UFloat
+    pass
 
-__all__ = ["Accelerometer", "accelerometer"]
+__all__ = ["accelerometer"]
 
 _HALF = 0.5  # of gravity: below it, it flies
 _SHORTEST = 0.06  # s: a flight of 4 mm
@@ -24,83 +23,6 @@ _TOLD = 6  # samples of a contact whose duration can be told
 _LONGEST = 0.12  # s: a contact; longer ones are hands, or a rest
 _EQUAL = 3  # samples that have exactly the largest value are cut off
 _AXES = ("acceleration_x", "acceleration_y", "acceleration_z")
-
-
-@dataclass(frozen=True, eq=False)
-class Accelerometer:
-    """What an accelerometer tells that fell and bounced; made by `accelerometer`.
-
-    Attributes
-    ----------
-    fall : ufloat or None
-        From the release to the first touch, in s; None where the record does not hold it.
-    flights : tuple of ufloat
-        Between neighbouring bounces, in s.
-    drop_height : ufloat or None
-        Of a fall from rest, in m.
-    apex_heights : tuple of ufloat
-        Of the flights, in m.
-    impact_speeds : tuple of ufloat
-        Of the bounces that have a restitution, in m/s.
-    restitutions : tuple of ufloat
-        Of each bounce between two flights, or the fall and a flight. Neighbours share a flight.
-    mean : ufloat or None
-        The restitution that all of them together have.
-    contact_times : tuple of (ufloat or None)
-        Of the bounces, in s; None where the sampling is too coarse.
-    peaks : tuple of float
-        The largest acceleration in each bounce, in m/s².
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    times, values : ndarray
-        (n,) of the record: s, and the size of the acceleration in m/s², about 0 in flight.
-    spans : tuple of (float, float)
-        Of the fall and the flights, in s.
-    """
-
-    fall: "UFloat | None"
-    flights: "tuple[UFloat, ...]"
-    drop_height: "UFloat | None"
-    apex_heights: "tuple[UFloat, ...]"
-    impact_speeds: "tuple[UFloat, ...]"
-    restitutions: "tuple[UFloat, ...]"
-    mean: "UFloat | None"
-    contact_times: "tuple[UFloat | None, ...]"
-    peaks: tuple[float, ...]
-    notes: tuple[str, ...]
-    times: NDArray[np.float64] = field(repr=False)
-    values: NDArray[np.float64] = field(repr=False)
-    spans: tuple[tuple[float, float], ...] = field(repr=False)
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = [] if self.mean is None else [Row("restitution, mean", self.mean)]
-        if self.drop_height is not None and self.fall is not None:
-            rows.append(Row("drop height", self.drop_height, "m"))
-            rows.append(Row("time of fall", self.fall, "s"))
-        for k, (speed, kept) in enumerate(zip(self.impact_speeds, self.restitutions, strict=True)):
-            rows.append(Row(f"impact speed of bounce {k}", speed, "m/s"))
-            rows.append(Row(f"restitution of bounce {k}", kept))
-        for k, (time, height) in enumerate(zip(self.flights, self.apex_heights, strict=True)):
-            rows.append(Row(f"time of flight {k}", time, "s"))
-            rows.append(Row(f"height of flight {k}", height, "m"))
-        for k, lasting in enumerate(self.contact_times):
-            if lasting is not None:
-                rows.append(Row(f"contact time of bounce {k}", lasting, "s"))
-        rows += [
-            Row(f"largest acceleration in bounce {k}", a, "m/s^2") for k, a in enumerate(self.peaks)
-        ]
-        rows.extend(Row("note", note) for note in self.notes)
-        return rows
-
-    def parts(self) -> dict[str, object]:
-        """Return the floor's contact and the drop height, as in a drop's TOML."""
-        parts: dict[str, object] = {}
-        if self.mean is not None and self.mean.nominal_value <= 1.0:
-            parts["contact"] = {"law": "Rigid", "restitution": float(self.mean.nominal_value)}
-        if self.drop_height is not None:
-            parts["height"] = float(self.drop_height.nominal_value)
-        return parts
 
 
 def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerometer:

@@ -1,98 +1,21 @@
 """Times of successive bounces -> restitution of each, and how it falls with speed."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
-from stackbounce.measure.kinds.bounces.restitution_law import RestitutionLaw, laws_of, straight
-from stackbounce.measure.kinds.sound.analysis import Knocks
-from stackbounce.measure.kinds.sound.sequence import missed_between
-from stackbounce.measure.rows import Row
+from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
+from stackbounce.measure.kinds.bounces.restitution_law import laws_of, straight
+from stackbounce.measure.kinds.bounces.result import Bounces
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Bounces", "bounces"]
-
-
-@dataclass(frozen=True)
-class Bounces:
-    """What the times of bounces tell.
-
-    Attributes
-    ----------
-    times : tuple of ufloat
-        Of the bounces, in s.
-    flights : tuple of (ufloat or None)
-        Time in the air between neighbouring bounces, in s; None where a bounce is missing.
-    numbers : tuple of int
-        Which bounces have a restitution; the first one is 0.
-    impact_speeds : tuple of ufloat
-        Of these bounces, in m/s.
-    restitutions : tuple of ufloat
-        Of these bounces. Neighbours share a flight: their errors go together.
-    mean : ufloat
-        Their mean, each counted by its error, as if there were one restitution.
-    laws : tuple of RestitutionLaw
-        Its fall with speed, linear and as a power law; empty for fewer than three restitutions.
-    drop_height : ufloat or float or None
-        In m: as given, or inferred.
-    inferred : bool
-        Whether the drop height is inferred from the mean energy kept, as phyphox does.
-    scatter : float
-        By how much restitutions differ from bounce to bounce beyond the errors of their times.
-    gravity : float
-        In m/s**2.
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    """
-
-    times: "tuple[UFloat, ...]"
-    flights: "tuple[UFloat | None, ...]"
-    numbers: tuple[int, ...]
-    impact_speeds: "tuple[UFloat, ...]"
-    restitutions: "tuple[UFloat, ...]"
-    mean: "UFloat"
-    laws: tuple[RestitutionLaw, ...]
-    drop_height: "UFloat | float | None"
-    inferred: bool
-    scatter: float
-    gravity: float
-    notes: tuple[str, ...]
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = [Row("restitution, mean", self.mean)]
-        for law in self.laws:
-            at, unit = ("0", "s/m") if law.form == "linear" else ("1 m/s", "")
-            name = "its fall per m/s" if law.form == "linear" else "exponent of its fall"
-            rows.append(Row(f"restitution at {at} ({law.form})", law.coefficient))
-            rows.append(Row(f"{name} ({law.form})", law.slope, unit))
-        if self.drop_height is not None:
-            how = "inferred from the mean energy kept" if self.inferred else "given"
-            rows.append(Row(f"drop height, {how}", self.drop_height, "m"))
-        for number, speed, kept in zip(
-            self.numbers, self.impact_speeds, self.restitutions, strict=True
-        ):
-            rows.append(Row(f"impact speed of bounce {number}", speed, "m/s"))
-            rows.append(Row(f"restitution of bounce {number}", kept))
-        if self.scatter:
-            rows.append(Row("scatter of restitution from bounce to bounce", self.scatter))
-        rows.extend(Row("note", note) for note in self.notes)
-        return rows
-
-    def parts(self) -> dict[str, object]:
-        """Return the floor's contact and, if it is known, the drop height, as in a drop's TOML."""
-        kept = min(float(self.mean.nominal_value), 1.0)
-        parts: dict[str, object] = {"contact": {"law": "Rigid", "restitution": kept}}
-        if self.drop_height is not None:
-            parts["height"] = _nominal(self.drop_height)
-        return parts
+__all__ = ["bounces"]
 
 
 def bounces(

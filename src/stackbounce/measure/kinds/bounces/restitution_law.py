@@ -1,4 +1,4 @@
-"""How restitution falls with speed: two laws, fitted to values whose errors go together."""
+"""How restitution falls with speed: two laws, fitted to values with correlated errors."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.statistics.regression import Fit, scattered
+from stackbounce.measure.statistics.regression import Fit, fit_with_excess_scatter
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -28,8 +28,8 @@ class RestitutionLaw:
     coefficient : ufloat
         The restitution at no speed (linear), or at 1 m/s (power law).
     slope : ufloat
-        In s/m (linear), or the exponent (power law); above 0 where the restitution falls. The
-        errors of the two go together, as `uncertainties` knows.
+        In s/m (linear), or the exponent (power law); above 0 where the restitution falls. Its
+        error is correlated with that of the coefficient, as `uncertainties` knows.
     chi_squared : float
         Of the fit, with `freedom` degrees of freedom.
     freedom : int
@@ -61,8 +61,8 @@ def straight(
 ) -> tuple[Fit, float]:
     """Return the fit of a polynomial in the speed, or of logarithms, and the scatter about it.
 
-    The speeds have errors too, which go together with the restitutions': the covariance is that of
-    the residuals. `most` is the largest scatter that single bounces may have, 0 for none.
+    The speeds have errors too, correlated with those of the restitutions: the covariance is that of
+    the residuals. `most` is the largest excess scatter of single bounces, 0 for none.
     """
     from uncertainties import covariance_matrix, umath
 
@@ -75,9 +75,9 @@ def straight(
     slope = 0.0
     if degree:
         rough = np.array(covariance_matrix(y))
-        slope = float(scattered(design, values, rough, most)[0].values[1])
+        slope = float(fit_with_excess_scatter(design, values, rough, most)[0].values[1])
     residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
-    return scattered(design, values, np.array(covariance_matrix(residuals)), most)
+    return fit_with_excess_scatter(design, values, np.array(covariance_matrix(residuals)), most)
 
 
 def laws_of(

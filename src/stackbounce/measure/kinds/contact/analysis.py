@@ -1,61 +1,17 @@
-"""A contact time and a restitution that are known, as if an analysis had found them."""
+"""A known contact time and restitution, as a result like those of the analyses."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.errors import fraction
-from stackbounce.measure.law_constants import dynamic_stiffness
-from stackbounce.measure.rows import Row
-from stackbounce.measure.uncertain_numbers import measured
+from stackbounce.measure.constants import dynamic_stiffness
+from stackbounce.measure.kinds.contact.result import Known
+from stackbounce.measure.quantities import measured
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
-
-__all__ = ["Known", "known_contact"]
-
-
-@dataclass(frozen=True)
-class Known:
-    """What is known of a ball's contact with the floor without a file; made by `known_contact`.
-
-    Attributes
-    ----------
-    contact_time : ufloat or None
-        In s.
-    restitution : ufloat or None
-        Of the bounce.
-    stiffness : ufloat or None
-        Dynamic, in N/m, where contact time and mass are known.
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    """
-
-    contact_time: "UFloat | None"
-    restitution: "UFloat | None"
-    stiffness: "UFloat | None"
-    notes: tuple[str, ...] = ()
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = (
-            ("dynamic stiffness", self.stiffness, "N/m"),
-            ("contact time", self.contact_time, "s"),
-            ("restitution", self.restitution, ""),
-        )
-        return [Row(name, value, unit) for name, value, unit in rows if value is not None]
-
-    def parts(self) -> dict[str, object]:
-        """Return the floor's contact, as in a drop's TOML."""
-        numbers = {"stiffness": self.stiffness, "restitution": self.restitution}
-        told = {name: one.nominal_value for name, one in numbers.items() if one is not None}
-        if not told:
-            return {}
-        law = "Hysteretic" if len(told) > 1 else "Spring" if "stiffness" in told else "Rigid"
-        return {"contact": {"law": law, **told}}
+__all__ = ["known_contact"]
 
 
 def known_contact(*, contact_time: Any = None, restitution: Any = None, mass: Any = None) -> Known:
-    """Return what a contact time, a restitution or both tell of a contact with the floor.
+    """Return a contact with the floor from a contact time, a restitution or both.
 
     Parameters
     ----------

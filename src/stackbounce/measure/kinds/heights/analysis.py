@@ -2,70 +2,23 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
-from stackbounce.measure.rows import Row
+from stackbounce.measure.kinds.heights.result import Heights
 from stackbounce.measure.statistics.regression import widening
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
-__all__ = ["Heights", "Place", "above_bottom", "heights", "lowest_point", "places"]
+__all__ = ["Place", "above_bottom", "fallen", "heights", "lowest_point", "places"]
 
 Place: TypeAlias = Literal["bottom", "centre", "top"]
 """The point of the ball that a height was read at."""
 
 _UP = {"bottom": 0.0, "centre": 0.5, "top": 1.0}  # diameters above the lowest point
-
-
-@dataclass(frozen=True)
-class Heights:
-    """What bounce heights tell.
-
-    Attributes
-    ----------
-    drop_height : ufloat
-        Of the ball's lowest point above the floor, in m.
-    bounce_heights : tuple of ufloat
-        Of its lowest point, in m.
-    restitutions : tuple of ufloat
-        Of each bounce. Neighbours share a height: their errors go together.
-    mean : ufloat
-        The restitution that all of them together have, from the drop to the last height.
-    repeated : bool
-        Whether the heights are one bounce measured again and again.
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    """
-
-    drop_height: "UFloat"
-    bounce_heights: "tuple[UFloat, ...]"
-    restitutions: "tuple[UFloat, ...]"
-    mean: "UFloat"
-    repeated: bool
-    notes: tuple[str, ...]
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = [Row("restitution", self.mean), Row("drop height", self.drop_height, "m")]
-        numbered = enumerate(zip(self.bounce_heights, self.restitutions, strict=True))
-        for k, (height, kept) in numbered:
-            rows.append(Row(f"height {'' if self.repeated else 'after bounce '}{k}", height, "m"))
-            rows.append(Row(f"restitution {'' if self.repeated else 'of bounce '}{k}", kept))
-        rows.extend(Row("note", note) for note in self.notes)
-        return rows
-
-    def parts(self) -> dict[str, object]:
-        """Return the floor's contact and the drop height, as in a drop's TOML."""
-        parts: dict[str, object] = {"height": float(self.drop_height.nominal_value)}
-        if self.mean.nominal_value <= 1.0:
-            kept = float(self.mean.nominal_value)
-            parts["contact"] = {"law": "Rigid", "restitution": kept}
-        return parts
 
 
 def heights(
@@ -204,6 +157,13 @@ def lowest_point(
     """
     size = _size(diameter, (measured_to, measured_to))
     return _counted(name, _number(name, height, 0.0), measured_to, size)
+
+
+def fallen(height: Any, measured_to: object, diameter: Any) -> Any:
+    """Return the drop height of the ball's lowest point; None where none is given."""
+    if height is None:
+        return None
+    return lowest_point("height", height, places(measured_to)[0], diameter)
 
 
 def places(measured_to: object) -> tuple[str, str]:

@@ -8,7 +8,7 @@ from stackbounce.measure.kinds.press.branches import Cycle, Record, cycles, reco
 from stackbounce.measure.kinds.press.notes import sentences
 from stackbounce.measure.kinds.press.numbers import result_of, unloading_only
 from stackbounce.measure.kinds.press.result import Press
-from stackbounce.measure.uncertain_numbers import measured
+from stackbounce.measure.quantities import measured
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -23,7 +23,7 @@ def press(
     sign: int | None = None,
     cycle: int | None = None,
 ) -> Press:
-    """Return what a curve of force against compression tells: stiffness, exponent, energy loss.
+    """Return stiffness, exponent and energy loss of a curve of force against compression.
 
     Parameters
     ----------
@@ -60,12 +60,12 @@ def press(
     points themselves, and so is the loss. Then ``e² = 1 - loss`` and ``n = (p + 1)/e² - 1``
     (R. Cross, Am. J. Phys. 75, 1009, 2007, section V).
 
-    The errors follow from the residuals, which are seldom independent from point to point: a drift,
-    a filter, or a law that does not quite fit makes them smooth, and errors that take them for
-    independent are far too small. Here the residuals are white noise and noise with a memory, both
-    of open size, and all numbers' errors and correlations follow from that.
+    The errors follow from the residuals. These are correlated from point to point where the press
+    drifts, the sensor is filtered, or the law does not quite fit; errors that assume independence
+    would be far too small. The residuals are modelled as the sum of white and AR(1) noise, both of
+    unknown size, and the errors and correlations of all numbers follow from that.
 
-    A press is slow: a ball may lose more or less in a bounce than in a press, and is stiffer.
+    A press is slow. In a bounce a ball is stiffer, and it may lose more or less energy.
 
     Examples
     --------

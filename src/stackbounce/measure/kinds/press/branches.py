@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.measure.statistics.ar_noise import spread
+from stackbounce.measure.statistics.ar_noise import difference_noise
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -105,9 +105,9 @@ def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> 
     if compliance:
         compression = compression - compliance * force
         notes.append(f"The machine's own {compliance:.3g} m/N was taken off the compression.")
-    jitter = max(spread(compression), _digit(compression) / np.sqrt(12.0))
+    jitter = max(difference_noise(compression), _digit(compression) / np.sqrt(12.0))
     step = _digit(force)
-    hiss = max(spread(force), step / np.sqrt(12.0))
+    hiss = max(difference_noise(force), step / np.sqrt(12.0))
     return Record(compression, force, jitter, hiss, step, tuple(notes))
 
 

@@ -103,9 +103,9 @@ def analysed(record: Record, cycle: Cycle) -> Found:
         values |= work.unloading(back, cycle.peak, length)
     values, rows = _ordered(values, work.rows)
     covariance = _covariance(rows, (fit, back), (scale, back_scale))
-    covariance = covariance + _turned(values, rows[:, len(up.x) - 1], cycle)
+    covariance = covariance + _turning_point_covariance(values, rows[:, len(up.x) - 1], cycle)
     if zero.method != "given":
-        covariance = covariance + _digits(rows, record, zero)
+        covariance = covariance + _quantisation_covariance(rows, record, zero)
     return Found(
         values,
         covariance,
@@ -366,8 +366,8 @@ def _ordered(values: dict[str, float], rows: dict[str, Array]) -> tuple[dict[str
     return ordered, np.array(list(rows.values()))
 
 
-def _turned(values: dict[str, float], last: Array, cycle: Cycle) -> Array:
-    """Return the covariance that follows from the error of the compression at which it turned."""
+def _turning_point_covariance(values: dict[str, float], last: Array, cycle: Cycle) -> Array:
+    """Return the covariance that follows from the error of the turning point's compression."""
     slope = values["top"] * values["exponent"] / values["length"]
     moves: dict[str, float] = {
         "length": 1.0,
@@ -386,8 +386,8 @@ def _turned(values: dict[str, float], last: Array, cycle: Cycle) -> Array:
     return np.asarray(result * cycle.peak_error**2)
 
 
-def _digits(rows: Array, record: Record, zero: _Zero) -> Array:
-    """Return what the force's steps leave unknown of a zero whose noise does not cross them."""
+def _quantisation_covariance(rows: Array, record: Record, zero: _Zero) -> Array:
+    """Return the covariance from the force's quantisation, if the zero's noise is below a step."""
     slack = np.abs(zero.weights).sum(axis=0) > 0.0
     if not record.step or zero.wander >= 0.4 * record.step:
         return np.zeros((len(rows), len(rows)))

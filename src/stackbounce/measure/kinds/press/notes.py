@@ -1,4 +1,4 @@
-"""What is worth saying about a press curve."""
+"""Notes on a press curve, a sentence each."""
 
 from typing import Any
 

@@ -9,7 +9,7 @@ from stackbounce.errors import finite
 from stackbounce.measure.kinds.press.branches import Cycle, Record
 from stackbounce.measure.kinds.press.cycle import Found, analysed
 from stackbounce.measure.kinds.press.result import Curve, Press
-from stackbounce.measure.uncertain_numbers import measured
+from stackbounce.measure.quantities import measured
 
 __all__ = ["result_of", "unloading_only"]
 

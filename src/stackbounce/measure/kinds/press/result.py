@@ -1,13 +1,14 @@
-"""What a press curve tells."""
+"""The result of the analysis of a press curve."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, positive
-from stackbounce.measure.rows import Row
+from stackbounce.measure.finding import Finding
+from stackbounce.measure.quantities import Row
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -49,7 +50,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Press:
+class Press(Finding):
     """What the analysis of a press curve found; see `press`. What cannot be known is None.
 
     Parameters
@@ -94,8 +95,10 @@ class Press:
     others : tuple of Press
         The other cycles that have a loading.
     notes : tuple of str
-        What is worth knowing, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     """
+
+    picture: ClassVar[str] = "press"
 
     stiffness: "UFloat | None"
     exponent: "UFloat | None"
@@ -171,9 +174,9 @@ class Press:
         rows = [Row(name, value, unit) for name, value, unit in held if value is not None]
         if self.cycles > 1:
             rows.append(Row("cycle", f"{self.cycle + 1} of {self.cycles}"))
-        return rows + [Row("note", note) for note in self.notes]
+        return rows
 
-    def parts(self) -> dict[str, object]:
+    def parts(self) -> dict[str, Any]:
         """Return the contact, as a drop's TOML has it.
 
         The exponent is 1 where it is 1 within two standard errors or below 1, which no law has; the

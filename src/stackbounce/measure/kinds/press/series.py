@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
 from stackbounce.measure.kinds.press.result import Press
-from stackbounce.measure.rows import Row
-from stackbounce.measure.uncertain_numbers import measured
+from stackbounce.measure.quantities import Row, measured
 from stackbounce.model.laws import STEEPEST, PowerLaw, series
 
 if TYPE_CHECKING:
@@ -65,7 +64,6 @@ class Split:
             Row("compression between the centres", self.between, "m"),
             Row("compression beyond the sum of each alone", self.excess, "m"),
             Row("force", self.force, "N"),
-            *(Row("note", note) for note in self.notes),
         ]
 
     def parts(self) -> dict[str, object]:

@@ -1,76 +1,23 @@
 """A recording of a bouncing ball -> the times of its knocks."""
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
 from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding, whitened
 from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
-from stackbounce.measure.rows import Row
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
-
-__all__ = ["Dropped", "Knocks", "knocks"]
+__all__ = ["knocks"]
 
 _DEAD = 8e-3  # s: two knocks closer than that are one impact
 _AS_LATE = 1.5e-3  # s by which the delay of an echo may differ
 _SECOND_SERIES = 4
 _LASTS = 10e-3  # s of a knock that tell how loud it is
 _CLIPPED = 4  # samples in a row at the largest value
-
-
-@dataclass(frozen=True)
-class Dropped:
-    """A sound that was heard and is no bounce of the series: when (s), and why it was left out."""
-
-    time: float
-    why: str
-
-
-@dataclass(frozen=True)
-class Knocks:
-    """The knocks of one ball's bounces.
-
-    Attributes
-    ----------
-    times : tuple of ufloat
-        When each begins, in s.
-    loudness : ndarray
-        (N,) amplitude over 10 ms without hum, relative to the loudest.
-    missed : tuple of int
-        How many bounces are missing after each but the last.
-    dropped : tuple of Dropped
-        Sounds that were left out: echoes, second sounds of one impact, others.
-    rate : float
-        Samples per second.
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    """
-
-    times: "tuple[UFloat, ...]"
-    loudness: NDArray[np.float64]
-    missed: tuple[int, ...]
-    dropped: tuple[Dropped, ...]
-    rate: float
-    notes: tuple[str, ...]
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = [Row("knocks", len(self.times)), Row("sounds left out", len(self.dropped))]
-        for k, (time, loudness) in enumerate(zip(self.times, self.loudness, strict=True)):
-            rows.append(Row(f"time of knock {k}", time, "s"))
-            rows.append(Row(f"loudness of knock {k}", float(loudness)))
-        rows.extend(Row("note", note) for note in self.notes)
-        return rows
-
-    def parts(self) -> dict[str, object]:
-        """Return nothing: times alone are no part of a drop; `bounces` makes a contact of them."""
-        return {}
 
 
 def knocks(

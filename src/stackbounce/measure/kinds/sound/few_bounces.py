@@ -1,54 +1,15 @@
-"""What a sound of too few bounces for a restitution tells all the same."""
-
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
+"""Flights and apex heights of a recording with too few bounces for a restitution."""
 
 from stackbounce.errors import positive
-from stackbounce.measure.kinds.sound.analysis import Knocks
-from stackbounce.measure.rows import Row
+from stackbounce.measure.kinds.bounces.knocks import Knocks
+from stackbounce.measure.kinds.sound.result import FewBounces
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
-
-__all__ = ["FewBounces", "few_bounces"]
-
-
-@dataclass(frozen=True)
-class FewBounces:
-    """Flights that have no neighbour, so that no restitution follows from them.
-
-    Attributes
-    ----------
-    flights : tuple of (ufloat or None)
-        Time in the air after each bounce but the last, in s; None where a bounce is missing.
-    apex_heights : tuple of (ufloat or None)
-        How high the ball rose in them, in m.
-    notes : tuple of str
-        What could not be found, and what is needed for it.
-    """
-
-    flights: "tuple[UFloat | None, ...]"
-    apex_heights: "tuple[UFloat | None, ...]"
-    notes: tuple[str, ...]
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = []
-        for k, (flight, height) in enumerate(zip(self.flights, self.apex_heights, strict=True)):
-            if flight is not None and height is not None:
-                rows.append(Row(f"flight after bounce {k}", flight, "s"))
-                rows.append(Row(f"apex height after bounce {k}", height, "m"))
-        rows.extend(Row("note", note) for note in self.notes)
-        return rows
-
-    def parts(self) -> dict[str, object]:
-        """Return nothing: without a restitution there is no contact."""
-        return {}
+__all__ = ["few_bounces"]
 
 
 def few_bounces(heard: Knocks, *, gravity: float = STANDARD_GRAVITY) -> FewBounces:
-    """Return what knocks tell of which no two neighbouring flights are known.
+    """Return the flights of knocks among which no two neighbouring flights are known.
 
     A flight of time T rises to ``g T**2/8``.
 

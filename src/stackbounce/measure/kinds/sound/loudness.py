@@ -5,12 +5,13 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.measure.statistics.ar_noise import linear_prediction_residual
+
 __all__ = ["Rises", "find_rises", "rounding", "whitened"]
 
 _HOP = 0.5e-3  # s, step of the search
 _AFTER, _BEFORE, _GUARD = 4, 16, 1  # hops whose loudness is compared, and between them
-_ORDER = 24  # of the forecast that noise is removed by
-_CHUNK = 1024
+_ORDER = 24  # of the linear prediction that removes noise
 _LEAST_RISE = 3.0  # of the energy
 _MOST = 250  # rises that are looked at
 _LEVELS = 2**18  # samples whose values tell how they are rounded
@@ -49,47 +50,17 @@ def rounding(samples: NDArray[np.float32]) -> NDArray[np.float64]:
 
 
 def whitened(samples: NDArray[np.float32], rounded: NDArray[np.float64]) -> NDArray[np.float32]:
-    """Return what could not be foretold from what preceded, (channels, N).
-
-    The forecast is linear, of the quiet half of the recording: it takes out hum and steady noise of
-    any color, and lets through what comes suddenly.
+    """Return the linear-prediction residual of each channel, (channels, N).
 
     Parameters
     ----------
     samples : ndarray
         (channels, N).
     rounded : ndarray
-        (channels,), as of `rounding`: nothing is foretold from errors of rounding.
-
-    Examples
-    --------
-    >>> hum = np.sin(np.arange(48000) * 2 * np.pi * 50 / 48000).astype(np.float32)
-    >>> bool(np.abs(whitened(hum[None], np.zeros(1))[0, 1000:]).max() < 0.01)
-    True
+        (channels,) variance of the quantisation error, as of `rounding`.
     """
-    from scipy.linalg import solve_toeplitz
-    from scipy.signal import lfilter
-
-    found = np.empty_like(samples)
-    for channel, values in enumerate(samples):
-        chunks = values[: len(values) // _CHUNK * _CHUNK].reshape(-1, _CHUNK)
-        energies = np.einsum("ij,ij->i", chunks, chunks)
-        middle = np.median(energies) if len(chunks) else 0.0
-        quiet = chunks[energies <= middle]
-        some = quiet[:: max(1, len(quiet) // 512)].astype(np.float64)
-        products = [
-            float(np.einsum("ij,ij->", some[:, lag:], some[:, : _CHUNK - lag]))
-            for lag in range(_ORDER + 1)
-        ]
-        products[0] = products[0] * (1.0 + 1e-7) + some.size * rounded[channel]
-        if not products[0] > 0.0:
-            found[channel] = values
-            continue
-        forecast = solve_toeplitz(products[:-1], products[1:])
-        filter_ = np.concatenate([[1.0], -forecast]).astype(np.float32)
-        found[channel] = lfilter(filter_, np.float32(1.0), values)
-        found[channel, :_ORDER] = 0.0
-    return found
+    pairs = zip(samples, rounded.tolist(), strict=True)
+    return np.array([linear_prediction_residual(one, _ORDER, least) for one, least in pairs])
 
 
 def find_rises(

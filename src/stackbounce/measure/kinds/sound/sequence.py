@@ -1,23 +1,23 @@
 """Which of many sounds are one ball's bounces: their intervals shrink by a steady factor."""
 
 import math
-from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Chain", "find_chain", "missed_between"]
+from stackbounce.measure.kinds.bounces.knocks import SHRINKS
+
+__all__ = ["Chain", "find_chain"]
 
 _LONGEST = 3.0  # s in the air: a bounce of 11 m
-_SHRINKS = (0.15, 1.03)  # ratio of neighbouring flights
 _STEADY = 0.06  # by how much its logarithm may change from bounce to bounce
 _LIMIT = 3.0  # times that much, and no more
 _LOUDNESS = 1.0  # by how much ln(loudness) scatters about that of the speed
 _MISSED = 2.5  # what leaving out a bounce costs; a clear knock is worth 1 to 3
 _START = 1.0  # what beginning costs
 _RANGES = 8  # of the ratio
-_RANGE = math.log(_SHRINKS[1] / _SHRINKS[0]) / _RANGES
+_RANGE = math.log(SHRINKS[1] / SHRINKS[0]) / _RANGES
 
 
 class Chain(NamedTuple):
@@ -131,11 +131,11 @@ def _go_on(pairs: _Pairs, j: int, k: int, step: _Step, worth: float) -> None:
         change = np.log(ratio / np.where(fresh, ratio, previous)) / math.hypot(_STEADY, step.error)
         quieter = np.clip((step.louder - (1 + missed) * np.log(ratio)) / _LOUDNESS, -2.0, 2.0)
         total = scores[at] + worth - 0.5 * change**2 - 0.5 * quieter**2 - missed * _MISSED
-        allowed = (ratio > _SHRINKS[0]) & (ratio < _SHRINKS[1] + step.error)
+        allowed = (ratio > SHRINKS[0]) & (ratio < SHRINKS[1] + step.error)
         allowed &= np.abs(change) < _LIMIT
         if missed:  # only a steady series tells that one is missing
             allowed &= ~fresh
-        slots = 1 + np.clip((np.log(ratio / _SHRINKS[0]) / _RANGE).astype(int), 0, _RANGES - 1)
+        slots = 1 + np.clip((np.log(ratio / SHRINKS[0]) / _RANGE).astype(int), 0, _RANGES - 1)
         flights = step.flight * (ratio / (1.0 + ratio) if missed else np.ones_like(ratio))
         for i in np.flatnonzero(allowed):
             slot = slots[i]
@@ -145,42 +145,3 @@ def _go_on(pairs: _Pairs, j: int, k: int, step: _Step, worth: float) -> None:
                 pairs.ratio[j, k, slot] = ratio[i]
                 pairs.before[j, k, slot] = known[i]
                 pairs.missed[j, k, slot] = missed
-
-
-def missed_between(steps: Sequence[float] | NDArray[Any]) -> list[int]:
-    """Return how many bounces seem to be missing in each interval: 0 or 1.
-
-    An interval that holds two flights is longer than the one before it by ``r (1 + r)``, where r is
-    what the others shrink by.
-
-    Parameters
-    ----------
-    steps : sequence of float
-        Intervals between successive bounces in s, above 0.
-
-    Returns
-    -------
-    list of int
-
-    Examples
-    --------
-    >>> missed_between([1.0, 0.8, 0.64 + 0.512, 0.4096, 0.32768])
-    [0, 0, 1, 0, 0]
-    """
-    lengths = [float(step) for step in steps]
-    ratios = np.array(lengths[1:]) / np.array(lengths[:-1])
-    usual = ratios[(ratios < _SHRINKS[1]) & (ratios > _SHRINKS[0])]
-    missed = [0] * len(lengths)
-    if len(usual) < 3:
-        return missed
-    r = float(np.median(usual))
-    flight = lengths[0]
-    for k in range(1, len(lengths)):
-        ratio = lengths[k] / flight
-        two = r * (1.0 + r)
-        if ratio > 1.1 * r and abs(math.log(ratio / two)) < min(0.12, abs(math.log(ratio / r))):
-            missed[k] = 1
-            flight = lengths[k] * r / (1.0 + r)
-        else:
-            flight = lengths[k]
-    return missed

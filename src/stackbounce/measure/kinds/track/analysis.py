@@ -1,8 +1,7 @@
 """A video's track of a ball or two -> drop height, impact and rebound speeds, restitution."""
 
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,128 +17,15 @@ from stackbounce.measure.kinds.track.paths import (
     tilt_of,
     upward,
 )
-from stackbounce.measure.kinds.track.time_base import TimeBase, check_time_base
-from stackbounce.measure.rows import Row
+from stackbounce.measure.kinds.track.result import Track, Tracks
+from stackbounce.measure.kinds.track.time_base import check_time_base
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
-
-__all__ = ["Track", "Tracks", "track"]
+__all__ = ["track"]
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
 _LEAST_TILT = math.radians(0.5)
-
-
-@dataclass(frozen=True)
-class Track:
-    """One ball's flights and bounces.
-
-    Attributes
-    ----------
-    name : str
-        Of the ball.
-    impact_times : tuple of ufloat
-        When the parabolas before and after each bounce meet, in s.
-    levels : tuple of ufloat
-        How high that is, in m, as tracked.
-    impact_speeds, rebound_speeds : tuple of ufloat
-        Before and after each bounce, in m/s; a rebound speed is up-positive.
-    drop_height : ufloat
-        Above the level of the first bounce, in m, of a fall from rest.
-    apex_heights : tuple of ufloat
-        Above the level of the bounce before, in m.
-    restitutions : tuple of ufloat
-        Of each bounce: rebound over impact speed.
-    gravity : ufloat
-        Of the flights, as tracked, in m/s².
-    times, heights : ndarray
-        (N,) of the points, in s and m, up-positive.
-    fit : Flights
-        The parabolas.
-    bounces : tuple of int
-        After which flights it bounces.
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    """
-
-    name: str
-    impact_times: "tuple[UFloat, ...]"
-    levels: "tuple[UFloat, ...]"
-    impact_speeds: "tuple[UFloat, ...]"
-    rebound_speeds: "tuple[UFloat, ...]"
-    drop_height: "UFloat"
-    apex_heights: "tuple[UFloat, ...]"
-    restitutions: "tuple[UFloat, ...]"
-    gravity: "UFloat"
-    times: NDArray[np.float64]
-    heights: NDArray[np.float64]
-    fit: Flights
-    bounces: tuple[int, ...]
-    notes: tuple[str, ...]
-
-
-@dataclass(frozen=True)
-class Tracks:
-    """What a track tells of one ball or more.
-
-    Attributes
-    ----------
-    balls : tuple of Track
-        The lowest ball first.
-    rebound_ratios : tuple of ufloat
-        Of a stacked drop: each ball's rebound speed over the lowest one's impact speed; empty for
-        one ball, or where the balls do not bounce together.
-    first_impact : ufloat
-        When the lowest ball first bounces, in s.
-    time_base : TimeBase
-        The track's clock and ruler, checked against gravity.
-    axis : str
-        The one that is up: x, y, -x or -y.
-    tilt : float
-        By which angle it is off the vertical, in radians; corrected where it was found.
-    notes : tuple of str
-        What should be known about it, a sentence each.
-    """
-
-    balls: tuple[Track, ...]
-    rebound_ratios: "tuple[UFloat, ...]"
-    first_impact: "UFloat"
-    time_base: TimeBase
-    axis: str
-    tilt: float
-    notes: tuple[str, ...]
-
-    def rows(self) -> list[Row]:
-        """Return the table, the most important first."""
-        rows = []
-        for ball, ratio in zip(self.balls, self.rebound_ratios, strict=False):
-            rows.append(Row(f"{ball.name}: rebound ratio", ratio))
-        for ball in self.balls:
-            of = f"{ball.name}: " if len(self.balls) > 1 else ""
-            rows.append(Row(f"{of}drop height", ball.drop_height, "m"))
-            for k in range(len(ball.impact_times)):
-                bounce = f" of bounce {k}" if len(ball.impact_times) > 1 else ""
-                rows.append(Row(f"{of}impact speed{bounce}", ball.impact_speeds[k], "m/s"))
-                rows.append(Row(f"{of}rebound speed{bounce}", ball.rebound_speeds[k], "m/s"))
-                if k > 0 or not self.rebound_ratios:  # what struck another ball, too, has none
-                    rows.append(Row(f"{of}restitution{bounce}", ball.restitutions[k]))
-                after = bounce.replace(" of", " after")
-                rows.append(Row(f"{of}apex height{after}", ball.apex_heights[k], "m"))
-                rows.append(Row(f"{of}time{bounce}", ball.impact_times[k], "s"))
-        rows.append(Row("gravity of the flights", self.time_base.gravity, "m/s^2"))
-        rows.extend(Row("note", note) for note in self.notes)
-        return rows
-
-    def parts(self) -> dict[str, object]:
-        """Return impact speed and, of a single ball, the floor's contact, as in a drop's TOML."""
-        ball = self.balls[0]
-        parts: dict[str, object] = {"impact_speed": float(ball.impact_speeds[0].nominal_value)}
-        kept = float(ball.restitutions[0].nominal_value)
-        if len(self.balls) == 1 and 0.0 <= kept <= 1.0:
-            parts["contact"] = {"law": "Rigid", "restitution": kept}
-        return parts
 
 
 def track(

@@ -1,4 +1,4 @@
-"""What should be known of a ball's track, a sentence each."""
+"""Notes on a ball's track, a sentence each."""
 
 from typing import Any
 
@@ -21,7 +21,7 @@ def notes_of(
     impact: Any,
     fallen: Any,
 ) -> tuple[str, ...]:
-    """Return what should be known of a ball's track; `fallen` is its time of fall from rest."""
+    """Return the notes on a ball's track; `fallen` is its time of fall from rest."""
     notes = []
     first = fit.flights[bounces[0]]
     late = float(times[first.first] - (impact - fallen).nominal_value)
@@ -48,7 +48,7 @@ def notes_of(
 def stays_long(
     name: str, times: NDArray[np.float64], fit: Flights, bounce: int, impact: Any, fall: Any
 ) -> tuple[str, ...]:
-    """Return a note where a ball is on the floor so long that its speeds are not those there."""
+    """Return a note where a long contact biases the speeds at the touch."""
     before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
     lasts = max(after - before - 1, 0) * float(np.median(np.diff(times)))  # at least
     excess = 0.5 * fall.nominal_value * lasts

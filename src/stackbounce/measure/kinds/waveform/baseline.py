@@ -7,18 +7,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.record import Array, Record
+from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
 __all__ = ["Quiet", "first_guess", "quiet_parts", "scatter", "stuck"]
 
 _SHARE = 0.25  # of a record that is surely quiet
 _FAR = 0.2  # of a record's range: the ends are not at this level
-_MAD = 0.6745  # of a normal deviate: its middle size
 _FIFTH = (0.2, 0.2533)  # of normal deviates are within this
 _MAINS = (50.0, 60.0)  # Hz
 _BLOCK = 1e-3  # s, over which a hum hardly changes
 _WORTH = 40.0
 _PERIODS = 2.0  # below, hum is a drift
-_LAGS = 200
 _LEVERAGE = 5.0  # of a sample over that of a typical quiet one
 _ONE = 0.683  # of normal deviates are within one standard deviation
 _CLIPS, _CLIP = 4, 4.0  # times that what lies beyond so many standard deviations is left out
@@ -66,8 +65,7 @@ def first_guess(record: Record) -> tuple[float, float]:
     at_limit = level in (values.max(), values.min())
     if at_limit and not limits.all() and abs(np.median(ends) - level) > _FAR * np.ptp(values):
         level = _densest(values[~limits])  # at the recorder's limit it is as even
-    jumps = np.abs(np.diff(values))
-    fast = float(np.median(jumps)) / (_MAD * np.sqrt(2.0))
+    fast = difference_noise(values, 1)
     slow = float(np.quantile(np.abs(values - level), _FIFTH[0])) / _FIFTH[1]
     return level, max(fast, slow, _floor(record))
 
@@ -139,7 +137,7 @@ def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
     """
     noise = _robust(rest, quantum) * float(np.sqrt(len(rest) / max(1, len(rest) - fitted)))
     noise = max(noise, quantum / np.sqrt(12.0))
-    return float(noise), float(noise * np.sqrt(_correlation(rest)))
+    return float(noise), float(noise * np.sqrt(correlation_factor(rest)))
 
 
 def _tones(span: float, step: float) -> list[float]:
@@ -212,18 +210,3 @@ def _floor(record: Record) -> float:
 def stuck(quantum: float, noise: float) -> float:
     """Return a level's error by a converter whose steps the noise does not smear out."""
     return quantum / math.sqrt(12.0) if noise < 0.5 * quantum else 0.0
-
-
-def _correlation(rest: Array) -> float:
-    """Return by how much the variance of an average exceeds that of independent samples."""
-    count = len(rest)
-    if count < 2 * _ENOUGH:
-        return 1.0
-    power = float(np.mean(rest**2))
-    total = 1.0
-    for lag in range(1, min(_LAGS, count // 4)):
-        rho = float(np.mean(rest[lag:] * rest[:-lag])) / power if power > 0.0 else 0.0
-        if rho < 2.0 / np.sqrt(count):
-            break
-        total += 2.0 * rho
-    return total

@@ -15,7 +15,7 @@ from stackbounce.measure.kinds.waveform.peaks import Peak, find_peaks, flat_top,
 from stackbounce.measure.kinds.waveform.record import Array
 from stackbounce.measure.kinds.waveform.result import Contact
 from stackbounce.measure.kinds.waveform.shapes import Shape
-from stackbounce.measure.uncertain_numbers import known_to
+from stackbounce.measure.quantities import known_to
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

@@ -1,14 +1,16 @@
-"""What was found in a force record."""
+"""The result of the analysis of a force record."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
+from stackbounce.measure.constants import dynamic_stiffness
+from stackbounce.measure.finding import Curve, Finding, channels, force_channels
 from stackbounce.measure.kinds.waveform.flanks import Flank
 from stackbounce.measure.kinds.waveform.record import Array
-from stackbounce.measure.law_constants import dynamic_stiffness
-from stackbounce.measure.rows import Row
+from stackbounce.measure.quantities import Row
 
 if TYPE_CHECKING:
+    import xarray as xr
     from uncertainties import UFloat
 
 __all__ = ["Contact", "Waveform"]
@@ -61,7 +63,7 @@ class Contact:
 
 
 @dataclass(frozen=True, eq=False)
-class Waveform:
+class Waveform(Finding):
     """A force record, and the contacts in it; made by `waveform`.
 
     Parameters
@@ -92,6 +94,8 @@ class Waveform:
         (n,) the record's times in s, its values contacts upward without baseline, droop corrected,
         and the baseline that was taken off, all for a picture.
     """
+
+    picture: ClassVar[str] = "waveform"
 
     contacts: tuple[Contact, ...]
     unit: str
@@ -156,11 +160,11 @@ class Waveform:
         told += [("rise", contact.rise, "s"), ("fall", contact.fall, "s")]
         return [Row(start + name, value, unit) for name, value, unit in told if value is not None]
 
-    def parts(self) -> dict[str, object]:
+    def parts(self) -> dict[str, Any]:
         """Return what a drop can use, by the keys of its TOML: ball, contact, impact speed."""
         from uncertainties import nominal_value
 
-        found: dict[str, object] = {}
+        found: dict[str, Any] = {}
         if self.mass is not None:
             found["ball"] = {"mass": nominal_value(self.mass)}
         if self.stiffness is not None:
@@ -168,3 +172,36 @@ class Waveform:
         if self.impact_speed is not None:
             found["impact_speed"] = nominal_value(self.impact_speed)
         return found
+
+    def told(self) -> dict[str, Any]:
+        """Return the contact time of the first whole contact, and the impact speed as given."""
+        return {"contact_time": self._first_time, "impact_speed": self.impact_speed}
+
+    def measured(self, data: "xr.Dataset") -> dict[str, str]:
+        """Return the channels that are the forces of the two lowest contacts."""
+        return {f"force.{i}": name for i, name in enumerate(force_channels(data)[:2])}
+
+    def forces(self, data: "xr.Dataset", lasting: float) -> "dict[str, xr.DataArray]":
+        """Return the force channels, without later bounces, which are those of another drop."""
+        return {name: self._first_impact(data[name], lasting) for name in force_channels(data)}
+
+    def _first_impact(self, channel: "xr.DataArray", lasting: float) -> "xr.DataArray":
+        record = channel.dropna("time").sortby("time")
+        first = self.contacts[0] if self.contacts else None
+        if first is None or first.start is None:
+            return record
+        begin = first.start.nominal_value
+        lasts = 0.0 if first.end is None else first.end.nominal_value - begin
+        end = begin + max(2.0 * lasts, lasting)
+        later = [one.start.nominal_value for one in self.contacts[1:] if one.start is not None]
+        beyond = [start for start in later if start > end]
+        return record.sel(time=slice(None, 0.5 * (end + min(beyond)))) if beyond else record
+
+    def curves(self, data: "xr.Dataset") -> list[Curve]:
+        """Return the channels; the one that was analysed without its baseline, contacts upward."""
+        return channels(data, Curve("", "force", self.times, self.force, self.unit))
+
+    def first_touch(self) -> float | None:
+        """Return when the first contact begins, in s; None where the record begins within it."""
+        start = self.contacts[0].start if self.contacts else None
+        return None if start is None else float(start.nominal_value)

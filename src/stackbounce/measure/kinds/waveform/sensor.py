@@ -4,7 +4,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.measure.kinds.waveform.result import Contact
-from stackbounce.measure.uncertain_numbers import measured
+from stackbounce.measure.quantities import measured
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 if TYPE_CHECKING:

@@ -22,7 +22,7 @@ import numpy as np
 
 from stackbounce.measure.kinds.waveform.record import Array
 
-__all__ = ["FADE", "JUMP", "ROOT", "Shape"]
+__all__ = ["Shape"]
 
 _EDGES = (0.1, 0.25)
 """Of the unknown's logarithm: spreads of the normals that follow below its range and above."""
@@ -128,10 +128,6 @@ class Shape:
         if wide is not None:
             rows = [np.diff(area, axis=-1) / wide for area in rows]
         return np.stack([*rows, np.ones_like(rows[0])], axis=-2)
-
-
-JUMP, ROOT, FADE = (Shape(0.01, 0.3, kind) for kind in ("jump", "root", "fade"))
-"""Of restitutions from about 0.95 down to 0.3."""
 
 
 def _lead(kind: str, u: Array, a: Array) -> tuple[Array, Array]:

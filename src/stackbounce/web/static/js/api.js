@@ -45,6 +45,7 @@ export const law = (request) => send("api/law", request);
 export const like = (request) => send("api/like", request);
 export const map = (request) => send("api/map", request);
 export const mapPaths = (drop) => send("api/map/paths", { drop });
+export const measureOptions = () => get("api/measure/options");
 export const measure = (form) => upload("api/measure", form);
 export const fit = (form) => upload("api/fit", form);
 

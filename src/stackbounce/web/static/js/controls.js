@@ -48,13 +48,13 @@ export function mountControls(root, store, api, catalogue) {
     });
   const relaw = (contact, name) =>
     attempt(async () => {
-      const { drop, note } = await changeLaw(api, store.get().drop, contact, name);
+      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name);
       change(drop, placed(contact, note));
     });
   const measured = (contact, values) =>
     attempt(async () => {
       const { drop } = store.get();
-      const { contact: changed, note } = await asMeasured(api, drop, contact, values);
+      const { contact: changed, note } = await asMeasured(api, catalogue.laws, drop, contact, values);
       change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
   const tools = { catalogue, set, change, choose, relaw, measured, drop: () => store.get().drop };

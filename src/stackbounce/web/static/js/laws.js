@@ -3,15 +3,14 @@
 import { contactMass, speedOf, withValue } from "./drops.js";
 import { clean } from "./units.js";
 
-const LOSSLESS = ["Spring", "Hertz", "PowerLaw"];
 const LOSSY = "Hysteretic"; // the paper's own way to lose energy
 const BALL = { law: "Rigid", restitution: 0.8 }; // what a contact is made like that has no law before
 
 /**
  * Return `{drop, note}`: the drop with a contact's law changed, restitution and contact time kept
- * where the law can. All contacts change to Rigid, or away from it, together.
+ * where the law can. All contacts change to Rigid, or away from it, together. `laws` are the catalogue's.
  */
-export async function changeLaw(api, drop, contact, name) {
+export async function changeLaw(api, laws, drop, contact, name) {
   if (name === "none") return { drop: withValue(drop, `contacts.${contact}`, { law: "none" }), note: "" };
   const one = drop.contacts[contact];
   const others = drop.contacts.some((other, i) => i !== contact && other.law !== "none");
@@ -22,16 +21,20 @@ export async function changeLaw(api, drop, contact, name) {
     next = withValue(next, `contacts.${place}`, await converted(api, name, drop, place));
   }
   const all = places.length > 1 ? `All contacts are ${name} now: Rigid and other laws cannot be mixed. ` : "";
-  return { drop: next, note: all + kept(one.law, name) };
+  return { drop: next, note: all + kept(laws, one.law, name) };
 }
 
 /** Return what a contact kept when its law was changed. */
-function kept(before, name) {
+function kept(laws, before, name) {
   if (before === "none") return "";
   if (name === "Rigid") return "Restitution kept.";
   const time = before === "Rigid" ? "A contact now lasts 5 ms" : "Contact time kept";
-  const loss = LOSSLESS.includes(name) ? `${name} loses no energy` : "restitution kept";
+  const loss = loses(laws, name) ? "restitution kept" : `${name} loses no energy`;
   return `${time}, ${loss}.`;
+}
+
+function loses(laws, name) {
+  return laws.find((one) => one.law === name).loses;
 }
 
 function rigid(drop, contact) {
@@ -53,9 +56,9 @@ function tidied(contact) {
 }
 
 /** Return `{contact, note}`: a contact with a measured restitution and contact time, of its own law if that can lose. */
-export async function asMeasured(api, drop, place, { restitution, contactTime }) {
+export async function asMeasured(api, laws, drop, place, { restitution, contactTime }) {
   const { law: own, exponent } = drop.contacts[place];
-  const law = restitution < 1 && LOSSLESS.includes(own) ? LOSSY : own;
+  const law = restitution < 1 && !loses(laws, own) ? LOSSY : own;
   const request = { law, mass: contactMass(drop, place), impact_speed: speedOf(drop), restitution };
   if (law !== "Rigid") request.contact_time = contactTime;
   if (exponent !== undefined) request.exponent = exponent;

@@ -45,7 +45,7 @@ loadCatalogue();
 /** Build a view from its own module when it is first opened. */
 async function open(module, section) {
   try {
-    (await import(module)).mount(section, store, api);
+    await (await import(module)).mount(section, store, api);
   } catch (error) {
     section.append(h("p", { class: "field-error", role: "alert", text: `This view could not be opened: ${error.message}` }));
   }

@@ -9,15 +9,17 @@ const SLOWER = [60, 45];
 const AGAIN = 1500; // ms until the next try, while the server prepares itself
 const PREPARING = /being prepared/;
 
-/** Return how many points the last map of a drop has along its sides. */
-export function fineness(drop) {
-  return drop.contacts.every(({ law }) => ["Spring", "Rigid", "none"].includes(law)) ? FINE : SLOWER;
+/** Return how many points the last map of a drop has along its sides; `laws` are the catalogue's. */
+export function fineness(drop, laws) {
+  const exact = (law) => law === "none" || laws.find((one) => one.law === law).exact;
+  return drop.contacts.every(({ law }) => exact(law)) ? FINE : SLOWER;
 }
 
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, {answer} or {problem, preparing}. */
 export function mapper(api, tell) {
   let newest = 0;
   let ready = false;
+  let laws = null;
   const prepare = async () => {
     ready ||= (await api.status()).ready;
     if (!ready) throw new Error("the fast engine is being prepared, which takes a minute or two at the first start");
@@ -31,7 +33,8 @@ export function mapper(api, tell) {
       const settings = complete(wanted, paths, shows, drop);
       tell({ settings, paths, shows });
       await prepare();
-      for (const [across, up] of [COARSE, fineness(drop)]) {
+      laws ??= (await api.catalogue()).laws;
+      for (const [across, up] of [COARSE, fineness(drop, laws)]) {
         const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
         const answer = await api.map({ drop, x, y, show: settings.show });
         if (mine !== newest) return;

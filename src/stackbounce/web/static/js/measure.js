@@ -7,8 +7,9 @@ import { foundIn, recognised } from "./measure_found.js";
 import { measureForm } from "./measure_form.js";
 import { Overlay } from "./overlay.js";
 
-/** Build the view into `root`. */
-export function mount(root, store, api) {
+/** Build the view into `root`, its form of the options that the server lists. */
+export async function mount(root, store, api) {
+  const { options: offered } = await api.measureOptions();
   const said = h("div", { class: "recognised", role: "status" });
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
   const found = h("section", { class: "measure-card", "aria-label": "What was found", hidden: true });
@@ -32,6 +33,7 @@ export function mount(root, store, api) {
       const body = new FormData();
       body.append("file", file);
       body.append("options", JSON.stringify(options));
+      for (const [name, other] of Object.entries(form.files())) body.append(name, other);
       const answer = await api.measure(body);
       if (mine !== newest) return;
       said.replaceChildren(...recognised(answer), away);
@@ -65,7 +67,7 @@ export function mount(root, store, api) {
       drop.querySelector("button")?.focus();
     },
   });
-  const form = measureForm(ask);
+  const form = measureForm(offered, ask);
   const drop = fileDrop(root, (given, known) => {
     file = given;
     if (known) store.set({ drop: known, until: null });

@@ -1,0 +1,215 @@
+"""The command ``stackbounce fit`` and its options."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stackbounce.cli.options import AsJson, Contact, Gap, Gravity, Height, Plot, Speed
+from stackbounce.cli.output import check_picture, console, draw, print_json
+from stackbounce.errors import InvalidValue
+from stackbounce.extras import need
+from stackbounce.model.laws import usual_laws
+
+if TYPE_CHECKING:
+    from stackbounce.fitting import FitProblem
+
+__all__ = ["EPILOG", "run"]
+
+EPILOG = (
+    "For example: stackbounce fit basketball tennis --height 63cm --measured "
+    "'rebound_ratios.1=1.64 ± 0.02' --vary 'contacts.1.stiffness=0.7kN/m:2.5kN/m' --interval"
+)
+_ASKED, _SEARCH = "What is asked", "How it is answered"
+
+What = Annotated[
+    list[str],
+    typer.Argument(
+        metavar="SCENARIO|BALLS",
+        help="A scenario file in TOML, which may also have what was measured, varied and tied; or "
+        "balls of the catalogue, the lowest first; or a measurement of the paper, such as "
+        "cross2007/B1-B2.",
+        show_default=False,
+    ),
+]
+Data = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        readable=False,
+        help="A table, such as drops.csv: each row a drop of this stack, columns such as "
+        "'height (cm)', 'gaps.0 (mm)', rebound_ratios.1 and 'error of rebound_ratios.1'.",
+        rich_help_panel=_ASKED,
+    ),
+]
+Measured = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="NAME=VALUE",
+        help="What was measured, with its error: 'rebound_ratios.1=1.64 ± 0.02', "
+        "'rebound_heights.0=12 ± 1 cm', 'first_touch.1=2.0 ± 0.5 ms', durations.0, last_release.0, "
+        "rebound_speeds.0, energy_retained; collisions.0=2 and force.0=scope.csv have none; once "
+        "per number. Balls and contacts count from 0, the lowest.",
+        rich_help_panel=_ASKED,
+    ),
+]
+Vary = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="PATH=BOUNDS",
+        help="What may change: 'gaps.0=0mm:5mm', or what is known of it, 'gaps.0=1.3 ± 0.9 mm', or "
+        "its name alone; once per number.",
+        rich_help_panel=_ASKED,
+    ),
+]
+Tie = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="PATH=FORMULA",
+        help="What follows: 'contacts.1.stiffness=0.5*contacts.0.stiffness'; once per number.",
+        rich_help_panel=_ASKED,
+    ),
+]
+Interval = Annotated[
+    bool,
+    typer.Option(
+        "--interval",
+        help="Give confidence intervals of 68.3 % that need not be symmetric.",
+        rich_help_panel=_SEARCH,
+    ),
+]
+Sample = Annotated[
+    int | None,
+    typer.Option(
+        metavar="DRAWS", help="Draw that often from the posterior.", rich_help_panel=_SEARCH
+    ),
+]
+Compare = Annotated[
+    bool,
+    typer.Option(
+        "--compare",
+        help=f"Fit the usual models ({', '.join(usual_laws())}) instead and lay them side by side; "
+        "the search starts from the contacts and gaps of the drop.",
+        rich_help_panel=_SEARCH,
+    ),
+]
+Starts = Annotated[
+    int | None,
+    typer.Option(
+        metavar="COUNT", help="How many trials are screened first.", rich_help_panel=_SEARCH
+    ),
+]
+Seed = Annotated[
+    int,
+    typer.Option(metavar="NUMBER", help="The seed of trials and draws.", rich_help_panel=_SEARCH),
+]
+Corner = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", readable=False, help="Draw the posterior of --sample: .svg, .png or .pdf."
+    ),
+]
+Save = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        readable=False,
+        help="Write the fitted drop as a scenario for simulate: fitted.toml; several drops into a "
+        "folder of that name, a file each.",
+    ),
+]
+
+
+def run(
+    what: What,
+    data: Data = None,
+    measured: Measured = None,
+    vary: Vary = None,
+    tie: Tie = None,
+    height: Height = None,
+    speed: Speed = None,
+    gap: Gap = None,
+    contact: Contact = None,
+    gravity: Gravity = None,
+    compare: Compare = False,
+    interval: Interval = False,
+    sample: Sample = None,
+    starts: Starts = None,
+    seed: Seed = 0,
+    save: Save = None,
+    plot: Plot = None,
+    corner: Corner = None,
+    as_json: AsJson = False,
+) -> None:
+    """Find the numbers of a drop that describe best what was measured, with errors."""
+    need("fit", "stackbounce fit")
+    from stackbounce.cli import fit_results
+
+    for option, path in (("--plot", plot), ("--corner", corner)):
+        if path is not None:
+            check_picture(path, option)
+    if corner is not None and sample is None:
+        raise InvalidValue("--corner draws the posterior of --sample: give both")
+    for option, given in {
+        "--vary": vary,
+        "--tie": tie,
+        "--interval": interval,
+        "--sample": sample,
+        "--save": save,
+    }.items():
+        if compare and given:
+            raise InvalidValue(f"--compare has models of its own: {option} is for one fit")
+    problem = fit_results.read_problem(
+        what,
+        data=data,
+        measured=measured or [],
+        vary=vary or [],
+        tie=tie or [],
+        compared=compare,
+        height=height,
+        speed=speed,
+        gaps=gap,
+        contacts=contact,
+        gravity=gravity,
+    )
+    if compare:
+        _compare(problem, starts, seed, plot, as_json)
+        return
+    if save is not None:
+        fit_results.check_save(save, problem)
+    done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
+    _draw("fitted", done.fit, plot)
+    _draw("corner", done.posterior, corner)
+    saved = [] if save is None else fit_results.save(done, save)
+    if as_json:
+        print_json(fit_results.as_dict(done, saved))
+        return
+    fit_results.print_fit(console(), done)
+    if saved:
+        typer.echo(f"Fitted: {save}; now: stackbounce simulate {saved[0]}")
+    for picture in (plot, corner):
+        if picture is not None:
+            typer.echo(f"Picture: {picture}")
+
+
+def _compare(
+    problem: "FitProblem", starts: int | None, seed: int, plot: Path | None, as_json: bool
+) -> None:
+    from stackbounce.cli import fit_results
+
+    done = fit_results.compare_models(problem, starts=starts, seed=seed)
+    _draw("compared", done, plot)
+    if as_json:
+        print_json(fit_results.comparison_as_dict(done))
+        return
+    fit_results.print_comparison(console(), done)
+    if plot is not None:
+        typer.echo(f"Picture: {plot}")
+
+
+def _draw(name: str, of: Any, path: Path | None) -> None:
+    """Draw a picture of `stackbounce.plots` into a file, if one is asked for."""
+    from stackbounce import plots
+
+    if path is not None:
+        draw(lambda: getattr(plots, name)(of), path)

@@ -1,0 +1,226 @@
+"""``stackbounce measure``: files in, what was found in them out, and a ball for ``simulate``."""
+
+import inspect
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from stackbounce.cli.options import AsJson, Plot
+from stackbounce.cli.output import (
+    check_picture,
+    check_scenario,
+    console,
+    draw,
+    print_json,
+    write_scenario,
+)
+from stackbounce.errors import InvalidValue
+from stackbounce.extras import need
+from stackbounce.measure.option_values import read_options
+from stackbounce.measure.options import OPTIONS, Option
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from stackbounce.measure.constants import LawConstants
+    from stackbounce.measure.measurement import Measurement
+
+__all__ = ["EPILOG", "run"]
+
+EPILOG = (
+    "For example: stackbounce measure bounces.wav --mass 57g --height 1m --save ball.toml, "
+    "then: stackbounce simulate ball.toml"
+)
+Files = Annotated[
+    list[Path] | None,
+    typer.Argument(
+        metavar="FILE...",
+        readable=False,
+        help="Sound, force waveform, video track, acceleration, times or heights of bounces, or "
+        "press curve, as Tracker, phyphox, Vernier, PASCO, oscilloscopes or spreadsheets write it.",
+        show_default=False,
+    ),
+]
+Name = Annotated[
+    str | None,
+    typer.Option(metavar="NAME", help="For --save.", rich_help_panel="What is known of the ball"),
+]
+Save = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE", readable=False, help="Write the ball as a scenario for simulate: ball.toml."
+    ),
+]
+
+
+def run(
+    files: Files = None,
+    *,
+    name: Name = None,
+    save: Save = None,
+    plot: Plot = None,
+    as_json: AsJson = False,
+    **given: Any,
+) -> None:
+    """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
+    need("measure", "stackbounce measure")
+    from stackbounce.measure.measurement import measure_file, measure_numbers
+
+    files = files or []
+    if plot is not None:
+        check_picture(plot)
+        count = len(files) + (given["heights"] is not None)
+        if count != 1:
+            raise InvalidValue(f"--plot draws one file or --heights, got {count}")
+    known = read_options(given, lambda one: one.on_command_line)
+    if save is not None:
+        check_scenario(save)
+        if "mass" not in known:
+            raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
+    done = [measure_file(path, known) for path in files] + measure_numbers(known)
+    if not done:
+        raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
+    law = _law_of(known, done) if "law" in known else None
+    saved = {} if save is None else _save(done, law, save, known, name)
+    if plot is not None:
+        from stackbounce import plots
+
+        draw(lambda: plots.measured(done[0].data, done[0].found[-1]), plot)
+    if as_json:
+        print_json(_summary(done, law, saved))
+        return
+    _tell(console(), done, law)
+    if save is not None:
+        typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
+    if plot is not None:
+        typer.echo(f"Picture: {plot}")
+
+
+def _parameter(option: Option) -> inspect.Parameter:
+    """Return the command's parameter for an option of the table."""
+    repeatable = option.form == "columns"
+    kinds: dict[str, Any] = {"flag": bool, "file": Path | None, "columns": list[str] | None}
+    told = typer.Option(
+        option.on_command_line,
+        metavar=None if option.form == "flag" else option.value_name,
+        help=option.says,
+        rich_help_panel=option.panel or None,
+        readable=option.form != "file",
+        show_default=not repeatable,
+    )
+    kind = kinds.get(option.form, str if option.default else str | None)
+    return inspect.Parameter(
+        option.name,
+        inspect.Parameter.KEYWORD_ONLY,
+        default=option.default,
+        annotation=Annotated[kind, told],
+    )
+
+
+def _signature() -> inspect.Signature:
+    """Return the command's signature, with the table's options between its own."""
+    own = inspect.signature(run)
+    files, name, save, plot, as_json, _ = own.parameters.values()
+    mass, diameter, *others = (_parameter(one) for one in OPTIONS)
+    ordered = [mass, diameter, name, *others, save, plot, as_json]
+    return own.replace(parameters=[files, *ordered])
+
+
+run.__signature__ = _signature()  # type: ignore[attr-defined]
+
+
+def _law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawConstants":
+    """Return the law that ``--law`` asks for, of all that was found and is known."""
+    from stackbounce.measure import one_law
+    from stackbounce.model.drop import STANDARD_GRAVITY
+
+    names = ("mass", "contact_time", "restitution", "exponent")
+    given = {name: known[name] for name in names if name in known}
+    speed = known.get("speed")
+    if speed is None and "height" in known:
+        speed = (2.0 * known.get("gravity", STANDARD_GRAVITY) * known["height"]) ** 0.5
+    found = [one for each in done for one in each.found]
+    return one_law(known["law"], found, **given, impact_speed=speed)
+
+
+def _save(
+    done: "Sequence[Measurement]",
+    law: "LawConstants | None",
+    path: Path,
+    known: Mapping[str, Any],
+    name: str | None,
+) -> dict[str, Any]:
+    """Write the ball that was measured as a scenario file, and return what is in it."""
+    from stackbounce.measure import one_ball
+
+    parts = [found.parts() for one in done for found in one.found]
+    if law is not None:
+        parts = [{key: part[key] for key in part if key != "contact"} for part in parts]
+        parts.append(law.parts())
+    ball = {key: known[key] for key in ("mass", "diameter") if key in known}
+    plain = {key: getattr(one, "nominal_value", one) for key, one in ball.items()}
+    drop = one_ball(parts, **plain, name=name)
+    write_scenario(drop.to_toml(), path)
+    return drop.to_mapping()
+
+
+def _summary(
+    done: "Sequence[Measurement]", law: "LawConstants | None", ball: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return what was found, for machines."""
+    from stackbounce.measure.measurement import row_mapping
+    from stackbounce.version import __version__
+
+    return {
+        "stackbounce": __version__,
+        "files": [one.to_mapping() for one in done],
+        "law": None if law is None else [row_mapping(row) for row in law.all_rows()],
+        "ball": dict(ball) or None,
+    }
+
+
+def _tell(console: "Console", done: "Sequence[Measurement]", law: "LawConstants | None") -> None:
+    """Print what was found, for people."""
+    for one in done:
+        console.print(f"{one.source}: {one.told['format']}", style="bold")
+        if one.told["why"]:
+            console.print(f"  {one.told['why']}")
+        if one.told["doubt"]:
+            console.print(f"  Unsure: {one.told['doubt']}")
+        _table(console, one.rows)
+        for note in one.notes:
+            console.print(f"  {note}")
+    if law is not None:
+        console.print(f"The contact as {type(law.law).__name__}", style="bold")
+        _table(console, law.all_rows())
+
+
+def _table(console: "Console", rows: Sequence[Any]) -> None:
+    from rich import box
+    from rich.table import Table
+
+    table = Table(box=box.SIMPLE_HEAD)
+    table.add_column("")
+    table.add_column("value", justify="right")
+    table.add_column("error", justify="right")
+    table.add_column("unit")
+    for row in rows:
+        table.add_row(row.name, *_written(row.value), row.unit)
+    console.print(table)
+
+
+def _written(value: Any) -> tuple[str, str]:
+    """Return a value and its error as people write them: the error with two digits that count."""
+    from stackbounce.cli.tables import number
+
+    if isinstance(value, str):
+        return value, ""
+    if not hasattr(value, "nominal_value"):
+        return (str(value) if isinstance(value, int) else number(value)), ""
+    if not value.std_dev > 0.0:
+        return number(value.nominal_value), ""
+    body, _, power = f"{value:.2u}".replace("(", "").partition(")")
+    one, _, other = body.partition("+/-")
+    return one + power, other + power

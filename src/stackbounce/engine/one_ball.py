@@ -1,0 +1,52 @@
+"""One ball that meets a contact once: restitution and contact time by a run."""
+
+import math
+
+from stackbounce.engine import codes
+from stackbounce.engine.motion import velocity_at
+from stackbounce.engine.preparation import prepare
+from stackbounce.engine.simultaneous import advance_contacts, begin_contacts
+from stackbounce.engine.slots import LAST_EVENT
+from stackbounce.engine.stack import new_samples, new_stack
+
+_TOLERANCE = 1e-12
+_EVENTS = 1_000  # events or steps: a collision that can be followed takes some hundred
+_ROWS = 64  # of the log
+
+
+def bounce(
+    numbers: tuple[int, float, float, float], mass: float, speed: float
+) -> tuple[float, float]:
+    """Return the restitution and the contact time in s of a ball on a floor without gravity.
+
+    Parameters
+    ----------
+    numbers : tuple
+        What `prepare` takes of a contact: form, stiffness, exponent and one more number.
+    mass, speed : float
+        In kg and m/s.
+
+    Raises
+    ------
+    ArithmeticError
+        If the collision cannot be followed to its end.
+
+    Examples
+    --------
+    >>> e, time = bounce((codes.POWER, 100.0, 1.0, 0.0), 1.0, 2.0)
+    >>> round(e, 9), round(time / math.pi, 9)
+    (1.0, 0.1)
+    """
+    form, k, p, law_parameter = numbers
+    stack = new_stack(1)
+    log = [0.0] * (_ROWS * codes.LOG_COLUMNS)
+    unit = prepare(
+        stack, [mass], [form], [k], [p], [law_parameter], [0.0], [-speed], 0.0, _TOLERANCE
+    )
+    begin_contacts(stack)
+    status = advance_contacts(stack, math.inf, _EVENTS, log, new_samples([], 1))
+    if status != codes.FINISHED:
+        raise ArithmeticError
+    rows = [log[at : at + codes.LOG_COLUMNS] for at in range(0, len(log), codes.LOG_COLUMNS)]
+    ends = [row[codes.TIME] * unit for row in rows if row[codes.KIND] == codes.RELEASE]
+    return velocity_at(stack, 0, stack.clock[LAST_EVENT]) / unit / speed, max(ends, default=0.0)

@@ -1,0 +1,254 @@
+"""The minima of chi squared: many trials are screened, descents by lmfit start at the best."""
+
+import math
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.fitting.covariance import OPEN, find_directions
+from stackbounce.fitting.objective import Objective
+
+__all__ = ["EQUAL", "Minimum", "descend", "find_minima", "spread_trials"]
+
+Array: TypeAlias = NDArray[np.float64]
+
+EQUAL = 1e-3
+"""Minima whose chi squared differs by less are equally good."""
+
+# Distances are in units of the width between the bounds.
+_SCREENED, _MOST_SCREENED = 128, 1024  # screened trials per parameter, and at most
+_SCREENED_RECORDS = 48  # screened trials with force records, where each trial takes long
+_SHARED, _OWN = 32, 64  # screened trials per shared parameter, and per parameter of one drop
+_FOLLOWED, _FOLLOWED_RECORDS = 8, 3  # descents besides those from given trials; with records
+_APART = 0.05  # distance between the starts of two descents, at least
+_SAME = 1e-3  # distance below which two ends are the same minimum
+_BARRIER, _LOOKS = 1.0, 9  # rise of chi squared between two minima; trials on the line between
+_STEPS = 60  # evaluations of one descent, at most
+_EXACT, _ROUGH = 1e-10, 1e-4  # relative gain in chi squared at which a descent, a first one stops
+_NEAR, _HOPE = 0.01, 20.0  # rough ends that are followed further: distance, chi squared above best
+_FLAT = 1e-3  # gain in chi squared that a linear step may promise at a smooth minimum
+_SHORT = 60  # evaluations per parameter of the simplex at a kink
+
+
+class Minimum(NamedTuple):
+    """The end of a descent: trial (parameters,), chi squared, and whether it converged."""
+
+    x: Array
+    chi_squared: float
+    converged: bool
+
+
+def find_minima(
+    objective: Objective,
+    first: Array,
+    count: int | None = None,
+    seed: int = 0,
+    follow: int | None = None,
+) -> list[Minimum]:
+    """Return the minima of chi squared, the best first, each once.
+
+    Among equally good minima the nearest to the first trial comes first.
+
+    Parameters
+    ----------
+    objective : Objective
+        What is fitted.
+    first : ndarray
+        (n, parameters) trials from which descents start in any case.
+    count : int, optional
+        The number of screened trials.
+    seed : int, optional
+        The seed of their places.
+    follow : int, optional
+        The number of screened trials from which descents start.
+
+    Returns
+    -------
+    list of Minimum
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.fitting import FitProblem
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> vary = {"contacts.0.stiffness": (0.1, 10.0)}
+    >>> objective = FitProblem(drop, {"durations.0": "1.0 ± 0.1 s"}, vary).objective
+    >>> best = find_minima(objective, np.zeros((1, 1)))[0]
+    >>> float(objective.values(best.x[None])["contacts.0.stiffness"][0].round(4))  # pi squared
+    9.8696
+    """
+    trials = spread_trials(objective, count, seed)
+    if follow is None:
+        follow = _FOLLOWED_RECORDS if objective.records else _FOLLOWED
+    chosen = _apart(objective, first, trials, follow)
+    near = sorted((_descend_smooth(objective, x, None, _ROUGH) for x in chosen), key=_chi_squared)
+    ends = sorted((descend(objective, one.x) for one in _worth(objective, near)), key=_chi_squared)
+    good = [one for one in ends if one.chi_squared < ends[0].chi_squared + EQUAL]
+    nearest = sorted(good, key=lambda one: np.sum(((one.x - chosen[0]) / objective.widths) ** 2))
+    return _distinct(objective, nearest + ends[len(good) :])
+
+
+def _chi_squared(one: Minimum) -> float:
+    return one.chi_squared
+
+
+def _worth(objective: Objective, near: list[Minimum]) -> list[Minimum]:
+    """Return those of some rough ends, sorted by chi squared, that may lead to other minima."""
+    widths = objective.widths
+    limit = near[0].chi_squared + max(_HOPE, near[0].chi_squared)
+    found: list[Minimum] = []
+    for one in near:
+        apart = all(np.max(np.abs(one.x - other.x) / widths) > _NEAR for other in found)
+        if apart and one.chi_squared <= limit:
+            found.append(one)
+    return found
+
+
+def descend(objective: Objective, x: Array, fixed: int | None = None) -> Minimum:
+    """Return the end of a descent from a trial; the parameter of index `fixed` is kept."""
+    end = _descend_smooth(objective, x, fixed, _EXACT)
+    if _is_smooth(objective, end.x, fixed):
+        return end
+    other = _descend_smooth(objective, _cross_kink(objective, end.x, fixed), fixed, _EXACT)
+    return min(other, end, key=lambda one: one.chi_squared)
+
+
+def spread_trials(objective: Objective, count: int | None, seed: int) -> Array:
+    """Return (n, parameters) trials spread evenly between the bounds by a Sobol sequence.
+
+    A parameter of one of several drops, such as its gap, is screened with that drop's data only:
+    each trial of the shared parameters gets the best of many values.
+    """
+    spans = objective.spans
+    own = {key: objective.own(key) for key in objective.measured if objective.own(key)}
+    shared = [k for k in range(len(spans)) if not any(k in some for some in own.values())]
+    if len(objective.measured) == 1 or not own or objective.records:
+        usual = (
+            _SCREENED_RECORDS if objective.records else min(_SCREENED * len(spans), _MOST_SCREENED)
+        )
+        return _spread(spans, count or usual, seed)
+    size = count or (_SHARED * len(shared) if shared else 1)
+    trials = _spread(spans, size, seed)
+    for key, some in own.items():
+        each = _spread(spans[some], _OWN * len(some), seed)
+        wide = np.repeat(trials, len(each), axis=0)
+        wide[:, some] = np.tile(each, (size, 1))
+        chi = objective.alone(key).chi_squared(wide).reshape(size, len(each))
+        trials[:, some] = each[np.argmin(chi, axis=1)]
+    return trials
+
+
+def _spread(spans: Array, count: int, seed: int) -> Array:
+    from scipy.stats import qmc
+
+    drawn = qmc.Sobol(len(spans), rng=seed).random_base2(math.ceil(math.log2(count)))
+    return np.asarray(spans[:, 0] + drawn[:count] * (spans[:, 1] - spans[:, 0]))
+
+
+def _apart(objective: Objective, first: Array, trials: Array, count: int) -> list[Array]:
+    """Return the first trials and the best `count` others that lie apart from all of them."""
+    widths = objective.widths
+    chosen = list(first)
+    for k in np.argsort(objective.chi_squared(trials), kind="stable"):
+        if len(chosen) >= len(first) + count:
+            break
+        if all(np.max(np.abs(trials[k] - one) / widths) > _APART for one in chosen):
+            chosen.append(trials[k])
+    return chosen
+
+
+def _distinct(objective: Objective, ends: list[Minimum]) -> list[Minimum]:
+    """Return the ends of descents without those that belong to a better one's minimum."""
+    found: list[Minimum] = []
+    for end in ends:
+        if not any(_is_same(objective, end, one) for one in found):
+            found.append(end)
+    return found
+
+
+def _is_same(objective: Objective, end: Minimum, better: Minimum) -> bool:
+    """Tell whether two ends of descents are the same minimum: near, or without a barrier between.
+
+    With an undetermined direction the valley may be bent, so that all equally good ends are one.
+    """
+    widths = objective.widths
+    if np.max(np.abs(end.x - better.x) / widths) < _SAME:
+        return True
+    way = np.linspace(better.x, end.x, _LOOKS + 2)[1:-1]
+    if np.max(objective.chi_squared(way)) < max(end.chi_squared, better.chi_squared) + _BARRIER:
+        return True
+    equal = abs(end.chi_squared - better.chi_squared) < EQUAL
+    return bool(equal and all(_is_undetermined(objective, one.x) for one in (end, better)))
+
+
+def _is_undetermined(objective: Objective, x: Array) -> bool:
+    """Tell whether the data leave a direction undetermined at a trial."""
+    return bool(find_directions(objective, objective.linearise(x)[1])[0][-1] <= OPEN)
+
+
+def _parameters(objective: Objective, x: Array, fixed: int | None) -> Any:
+    """Return lmfit's parameters for a trial; they are named x0, x1 and so on in this file only."""
+    import lmfit
+
+    parameters = lmfit.Parameters()
+    for k, (low, high) in enumerate(objective.spans):
+        start = float(np.clip(x[k], low, high))
+        parameters.add(f"x{k}", value=start, min=low, max=high, vary=k != fixed)
+    return parameters
+
+
+def _trial(parameters: Any) -> Array:
+    return np.array([one.value for one in parameters.values()])
+
+
+def _descend_smooth(objective: Objective, x: Array, fixed: int | None, gain: float) -> Minimum:
+    """Return the end of a descent by lmfit's trust region, which needs derivatives."""
+    import lmfit
+
+    if len(x) == 1 and fixed == 0:
+        return Minimum(x, float(objective.chi_squared(x[None])[0]), True)
+    free = [k for k in range(len(x)) if k != fixed]
+    kept: dict[bytes, tuple[Array, Array]] = {}  # lmfit asks for residuals and slopes in turn
+
+    def linearised(parameters: Any) -> tuple[Array, Array]:
+        trial = _trial(parameters)
+        if trial.tobytes() not in kept:
+            kept[trial.tobytes()] = objective.linearise(trial)
+        return kept[trial.tobytes()]
+
+    minimizer = lmfit.Minimizer(
+        lambda now: linearised(now)[0], _parameters(objective, x, fixed), calc_covar=False
+    )
+    options = {"max_nfev": _STEPS, "xtol": 10.0 * gain, "ftol": gain}
+    with np.errstate(all="ignore"):  # lmfit divides by 0 where data determine nothing
+        found = minimizer.least_squares(Dfun=lambda now: linearised(now)[1][:, free], **options)
+    end = _trial(found.params)
+    return Minimum(end, float(np.sum(linearised(found.params)[0] ** 2)), bool(found.success))
+
+
+def _cross_kink(objective: Objective, x: Array, fixed: int | None) -> Array:
+    """Return a trial nearer to a minimum on a kink, by a simplex, which needs no derivatives."""
+    import lmfit
+
+    minimizer = lmfit.Minimizer(
+        lambda now: objective.residuals(_trial(now)[None])[0],
+        _parameters(objective, x, fixed),
+        calc_covar=False,
+    )
+    return _trial(minimizer.minimize(method="nelder", max_nfev=_SHORT * len(x)).params)
+
+
+def _is_smooth(objective: Objective, x: Array, fixed: int | None) -> bool:
+    """Tell whether a linear step would gain nothing at the end of a descent."""
+    free = [k for k in range(len(x)) if k != fixed]
+    if not free:
+        return True
+    spans, (residuals, slopes) = objective.spans[free], objective.linearise(x)
+    slopes = slopes[:, free]
+    step = -np.linalg.lstsq(slopes, residuals, rcond=1e-6)[0]
+    inside = np.clip(x[free] + step, spans[:, 0], spans[:, 1]) - x[free]
+    longest = 0.1 * objective.widths[free]
+    step = np.clip(inside, -longest, longest)
+    promised = np.sum(residuals**2) - np.sum((residuals + slopes @ step) ** 2)
+    return bool(promised < _FLAT)

@@ -1,0 +1,179 @@
+"""What was measured of one drop: numbers with errors, counts and force records."""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown, whole
+from stackbounce.fitting.quantities import QUANTITIES, find_quantity
+from stackbounce.fitting.waveforms import Waveform, read_waveform
+from stackbounce.measure.quantities import quantity_with_error
+from stackbounce.model import Drop
+from stackbounce.units import quantity
+
+__all__ = ["Count", "Datum", "Measured", "read_measured"]
+
+
+@dataclass(frozen=True)
+class Datum:
+    """A number that was measured.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``rebound_ratios.1``.
+    quantity : str
+        A key of `stackbounce.fitting.quantities.QUANTITIES`.
+    index : int
+        The number of its ball or contact.
+    value, error : float
+        In SI units; the error is one standard deviation, above 0.
+
+    Examples
+    --------
+    >>> Datum("rebound_ratios.1", "rebound_ratios", 1, 1.64, 0.02).value
+    1.64
+    """
+
+    name: str
+    quantity: str
+    index: int
+    value: float
+    error: float
+
+    @property
+    def unit(self) -> str:
+        """The SI unit."""
+        return QUANTITIES[self.quantity].unit
+
+
+@dataclass(frozen=True)
+class Count:
+    """The number of contact intervals that were seen: compared with the fit, not fitted.
+
+    Examples
+    --------
+    >>> Count("collisions.1", 1, 3).seen
+    3
+    """
+
+    name: str
+    index: int
+    seen: int
+
+
+@dataclass(frozen=True)
+class Measured:
+    """What was measured of one drop.
+
+    Examples
+    --------
+    >>> Measured((), (), ()).data
+    ()
+    """
+
+    data: tuple[Datum, ...]
+    counts: tuple[Count, ...]
+    waveforms: tuple[Waveform, ...]
+
+
+def read_measured(drop: Drop, given: object, path: str = "") -> Measured:
+    """Check what was measured of a drop and return it.
+
+    Parameters
+    ----------
+    drop : Drop
+        What was dropped.
+    given : mapping
+        By name: the quantities of `QUANTITIES`, and ``force``. A name stands for one ball or
+        contact, ``rebound_ratios.1``, with one number; or for all, with a list that has None where
+        nothing was measured. A number is a text with its error, ``"1.64 ± 0.02"``, a pair of the
+        two, or a UFloat. A force record is given as for `read_waveform`.
+    path : str, optional
+        A prefix of the names in messages.
+
+    Returns
+    -------
+    Measured
+
+    Raises
+    ------
+    InvalidValue
+        If a name is unknown, or a number has no error above 0.
+    InvalidType
+        If something has the wrong type.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> read_measured(drop, {"rebound_ratios": ["0.78 ± 0.02"]}).data[0].error
+    0.02
+    """
+    if not isinstance(given, Mapping) or not given:
+        raise InvalidType(
+            f"{path.rstrip('.') or 'data'} must map names to what was measured, such as "
+            f"{{'rebound_ratios.1': '1.64 ± 0.02'}}, got {shown(given)}"
+        )
+    data: list[Datum] = []
+    counts: list[Count] = []
+    waveforms: list[Waveform] = []
+    for name, value in _one_by_one(drop, given, path):
+        shown_as = path + name
+        if name.startswith("force."):
+            waveforms.append(read_waveform(drop, name, value, shown_as))
+            continue
+        base, index = find_quantity(drop, name, shown_as)
+        if base == "collisions":
+            counts.append(Count(name, index, whole(shown_as, value)))
+        else:
+            data.append(Datum(name, base, index, *_with_error(value, base, shown_as)))
+    lists = (data, counts, waveforms)
+    names = [one.name for some in lists for one in some]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise InvalidValue(f"{path}{twice} is given twice")
+    return Measured(tuple(data), tuple(counts), tuple(waveforms))
+
+
+def _one_by_one(drop: Drop, given: Mapping[Any, Any], path: str) -> list[tuple[str, Any]]:
+    """Return the names of single numbers with their values."""
+    found: list[tuple[str, Any]] = []
+    for name, value in given.items():
+        if not isinstance(name, str):
+            raise InvalidType(f"{path or 'data '}must have names for keys, got {shown(name)}")
+        if isinstance(value, np.ndarray):
+            value = value.tolist()
+        known = QUANTITIES.get(name)
+        if known is None or not known.part:
+            found.append((name, value))
+            continue
+        count = len(drop.balls)
+        if not isinstance(value, Sequence) or isinstance(value, str) or len(value) != count:
+            raise InvalidValue(
+                f"{path}{name} must be a list of {count}, one for each {known.part}, with None "
+                f"where nothing was measured, or be of one {known.part} ({name}.0), "
+                f"got {shown(value)}"
+            )
+        found += [(f"{name}.{i}", one) for i, one in enumerate(value) if one not in (None, "")]
+    return found
+
+
+def _with_error(value: object, base: str, path: str) -> tuple[float, float]:
+    """Return a number and its error in SI units."""
+    unit = QUANTITIES[base].unit
+    pair: Any = value
+    if isinstance(value, str):
+        pair = quantity_with_error(value, unit, path)
+    if hasattr(pair, "nominal_value"):
+        pair = (pair.nominal_value, pair.std_dev)
+    right = f"a number with its error, such as '{QUANTITIES[base].example}'"
+    if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
+        raise InvalidValue(f"{path} must be {right}, got {shown(value)}")
+    number, error = (quantity(one, unit, path) for one in pair)
+    if not (error > 0.0 and math.isfinite(error)):
+        raise InvalidValue(f"{path} must be {right}, got {shown(value)}")
+    return finite(path, number), positive(path, error)

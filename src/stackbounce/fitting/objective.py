@@ -1,0 +1,311 @@
+"""Trial values of what is varied -> residuals, for many trials at once."""
+
+import math
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.engine.batch import Outcomes
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.fitting.measurements import Measured
+from stackbounce.fitting.parameters import Parameter, find_numbers, value_in
+from stackbounce.fitting.quantities import QUANTITIES
+from stackbounce.fitting.ties import Tie, evaluate_ties
+from stackbounce.fitting.waveforms import Waveform
+from stackbounce.model import Drop
+from stackbounce.run.batch import solve
+from stackbounce.run.columns import Rows, base_rows, check, fill
+from stackbounce.run.driver import forces_at
+from stackbounce.run.options import Options
+from stackbounce.run.paths import Number, drop_at, numbers_of
+from stackbounce.run.result import Status
+
+__all__ = ["ABSENT", "Objective", "touch_name"]
+
+Array: TypeAlias = NDArray[np.float64]
+
+ABSENT = 1e4
+"""The residual, in errors, of a number that a trial does not have, such as a missing touch."""
+
+_STEP = 1e-5  # of the width of the bounds: the step of a numerical derivative
+_EVENTS = 10_000  # limit for one trial; no measurement has so many
+_DONE = (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
+
+
+@dataclass(frozen=True, eq=False)
+class Objective:
+    """What a fit minimises: the residuals of trials, and chi squared, the sum of their squares.
+
+    A trial is a row of search coordinates, one per parameter: its value, or the logarithm of it.
+
+    Parameters
+    ----------
+    drops : mapping of str to Drop
+        By name; a single drop has an empty name.
+    measured : mapping of str to Measured
+        The measurements of each drop.
+    parameters : sequence of Parameter
+        What is varied.
+    ties : sequence of Tie
+        What follows from it.
+    rtol : float
+        Relative tolerance of each trial's run.
+    unsolved : Counter
+        The number of runs so far that did not finish, by the name of their `Status`. All residuals
+        of such a run are `ABSENT`.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.fitting import FitProblem
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> vary = {"contacts.0.stiffness": (0.1, 10.0)}
+    >>> objective = FitProblem(drop, {"durations.0": "3.0 ± 0.1 s"}, vary).objective
+    >>> objective.residuals(np.array([[0.0]])).round(3)  # pi seconds at 1 N/m
+    array([[1.416]])
+    """
+
+    drops: Mapping[str, Drop]
+    measured: Mapping[str, Measured]
+    parameters: tuple[Parameter, ...]
+    ties: tuple[Tie, ...]
+    rtol: float
+    unsolved: Counter[str] = field(default_factory=Counter, init=False)
+
+    @property
+    def names(self) -> list[str]:
+        """The names of the parameters."""
+        return [one.name for one in self.parameters]
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The SI unit of each parameter; empty for a pure number."""
+        return {one.name: one.unit for one in self.parameters}
+
+    @cached_property
+    def spans(self) -> Array:
+        """(parameters, 2) bounds in search coordinates."""
+        return np.array([one.span for one in self.parameters])
+
+    @property
+    def widths(self) -> Array:
+        """(parameters,) distances between the bounds in search coordinates."""
+        return np.asarray(self.spans[:, 1] - self.spans[:, 0])
+
+    @property
+    def priors(self) -> list[Parameter]:
+        """The parameters with a prior."""
+        return [one for one in self.parameters if one.prior is not None]
+
+    @property
+    def records(self) -> list[str]:
+        """The names of the drops with force records; each has a touch time as a parameter."""
+        return [key for key, measured in self.measured.items() if measured.waveforms]
+
+    @property
+    def size(self) -> int:
+        """The number of residuals."""
+        numbers = sum(len(one.data) for one in self.measured.values()) + len(self.priors)
+        return numbers + sum(len(wave.times) for wave in self._waveforms)
+
+    @property
+    def free(self) -> int:
+        """The number of fitted numbers: parameters, and baselines and scales of force records."""
+        return len(self.parameters) + sum(1 + wave.scaled for wave in self._waveforms)
+
+    @property
+    def _waveforms(self) -> list[Waveform]:
+        return [wave for one in self.measured.values() for wave in one.waveforms]
+
+    def values(self, x: Array) -> dict[str, Array]:
+        """Return the parameters of trials (n, parameters) by name, (n,) numbers in SI units."""
+        return {one.name: one.value(x[:, k]) for k, one in enumerate(self.parameters)}
+
+    def value_slopes(self, x: Array) -> Array:
+        """Return the derivatives (parameters,) of the values by the coordinates of a trial."""
+        return np.array([one.slope(at) for one, at in zip(self.parameters, x, strict=True)])
+
+    def rows(self, key: str, x: Array) -> Rows:
+        """Return the varied and tied numbers of one drop in trials (n, parameters), checked."""
+        layout, values = self._layouts[key], self.values(x)
+        named = {name: array for name, array in values.items() if self._owner[name] in (None, key)}
+        found: dict[Number, Array] = {}
+        for name, number in layout.varied:
+            found[number] = named[number.path] = named[name]
+        follow = evaluate_ties(layout.ties, layout.numbers, named)
+        for tie in layout.ties:
+            found[tie.number] = follow[tie.number.path]
+        if layout.ties:
+            try:
+                check(self.drops[key], found, lambda _: "")
+            except (InvalidValue, InvalidType) as error:
+                formulas = ", ".join(f"{tie.number.path} = {tie.text}" for tie in layout.ties)
+                raise type(error)(f"tie: {formulas} gives no drop: {error}".rstrip()) from error
+        return found
+
+    @cached_property
+    def _owner(self) -> dict[str, str | None]:
+        """The only drop that each parameter belongs to; None for a shared parameter.
+
+        A tie that is a Python function may use every shared parameter and those of its own drop.
+        """
+        found: dict[str, str | None] = {touch_name(key): key for key in self.drops}
+        for one in self.parameters:
+            numbers = {key for key, _ in find_numbers(self.drops, one.name)}
+            users = {tie.drop for tie in self.ties if tie.uses and one.name in tie.uses}
+            keys = numbers | users
+            found.setdefault(one.name, keys.pop() if numbers and len(keys) == 1 else None)
+        return found
+
+    def own(self, key: str) -> list[int]:
+        """Return the indices of the parameters that belong to one drop only."""
+        return [k for k, one in enumerate(self.parameters) if self._owner[one.name] == key]
+
+    def alone(self, key: str) -> "Objective":
+        """Return the objective with all parameters but the data of one drop only."""
+        return replace(self, measured={key: self.measured[key]})
+
+    @cached_property
+    def _layouts(self) -> dict[str, "_Layout"]:
+        return {key: _layout(self, key) for key in self.drops}
+
+    def drop(self, key: str, x: Array) -> Drop:
+        """Return one drop with the numbers of one trial (parameters,)."""
+        rows = self.rows(key, x[None])
+        return drop_at(self.drops[key], {number: float(array[0]) for number, array in rows.items()})
+
+    def outcomes(self, key: str, x: Array) -> tuple[Outcomes, Array, Array]:
+        """Return outcomes, impact speeds and gravity (n,) of one drop in trials (n, parameters)."""
+        drop, rows = self.drops[key], self.rows(key, x)
+        options = Options(math.inf, self.rtol, _EVENTS)
+        out = solve(drop, rows, (len(x),), options, compiled=True)
+        bad = ~np.isin(out.status, _DONE)
+        if np.any(bad):
+            self.unsolved.update(Status(code).name for code in out.status[bad])
+            for array in (
+                out.rebound_ratio,
+                out.first_touch,
+                out.last_release,
+                out.energy_retained,
+            ):
+                array[bad] = np.nan
+        drops = base_rows(drop, len(x))
+        fill(drops, drop, rows)
+        return out, np.max(np.abs(drops.velocity), axis=1), drops.gravity
+
+    def predict(self, key: str, x: Array) -> Array:
+        """Return what trials (n, parameters) predict for one drop's data: (n, data) in SI units."""
+        given, columns = self.outcomes(key, x), []
+        for datum in self.measured[key].data:
+            table = np.asarray(QUANTITIES[datum.quantity].predict(*given))
+            columns.append(table if table.ndim == 1 else table[:, datum.index])
+        return np.stack(columns, axis=1) if columns else np.empty((len(x), 0))
+
+    def counts(self, key: str, x: Array) -> NDArray[np.int64]:
+        """Return how often each contact of a drop closes in one trial: (contacts,)."""
+        return np.asarray(self.outcomes(key, x[None])[0].collisions[0])
+
+    def forces(self, key: str, x: Array) -> list[Array]:
+        """Return the forces (n,) in N at the samples of each record of a drop, in one trial."""
+        drop, start = self.drop(key, x), float(self.values(x[None])[touch_name(key)][0])
+        waves = self.measured[key].waveforms
+        stamps, where = np.unique(
+            np.concatenate([wave.times for wave in waves]), return_inverse=True
+        )
+        times = stamps - start
+        forces = np.zeros((len(drop.balls), len(times)))
+        status, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
+        if status not in _DONE:
+            self.unsolved[status.name] += 1
+            forces[:] = np.nan
+        ends = np.cumsum([len(wave.times) for wave in waves])[:-1]
+        places = np.split(where, ends)
+        return [forces[wave.index, at] for wave, at in zip(waves, places, strict=True)]
+
+    def without(self, key: str, name: str | None) -> "Objective":
+        """Return the objective without the data of a drop, or without one datum of it."""
+        measured = dict(self.measured)
+        own = measured.pop(key)
+        if name is not None:
+            left = tuple(datum for datum in own.data if datum.name != name)
+            measured[key] = replace(own, data=left)
+        return replace(self, measured=measured)
+
+    def residuals(self, x: Array) -> Array:
+        """Return the residuals (n, size) of trials (n, parameters), in standard errors.
+
+        First come the data of each drop, then the priors, then the force records.
+        """
+        parts = [np.empty((len(x), 0))]
+        for key, measured in self.measured.items():
+            if measured.data:
+                value = np.array([datum.value for datum in measured.data])
+                error = np.array([datum.error for datum in measured.data])
+                parts.append((self.predict(key, x) - value) / error)
+        values = self.values(x)
+        for one in self.priors:
+            mean, known_to = one.prior or (0.0, 1.0)
+            parts.append(((values[one.name] - mean) / known_to)[:, None])
+        parts += [np.stack([self._of_records(key, one) for one in x]) for key in self.records]
+        whole = np.concatenate(parts, axis=1)
+        return np.where(np.isfinite(whole), np.clip(whole, -ABSENT, ABSENT), ABSENT)
+
+    def _of_records(self, key: str, x: Array) -> Array:
+        waves = self.measured[key].waveforms
+        forces = self.forces(key, x)
+        return np.concatenate(
+            [wave.linear(force) for wave, force in zip(waves, forces, strict=True)]
+        )
+
+    def chi_squared(self, x: Array) -> Array:
+        """Return the sums of squared residuals (n,) of trials (n, parameters)."""
+        return np.asarray(np.sum(self.residuals(x) ** 2, axis=1))
+
+    def linearise(self, x: Array) -> tuple[Array, Array]:
+        """Return the residuals (size,) of one trial and their derivatives (size, parameters).
+
+        The derivatives are central differences; all their trials are solved together.
+        """
+        spans = self.spans
+        step = _STEP * self.widths
+        high, low = np.minimum(x + step, spans[:, 1]), np.maximum(x - step, spans[:, 0])
+        count = len(x)
+        trials = np.tile(x, (2 * count + 1, 1))
+        each = np.arange(count)
+        trials[each, each], trials[count + each, each] = high, low
+        found = self.residuals(trials)
+        slopes = (found[:count] - found[count:-1]) / (high - low)[:, None]
+        return np.asarray(found[-1]), np.asarray(slopes.T)
+
+
+class _Layout(NamedTuple):
+    """The varied numbers of one drop by parameter, its ties, and all its numbers by path."""
+
+    varied: list[tuple[str, Number]]
+    ties: list[Tie]
+    numbers: dict[str, float]
+
+
+def _layout(objective: Objective, key: str) -> _Layout:
+    drop = objective.drops[key]
+    varied = [
+        (one.name, number)
+        for one in objective.parameters
+        for own, number in find_numbers(objective.drops, one.name)
+        if own == key
+    ]
+    numbers = {path: value_in(drop, number) for path, number in numbers_of(drop).items()}
+    ties = [tie for tie in objective.ties if tie.drop == key]
+    ends = {one.name: np.array([one.low, one.high]) for one in objective.parameters}
+    check(drop, {number: ends[name] for name, number in varied}, lambda _: "(at the bounds)")
+    return _Layout(varied, ties, numbers)
+
+
+def touch_name(key: str) -> str:
+    """Return the name of the parameter for the time of first touch in a drop's force records."""
+    return f"{key}.touch" if key else "touch"

@@ -1,0 +1,109 @@
+"""The right analysis for what a file holds."""
+
+import inspect
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.options import check_options, options_for
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from stackbounce.measure.finding import Finding
+
+__all__ = ["analyse"]
+
+
+def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
+    r"""Return the results of the analyses that belong to the kind of a measurement.
+
+    Parameters
+    ----------
+    data : xarray.Dataset
+        As `read` gives it.
+    mass : float or ufloat, optional
+        Of the ball, in kg: a contact time then gives a stiffness.
+    diameter : float or ufloat, optional
+        Of the ball, in m; needed where `measured_to` is not its bottom.
+    contact_time, restitution : float or ufloat, optional
+        Of the lower ball alone, in s and dimensionless, for the gap of a stack.
+    law : ContactLaw, its class or its name, optional
+        Of the contact in a force waveform; touch and release then have smaller errors.
+    exponent : float, optional
+        Of the loading curve, where the law leaves it open.
+    height_error : float, optional
+        Of each height in a table, in m.
+    repeated : bool, optional
+        Whether a table's heights after the first are those of the first bounce in repeated drops.
+    measured_to : {"bottom", "centre", "top"} or a pair of them, optional
+        The point of the ball at which `height` and a table's heights were read, and that a track
+        follows; a pair has the point for the drop height first, then that for the bounces.
+    height : float or ufloat, optional
+        From where the ball fell, in m: gives the restitution of the first bounce.
+    speed : float or ufloat, optional
+        Impact speed in m/s: calibrates the impulse of a force waveform.
+    floor : float, optional
+        Level of the floor in a track of one ball, in m as tracked.
+    alone : xarray.Dataset, optional
+        The floor's force under the lower ball alone; with that under the stack it gives the gap.
+    time_constant : float, optional
+        Of a piezo sensor's droop, in s, which is then corrected.
+    gravity : float, optional
+        In m/s**2.
+
+    Returns
+    -------
+    tuple
+        Of a sound `Bounces` (`FewBounces` where they are too few for a restitution) and `Knocks`;
+        of knock times and of phyphox's bounces `Bounces`; of a track `Tracks`; of an acceleration
+        `Accelerometer`; of a force waveform `Waveform`, with a second sensor between two balls
+        `SensorGap` before it, and with `alone` `FloorGap` after it; of a press curve `Press`; of a
+        table with one column of heights, the drop's above the bounces', `Heights`.
+
+    Raises
+    ------
+    InvalidType
+        If `data` is none of `read`, or an option is unknown or one of `read`.
+    InvalidValue
+        If there is no analysis for what it holds, or nothing that it looks for is there.
+
+    Notes
+    -----
+    A kind that has no use for an option ignores it, so that files of several kinds can be analysed
+    with the same options.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> path = getfixture("tmp_path") / "knocks.csv"
+    >>> text = '"Event time (s)","Interval (s)"\n0,0\n0.8,0.8\n1.44,0.64\n1.952,0.512\n'
+    >>> _ = path.write_text(text)
+    >>> (found,) = analyse(sb.read(path))
+    >>> f"{found.mean.nominal_value:.3f}"
+    '0.800'
+    """
+    holds = getattr(data, "attrs", {}).get("holds")
+    if holds is None:
+        raise InvalidType(f"data must be a Dataset from read, got {shown(data)}")
+    check_options(options, "analyse")
+    kind = KINDS.get(holds)
+    if kind is None or kind.analyse is None:
+        raise InvalidValue(
+            f"there is no analysis of {holds}: tell what it holds, one of {', '.join(KINDS)}"
+        )
+    own = {name: value for name, value in options.items() if name in kind.options}
+    return kind.analyse(data, **{name: value for name, value in own.items() if value is not None})
+
+
+def _signature() -> inspect.Signature:
+    """Return the signature of `analyse` with each option of the table."""
+    own = inspect.signature(analyse)
+    options = [
+        inspect.Parameter(one.name, inspect.Parameter.KEYWORD_ONLY, default=one.default)
+        for one in options_for("analyse").values()
+    ]
+    return own.replace(parameters=[own.parameters["data"], *options])
+
+
+analyse.__signature__ = _signature()  # type: ignore[attr-defined]

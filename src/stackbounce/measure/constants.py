@@ -1,0 +1,219 @@
+"""A contact time -> the dynamic stiffness, or the constants of any law."""
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.calibration import calibrate
+from stackbounce.errors import InvalidValue, between, fraction, positive, shown
+from stackbounce.measure.quantities import Row, measured
+from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["LawConstants", "dynamic_stiffness", "law_constants"]
+
+_STEP = 1e-4  # relative, of the central differences; runs repeat to about 1e-10
+_UNITS = {"mass": "kilograms", "contact_time": "seconds", "impact_speed": "m/s"}
+
+
+def dynamic_stiffness(mass: Any, contact_time: Any) -> "UFloat":
+    """Return the stiffness that a ball shows in a bounce, k = m (π/τ)².
+
+    Parameters
+    ----------
+    mass : float, UFloat or pair of them
+        The mass in kg of the ball that bounced on a floor; or those of two balls that met, of which
+        the reduced mass ``m1 m2/(m1 + m2)`` counts.
+    contact_time : float or UFloat
+        τ, from touch to release, in s.
+
+    Returns
+    -------
+    UFloat
+        In N/m, with the errors of both.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is not positive and finite.
+    InvalidType
+        If it is no number.
+
+    Notes
+    -----
+    Half a period of a mass on a linear spring: R. Cross, Am. J. Phys. 75, 1009 (2007), section III.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> print(dynamic_stiffness(ufloat(0.101, 0.0005), ufloat(4.3e-3, 0.1e-3)))  # Table I's B1
+    (5.39+/-0.25)e+04
+    """
+    time = measured("contact_time", contact_time, _UNITS["contact_time"])
+    k: UFloat = _moving(mass) * (math.pi / time) ** 2
+    return k
+
+
+@dataclass(frozen=True)
+class LawConstants:
+    """A contact law with the errors of its constants.
+
+    Parameters
+    ----------
+    law : ContactLaw
+        With the nominal values.
+    constants : mapping of str to UFloat
+        Its constants by their names, in SI units; correlated with each other and with what was
+        measured.
+    given : mapping of str to UFloat
+        What it was made of, by the names of the arguments of `law_constants`.
+    """
+
+    law: ContactLaw
+    constants: "Mapping[str, UFloat]"
+    given: "Mapping[str, UFloat]"
+
+    def rows(self) -> list[Row]:
+        """Return the constants as rows of a table."""
+        units = self.law.units()
+        head = Row("law", type(self.law).__name__)
+        return [head, *(Row(n.replace("_", " "), v, units[n]) for n, v in self.constants.items())]
+
+    def all_rows(self) -> list[Row]:
+        """Return the constants and, after them, what they were made of."""
+        units = {"mass": "kg", "contact_time": "s", "impact_speed": "m/s"}
+        made_of = self.given.items()
+        return [
+            *self.rows(),
+            *(Row(f"from {n.replace('_', ' ')}", v, units.get(n, "")) for n, v in made_of),
+        ]
+
+    def parts(self) -> dict[str, object]:
+        """Return the contact with its nominal values, as a drop's TOML has it."""
+        return {"contact": self.law.to_mapping()}
+
+
+def law_constants(
+    law: type[ContactLaw] | str,
+    *,
+    mass: Any = None,
+    contact_time: Any = None,
+    restitution: Any = None,
+    impact_speed: Any = None,
+    exponent: Any = None,
+) -> LawConstants:
+    """Return the law of a class that has a measured contact time and restitution, with errors.
+
+    Parameters
+    ----------
+    law : type or str
+        The law's class or its name, such as ``"HuntCrossley"``.
+    mass : float, UFloat or pair of them, optional
+        The mass in kg of the ball that bounced on a floor, or those of two balls that met.
+    contact_time : float or UFloat, optional
+        From touch to release, in s.
+    restitution : float or UFloat, optional
+        The ratio of the relative speeds after and before.
+    impact_speed : float or UFloat, optional
+        The relative speed in m/s at which it was measured.
+    exponent : float or UFloat, optional
+        p of the law, where the class leaves it open.
+
+    Returns
+    -------
+    LawConstants
+
+    Raises
+    ------
+    InvalidValue, InvalidType
+        As `stackbounce.calibrate`, which finds the law.
+
+    Notes
+    -----
+    To first order in the errors, with central differences of `calibrate` in each number that has
+    one; one-sided where the range of a number ends.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> found = law_constants(
+    ...     "Dashpot",
+    ...     mass=ufloat(0.057, 0.0005),
+    ...     contact_time=ufloat(5e-3, 0.1e-3),
+    ...     restitution=ufloat(0.75, 0.02),
+    ... )
+    >>> for row in found.rows():
+    ...     print(f"{row.name}: {row.value} {row.unit}".rstrip())
+    law: Dashpot
+    stiffness: (2.00+/-0.08)e+04 N/m
+    damping: 6.6+/-0.6 N s/m
+    """
+    kind = law_named(law) if isinstance(law, str) else law
+    given = {
+        "mass": None if mass is None else _moving(mass),
+        "contact_time": contact_time,
+        "restitution": restitution,
+        "impact_speed": impact_speed,
+        "exponent": exponent,
+    }
+    sources: dict[str, UFloat] = {}
+    for name, value in given.items():
+        if value is not None:
+            sources[name] = measured(name, value, _UNITS.get(name, ""), _checks(kind, name))
+    at = {name: value.nominal_value for name, value in sources.items()}
+    found: Any = calibrate(kind, **at)
+    names = list(found.quantities())  # both of a pair that follow from each other
+    constants: dict[str, Any] = {name: getattr(found, name) for name in names}
+    for name, source in sources.items():
+        if source.std_dev > 0.0:
+            slopes = _slopes(kind, at, name, names)
+            for constant, slope in zip(names, slopes, strict=True):
+                constants[constant] = constants[constant] + slope * (source - source.nominal_value)
+    kept = {name: measured(name, value, "", _any) for name, value in constants.items()}
+    return LawConstants(found, kept, sources)
+
+
+def _moving(mass: Any) -> "UFloat":
+    """Return the mass that moves: one as it is, two reduced."""
+    if not isinstance(mass, tuple | list):
+        return measured("mass", mass, _UNITS["mass"])
+    if len(mass) != 2:
+        raise InvalidValue(f"mass must be a number or a pair of numbers, got {shown(mass)}")
+    one, other = (measured(f"mass.{i}", mass[i], _UNITS["mass"]) for i in (0, 1))
+    both: UFloat = one / (1.0 + one / other)
+    return both
+
+
+def _any(name: str, value: object, of: str) -> float:  # noqa: ARG001
+    return float(value)  # type: ignore[arg-type]
+
+
+def _checks(kind: object, name: str) -> Callable[[str, object, str], float]:
+    """Return what a number must pass before `calibrate` looks at it."""
+    if name == "restitution":
+        zero = getattr(kind, "rigid", False)
+        return lambda name, value, _: fraction(name, value, zero=zero)
+    if name == "exponent":
+        return lambda name, value, _: between(name, value, 1.0, STEEPEST)
+    return positive
+
+
+def _slopes(
+    kind: type[ContactLaw], at: dict[str, float], name: str, names: list[str]
+) -> list[float]:
+    """Return the derivative of each constant by one of the numbers that were measured."""
+    low, high = (at[name] * (1.0 + sign * _STEP) for sign in (-1.0, 1.0))
+    if name == "restitution":
+        high = min(high, 1.0)
+        if high <= low:  # restitution 0
+            high = low + _STEP
+    if name == "exponent":
+        low = max(low, 1.0)
+    try:
+        ends: list[Any] = [calibrate(kind, **(at | {name: value})) for value in (low, high)]
+    except InvalidValue:  # a class without losses, which is told only restitution = 1
+        return [0.0] * len(names)
+    return [(getattr(ends[1], one) - getattr(ends[0], one)) / (high - low) for one in names]

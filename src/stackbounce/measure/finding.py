@@ -1,0 +1,112 @@
+"""The shape that the results of all analyses share."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.quantities import Row
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["Curve", "Finding", "as_ratios", "channels", "force_channels"]
+
+
+class Curve(NamedTuple):
+    """A curve over time, to be drawn: a position, a force or anything else, in SI units."""
+
+    label: str
+    what: str
+    times: NDArray[np.float64]
+    values: NDArray[np.float64]
+    unit: str
+
+
+class Finding:
+    """The result of an analysis.
+
+    Attributes
+    ----------
+    picture : str
+        The module of `stackbounce.plots.measurements` that draws it.
+    notes : tuple of str
+        What a reader of the numbers should know, a sentence each.
+    """
+
+    picture: ClassVar[str] = "numbers"
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[Row]:
+        """Return the quantities that were found, the most important first."""
+        raise NotImplementedError
+
+    def parts(self) -> dict[str, Any]:
+        """Return ball, contact, height and impact speed, as far as known, as in a drop's TOML."""
+        return {}
+
+    def told(self) -> dict[str, Any]:
+        """Return contact time, restitution and impact speed, as `law_constants` takes them."""
+        return {}
+
+    def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
+        """Return what `stackbounce.fit` can use, by the names that it takes."""
+        return {}
+
+    def forces(
+        self,
+        data: "xr.Dataset",  # noqa: ARG002
+        lasting: float,  # noqa: ARG002
+    ) -> "dict[str, xr.DataArray]":
+        """Return the force channels, cut to an impact that lasts so long in s, by their names."""
+        return {}
+
+    def curves(self, data: "xr.Dataset") -> list[Curve] | None:  # noqa: ARG002
+        """Return the curves to lay over a simulated drop; None for the channels as recorded."""
+        return None
+
+    def first_touch(self) -> float | None:
+        """Return when the lowest ball first touches the floor, in s on the record's clock."""
+        return None
+
+
+def as_ratios(values: Iterable[Any]) -> dict[str, str]:
+    """Return rebound ratios with their errors, by the names that a fit takes, lowest ball first.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> as_ratios([ufloat(0.75, 0.02)])
+    {'rebound_ratios.0': '0.75 ± 0.02'}
+    """
+    told = {}
+    for i, value in enumerate(values):
+        error = f" ± {value.std_dev:.2g}" if value.std_dev > 0.0 else ""
+        told[f"rebound_ratios.{i}"] = f"{value.nominal_value:.6g}{error}"
+    return told
+
+
+def force_channels(data: "xr.Dataset") -> list[str]:
+    """Return the names of a record's forces; the first one is the floor's by custom."""
+    return [str(name) for name in data.data_vars if _is_force(str(name))]
+
+
+def channels(data: "xr.Dataset", force: Curve | None = None) -> list[Curve]:
+    """Return a record's channels over time; `force` takes the place of the first if that is one."""
+    curves: list[Curve] = []
+    for key, channel in data.data_vars.items():
+        name = str(key)
+        if channel.dims != ("time",):
+            continue
+        if force is not None and _is_force(name) and not curves:
+            curves.append(force._replace(label=name))
+            continue
+        what = "force" if _is_force(name) else "other"
+        unit = str(channel.attrs.get("units", ""))
+        curves.append(Curve(name, what, data["time"].values, channel.values, unit))
+    return curves
+
+
+def _is_force(name: str) -> bool:
+    return name.split("_", maxsplit=1)[0] in ("force", "voltage")

@@ -1,0 +1,30 @@
+"""Acceleration as a kind of measurement."""
+
+from typing import TYPE_CHECKING
+
+from stackbounce.measure.kind import Kind
+from stackbounce.model.drop import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from stackbounce.measure.kinds.acceleration.result import Accelerometer
+
+__all__ = ["ACCELERATION"]
+
+
+def _analyse(
+    data: "xr.Dataset", *, gravity: float = STANDARD_GRAVITY
+) -> "tuple[Accelerometer, ...]":
+    from stackbounce.measure.kinds.acceleration.analysis import accelerometer
+
+    return (accelerometer(data, gravity=gravity),)
+
+
+_AXES = ("acceleration", "acceleration_absolute", "acceleration_z", "acceleration_y")
+ACCELERATION = Kind(
+    "acceleration",
+    "drop height, restitution, contact times of fast sensors",
+    _analyse,
+    columns=(("time",), (*_AXES, "acceleration_x")),
+)

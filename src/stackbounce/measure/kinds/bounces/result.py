@@ -1,0 +1,104 @@
+"""What the times of bounces tell."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from stackbounce.measure.finding import Finding, as_ratios
+from stackbounce.measure.kinds.bounces.restitution_law import RestitutionLaw
+from stackbounce.measure.quantities import Row
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from uncertainties import UFloat
+
+
+__all__ = ["Bounces"]
+
+
+@dataclass(frozen=True)
+class Bounces(Finding):
+    """Restitutions from the times of bounces; made by `bounces`.
+
+    Attributes
+    ----------
+    times : tuple of ufloat
+        Of the bounces, in s.
+    flights : tuple of (ufloat or None)
+        Time in the air between neighbouring bounces, in s; None where a bounce is missing.
+    numbers : tuple of int
+        Which bounces have a restitution; the first one is 0.
+    impact_speeds : tuple of ufloat
+        Of these bounces, in m/s.
+    restitutions : tuple of ufloat
+        Of these bounces. Neighbours share a flight, so their errors are correlated.
+    mean : ufloat
+        Their weighted mean, which supposes that restitution does not depend on speed.
+    laws : tuple of RestitutionLaw
+        The fits of its fall with speed, a line and a power law; empty for fewer than three
+        restitutions.
+    drop_height : ufloat or float or None
+        In m, as given or inferred.
+    inferred : bool
+        Whether the drop height is inferred from the mean energy kept, as phyphox does.
+    scatter : float
+        Excess scatter of the restitutions: standard deviation from bounce to bounce beyond the
+        errors of the times.
+    gravity : float
+        In m/s**2.
+    notes : tuple of str
+        What a reader of the numbers should know, a sentence each.
+    """
+
+    picture: ClassVar[str] = "bounces"
+
+    times: "tuple[UFloat, ...]"
+    flights: "tuple[UFloat | None, ...]"
+    numbers: tuple[int, ...]
+    impact_speeds: "tuple[UFloat, ...]"
+    restitutions: "tuple[UFloat, ...]"
+    mean: "UFloat"
+    laws: tuple[RestitutionLaw, ...]
+    drop_height: "UFloat | float | None"
+    inferred: bool
+    scatter: float
+    gravity: float
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = [Row("restitution, mean", self.mean)]
+        for law in self.laws:
+            at, unit = ("0", "s/m") if law.form == "linear" else ("1 m/s", "")
+            name = "its fall per m/s" if law.form == "linear" else "exponent of its fall"
+            rows.append(Row(f"restitution at {at} ({law.form})", law.coefficient))
+            rows.append(Row(f"{name} ({law.form})", law.slope, unit))
+        if self.drop_height is not None:
+            how = "inferred from the mean energy kept" if self.inferred else "given"
+            rows.append(Row(f"drop height, {how}", self.drop_height, "m"))
+        for number, speed, kept in zip(
+            self.numbers, self.impact_speeds, self.restitutions, strict=True
+        ):
+            rows.append(Row(f"impact speed of bounce {number}", speed, "m/s"))
+            rows.append(Row(f"restitution of bounce {number}", kept))
+        if self.scatter:
+            rows.append(Row("scatter of restitution from bounce to bounce", self.scatter))
+        return rows
+
+    def parts(self) -> dict[str, Any]:
+        """Return the floor's contact and, if it is known, the drop height, as in a drop's TOML."""
+        kept = min(float(self.mean.nominal_value), 1.0)
+        parts: dict[str, Any] = {"contact": {"law": "Rigid", "restitution": kept}}
+        if self.drop_height is not None:
+            parts["height"] = float(getattr(self.drop_height, "nominal_value", self.drop_height))
+        return parts
+
+    def told(self) -> dict[str, Any]:
+        """Return the mean restitution, and the impact speed that a given drop height tells."""
+        told: dict[str, Any] = {"restitution": self.mean}
+        if self.drop_height is not None and not self.inferred:
+            told["impact_speed"] = (2.0 * self.gravity * self.drop_height) ** 0.5
+        return told
+
+    def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
+        """Return the first bounce's restitution, which is the ball's rebound ratio."""
+        return as_ratios(self.restitutions[:1])

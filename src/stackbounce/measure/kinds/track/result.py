@@ -1,0 +1,152 @@
+"""What was found in a track."""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.finding import Curve, Finding, as_ratios
+from stackbounce.measure.kinds.track.flights import Flights
+from stackbounce.measure.kinds.track.time_base import TimeBase
+from stackbounce.measure.quantities import Row
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from uncertainties import UFloat
+
+
+__all__ = ["Track", "Tracks"]
+
+
+@dataclass(frozen=True)
+class Track:
+    """One ball's flights and bounces.
+
+    Attributes
+    ----------
+    name : str
+        Of the ball.
+    impact_times : tuple of ufloat
+        When the parabolas before and after each bounce meet, in s.
+    levels : tuple of ufloat
+        How high that is, in m, as tracked.
+    impact_speeds, rebound_speeds : tuple of ufloat
+        Before and after each bounce, in m/s; a rebound speed is up-positive.
+    drop_height : ufloat
+        Above the level of the first bounce, in m, of a fall from rest.
+    apex_heights : tuple of ufloat
+        Above the level of the bounce before, in m.
+    restitutions : tuple of ufloat
+        Of each bounce: rebound over impact speed.
+    gravity : ufloat
+        Of the flights, as tracked, in m/s².
+    times, heights : ndarray
+        (N,) of the points, in s and m, up-positive.
+    fit : Flights
+        The parabolas.
+    bounces : tuple of int
+        After which flights it bounces.
+    notes : tuple of str
+        What a reader of the numbers should know, a sentence each.
+    """
+
+    name: str
+    impact_times: "tuple[UFloat, ...]"
+    levels: "tuple[UFloat, ...]"
+    impact_speeds: "tuple[UFloat, ...]"
+    rebound_speeds: "tuple[UFloat, ...]"
+    drop_height: "UFloat"
+    apex_heights: "tuple[UFloat, ...]"
+    restitutions: "tuple[UFloat, ...]"
+    gravity: "UFloat"
+    times: NDArray[np.float64]
+    heights: NDArray[np.float64]
+    fit: Flights
+    bounces: tuple[int, ...]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Tracks(Finding):
+    """The drop and the bounces of one ball or more; made by `track`.
+
+    Attributes
+    ----------
+    balls : tuple of Track
+        The lowest ball first.
+    rebound_ratios : tuple of ufloat
+        Of a stacked drop: each ball's rebound speed over the lowest one's impact speed; empty for
+        one ball, or where the balls do not bounce together.
+    first_impact : ufloat
+        When the lowest ball first bounces, in s.
+    time_base : TimeBase
+        The track's clock and ruler, checked against gravity.
+    axis : str
+        The one that is up: x, y, -x or -y.
+    tilt : float
+        Angle between this axis and the vertical, in radians; corrected where it was found.
+    notes : tuple of str
+        What a reader of the numbers should know, a sentence each.
+    """
+
+    picture: ClassVar[str] = "track"
+
+    balls: tuple[Track, ...]
+    rebound_ratios: "tuple[UFloat, ...]"
+    first_impact: "UFloat"
+    time_base: TimeBase
+    axis: str
+    tilt: float
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = []
+        for ball, ratio in zip(self.balls, self.rebound_ratios, strict=False):
+            rows.append(Row(f"{ball.name}: rebound ratio", ratio))
+        for ball in self.balls:
+            of = f"{ball.name}: " if len(self.balls) > 1 else ""
+            rows.append(Row(f"{of}drop height", ball.drop_height, "m"))
+            for k in range(len(ball.impact_times)):
+                bounce = f" of bounce {k}" if len(ball.impact_times) > 1 else ""
+                rows.append(Row(f"{of}impact speed{bounce}", ball.impact_speeds[k], "m/s"))
+                rows.append(Row(f"{of}rebound speed{bounce}", ball.rebound_speeds[k], "m/s"))
+                if k > 0 or not self.rebound_ratios:  # what struck another ball, too, has none
+                    rows.append(Row(f"{of}restitution{bounce}", ball.restitutions[k]))
+                after = bounce.replace(" of", " after")
+                rows.append(Row(f"{of}apex height{after}", ball.apex_heights[k], "m"))
+                rows.append(Row(f"{of}time{bounce}", ball.impact_times[k], "s"))
+        rows.append(Row("gravity of the flights", self.time_base.gravity, "m/s^2"))
+        return rows
+
+    def parts(self) -> dict[str, Any]:
+        """Return impact speed and, of a single ball, the floor's contact, as in a drop's TOML."""
+        ball = self.balls[0]
+        parts: dict[str, Any] = {"impact_speed": float(ball.impact_speeds[0].nominal_value)}
+        kept = float(ball.restitutions[0].nominal_value)
+        if len(self.balls) == 1 and 0.0 <= kept <= 1.0:
+            parts["contact"] = {"law": "Rigid", "restitution": kept}
+        return parts
+
+    def told(self) -> dict[str, Any]:
+        """Return the first impact speed and, of a single ball, the restitution of that bounce."""
+        ball = self.balls[0]
+        told = {"impact_speed": ball.impact_speeds[0]}
+        return told | ({"restitution": ball.restitutions[0]} if len(self.balls) == 1 else {})
+
+    def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
+        """Return the rebound ratios of a stacked drop, or that of the lowest ball alone."""
+        return as_ratios(self.rebound_ratios or self.balls[0].restitutions[:1])
+
+    def curves(self, data: "xr.Dataset") -> list[Curve]:  # noqa: ARG002
+        """Return each ball's height above where it first bounces."""
+        return [
+            Curve(ball.name, "position", ball.times, height, "m")
+            for ball in self.balls
+            for height in [ball.heights - ball.levels[0].nominal_value]
+        ]
+
+    def first_touch(self) -> float:
+        """Return when the lowest ball first bounces, in s."""
+        return float(self.first_impact.nominal_value)

@@ -1,0 +1,265 @@
+"""The gap between two falling balls, from the delay between floor contact and ball contact.
+
+When the lower ball touches the floor the upper one is a gap above it and falls on at the impact
+speed. They touch when it has fallen the gap and what the lower ball went down meanwhile:
+
+    gap(t) = v0 t + q(t),
+
+where q is the lower ball's displacement, up-positive, as it bounces alone: on a linear spring
+``-(v0/ω) sin ω t`` until it leaves the floor at ``π/ω``, and upward flight afterwards.
+"""
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.errors import InvalidValue, fraction, shown
+from stackbounce.measure.kinds.waveform.analysis import waveform
+from stackbounce.measure.kinds.waveform.result import Waveform
+from stackbounce.measure.kinds.waveform.sensor import known
+from stackbounce.measure.quantities import known_to
+from stackbounce.model import Ball, Drop
+from stackbounce.run.driver import simulate
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+    from stackbounce.model.laws import ContactLaw
+
+__all__ = ["delay", "delay_from_gap", "gap_from_delay"]
+
+_STEP = 1e-4  # relative, of a difference quotient
+_TURNS = 200
+
+
+def gap_from_delay(
+    delay: Any,
+    impact_speed: Any,
+    *,
+    mass: Any = None,
+    stiffness: Any = None,
+    contact_time: Any = None,
+    contact: "ContactLaw | None" = None,
+    restitution: float = 1.0,
+) -> "UFloat":
+    """Return the gap that makes two falling balls touch so long after the lower one's landing.
+
+    How the lower ball bounces alone is told by exactly one of `contact_time`, `stiffness` (with
+    `mass`) and `contact` (with `mass` unless it is `Rigid`).
+
+    Parameters
+    ----------
+    delay : float or UFloat
+        From the floor's first touch to that of the balls, in s.
+    impact_speed : float or UFloat
+        In m/s, of both balls.
+    mass : float or UFloat, optional
+        Of the lower ball in kg.
+    stiffness : float or UFloat, optional
+        Of its contact with the floor, a linear spring, in N/m.
+    contact_time : float or UFloat, optional
+        The time in s that the lower ball alone is on the floor, as on a linear spring.
+    contact : ContactLaw, optional
+        Any law of its contact with the floor; the single ball is simulated.
+    restitution : float, optional
+        At what share of the impact speed the ball leaves, where `contact_time` or `stiffness` is
+        given; while it is on the floor it moves as without loss. Default 1.
+
+    Returns
+    -------
+    UFloat
+        In m; its error follows from those of all that was given.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is out of its range, or not one way to bounce is given.
+    InvalidType
+        If something has the wrong type.
+
+    Examples
+    --------
+    The paper's superball B2 on B1: a fall of 20 cm, 4.3 ms of contact, 2 ms of delay.
+
+    >>> from uncertainties import ufloat
+    >>> gap = gap_from_delay(ufloat(2e-3, 0.5e-3), 1.98, contact_time=ufloat(4.3e-3, 0.1e-3))
+    >>> print(f"{gap * 1e3:.1uS} mm")
+    1.3(9) mm
+    """
+    t, v, spring = _checked("delay", delay, impact_speed, mass, stiffness, contact_time, contact)
+    fraction("restitution", restitution)
+    if contact is not None:
+        return _through(lambda *one: _simulated_gap(contact, *one), t, v, known("mass", mass))
+    return _through(lambda a, b, c: _spring_gap(a, b, c, restitution), t, v, spring)
+
+
+def delay_from_gap(
+    gap: Any,
+    impact_speed: Any,
+    *,
+    mass: Any = None,
+    stiffness: Any = None,
+    contact_time: Any = None,
+    contact: "ContactLaw | None" = None,
+    restitution: float = 1.0,
+) -> "UFloat":
+    """Return how long after the lower ball's landing two balls touch that fall a gap apart.
+
+    `gap_from_delay` turned round; everything else is as there.
+
+    Parameters
+    ----------
+    gap : float or UFloat
+        In m, above 0.
+    impact_speed, mass, stiffness, contact_time, contact, restitution : optional
+        See `gap_from_delay`.
+
+    Returns
+    -------
+    UFloat
+        In s.
+
+    Raises
+    ------
+    InvalidValue
+        As in `gap_from_delay`, or if they never touch.
+    InvalidType
+        If something has the wrong type.
+
+    Examples
+    --------
+    >>> print(f"{delay_from_gap(1e-3, 1.98, contact_time=4.3e-3) * 1e3:.2f} ms")
+    1.84+/-0 ms
+    """
+    d, v, spring = _checked("gap", gap, impact_speed, mass, stiffness, contact_time, contact)
+    fraction("restitution", restitution)
+    if contact is not None:
+        return _through(
+            lambda a, b, c: _inverted(lambda t: _simulated_gap(contact, t, b, c), a, b),
+            d,
+            v,
+            known("mass", mass),
+        )
+    return _through(
+        lambda a, b, c: _inverted(lambda t: _spring_gap(t, b, c, restitution), a, b), d, v, spring
+    )
+
+
+def delay(floor: Any, balls: Any) -> "UFloat":
+    """Return the time from the floor's first touch to that of the balls, from two channels.
+
+    Parameters
+    ----------
+    floor, balls : Waveform or what `waveform` takes
+        The two channels of one record, on one clock, or what was found in them: a sensor under the
+        lower ball, and one between the balls.
+
+    Returns
+    -------
+    UFloat
+        In s; negative if the balls touched first.
+
+    Raises
+    ------
+    InvalidValue
+        If a channel shows no contact, begins within one, or holds no waveform.
+    InvalidType
+        If it is none.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.synthetic.waveform import waveform as record_of
+    >>> balls, laws = [sb.Ball(0.101), sb.Ball(0.0248)], [sb.Spring(5.6e4), sb.Spring(1.6e4)]
+    >>> drop = sb.Drop(balls, laws, gaps=[1e-3], height=0.2)
+    >>> record = record_of(drop, rate=1e5, noise=0.5, contacts=[0, 1], seed=1)
+    >>> later = delay(record[["force"]], record[["force_2"]])
+    >>> round(later.nominal_value * 1e3, 1), float(sb.simulate(drop).first_touch[1].round(4)) * 1e3
+    (1.8, 1.8)
+    """
+    starts = []
+    for name, data in (("floor", floor), ("balls", balls)):
+        one = data if isinstance(data, Waveform) else waveform(data)
+        if not one.contacts:
+            raise InvalidValue(f"{name} must show a contact, got none: {'; '.join(one.notes)}")
+        if one.contacts[0].start is None:
+            raise InvalidValue(f"{name} must begin before the touch, got a record that does not")
+        starts.append(one.contacts[0].start)
+    return starts[1] - starts[0]
+
+
+def _checked(
+    name: str,
+    value: Any,
+    speed: Any,
+    mass: Any,
+    stiffness: Any,
+    contact_time: Any,
+    contact: Any,
+) -> tuple[Any, Any, Any]:
+    """Return what was given, with its errors, and the contact time on a spring."""
+    ways = {"stiffness": stiffness, "contact_time": contact_time, "contact": contact}
+    given = [way for way, one in ways.items() if one is not None]
+    if len(given) != 1:
+        raise InvalidValue(
+            f"exactly one of stiffness, contact_time and contact must be given, got "
+            f"{', '.join(given) or 'none'}"
+        )
+    m = known("mass", mass, "kilograms")
+    if m is None and (
+        stiffness is not None or (contact is not None and not getattr(contact, "rigid", False))
+    ):
+        raise InvalidValue(f"mass must be given with {given[0]}, got {shown(mass)}")
+    k, tau = known("stiffness", stiffness, "N/m"), known("contact_time", contact_time, "seconds")
+    if k is not None and m is not None:
+        tau = math.pi * (m / k) ** 0.5
+    return known(name, value), known("impact_speed", speed, "m/s"), tau
+
+
+def _spring_gap(t: float, v: float, tau: float, e: float) -> float:
+    """Return v0 t + q(t) of a ball on a linear spring, which then flies up at e v0."""
+    if t <= tau:
+        return v * (t - tau / math.pi * math.sin(math.pi * t / tau))
+    return v * (t + e * (t - tau))
+
+
+def _simulated_gap(contact: Any, t: float, v: float, mass: float | None) -> float:
+    """Return v0 t + q(t) of a ball on any law."""
+    single = simulate(Drop([Ball(1.0 if mass is None else mass)], [contact], impact_speed=v))
+    return v * t + float(single.sample([t]).position.values[0, 0])
+
+
+def _inverted(gap_of: Callable[[float], float], gap: float, v: Any) -> float:
+    """Return when the gap is closed: it grows with the delay all the time."""
+    high = float(gap / v)
+    for _ in range(_TURNS):
+        if gap_of(high) >= gap:
+            break
+        high *= 2.0
+    else:
+        raise InvalidValue(f"gap must be one that closes, got {gap:g}")
+    from scipy.optimize import brentq
+
+    return float(brentq(lambda t: gap_of(t) - gap, 0.0, high, xtol=1e-15 * high, rtol=1e-13))
+
+
+def _through(function: Callable[..., float], *given: Any) -> "UFloat":
+    """Return a function of numbers with errors, to first order, by difference quotients.
+
+    Where a quotient on both sides differs, as at a corner, their mean is taken.
+    """
+    from uncertainties import UFloat, nominal_value
+
+    values: list[Any] = [None if one is None else nominal_value(one) for one in given]
+    result = function(*values)
+    total: Any = result
+    for k, one in enumerate(given):
+        if isinstance(one, UFloat) and one.std_dev > 0.0:
+            step = min(max(_STEP * abs(values[k]), 1e-3 * one.std_dev), 0.1 * abs(values[k]))
+            ends = []
+            for side in (step, -step):
+                moved = list(values)
+                moved[k] = values[k] + side
+                ends.append(function(*moved))
+            total = total + (ends[0] - ends[1]) / (2.0 * step) * (one - values[k])
+    return total if isinstance(total, UFloat) else known_to(result, 0.0)

@@ -1,0 +1,229 @@
+"""The gap between two falling balls from the force on the floor, with and without the upper one."""
+
+import math
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue, fraction
+from stackbounce.measure.kinds.waveform.analysis import waveform
+from stackbounce.measure.kinds.waveform.gap.result import FloorGap
+from stackbounce.measure.kinds.waveform.result import Contact, Waveform
+from stackbounce.measure.quantities import measured
+from stackbounce.measure.statistics.change_point import Kink, find_kink
+from stackbounce.model.drop import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    pass
+
+__all__ = ["floor_gap"]
+
+_UNKNOWN = (0.75, 0.144)  # restitution: anything from 0.5 to 1
+_SAME = 0.04  # relative, by which two drops from one height may differ
+_EARLY, _LATE = 0.33, 0.6  # of the contact time alone: a kink at which balls that touch from the
+# start may show, and from when on a second ball may stay unseen
+_NEXT = 8.0  # contact times within which a second contact belongs to the same impact
+
+
+def floor_gap(
+    stack: Any,
+    alone: Any,
+    *,
+    mass: Any = None,
+    impact_speed: Any = None,
+    restitution: Any = None,
+    time_constant: float | None = None,
+) -> FloorGap:
+    """Return the delay and the gap of two balls by the floor's force under them, and under one.
+
+    One sensor on the floor, two drops from the same height: the lower ball alone, and both. Until
+    the balls touch both forces are the same; where they part the second ball has come. How a ball
+    presses on the floor differs too much from ball to ball for one record to tell: the dent that a
+    second ball makes in it may as well be the first ball's own.
+
+    Parameters
+    ----------
+    stack, alone : Dataset or Waveform
+        The two records, as `read` gives them, or what `waveform` found in them.
+    mass : float or UFloat, optional
+        Of the lower ball in kg: for records in N.
+    impact_speed : float or UFloat, optional
+        In m/s: for records in V, and records in N without a mass.
+    restitution : float or UFloat, optional
+        Of the lower ball alone, where the speed is needed; by default anything from 0.5 to 1.
+    time_constant : float, optional
+        Of a piezo sensor's droop in s, which is then undone.
+
+    Returns
+    -------
+    FloorGap
+
+    Raises
+    ------
+    InvalidValue
+        If a record shows no whole contact, or neither mass nor speed is given as needed.
+    InvalidType
+        If something has the wrong type.
+
+    Notes
+    -----
+    The lower ball's acceleration alone is its force over its mass, or its force times
+    ``v0 (1 + e)`` over its impulse. The upper ball falls on meanwhile, so that the gap is that
+    acceleration integrated twice, from the touch to the kink: no law is needed. A gap that is
+    closed when the lower ball has nearly left the floor is not seen: forces are too small then.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> from stackbounce.synthetic.waveform import waveform as record_of
+    >>> balls, laws = [sb.Ball(0.101), sb.Ball(0.0248)], [sb.Spring(5.6e4), sb.Spring(1.6e4)]
+    >>> both = sb.Drop(balls, laws, gaps=[1e-3], height=0.2)
+    >>> one = sb.Drop(balls[:1], laws[:1], height=0.2)
+    >>> records = [record_of(drop, rate=1e5, noise=0.3, seed=1) for drop in (both, one)]
+    >>> found = floor_gap(*records, mass=0.101)
+    >>> abs(found.gap.nominal_value - 1e-3) < 2.0 * found.gap.std_dev < 1e-3
+    True
+    """
+    both, single = (
+        one if isinstance(one, Waveform) else waveform(one, time_constant=time_constant)
+        for one in (stack, alone)
+    )
+    pressed, free = _first("stack", both), _first("alone", single)
+    touch, touch_alone = (one.start.nominal_value for one in (pressed, free))
+    lasting = free.time.nominal_value
+    times, force = both.times - touch, single.force
+    since = single.times - touch_alone
+    noise = float(np.hypot(both.noise, single.noise * np.sqrt(single.step / both.step)))
+    kink = find_kink(times, both.force, (since, force), noise, lasting)
+    fall = _Fall(since, *_integrals(since, force, lasting), lasting)
+    scale = _scale(single, free, mass, impact_speed, restitution)
+    limits, why = _limits(both, kink, lasting)
+    reach = tuple(scale.nominal_value * fall.of(limit) for limit in limits)
+    delay = gap = None
+    if not why:
+        delay = _ufloat(kink.time, kink.error) - (pressed.start - touch)
+        gap = scale * (fall.of(kink.time) + fall.speed(kink.time) * (delay - kink.time))
+    notes = (*both.notes, *_notes(kink, lasting), *why)
+    return FloorGap(delay, gap, limits, reach, kink.gain, notes, both, single, kink)
+
+
+class _Fall(NamedTuple):
+    """How the lower ball's fall is stopped: force over time, integrated once and twice."""
+
+    times: NDArray[np.float64]
+    once: NDArray[np.float64]
+    twice: NDArray[np.float64]
+    lasting: float
+
+    def speed(self, time: float) -> float:
+        """Return the force integrated once, up to a time in s since the touch."""
+        return float(np.interp(time, self.times, self.once))
+
+    def of(self, time: float) -> float:
+        """Return the force integrated twice, up to a time in s since the touch."""
+        if time <= 0.0 or math.isinf(time):
+            return time
+        flown = max(time - self.lasting, 0.0)
+        down = float(np.interp(time - flown, self.times, self.twice))
+        return down + float(self.once[-1]) * flown
+
+
+def _ufloat(value: float, error: float) -> Any:
+    from uncertainties import ufloat
+
+    return ufloat(value, error)
+
+
+def _first(name: str, found: Waveform) -> Any:
+    contact = found.contacts[0] if found.contacts else None
+    if contact is None or contact.time is None:
+        raise InvalidValue(
+            f"{name} must be the record of a bounce that it holds in full, got "
+            f"{len(found.contacts)} contacts: {'; '.join(found.notes) or 'the first is cut off'}"
+        )
+    return contact
+
+
+def _integrals(
+    since: NDArray[np.float64], force: NDArray[np.float64], lasting: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the force alone, integrated once and twice over time from the touch."""
+    from scipy.integrate import cumulative_trapezoid
+
+    felt = np.where((since > 0.0) & (since < lasting), force, 0.0)
+    once = cumulative_trapezoid(felt, since, initial=0.0)
+    return once, cumulative_trapezoid(once, since, initial=0.0)
+
+
+def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution: Any) -> Any:
+    """Return what makes an acceleration of the force alone."""
+    if mass is not None and alone.unit == "N":
+        return 1.0 / measured("mass", mass, "kilograms")
+    if speed is None:
+        raise InvalidValue(
+            f"impact_speed must be given for a record in {alone.unit or 'no unit'}"
+            + (", or mass" if alone.unit == "N" else "")
+            + ", got None"
+        )
+    v = measured("impact_speed", speed, "m/s")
+    if restitution is not None:
+        e = measured("restitution", restitution, "", lambda name, e, _: fraction(name, e))
+    else:
+        e = _bounce(alone, v)
+    return v * (1.0 + e) / contact.impulse
+
+
+def _bounce(alone: Waveform, speed: Any) -> Any:
+    """Return the restitution by the flight to a second bounce, or what it may be."""
+    if len(alone.contacts) > 1 and alone.contacts[1].start is not None:
+        e = STANDARD_GRAVITY * (alone.contacts[1].start - alone.contacts[0].end) / (2.0 * speed)
+        if 0.0 < e.nominal_value <= 1.0:
+            return e
+    return _ufloat(*_UNKNOWN)
+
+
+def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, float], list[str]]:
+    """Return between which times the balls touched, and why no more can be told, if that is so."""
+    low, high = kink.time - 2.0 * kink.error, kink.time + 2.0 * kink.error
+    if kink.time - kink.error < _EARLY * lasting:
+        why = "balls that touch from the start look like this too: the gap may be 0"
+        return (0.0, high), [f"the forces part early: {why}"]
+    if kink.time > 0.0:
+        return (low, high), []
+    if kink.pressed:
+        why = "the second ball came before the lower one left the floor, too faintly to tell when"
+        return (0.0, lasting), [why]
+    back = _thrown_back(both, lasting)
+    if back is None:
+        why = (
+            "no second ball is seen while the lower one is on the floor: it came too late, or is "
+            "too light for this noise, and the gap cannot be told"
+        )
+        return (0.0, math.inf), [why]
+    why = (
+        "the force is that of the lower ball alone until that leaves the floor, and then it was "
+        "thrown back: the second ball came late, and only limits can be told"
+    )
+    return (_LATE * lasting, back), [why]
+
+
+def _thrown_back(both: Waveform, lasting: float) -> float | None:
+    """Return when the lower ball was pressed on the floor again in the same impact, if it was."""
+    first, *more = both.contacts
+    if not more or first.start is None or more[0].start is None:
+        return None
+    back = (more[0].start - first.start).nominal_value
+    return float(back) if back < _NEXT * lasting else None
+
+
+def _notes(kink: Kink, lasting: float) -> list[str]:
+    notes = []
+    if abs(kink.gain - 1.0) > _SAME:
+        notes.append(
+            f"before the second ball came the force was {kink.gain:.2f} times that of the lower "
+            "ball alone: were both drops from the same height?"
+        )
+    if kink.time > _LATE * lasting:
+        notes.append("the second ball came late in the contact, where little of it is to be seen")
+    return notes

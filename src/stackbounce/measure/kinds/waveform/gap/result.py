@@ -1,0 +1,95 @@
+"""The gap between two balls, as a record tells it."""
+
+import math
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from stackbounce.measure.finding import Finding
+from stackbounce.measure.kinds.waveform.result import Waveform
+from stackbounce.measure.quantities import Row
+from stackbounce.measure.statistics.change_point import Kink
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+
+__all__ = ["FloorGap", "SensorGap"]
+
+
+@dataclass(frozen=True, eq=False)
+class FloorGap(Finding):
+    """The delay and the gap of two balls from the floor's force; made by `floor_gap`.
+
+    Parameters
+    ----------
+    delay : UFloat or None
+        From the floor's first touch to that of the balls, in s; None where only limits are known.
+    gap : UFloat or None
+        Between the balls as they fell, in m; None where only limits are known.
+    delay_limits, gap_limits : (float, float)
+        Limits in s and m: two standard errors each way, or those without a change point.
+    gain : float
+        Ratio of the stack's force to the lower ball's alone, before the balls touch.
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    stack, alone : Waveform
+        The two records.
+    kink : Kink
+        The change point at which the two forces part.
+    """
+
+    picture: ClassVar[str] = "gap"
+
+    delay: "UFloat | None"
+    gap: "UFloat | None"
+    delay_limits: tuple[float, float]
+    gap_limits: tuple[float, float]
+    gain: float
+    notes: tuple[str, ...]
+    stack: Waveform = field(repr=False)
+    alone: Waveform = field(repr=False)
+    kink: Kink = field(repr=False)
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = [
+            Row("gap between the balls", _limited(self.gap, self.gap_limits), "m"),
+            Row("delay of their touch", _limited(self.delay, self.delay_limits), "s"),
+        ]
+        return [*rows, Row("force over that of the ball alone", self.gain)]
+
+
+@dataclass(frozen=True)
+class SensorGap(Finding):
+    """The delay and the gap of two balls from two sensors; made by `sensor_gap`.
+
+    Attributes
+    ----------
+    delay : UFloat
+        From the floor's first touch to that of the balls, in s.
+    gap : UFloat or None
+        Between the balls as they fell, in m; None where speed or contact time are not known.
+    notes : tuple of str
+        What should be known about it, a sentence each.
+    """
+
+    delay: "UFloat"
+    gap: "UFloat | None"
+    notes: tuple[str, ...]
+
+    def rows(self) -> list[Row]:
+        """Return the table, the most important first."""
+        rows = [] if self.gap is None else [Row("gap between the balls", self.gap, "m")]
+        return [*rows, Row("delay of their touch", self.delay, "s")]
+
+
+def _limited(value: Any, limits: tuple[float, float]) -> Any:
+    """Return a value, or its limits as words."""
+    low, high = limits
+    if value is not None:
+        return value
+    if math.isinf(high):
+        return "unknown"
+    if low <= 0.0:
+        return f"below {high:.2g}"
+    return f"{low:.2g} to {high:.2g}"

@@ -1,0 +1,66 @@
+"""Force against time as a kind of measurement."""
+
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.errors import InvalidValue
+from stackbounce.measure.kind import Kind
+from stackbounce.model.drop import STANDARD_GRAVITY
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from stackbounce.measure.finding import Finding
+    from stackbounce.measure.kinds.waveform.gap.result import SensorGap
+
+__all__ = ["WAVEFORM"]
+
+
+def _analyse(
+    data: "xr.Dataset",
+    *,
+    mass: Any = None,
+    contact_time: Any = None,
+    restitution: Any = None,
+    law: Any = None,
+    exponent: float | None = None,
+    height: Any = None,
+    measured_to: Any = "bottom",
+    diameter: Any = None,
+    speed: Any = None,
+    alone: "xr.Dataset | None" = None,
+    time_constant: float | None = None,
+    gravity: float = STANDARD_GRAVITY,
+) -> "tuple[Finding, ...]":
+    """Analyse a force, and the gap between two balls where a second record tells it."""
+    from stackbounce.measure.kinds.heights.analysis import fallen
+    from stackbounce.measure.kinds.waveform.analysis import waveform
+    from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
+
+    height = fallen(height, measured_to, diameter)
+    known: Any = {"time_constant": time_constant, "law": law, "exponent": exponent}
+    one = waveform(data, mass=mass, impact_speed=speed, **known)
+    if speed is None and height is not None:
+        speed = (2.0 * gravity * height) ** 0.5
+    found: tuple[Finding, ...] = (*_by_two_sensors(data, speed, contact_time), one)
+    if alone is None:
+        return found
+    told = {"impact_speed": speed, "restitution": restitution, "time_constant": time_constant}
+    return (*found, floor_gap(one, waveform(alone, **known), mass=mass, **told))
+
+
+def _by_two_sensors(data: "xr.Dataset", speed: Any, contact_time: Any) -> "tuple[SensorGap, ...]":
+    """Return the gap of two balls if the record's second channel feels them touch."""
+    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
+
+    try:
+        return (sensor_gap(data, impact_speed=speed, contact_time=contact_time),)
+    except InvalidValue:  # one channel, or one of something else
+        return ()
+
+
+WAVEFORM = Kind(
+    "waveform",
+    "contacts, contact times, peaks, impulse, stiffness, gaps",
+    _analyse,
+    columns=(("time",), ("force", "voltage")),
+)

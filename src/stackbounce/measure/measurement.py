@@ -1,0 +1,151 @@
+"""A measurement: a file or typed numbers, and what was found there, for every face."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeAlias
+
+from stackbounce.errors import InvalidValue, StackbounceError
+from stackbounce.measure.analysis import analyse
+from stackbounce.measure.finding import Curve, Finding, channels
+from stackbounce.measure.kind import keywords_of
+from stackbounce.measure.kinds import TYPED
+from stackbounce.measure.options import OPTIONS, options_for
+from stackbounce.measure.quantities import Row
+from stackbounce.measure.reading import read, read_content
+
+__all__ = ["File", "Measurement", "measure_file", "measure_numbers", "row_mapping"]
+
+File: TypeAlias = Path | tuple[str, bytes]
+"""A file: its path, or its name and its content."""
+
+
+_TYPED = "numbers of the command line"
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """A file, or typed numbers, and what was found.
+
+    Parameters
+    ----------
+    source : str
+        The file's name, or the options that were typed.
+    told : mapping
+        `format`, `why`, `doubt` and `holds` of what was read.
+    data : xarray.Dataset or None
+        What was read.
+    found : tuple of Finding
+        What was found in it.
+    """
+
+    source: str
+    told: Mapping[str, str]
+    data: Any
+    found: tuple[Finding, ...]
+
+    @property
+    def rows(self) -> list[Row]:
+        """All quantities."""
+        return [row for one in self.found for row in one.rows()]
+
+    @property
+    def notes(self) -> list[str]:
+        """All sentences, each once."""
+        return list(dict.fromkeys(note for one in self.found for note in one.notes))
+
+    @property
+    def measured(self) -> dict[str, str]:
+        """What a fit can use, by the names that it takes."""
+        return {
+            name: value for one in self.found for name, value in one.measured(self.data).items()
+        }
+
+    @property
+    def curves(self) -> list[Curve]:
+        """The curves over time, to be laid over a simulated drop."""
+        own = (one.curves(self.data) for one in self.found)
+        return next((curves for curves in own if curves is not None), None) or channels(self.data)
+
+    @property
+    def first_touch(self) -> float | None:
+        """When the lowest ball first touches the floor, in s on the record's clock."""
+        times = (one.first_touch() for one in self.found)
+        return next((time for time in times if time is not None), None)
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return source, evidence, quantities and notes, for JSON."""
+        rows = [row_mapping(row) for row in self.rows]
+        return {"file": self.source, **self.told, "found": rows, "notes": self.notes}
+
+
+def measure_file(file: File, options: Mapping[str, Any]) -> Measurement:
+    """Read a file and analyse it.
+
+    Parameters
+    ----------
+    file : Path or (str, bytes)
+        Its path, or its name and its content.
+    options : mapping
+        Those of `read` and `analyse`, as `read_options` returns them;
+        `alone` is a file.
+
+    Raises
+    ------
+    StackbounceError
+        If the file cannot be read, or nothing that it should hold is there.
+    """
+    of_reader = options_for("read")
+    reading = {name: value for name, value in options.items() if name in of_reader}
+    own = {name: options[name] for name in options_for("analyse") if name in options}
+    if "alone" in own:
+        own["alone"] = _read(own["alone"], reading)
+    data = _read(file, reading)
+    name = file[0] if isinstance(file, tuple) else str(file)
+    try:
+        found = analyse(data, **own)
+    except StackbounceError as error:
+        raise type(error)(f"{name}: {error}") from error
+    except (ArithmeticError, IndexError, ValueError) as error:
+        raise InvalidValue(f"{name}: its numbers cannot be analysed ({error})") from error
+    told = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
+    return Measurement(name, told, data, found)
+
+
+def _read(file: File, reading: Mapping[str, Any]) -> Any:
+    return read_content(*file, **reading) if isinstance(file, tuple) else read(file, **reading)
+
+
+def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
+    """Return what numbers tell without a file, for each kind that they are enough for."""
+    known = {one.name: one for one in OPTIONS}
+    done = []
+    for kind in TYPED:
+        given = [name for name in kind.starts_with if name in options]
+        if not given or kind.of_numbers is None:
+            continue
+        own = {name: options[name] for name in keywords_of(kind.of_numbers) if name in options}
+        told = {
+            "format": "numbers of the command line",
+            "why": "",
+            "doubt": "",
+            "holds": kind.typed,
+        }
+        source = " ".join(known[name].on_command_line for name in given)
+        done.append(Measurement(source, told, None, (kind.of_numbers(**own),)))
+    return done
+
+
+def row_mapping(row: Row) -> dict[str, Any]:
+    """Return a quantity for JSON, its error apart.
+
+    Examples
+    --------
+    >>> row_mapping(Row("knocks", 7))
+    {'name': 'knocks', 'value': 7, 'error': None, 'unit': ''}
+    """
+    value: Any = row.value
+    error = None
+    if hasattr(value, "nominal_value"):
+        value, error = value.nominal_value, value.std_dev
+    return {"name": row.name, "value": value, "error": error, "unit": row.unit}

@@ -1,0 +1,127 @@
+"""Quantities with errors: how they come in, and how a result lists them."""
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from stackbounce.errors import InvalidValue, non_negative, positive, shown
+from stackbounce.units import quantity
+
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = ["Row", "known_to", "measured", "quantity_with_error"]
+
+
+class Row(NamedTuple):
+    """A quantity that was found: its name, its value (with an error if it has one) and SI unit."""
+
+    name: str
+    value: "UFloat | float | int | str"
+    unit: str = ""
+
+
+def known_to(value: float, error: float) -> "UFloat":
+    """Return a number with an error of its own, which may be 0.
+
+    Examples
+    --------
+    >>> known_to(0.057, 0.001), known_to(0.057, 0.0)
+    (0.057+/-0.001, 0.057+/-0)
+    """
+    from uncertainties import UFloat, ufloat
+    from uncertainties.core import LinearCombination
+
+    # ufloat warns of an error of 0
+    return ufloat(value, error) if error > 0.0 else UFloat(value, LinearCombination({}))
+
+
+def measured(
+    name: str,
+    value: object,
+    of: str = "",
+    check: Callable[[str, object, str], float] = positive,
+) -> "UFloat":
+    """Return a number, or a number with an error, as one with an error (0 if it has none).
+
+    Parameters
+    ----------
+    name : str
+        What it is called; messages begin with it.
+    value : float or UFloat
+        What came in. One with an error stays the same variable, so that correlations live on.
+    of : str, optional
+        The unit in words, for the message.
+    check : callable, optional
+        What its nominal value must pass: by default `stackbounce.errors.positive`.
+
+    Returns
+    -------
+    UFloat
+
+    Raises
+    ------
+    InvalidType
+        If it is no number.
+    InvalidValue
+        If its nominal value is out of range, or its error not finite.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> measured("mass", 0.057), measured("mass", ufloat(0.057, 0.001))
+    (0.057+/-0, 0.057+/-0.001)
+    """
+    from uncertainties import UFloat
+
+    known: Any = value
+    if not isinstance(value, UFloat):
+        return known_to(check(name, value, of), 0.0)
+    check(name, known.nominal_value, of)
+    try:
+        non_negative(name, known.std_dev)
+    except InvalidValue:
+        raise InvalidValue(f"{name} must have a finite error, got {shown(value)}") from None
+    return known
+
+
+def quantity_with_error(text: str, unit: str, name: str) -> "float | UFloat":
+    """Return a number with a unit and, where it is told, an error: ``"57.0 ± 0.5 g"``.
+
+    Parameters
+    ----------
+    text : str
+        A number, with ``±`` or ``+/-`` and its error after it or not, and a unit or none, which is
+        that of both.
+    unit : str
+        The SI unit that is wanted.
+    name : str
+        What it is called; messages begin with it.
+
+    Returns
+    -------
+    float or UFloat
+        In `unit`; a float where no error is told.
+
+    Raises
+    ------
+    InvalidValue
+        If a number is not finite, or the error not above 0.
+    UnitError
+        If it cannot be read, or the unit is unknown or does not fit.
+
+    Examples
+    --------
+    >>> quantity_with_error("57 g", "kg", "mass"), quantity_with_error("(57.0 ± 0.5) g", "kg", "m")
+    (0.057, 0.057+/-0.0005)
+    """
+    from uncertainties import ufloat
+
+    value, sign, error = text.replace("+/-", "±").partition("±")
+    if not sign:
+        return quantity(text, unit, name)
+    value, error = value.strip(" ("), error.replace(")", " ").strip()
+    if not re.search(r"[^-+.\deE]", value):
+        value += re.sub(r"^[-+.\deE]+", "", error)
+    wide = positive(f"{name}'s error", quantity(error, unit, name))
+    return ufloat(quantity(value, unit, name), wide)

@@ -1,0 +1,34 @@
+"""Tracker: positions of marks in a video."""
+
+from stackbounce.measure.reading.headings import Heading
+from stackbounce.measure.reading.layouts import Layout, first_row, layout
+from stackbounce.measure.reading.roles import column
+from stackbounce.measure.reading.text import Text
+
+
+@layout
+def tracker(text: Text) -> Layout | None:
+    """Tracker: ``#multi:`` over the tracks' names, or one track's name over ``t``, ``x``, ``y``."""
+    head = text.head
+    multi = bool(head[0]) and head[0][0].startswith("#multi:")
+    at = 2 if multi else 1
+    if len(head) <= at or not head[at] or head[at][0] != "t" or not {"x", "y"} & set(head[at]):
+        return None
+    above = head[at - 1]
+    names = [cell for cell in above if cell]
+    if not multi and (len(names) != 1 or not above[0]):
+        return None
+    columns, track = [column(0, Heading("t", "t", "s"), "time")], names[0] if names else ""
+    for k, cell in enumerate(head[at][1:], 1):
+        if multi and k < len(above) and above[k]:
+            track = above[k]
+        if cell:
+            role = cell if cell in ("x", "y") else ""
+            columns.append(column(k, Heading(cell, cell), role, track))
+    told = "its line '#multi:'" if multi else "the name of a track"
+    return Layout(
+        "Tracker",
+        f"{told} over the columns t, x, y is how Tracker exports data",
+        tuple(columns),
+        first_row(text, at + 1),
+    )

@@ -1,0 +1,90 @@
+"""One ball on a power law without loss: it gives the units of length and time for all other laws.
+
+A collision at speed v compresses ``F = k c**p`` to its peak C at most, and C/v is the unit in which
+the laws give contact times.
+"""
+
+import math
+from collections.abc import Mapping
+
+__all__ = ["duration", "hysteretic_duration", "measured_stiffness", "peak_compression"]
+
+
+def duration(p: float) -> float:
+    """Return the contact time, in units of C/v: π for a linear spring.
+
+    Parameters
+    ----------
+    p : float
+        The exponent, 1 or above.
+
+    Returns
+    -------
+    float
+        ``2 sqrt(π) Γ(1 + 1/(p + 1)) / Γ(1/2 + 1/(p + 1))``.
+
+    Notes
+    -----
+    Source, for p = 3/2: L. D. Landau and E. M. Lifshitz, Theory of Elasticity, section 9,
+    problem 1.
+
+    Examples
+    --------
+    >>> [round(duration(p), 6) for p in (1.0, 1.5, 2.0)]
+    [3.141593, 2.943275, 2.804364]
+    """
+    share = 1.0 / (p + 1.0)
+    return 2.0 * math.sqrt(math.pi) * math.gamma(1.0 + share) / math.gamma(0.5 + share)
+
+
+def hysteretic_duration(p: float, n: float, e: float) -> float:
+    """Return the contact time, in units of C/v, that loads with exponent p and unloads with n.
+
+    Half of it is spent as without loss; the other half as if the ball had come at e v.
+
+    Examples
+    --------
+    >>> round(hysteretic_duration(1.0, 7.0, 0.5), 6), round(hysteretic_duration(1.0, 1.0, 1.0), 6)
+    (3.897981, 3.141593)
+    """
+    return 0.5 * duration(p) + 0.5 * duration(n) / e
+
+
+def peak_compression(k: float, p: float, mass: float, speed: float) -> float:
+    """Return C in m, at which the contact holds the whole energy: ``k C**(p+1)/(p+1) = m v**2/2``.
+
+    Examples
+    --------
+    >>> peak_compression(400.0, 1.0, 1.0, 2.0)
+    0.1
+    """
+    share = 1.0 / (p + 1.0)
+    peak: float = (0.5 * (p + 1.0) * mass) ** share / k**share * speed ** (2.0 * share)
+    return peak
+
+
+def measured_stiffness(given: Mapping[str, float], duration: float) -> float:
+    """Return k in N/m**p of a contact that takes `duration` in units of C/v.
+
+    Parameters
+    ----------
+    given : mapping of str to float
+        ``mass`` in kg, ``contact_time`` in s, ``impact_speed`` in m/s and ``exponent``.
+    duration : float
+        The measured contact time in units of C/v.
+
+    Raises
+    ------
+    ArithmeticError
+        If it is out of the range of numbers.
+
+    Examples
+    --------
+    >>> given = {"mass": 1.0, "contact_time": 0.1, "impact_speed": 2.0, "exponent": 1.0}
+    >>> round(measured_stiffness(given, 2.0), 9)  # C is 0.1 m
+    400.0
+    """
+    p, speed = given["exponent"], given["impact_speed"]
+    peak = given["contact_time"] * speed / duration
+    k: float = 0.5 * (p + 1.0) * given["mass"] * (speed / peak) ** 2 / peak ** (p - 1.0)
+    return k

@@ -1,0 +1,171 @@
+"""A linear spring and a dashpot, and one ball on them in closed form.
+
+With ``ω0**2 = k/m`` and the damping ratio ``ζ = b/(2 m ω0)`` the compression is
+``c = (v/ω) exp(-ζ ω0 t) sin(ω t)``, ``ω = ω0 sqrt(1 - ζ**2)``. The force is back at zero where
+``tan(ω T) = -2 ζ ω0 ω/(ω**2 - ζ**2 ω0**2)``, that is ``ω T = 2 acos(ζ)``, and there ``ċ`` is
+``-v exp(-ζ ω0 T)``. So
+
+``ω0 T = 2 acos(ζ)/sqrt(1 - ζ**2)``,  ``e = exp(-2 ζ acos(ζ)/sqrt(1 - ζ**2))``,
+
+which are analytic in ζ through the critical 1, where they are 2 and exp(-2), and go on with
+``acosh(ζ)/sqrt(ζ**2 - 1)``: an overdamped ball leaves, too, at ``(2 ζ)**-2`` for large ζ.
+
+Source: T. Schwager and T. Pöschel, Granular Matter 9, 465 (2007), with
+``acos(ζ)`` for their arcs of tangents.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Self
+
+from stackbounce.engine import codes
+from stackbounce.errors import non_negative
+from stackbounce.model.collision import elastic
+from stackbounce.model.collision.roots import root
+from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given, Quantity, stiffness_in
+from stackbounce.model.laws.registry import register
+
+__all__ = ["Dashpot", "damping_ratio", "duration", "restitution"]
+
+
+@register
+@dataclass(frozen=True)
+class Dashpot(ContactLaw):
+    """A linear spring and a dashpot side by side, which cannot pull.
+
+    ``F = max(0, k c + b ċ)`` while the compression c is above 0, else 0: Kelvin's and Voigt's
+    solid. The contact begins with a force b times the speed of the touch. It ends when the force is
+    back at zero, which is before the compression is; in between, k c**2/2 counts as stored.
+
+    Parameters
+    ----------
+    stiffness : float
+        k, in N/m, above 0.
+    damping : float
+        b, in N s/m, 0 or above.
+
+    Raises
+    ------
+    InvalidValue
+        If `stiffness` is not positive and finite, or `damping` is negative or not finite.
+    InvalidType
+        If one of them is no number.
+
+    Notes
+    -----
+    Source: Bartz, arXiv 2007.15005. A contact that were to end at c = 0 would pull, and have
+    another restitution.
+
+    Examples
+    --------
+    >>> Dashpot(22500, damping=7.2)
+    Dashpot(stiffness=22500.0, damping=7.2)
+    """
+
+    says = "A linear spring and a dashpot side by side, which cannot pull."
+    formula = "F = max(0, stiffness c + damping c')"
+    source = "Bartz, arXiv 2007.15005"
+    form = codes.DASHPOT
+    law_parameter = "damping"
+    loss = "damping"
+    loss_depends_on = ("mass",)
+
+    exponent: ClassVar[float] = 1.0
+    stiffness: Annotated[float, stiffness_in("N/m")]
+    damping: Annotated[
+        float,
+        Quantity("N s/m", lambda n, v: non_negative(n, v, "N s/m"), (2.0, 1e-2, 1e3)),
+    ]
+
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Return e, which follows from the damping ratio ``ζ = b/(2 sqrt(k m))``."""
+        return restitution(self._damping_ratio(mass))
+
+    def duration_at(self, mass: float, speed: float) -> float:
+        """Return the contact time in units of C/v."""
+        return duration(self._damping_ratio(mass))
+
+    def _damping_ratio(self, mass: float) -> float:
+        return 0.5 * self.damping / math.sqrt(self.stiffness) / math.sqrt(mass)
+
+    @classmethod
+    def calibrated(cls, given: Given) -> Self:
+        """Return the law that has a measured restitution and contact time."""
+        zeta = damping_ratio(given["restitution"])
+        lasts = duration(zeta)
+        damping = 2.0 * zeta * given["mass"] * lasts / given["contact_time"]  # b = 2 ζ m ω0
+        return cls(elastic.measured_stiffness(given, lasts), damping)
+
+    @property
+    def linger(self) -> float:
+        """For how many s the balls stay compressed: the force ends at ``c = -b ċ/k``."""
+        return self.damping / self.stiffness
+
+    @classmethod
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+        """Return a touch that begins with a jump of the force, and a linear release."""
+        return Flank(0.01, 0.3, "jump"), Flank(1.0, 1.0)
+
+    def series_constants(self) -> dict[str, float]:
+        """Return what two dashpots in series must have in common."""
+        return super().series_constants() | {"damping/stiffness": self.damping / self.stiffness}
+
+    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
+        """Return stiffness and damping of two in series: b/k stays."""
+        return {"stiffness": stiffness, "damping": stiffness * (self.damping / self.stiffness)}
+
+
+_FAR = 2.0  # from here on 1 - x would lose digits
+
+
+def duration(zeta: float) -> float:
+    """Return ``ω0 T`` of the contact time T; 1/ω0 is C/v as well, see `elastic`.
+
+    Parameters
+    ----------
+    zeta : float
+        The damping ratio ζ, 0 or above.
+
+    Returns
+    -------
+    float
+        From π down to 0.
+
+    Examples
+    --------
+    >>> [round(duration(zeta), 6) for zeta in (0.0, 0.1, 1.0)]
+    [3.141593, 2.956075, 2.0]
+    """
+    if zeta > _FAR:
+        return 2.0 * math.acosh(zeta) / (math.sqrt(zeta - 1.0) * math.sqrt(zeta + 1.0))
+    # acos(ζ) = 2 atan(x) and sqrt(1 - ζ**2) = (1 + ζ) x, without loss where x is small
+    x = math.sqrt(abs(1.0 - zeta) / (1.0 + zeta))
+    arc = math.atan(x) if zeta < 1.0 else math.atanh(x)
+    return 4.0 / (1.0 + zeta) * (arc / x if x > 0.0 else 1.0)
+
+
+def restitution(zeta: float) -> float:
+    """Return e at a damping ratio ζ of 0 or above.
+
+    Examples
+    --------
+    >>> [round(restitution(zeta), 6) for zeta in (0.0, 0.1, 0.3)]
+    [1.0, 0.744079, 0.450975]
+    """
+    return math.exp(-zeta * duration(zeta))
+
+
+def damping_ratio(restitution: float) -> float:
+    """Return ζ, 0 or above, at which e is `restitution`, from above 0 to 1.
+
+    Examples
+    --------
+    >>> round(damping_ratio(0.744079), 6)
+    0.1
+    """
+    loss = -math.log(restitution)
+    if loss == 0.0:
+        return 0.0
+    # ζ acos(ζ)/sqrt(1 - ζ**2) is at most ζ π/2, and from ζ = 1 on at least acosh(ζ)
+    low, high = loss / math.pi, math.cosh(0.5 * loss)
+    return root(lambda zeta: zeta * duration(zeta) - loss, low, high)

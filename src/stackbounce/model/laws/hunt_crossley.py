@@ -1,0 +1,252 @@
+"""Hunt and Crossley's law: the restitution in closed form, the contact time as an integral.
+
+With ``d = χ v`` and ``u = ċ/v``, ``m v**2 u du = -k c**p (1 + d u) dc`` gives
+
+``k c**(p+1)/(p+1) = m v**2 M/d**2``,  ``M = d - d u - ln((1 + d)/(1 + d u))``,
+
+which is 0 again at ``u = -e``: ``d (1 + e) = ln((1 + d)/(1 - d e))``. Both sides are called q here,
+χ times the whole change of speed, so that
+
+``d = (q - 1 + exp(-q))/(1 - exp(-q))``,  ``e = (1 - (1 + q) exp(-q))/(q - 1 + exp(-q))``.
+
+Nothing is lost to round-off in these where d is tiny or huge, as long as
+``E(x) = (exp(x) - 1 - x)/x**2`` is computed well.
+
+Source: K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975); D. W. Marhefka and
+D. E. Orin, IEEE Trans. Syst. Man Cybern. A 29, 566 (1999).
+"""
+
+import functools
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, ClassVar, Self
+
+from stackbounce.engine import codes
+from stackbounce.errors import non_negative
+from stackbounce.model.collision import elastic
+from stackbounce.model.collision.quadrature import integral
+from stackbounce.model.collision.roots import root
+from stackbounce.model.laws.law import (
+    EXPONENT,
+    ContactLaw,
+    Flank,
+    Flanks,
+    Given,
+    Quantity,
+    stiffness_in,
+)
+from stackbounce.model.laws.registry import register
+
+__all__ = ["LARGEST", "HuntCrossley", "dissipation", "duration", "restitution"]
+
+LARGEST = 1e300
+"""Of d, for all functions here."""
+_SMALL = 1.0  # the size up to which E(x) is summed
+_FACTORS = tuple(1.0 / math.factorial(n) for n in range(2, 22))
+
+
+@register
+@dataclass(frozen=True)
+class HuntCrossley(ContactLaw):
+    """A power law with a damping that grows as the force does.
+
+    ``F = max(0, k c**p (1 + χ ċ))`` while the compression c is above 0, else 0. A contact of two
+    bodies ends when force and compression are back at zero, since they part more slowly than 1/χ;
+    ``k c**(p + 1)/(p + 1)`` counts as stored.
+
+    Parameters
+    ----------
+    stiffness : float
+        k, in N/m**exponent, above 0.
+    exponent : float
+        p, from 1 to 1e6; 1.5 for spheres.
+    dissipation : float
+        χ, in s/m, 0 or above.
+
+    Raises
+    ------
+    InvalidValue
+        If `stiffness` is not positive and finite, `exponent` is out of its range, or `dissipation`
+        is negative or not finite.
+    InvalidType
+        If one of them is no number.
+
+    Notes
+    -----
+    Source: K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975). They write λ = k χ.
+
+    Examples
+    --------
+    >>> HuntCrossley(3e6, 1.5, dissipation=0.15)
+    HuntCrossley(stiffness=3000000.0, exponent=1.5, dissipation=0.15)
+    """
+
+    says = "A power law with a damping that grows as the force does."
+    formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
+    source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
+    form = codes.HUNT_CROSSLEY
+    law_parameter = "dissipation"
+    loss = "dissipation"
+    loss_depends_on = ("speed",)
+    usual_exponent = 1.5
+    usual_models: ClassVar = {"HuntCrossley": {}}
+
+    stiffness: Annotated[float, stiffness_in("N/m**exponent")]
+    exponent: Annotated[float, EXPONENT]
+    dissipation: Annotated[
+        float, Quantity("s/m", lambda n, v: non_negative(n, v, "s/m"), (0.2, 1e-3, 10.0))
+    ]
+
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Return e, which follows from ``d = χ v``."""
+        return restitution(self._loss_at(speed))
+
+    def duration_at(self, mass: float, speed: float) -> float:
+        """Return the contact time in units of C/v."""
+        return duration(self._loss_at(speed), self.exponent)
+
+    def _loss_at(self, speed: float) -> float:
+        d = self.dissipation * speed
+        if d > LARGEST:
+            raise OverflowError
+        return d
+
+    @classmethod
+    def calibrated(cls, given: Given) -> Self:
+        """Return the law that has a measured restitution and contact time."""
+        p, d = given["exponent"], dissipation(given["restitution"])
+        k = elastic.measured_stiffness(given, duration(d, p))
+        return cls(k, p, d / given["impact_speed"])
+
+    @classmethod
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+        """Return the flanks: a loss bends the release otherwise than by a power."""
+        return Flank(exponent or 1.0, exponent or 1.5, exact=True), Flank(1.0, 2.5)
+
+    def series_constants(self) -> dict[str, float]:
+        """Return what two laws in series must have in common."""
+        rate = self.dissipation / self.stiffness ** (1.0 / self.exponent)
+        return super().series_constants() | {"dissipation/stiffness**(1/exponent)": rate}
+
+    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
+        """Return stiffness and dissipation of two in series: ``χ1 f``."""
+        return {"stiffness": stiffness, "dissipation": self.dissipation * share}
+
+
+def restitution(d: float) -> float:
+    """Return e at ``d = χ v``, 0 or above; it does not depend on the exponent.
+
+    Examples
+    --------
+    >>> [round(restitution(d), 5) for d in (0.0, 0.1, 0.3, 1.0)]
+    [1.0, 0.93748, 0.83287, 0.59362]
+    """
+    return _restitution(_change(d)) if d > 0.0 else 1.0
+
+
+def dissipation(restitution: float) -> float:
+    """Return d at which e is `restitution`, from above 0 to 1.
+
+    Raises
+    ------
+    ArithmeticError
+        If it is out of the range of numbers.
+
+    Examples
+    --------
+    >>> round(dissipation(0.593624), 5)
+    1.0
+    """
+    if restitution == 1.0:
+        return 0.0
+    # 1 - e is at most q/3, and q - 1 at most 1/e
+    low, high = 1.0 - restitution, 1.0 + 1.0 / restitution
+    if high > LARGEST:
+        raise OverflowError
+    return _dissipation(root(lambda q: _restitution(q) - restitution, low, high))
+
+
+def duration(d: float, p: float) -> float:
+    """Return the contact time in units of C/v, see `elastic`.
+
+    Parameters
+    ----------
+    d : float
+        ``χ v``, 0 or above.
+    p : float
+        The exponent, 1 or above.
+
+    Returns
+    -------
+    float
+
+    Notes
+    -----
+    ``T = ∫ m dv/(k c**p (1 + χ v))`` is integrated over ``x = |ln((1 + d u)/(1 + d u0))|``, from
+    either end ``u0 = 1, -e`` of the contact to its turn u = 0, where x is X. There
+    ``M = d |u0| x R`` with
+
+    ``R = 1 - (1 + d) E(-x) x/d`` up to ``X = ln(1 + d)``, and
+    ``R = 1 - (1 - d e) E(x) x/(d e)`` up to ``X = -ln(1 - d e) = q - ln(1 + d)``.
+
+    With ``x = X z**(p+1)`` the singularity of ``c**-p`` cancels, and each part of T is
+
+    ``(2 C/v) (X/d)**(1/(p+1)) (2 |u0|)**(-p/(p+1)) ∫ R**(-p/(p+1)) dz`` over z from 0 to 1.
+
+    Examples
+    --------
+    >>> [round(duration(d, 1.5), 6) for d in (0.0, 1e-9, 1.0)]
+    [2.943275, 2.943275, 3.178895]
+    """
+    if d == 0.0:
+        return elastic.duration(p)
+    q = _change(d)
+    e = _restitution(q)
+    out = q - math.log1p(d)
+    loading = _half(d, p, 1.0, math.log1p(d), functools.partial(_loading, d))
+    return loading + _half(d, p, e, out, functools.partial(_unloading, d * e, out))
+
+
+def _half(d: float, p: float, speed: float, span: float, rest: Callable[[float], float]) -> float:
+    """Return the time from one end of the contact to the turn: `speed` is |u0|, `span` X."""
+    power = p / (p + 1.0)
+    area = integral(lambda log_z: rest(span * math.exp((p + 1.0) * log_z)) ** -power)
+    unit: float = 2.0 * (span / d) ** (1.0 - power) * (2.0 * speed) ** -power
+    return unit * area
+
+
+def _excess(x: float) -> float:
+    """Return ``E(x) = (exp(x) - 1 - x)/x**2``."""
+    if abs(x) < _SMALL:
+        return sum(factor * x**n for n, factor in enumerate(_FACTORS))
+    return (math.expm1(x) - x) / x / x
+
+
+def _loading(d: float, x: float) -> float:
+    return 1.0 - (1.0 + d) * (x / d) * _excess(-x)
+
+
+def _unloading(de: float, span: float, x: float) -> float:
+    if x < _SMALL:
+        return 1.0 - math.exp(-span) * (x / de) * _excess(x)
+    return 1.0 - (math.exp(x - span) - math.exp(-span) * (1.0 + x)) / (de * x)
+
+
+def _dissipation(q: float) -> float:
+    """Return d at a ``q = d (1 + e)`` above 0."""
+    if q < _SMALL:
+        return q * _excess(-q) * (q / -math.expm1(-q))
+    return (q + math.expm1(-q)) / -math.expm1(-q)
+
+
+def _restitution(q: float) -> float:
+    """Return e at a ``q = d (1 + e)`` above 0."""
+    if q < _SMALL:
+        return math.exp(-q) * _excess(q) / _excess(-q)
+    return (1.0 - (1.0 + q) * math.exp(-q)) / (q + math.expm1(-q))
+
+
+def _change(d: float) -> float:
+    """Return q at a d above 0: e is at most 1, and at most 1/d."""
+    return root(lambda q: _dissipation(q) - d, d, min(2.0 * d, 1.0 + d))

@@ -1,0 +1,66 @@
+"""All contact laws by name; each registers itself."""
+
+from typing import TypeVar
+
+from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.model.laws.law import ContactLaw
+
+__all__ = ["LAWS", "law_named", "register", "usual_laws"]
+
+_Law = TypeVar("_Law", bound=ContactLaw)
+
+LAWS: dict[str, type[ContactLaw]] = {}
+"""The classes of all laws by their names, in the order in which people are shown them."""
+
+
+def usual_laws() -> list[str]:
+    """Return the names of the laws whose models are compared as the usual ones."""
+    return [name for name, law in LAWS.items() if law.rigid or law.usual_models]
+
+
+_JOINED = str.maketrans("", "", "-_")
+
+
+def register(law: type[_Law]) -> type[_Law]:
+    """Add a law's class to `LAWS`; used as a decorator.
+
+    Raises
+    ------
+    TypeError
+        If the class does not say what every law has to say.
+    """
+    missing = [name for name in ("says", "formula", "source", "form") if not hasattr(law, name)]
+    if missing:
+        raise TypeError(f"{law.__name__} must set {', '.join(missing)}")
+    LAWS[law.__name__] = law
+    return law
+
+
+def law_named(name: object) -> type[ContactLaw]:
+    """Return the law of a name, such as ``"Spring"`` or ``"hunt-crossley"``.
+
+    Parameters
+    ----------
+    name : str
+        A key of `LAWS`; case, hyphens and underscores do not matter.
+
+    Returns
+    -------
+    type
+        The law's class.
+
+    Raises
+    ------
+    InvalidValue
+        If no law has this name; the message suggests the nearest and lists all.
+
+    Examples
+    --------
+    >>> law_named("spring").__name__, law_named("hunt-crossley").__name__
+    ('Spring', 'HuntCrossley')
+    """
+    word = name.casefold().translate(_JOINED) if isinstance(name, str) else ""
+    for known, law in LAWS.items():
+        if word == known.casefold():
+            return law
+    raise InvalidValue(f"law must be a contact law, got {shown(name)}; {nearest(name, LAWS)}")

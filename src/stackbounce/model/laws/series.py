@@ -1,0 +1,89 @@
+"""Two contacts in series as one law."""
+
+import math
+from typing import Any, TypeVar
+
+from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.model.laws.law import ContactLaw
+
+__all__ = ["series"]
+
+_Law = TypeVar("_Law", bound=ContactLaw)
+_AGREE = 1e-12  # numbers that agree so well differ by round-off
+
+
+def series(law_a: _Law, law_b: _Law) -> _Law:
+    """Return the one law of two contacts in series: the same force, compressions that add up.
+
+    The contacts of two balls with the floor, in series, make that of the balls with each other.
+
+    Parameters
+    ----------
+    law_a, law_b : ContactLaw
+        Two laws of one class and one exponent, not `Rigid`. Those with losses must share the
+        compression in the same ratio at any rate: see the notes.
+
+    Returns
+    -------
+    ContactLaw
+        Of the same class, with the stiffness ``k**(-1/p) = k1**(-1/p) + k2**(-1/p)``.
+
+    Raises
+    ------
+    InvalidValue
+        If the two in series are no contact of their class.
+    InvalidType
+        If one of them is no contact law.
+
+    Notes
+    -----
+    Without a mass in between ``F1(c1) = F2(c2)`` and ``c = c1 + c2``. The force is of the same form
+    as both exactly where ``c1 = f c`` at all times, with
+    ``f = k1**(-1/p) / (k1**(-1/p) + k2**(-1/p))``. This holds for springs and power laws; for
+    `Dashpot` if b/k is the same; for `Viscoelastic` if A is the same (its force is ``k (s + A ṡ)``
+    with ``s = c**1.5``); for `HuntCrossley` if ``χ1 f = χ2 (1 - f)``, which then is the χ of both
+    in series; for `Hysteretic` if restitution and rule for reloading are the same.
+
+    Springs: R. Cross, Am. J. Phys. 75, 1009 (2007), section V.
+
+    Examples
+    --------
+    >>> from stackbounce.model.laws import HuntCrossley, Spring
+    >>> series(Spring(54000), Spring(36000))
+    Spring(stiffness=21600.0)
+    >>> series(HuntCrossley(2e6, 1.0, 0.1), HuntCrossley(2e6, 1.0, 0.1))
+    HuntCrossley(stiffness=1000000.0, exponent=1.0, dissipation=0.05)
+    """
+    _check_classes(law_a, law_b)
+    ours, theirs = law_a.series_constants(), law_b.series_constants()
+    for name, one in ours.items():
+        _check_same(type(law_a), name, one, theirs[name])
+    p = law_a.exponent
+    ratio = (law_a.stiffness / law_b.stiffness) ** (1.0 / p)  # c2/c1
+    share_a, share_b = 1.0 / (1.0 + ratio), ratio / (1.0 + ratio)
+    # the softer law takes the larger share
+    k = min(law_a.stiffness, law_b.stiffness) * max(share_a, share_b) ** p
+    return law_a.replaced(law_a.series_changes(k, share_a))
+
+
+def _check_classes(law_a: object, law_b: object) -> None:
+    for name, law in (("law_a", law_a), ("law_b", law_b)):
+        if not isinstance(law, ContactLaw):
+            raise InvalidType(f"{name} must be a contact law, got {shown(law)}")
+        if law.rigid:
+            raise InvalidValue(f"{name} must be a law with a compression, got {shown(law)}")
+    if type(law_a) is not type(law_b):
+        got = f"{type(law_a).__name__} and {type(law_b).__name__}"
+        raise InvalidValue(
+            f"law_a and law_b must be of one class, got {got}: if both are powers with one "
+            "exponent, write them as PowerLaw; otherwise they are none of the laws in series"
+        )
+
+
+def _check_same(kind: type, name: str, one: Any, other: Any) -> None:
+    same = one == other if isinstance(one, str) else math.isclose(one, other, rel_tol=_AGREE)
+    if not same:
+        raise InvalidValue(
+            f"law_a and law_b must have the same {name}, got {shown(one)} and {shown(other)}: "
+            f"in series they are no {kind.__name__}, as their shares of the compression change"
+        )

@@ -1,0 +1,48 @@
+"""Picture of a result that has none of its own: its numbers, with errors, as a table."""
+
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.plots.style import STYLE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["draw"]
+
+_MOST = 24  # rows that fit
+
+
+def draw(data: Any, found: Any) -> "Figure":
+    """Draw the rows of a result as a table.
+
+    Parameters
+    ----------
+    data : xarray.Dataset or None
+        What was measured; the name of its file is written above the table.
+    found : Finding
+        What was found in it.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+        Not shown and not saved.
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    cells = [[row.name, _written(row.value), row.unit] for row in found.rows()[:_MOST]]
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(7.2, 1.0 + 0.28 * len(cells)))
+        axes = figure.subplots()
+        axes.axis("off")
+        if cells:
+            axes.table(cells, colLabels=["", "value", "unit"], loc="upper center", edges="open")
+        axes.set_title(getattr(data, "attrs", {}).get("source", ""), loc="left", fontsize=10)
+    return figure
+
+
+def _written(value: Any) -> str:
+    if getattr(value, "std_dev", 0.0) > 0.0:
+        return f"{value:.1uS}"
+    plain = getattr(value, "nominal_value", value)
+    return f"{plain:.4g}" if isinstance(plain, float) else str(plain)

@@ -1,0 +1,89 @@
+"""`FitProblem`: what a fit needs, checked when it is made; a model until it has data."""
+
+from dataclasses import FrozenInstanceError, replace
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.fitting import FitProblem, Question
+
+STIFFNESS = "contacts.0.stiffness"
+DROP = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
+DATA = {"durations.0": "5.0 ± 0.1 ms"}
+
+
+def test_a_problem_is_fitted_as_its_parts_are():
+    problem = FitProblem(DROP, DATA, [STIFFNESS])
+    same = sb.fit(DROP, DATA, [STIFFNESS])
+    assert problem.fit().as_dict() == same.as_dict()
+    assert (
+        problem.fit(starts=16, seed=3).best
+        == sb.fit(DROP, DATA, [STIFFNESS], starts=16, seed=3).best
+    )
+    assert problem.fit(rtol=1e-6).objective.rtol == 1e-6
+
+
+def test_a_problem_has_the_residuals_of_many_trials():
+    objective = FitProblem(DROP, DATA, {STIFFNESS: (1e3, 1e5)}).objective
+    stiffnesses = np.array([1e4, 2e4, 4e4])
+    times = np.pi * np.sqrt(0.0567 / stiffnesses)
+    found = objective.residuals(np.log(stiffnesses)[:, None])
+    assert found[:, 0] == pytest.approx((times - 5e-3) / 1e-4, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("change", "error", "expected"),
+    [
+        ({"drops": 3}, InvalidType, "drop must be a Drop or map names to Drops"),
+        ({"drops": {"no name": DROP}}, InvalidValue, "a drop's name must be letters"),
+        ({"data": {"duration.0": "5 ± 1 ms"}}, InvalidValue, "did you mean durations?"),
+        ({"data": 3}, InvalidType, "data must map names to what was measured"),
+        ({"vary": ["contacts.0.stifness"]}, InvalidValue, "did you mean contacts.0.stiffness?"),
+        ({"vary": 3}, InvalidType, "vary must name what may change"),
+        ({"vary": [STIFFNESS, "balls.0.mass"]}, InvalidValue, "2 numbers for 1 measured number"),
+        ({"tie": {"balls.0.mass": "k"}}, InvalidValue, "has k, which is neither varied nor"),
+        ({"rtol": 1.0}, InvalidValue, "rtol must be"),
+    ],
+)
+def test_a_problem_is_checked_when_it_is_made(change, error, expected):
+    with pytest.raises(error, match=expected):
+        FitProblem(**{"drops": DROP, "data": DATA, "vary": [STIFFNESS], **change})
+
+
+def test_a_problem_does_not_change():
+    with pytest.raises(FrozenInstanceError):
+        FitProblem(DROP, DATA, [STIFFNESS]).rtol = 1e-6
+
+
+def test_a_model_is_a_problem_without_data():
+    model = sb.Model(DROP, [STIFFNESS])
+    assert isinstance(model, FitProblem)
+    assert (model.drop, model.data, model.vary, model.tie) == (DROP, {}, [STIFFNESS], None)
+    with pytest.raises(InvalidType, match="data must map names to what was measured"):
+        model.fit()
+    assert replace(model, data=DATA).fit().best == sb.fit(DROP, DATA, [STIFFNESS]).best
+    compared = sb.compare({"spring": model}, DATA)
+    assert compared["spring"].best == sb.fit(DROP, DATA, [STIFFNESS]).best
+
+
+def test_runs_without_an_end_are_counted_for_each_fit():
+    """A second fit of the same problem begins to count anew."""
+    problem = FitProblem(DROP, DATA, [STIFFNESS])
+    problem.objective.unsolved["EVENT_LIMIT"] += 7
+    assert problem.fit(starts=4).unsolved == {}
+
+
+def test_several_drops_stay_several():
+    drops = {"low": DROP, "high": replace(DROP, height=1.0)}
+    data = dict.fromkeys(drops, DATA)
+    problem = FitProblem(drops, data, [STIFFNESS])
+    assert problem.drop == problem.drops == drops
+    assert [one.drop for one in problem.fit(starts=4).residuals] == ["low", "high"]
+
+
+def test_the_former_name_is_kept():
+    assert Question is FitProblem
+    found = Question({"": DROP}, {"": DATA}, [STIFFNESS]).fit(starts=4)
+    assert found.problem is found.objective

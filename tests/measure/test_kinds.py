@@ -1,0 +1,100 @@
+"""A kind of measurement that one module adds is read, analysed, printed, served and drawn."""
+
+import json
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce import plots
+from stackbounce.cli import main
+from stackbounce.errors import InvalidType
+from stackbounce.measure import analyse, one_law
+from stackbounce.measure.finding import Finding
+from stackbounce.measure.kind import Kind
+from stackbounce.measure.kinds import KINDS, TYPED
+from stackbounce.measure.quantities import Row
+from stackbounce.web.answers import records
+
+
+@dataclass(frozen=True)
+class Swings(Finding):
+    """How often a pendulum swings."""
+
+    frequency: float
+    gravity: float
+    notes: tuple[str, ...] = ("Air is left out.",)
+
+    def rows(self):
+        return [Row("frequency", self.frequency, "Hz"), Row("gravity", self.gravity, "m/s^2")]
+
+    def parts(self):
+        return {"contact": {"law": "Rigid", "restitution": 0.5}}
+
+    def told(self):
+        return {"restitution": 0.5}
+
+
+def swings(data, *, gravity=9.81):
+    return (Swings(1.0 / float(np.mean(data["period"])), gravity),)
+
+
+PENDULUM = Kind(
+    "pendulum", "how often it swings", swings, columns=(("period",),), dimension="swing"
+)
+
+
+@pytest.fixture
+def path(tmp_path, monkeypatch):
+    monkeypatch.setitem(KINDS, "pendulum", PENDULUM)
+    path = tmp_path / "swings.csv"
+    path.write_text("period (s),angle\n2.0,1\n2.1,2\n1.9,3\n", encoding="utf-8")
+    return path
+
+
+def test_it_is_recognised_and_analysed(path):
+    told, seen = sb.read(path, holds="pendulum"), sb.read(path)
+    assert told.attrs["holds"] == seen.attrs["holds"] == "pendulum"
+    assert told.period.dims == ("swing",)
+    (found,) = analyse(told, gravity=9.8, mass=0.1)
+    assert (found.frequency, found.gravity) == (pytest.approx(0.5), 9.8)
+    assert one_law("rigid", [found]).law == sb.Rigid(0.5)
+
+
+def test_it_is_printed_saved_and_drawn(path, capfd, tmp_path):
+    arguments = ["measure", str(path), "--holds", "pendulum", "--gravity", "9.8"]
+    assert main(arguments) == 0
+    out = capfd.readouterr().out
+    assert "frequency" in out
+    assert "Air is left out." in out
+    picture, ball = tmp_path / "swings.svg", tmp_path / "ball.toml"
+    more = ["--plot", str(picture), "--save", str(ball), "--mass", "57g", "--json"]
+    assert main([*arguments, *more]) == 0
+    (told,) = json.loads(capfd.readouterr().out)["files"]
+    assert told["holds"] == "pendulum"
+    assert told["found"][0] == {"name": "frequency", "value": 0.5, "error": None, "unit": "Hz"}
+    assert picture.read_bytes().startswith(b"<?xml")
+    assert sb.Drop.from_toml(ball).contacts == (sb.Rigid(0.5),)
+
+
+def test_it_is_in_the_page_s_answer_and_form(path):
+    page = json.loads(records.measured(path.name, path.read_bytes(), {"gravity": "9.8"}))
+    assert page["holds"] == "pendulum"
+    assert [row["value"] for row in page["found"]] == [0.5, 9.8]
+    assert (page["series"], page["zero"], page["measured"]) == ([], None, {})
+    served = json.loads(records.options())
+    assert {"name": "pendulum", "says": "how often it swings"} in served["kinds"]
+    (holds,) = [one for one in served["options"] if one["name"] == "holds"]
+    assert "pendulum" in holds["choices"]
+
+
+def test_a_kind_is_recognised_by_the_columns_that_it_needs():
+    for kind in (*KINDS.values(), *TYPED):
+        assert kind.says
+        assert (kind.analyse is None) == (kind.name not in KINDS)
+
+
+def test_what_no_analysis_returned_has_no_picture():
+    with pytest.raises(InvalidType, match="found must be what an analysis returns, got 3"):
+        plots.measured(None, 3)

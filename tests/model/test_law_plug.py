@@ -1,0 +1,187 @@
+"""Every law in every face, and a new law that is added by one class alone."""
+
+import dataclasses
+import json
+import math
+from typing import Annotated, ClassVar
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main, tables
+from stackbounce.fitting import Model
+from stackbounce.measure import waveform
+from stackbounce.model import LAWS
+from stackbounce.model.laws import law_named
+from stackbounce.model.laws.elastic import ElasticLaw
+from stackbounce.model.laws.law import ContactLaw, stiffness_in
+from stackbounce.model.laws.registry import register
+from stackbounce.synthetic.waveform import waveform as record_of
+from stackbounce.web.answers.catalogue import catalogue
+from stackbounce.web.limits import LIMITS
+
+MASS, SPEED, TIME, KEPT = 0.1, 2.0, 4e-3, 0.8
+
+
+class Cone(ElasticLaw):
+    """A sharp cone on a flat floor: ``F = k c**2``."""
+
+    says = "A sharp cone on a flat floor."
+    formula = "F = stiffness c**2"
+    source = "I. N. Sneddon, Int. J. Eng. Sci. 3, 47 (1965)"
+    usual_models: ClassVar = {"Cone": {}}
+
+    exponent: ClassVar[float] = 2.0
+    stiffness: Annotated[float, stiffness_in("N/m**2")]
+
+
+@pytest.fixture
+def cone():
+    """Register the law for one test."""
+    law = register(dataclasses.dataclass(frozen=True)(Cone))
+    catalogue.cache_clear()
+    yield law
+    del LAWS["Cone"]
+    catalogue.cache_clear()
+
+
+def measured(kind):
+    """Return what `calibrate` is given for a class."""
+    given = {"mass": MASS, "contact_time": TIME, "impact_speed": SPEED}
+    if kind.loss:
+        given["restitution"] = KEPT
+    if not kind.rigid and kind.default_exponent() is None:
+        given["exponent"] = 1.3
+    return given
+
+
+def alone(law):
+    return sb.Drop([sb.Ball(MASS)], [law], impact_speed=SPEED)
+
+
+def goes_through_every_face(kind, tmp_path, capfd):
+    """Take one law through all that the package does with laws; return what the table said."""
+    name = kind.__name__
+    law = sb.calibrate(kind, **measured(kind))
+    kept, lasts = (measure(law, MASS, SPEED) for measure in (sb.restitution, sb.contact_time))
+    assert kept == pytest.approx(KEPT if kind.loss else 1.0, rel=1e-9)
+    assert lasts == pytest.approx(0.0 if kind.rigid else TIME, rel=1e-9)
+
+    result = sb.simulate(alone(law))
+    assert result.status is sb.Status.FINISHED
+    assert result.rebound_ratios[0] == pytest.approx(kept, rel=1e-8)
+    assert result.last_release[0] == pytest.approx(lasts, rel=1e-8)
+    assert sb.separate(alone(law)).contacts == (sb.Rigid(kept),)
+
+    first = next(iter(kind.quantities()))
+    values = getattr(law, first) * np.array([0.9, 1.0])
+    swept = sb.sweep(alone(law), {f"contacts.0.{first}": values})
+    assert swept.rebound_ratio[-1, 0] == pytest.approx(result.rebound_ratios[0], rel=1e-9)
+    assert swept.attrs["laws"] == json.dumps({name: kind.formula})
+
+    file = tmp_path / "drop.toml"
+    file.write_text(alone(law).to_toml(), encoding="utf-8")
+    assert sb.Drop.from_toml(file) == alone(law)
+    assert law_named(name.lower()) is kind
+
+    assert main(["simulate", str(file), "--json"]) == 0
+    assert json.loads(capfd.readouterr().out)["drop"]["contacts"] == [law.to_mapping()]
+    assert main(["simulate", str(file)]) == 0
+    table = capfd.readouterr().out
+    assert tables.law_text(law) in " ".join(table.split())
+
+    (page,) = [one for one in json.loads(catalogue(LIMITS))["laws"] if one["law"] == name]
+    assert (page["formula"], page["source"], page["says"]) == (kind.formula, kind.source, kind.says)
+    assert [one["name"] for one in page["fields"]] == list(kind.quantities())
+    return law, result
+
+
+def fits_its_stiffness(law, result):
+    lasting = float(result.last_release[0])
+    near = dataclasses.replace(law, stiffness=1.5 * law.stiffness)
+    bounds = {"contacts.0.stiffness": (0.2 * law.stiffness, 5.0 * law.stiffness)}
+    data = {"durations": [f"{lasting!r} ± {1e-3 * lasting!r}"]}
+    fit = sb.fit(alone(near), data, bounds)
+    assert fit.drop.contacts[0].stiffness == pytest.approx(law.stiffness, rel=1e-5)
+
+
+def is_told_by_a_force_record(law, result):
+    record = record_of(result, rate=5e4, noise=0.01, seed=1)
+    exponent = law.exponent if law.fixed_exponent() is None else None
+    (contact,) = waveform(record, law=type(law), exponent=exponent).contacts
+    touch = record.attrs["touch"]
+    assert contact.start.nominal_value == pytest.approx(touch, abs=4e-5)
+    assert contact.end.nominal_value == pytest.approx(touch + result.last_release[0], abs=2e-4)
+
+
+@pytest.mark.parametrize("name", list(LAWS))
+def test_every_law_goes_through_every_face(name, tmp_path, capfd):
+    law, result = goes_through_every_face(LAWS[name], tmp_path, capfd)
+    if law.rigid:
+        return
+    fits_its_stiffness(law, result)
+    is_told_by_a_force_record(law, result)
+    both = sb.series(law, law)
+    assert both.stiffness == pytest.approx(law.stiffness * 0.5**law.exponent)
+
+
+@pytest.mark.parametrize("name", list(LAWS))
+def test_every_law_says_what_people_are_shown(name):
+    kind = LAWS[name]
+    assert kind.__doc__.startswith(kind.says)
+    assert kind.source in " ".join(kind.__doc__.split())
+    assert all(low <= start <= high for start, low, high in sliders(kind))
+
+
+def sliders(kind):
+    return [one.slider for one in kind.quantities().values()]
+
+
+def test_the_usual_models_are_those_that_laws_offer():
+    drop = sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [sb.Spring(1e4)] * 2, impact_speed=1.0)
+    offered = {name for law in LAWS.values() for name in law.usual_models}
+    assert set(sb.standard_models(drop)) - offered == {
+        "Rigid, one restitution",
+        "Rigid, one for each contact",
+    }
+
+
+def test_a_new_law_with_a_known_form_of_force_is_one_class(cone, tmp_path, capfd):
+    law, result = goes_through_every_face(cone, tmp_path, capfd)
+    fits_its_stiffness(law, result)
+    is_told_by_a_force_record(law, result)
+    assert cone in LAWS.values()
+    assert tables.law_text(law) == f"Cone, stiffness {law.stiffness:.6g} N/m^2"
+    power = sb.PowerLaw(law.stiffness, 2.0)
+    assert np.array_equal(result.rebound_speeds, sb.simulate(alone(power)).rebound_speeds)
+
+    pair = sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [law, law], impact_speed=1.0)
+    models = sb.standard_models(pair)
+    assert isinstance(models["Cone"], Model)
+    assert models["Cone"].drop.contacts[1].stiffness == pytest.approx(law.stiffness)
+
+
+def test_a_law_without_closed_forms_is_measured_by_a_run():
+    @dataclasses.dataclass(frozen=True)
+    class Plain(ContactLaw):
+        form: ClassVar[int] = sb.Dashpot.form
+        extra: ClassVar[str] = "damping"
+        exponent: ClassVar[float] = 1.0
+        stiffness: float
+        damping: float
+
+    law, closed = Plain(1e4, 7.0), sb.Dashpot(1e4, 7.0)
+    assert law.restitution_at(MASS, SPEED) == pytest.approx(sb.restitution(closed, MASS), rel=1e-9)
+    lasts = sb.contact_time(closed, MASS)
+    assert law.contact_time_at(MASS, SPEED) == pytest.approx(lasts, rel=1e-9)
+    assert math.isclose(lasts, sb.simulate(alone(closed)).last_release[0], rel_tol=1e-9)
+
+
+def test_an_incomplete_law_is_refused():
+    class Silent(ContactLaw):
+        says = "Nothing."
+
+    with pytest.raises(TypeError, match="Silent must set formula, source, form"):
+        register(Silent)
+    assert "Silent" not in LAWS
