@@ -59,6 +59,7 @@ def test_a_missing_extra_is_named(monkeypatch):
     [
         ["balls"],
         ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"],
+        ["simulate", "B1", "--contact", "HuntCrossley stiffness=1e5 exponent=1.5 dissipation=.1"],
         ["transition", "basketball", "tennis"],
         ["highest", "--balls", "2"],
         *([command, "--help"] for command in ("measure", "fit", "paper", "app", "sweep")),
