@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
+from benchmarks import figures, laws, race, random_drops, report, startup
 from benchmarks.peers import by_scipy, by_steps
 from benchmarks.peers.common import Peer
 from benchmarks.random_drops import Drops
 
 import stackbounce as sb
-from benchmarks import figures, laws, race, random_drops, report, startup
 
 EASY = Drops(np.array([[1.0, 1.0, 0.0], [3.0, 0.5, 0.3], [0.4, 2.0, 0.0]]))
 NONE = Peer("nobody", "a-solver-that-nobody-has", "by magic", lambda: pytest.fail("prepared"))
@@ -88,6 +88,7 @@ def test_a_missing_peer_is_skipped_with_a_word(small):
     assert {len(row) for row in counts} == {5}
 
 
+@pytest.mark.slow
 def test_starts_are_told_next_to_numpy():
     starts = startup.measure(quiet, rounds=2)
     assert [start.name for start in starts] == list(startup.STARTS)
@@ -98,6 +99,7 @@ def test_starts_are_told_next_to_numpy():
     assert len(figures.startup(starts).axes[0].patches) == 2 * len(starts)
 
 
+@pytest.mark.slow
 def test_other_laws_are_told_next_to_scipy_at_equal_error(monkeypatch):
     monkeypatch.setattr(laws, "THEIRS", (1e-6,))
     monkeypatch.setattr(laws, "ROUNDS", 1)

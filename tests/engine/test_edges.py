@@ -242,7 +242,10 @@ def test_masses_of_many_orders(name, masses):
     assert 0.0 < result.energy_retained <= 1.0 + 1e-7
 
 
-@pytest.mark.parametrize("name", ["Spring", "Hertz", "PowerLaw"])
+@pytest.mark.parametrize(
+    "name",
+    ["Hertz", *(pytest.param(name, marks=pytest.mark.slow) for name in ("Spring", "PowerLaw"))],
+)
 def test_a_mass_of_twelve_orders_on_a_light_one(name):
     """The light ball below is only felt as a part of the floor, or the limit is met and said."""
     light = sb.Drop([sb.Ball(1.0), sb.Ball(1e-12)], [every_law(1.0)[name]] * 2, impact_speed=1.0)

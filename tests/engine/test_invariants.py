@@ -149,6 +149,7 @@ def test_run_ends_when_nothing_approaches(drop):
 
 @settings(max_examples=60)
 @given(drops(EVERY))
+@pytest.mark.slow
 def test_intervals_of_a_contact_follow_each_other(drop):
     result = simulate(drop)
     assert (np.diff(result.intervals["start"]) >= 0.0).all()
@@ -187,6 +188,7 @@ def test_speed_scales(drop, factor):
 
 @settings(max_examples=60)
 @given(drops(EVERY), st.floats(0.01, 100.0))
+@pytest.mark.slow
 def test_masses_and_stiffnesses_scale_together(drop, factor):
     one, other = simulate(drop), simulate(scaled(drop, mass=factor, stiffness=factor))
     assert one.collisions.tolist() == other.collisions.tolist()
@@ -219,6 +221,7 @@ def test_powers_of_four_of_the_masses_change_no_bit(drop, power):
 
 @settings(max_examples=60)
 @given(drops(EVERY, largest=3))
+@pytest.mark.slow
 def test_sample_agrees_with_the_result(drop):
     result = simulate(drop)
     before = result.intervals.tolist()
@@ -244,6 +247,7 @@ def test_sample_agrees_with_the_result(drop):
 
 @settings(max_examples=40)
 @given(drops(FINITE, largest=3), st.lists(st.floats(0.0, 1.0), min_size=1, max_size=6))
+@pytest.mark.slow
 def test_sampling_elsewhere_changes_nothing(drop, fractions):
     result = simulate(drop)
     times = np.array(fractions) * result.end_time

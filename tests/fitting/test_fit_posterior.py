@@ -57,6 +57,7 @@ def test_a_linear_case_has_the_exact_mean_spread_and_correlation():
     assert all(1.0 < one < 20.0 for one in draws.autocorrelation.values())
 
 
+@pytest.mark.slow
 def test_between_the_bounds_every_value_is_as_probable():
     found = sb.fit(
         BALL, {"rebound_ratios.0": (0.9, 0.2)}, {"contacts.0.restitution": (0.5, 1.0)}
@@ -69,6 +70,7 @@ def test_between_the_bounds_every_value_is_as_probable():
     assert quantiles == pytest.approx(exact.ppf(at), abs=0.01)
 
 
+@pytest.mark.slow
 def test_between_wide_bounds_every_logarithm_is_as_probable():
     """Nothing was measured of a number: only the bounds are left."""
     vary = {"balls.0.mass": (0.01, 1.0), "contacts.0.restitution": (0.2, 0.9)}

@@ -101,6 +101,7 @@ MIXED = {
 }
 
 
+@pytest.mark.slow
 def test_steps_and_neglected_forces_do_not_matter(monkeypatch):
     one = precise.run(**MIXED)
     monkeypatch.setattr(taylor, "TERMS", 70)
@@ -117,6 +118,7 @@ def test_steps_and_neglected_forces_do_not_matter(monkeypatch):
             assert abs(getattr(a, name) - getattr(b, name)) < CLOSE
 
 
+@pytest.mark.slow
 def test_momentum_and_impulses():
     floor = precise.run(**MIXED)
     free = precise.run(

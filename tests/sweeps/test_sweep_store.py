@@ -64,6 +64,7 @@ def test_a_store_holds_what_sweep_returns(whole):
     assert not [path for path in whole[0].parent.iterdir() if path != whole[0]]
 
 
+@pytest.mark.slow
 def test_killed_at_any_moment_it_goes_on_and_ends_with_the_same_bytes(whole, tmp_path):
     out = tmp_path / whole[0].name
     command = [sys.executable, slow_sweep.__file__, str(out)]
