@@ -2,7 +2,7 @@
 
 Some analyses are not the same to the last bit from run to run: `uncertainties` adds up covariances
 in the order of a set of objects, that is of their places in memory. So values are compared in units
-of their errors where these are larger.
+of their errors where these are larger. With all bits compared, restitutions from sound differ.
 """
 
 import math

@@ -26,7 +26,7 @@ GROUPS = {
     "fuzz": Group("drops.answers", bits=True),
     "laws": Group("laws.answers", bits=True),
     "web": Group("web.answers"),
-    "coverage": Group("coverage.answers"),
+    "coverage": Group("coverage.answers", quick=False),
 }
 """By the names that ``python -m frozen`` takes."""
 
