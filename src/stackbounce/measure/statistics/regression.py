@@ -1,11 +1,22 @@
 """Linear regression with correlated errors and excess scatter; error bars from few points."""
 
-from typing import NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Fit", "average_fits", "fit_with_excess_scatter", "least_squares", "widening"]
+if TYPE_CHECKING:
+    from uncertainties import UFloat
+
+__all__ = [
+    "Fit",
+    "average_fits",
+    "covariance_of",
+    "fit_with_excess_scatter",
+    "least_squares",
+    "widening",
+]
 
 _RARE = 0.01  # p-value of chi squared below which an excess scatter is reported
 _LEAST, _SCATTERS = 0.1, 20  # the smallest excess scatter, in errors; size of the grid
@@ -20,6 +31,27 @@ class Fit(NamedTuple):
     covariance: NDArray[np.float64]
     chi_squared: float
     freedom: int
+
+
+def covariance_of(values: "Sequence[UFloat]") -> NDArray[np.float64]:
+    """Return the covariance matrix of numbers with errors, (N, N).
+
+    `uncertainties.covariance_matrix` sums over a set, whose order differs from run to run, and so
+    do the last bits of its sums. Here the sums have one order.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> x = ufloat(1.0, 0.5)
+    >>> covariance_of([x, 2.0 * x])
+    array([[0.25, 0.5 ],
+           [0.5 , 1.  ]])
+    """
+    slopes = [value.derivatives for value in values]
+    sources = dict.fromkeys(source for one in slopes for source in one)
+    errors = [[one.get(source, 0.0) * source.std_dev for source in sources] for one in slopes]
+    spread = np.reshape(np.array(errors, dtype=float), (len(slopes), len(sources)))
+    return np.array([[float(np.sum(one * other)) for other in spread] for one in spread])
 
 
 def least_squares(

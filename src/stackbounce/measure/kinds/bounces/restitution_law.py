@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.statistics.regression import Fit, fit_with_excess_scatter
+from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_with_excess_scatter
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -45,9 +45,7 @@ class RestitutionLaw:
     @property
     def covariance(self) -> NDArray[np.float64]:
         """Covariance of coefficient and slope, (2, 2)."""
-        from uncertainties import covariance_matrix
-
-        return np.array(covariance_matrix([self.coefficient, self.slope]))
+        return covariance_of([self.coefficient, self.slope])
 
     def at(self, speed: "float | UFloat") -> "UFloat":
         """Return the restitution at an impact speed in m/s."""
@@ -64,7 +62,7 @@ def straight(
     The speeds have errors too, correlated with those of the restitutions: the covariance is that of
     the residuals. `most` is the largest excess scatter of single bounces, 0 for none.
     """
-    from uncertainties import covariance_matrix, umath
+    from uncertainties import umath
 
     x = [umath.log(speed) for speed in speeds] if power else list(speeds)
     y = [umath.log(one) for one in kept] if power else list(kept)
@@ -74,10 +72,10 @@ def straight(
     values = np.array([one.nominal_value for one in y])
     slope = 0.0
     if degree:
-        rough = np.array(covariance_matrix(y))
+        rough = covariance_of(y)
         slope = float(fit_with_excess_scatter(design, values, rough, most)[0].values[1])
     residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
-    return fit_with_excess_scatter(design, values, np.array(covariance_matrix(residuals)), most)
+    return fit_with_excess_scatter(design, values, covariance_of(residuals), most)
 
 
 def laws_of(
