@@ -39,7 +39,7 @@ def _compare(name: str, exact: bool, everything: bool) -> int:
     """Print how a group compares; return how many of its values differ."""
     begun = sum(os.times()[:4])  # of this process and of the server
     now = computed(name)
-    found = changed(name, now, exact)
+    found = changed(name, now, exact or GROUPS[name].bits)
     _say(f"{name}: {len(now)} values, {len(found)} differ ({sum(os.times()[:4]) - begun:.0f} s)")
     for one in found if everything else found[:_SHOWN]:
         _say(f"  {one}")

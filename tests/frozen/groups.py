@@ -13,7 +13,7 @@ class Group(NamedTuple):
     """Where answers come from and how they are compared."""
 
     source: str  # module and function
-    bits: bool = False  # numbers agree in all bits, not only to `compare.RELATIVE`
+    bits: bool = False  # `python -m frozen` compares all bits; another processor may differ there
     quick: bool = True  # a test computes it; the others take ``python -m frozen``
 
 
@@ -40,4 +40,4 @@ def computed(name: str) -> dict[str, Any]:
 
 def changed(name: str, now: dict[str, Any], exact: bool = False) -> list[Difference]:
     """Return where a group's answers are not what was kept."""
-    return differences(store.kept(name), now, exact or GROUPS[name].bits)
+    return differences(store.kept(name), now, exact)
