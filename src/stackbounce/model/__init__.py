@@ -1,39 +1,12 @@
 """What is dropped: balls, contact laws, drops, and the catalogue of the paper's balls.
 
-Frozen values, validated once, without numerics.
+Frozen values, validated once, without numerics. All names of `stackbounce.model.laws` are here too.
 """
 
+from stackbounce.model import laws
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import STANDARD_GRAVITY, Drop
-from stackbounce.model.laws import (
-    LAWS,
-    ContactLaw,
-    Dashpot,
-    Hertz,
-    HuntCrossley,
-    Hysteretic,
-    PowerLaw,
-    Rigid,
-    Spring,
-    Viscoelastic,
-    law_named,
-    series,
-)
+from stackbounce.model.laws import *  # noqa: F403
 
-__all__ = [
-    "LAWS",
-    "STANDARD_GRAVITY",
-    "Ball",
-    "ContactLaw",
-    "Dashpot",
-    "Drop",
-    "Hertz",
-    "HuntCrossley",
-    "Hysteretic",
-    "PowerLaw",
-    "Rigid",
-    "Spring",
-    "Viscoelastic",
-    "law_named",
-    "series",
-]
+__all__ = ["STANDARD_GRAVITY", "Ball", "Drop"]
+__all__ += laws.__all__
