@@ -23,13 +23,13 @@ from stackbounce.web.limits import LIMITS
 MASS, SPEED, TIME, KEPT = 0.1, 2.0, 4e-3, 0.8
 
 
-class Cone(ElasticLaw):
+class SharpCone(ElasticLaw):
     """A sharp cone on a flat floor: ``F = k c**2``."""
 
     says = "A sharp cone on a flat floor."
     formula = "F = stiffness c**2"
     source = "I. N. Sneddon, Int. J. Eng. Sci. 3, 47 (1965)"
-    usual_models: ClassVar = {"Cone": {}}
+    usual_models: ClassVar = {"SharpCone": {}}
 
     exponent: ClassVar[float] = 2.0
     stiffness: Annotated[float, stiffness_in("N/m**2")]
@@ -38,10 +38,10 @@ class Cone(ElasticLaw):
 @pytest.fixture
 def cone():
     """Register the law for one test."""
-    law = register(dataclasses.dataclass(frozen=True)(Cone))
+    law = register(dataclasses.dataclass(frozen=True)(SharpCone))
     catalogue.cache_clear()
     yield law
-    del LAWS["Cone"]
+    del LAWS["SharpCone"]
     catalogue.cache_clear()
 
 
@@ -151,13 +151,13 @@ def test_a_new_law_with_a_known_form_of_force_is_one_class(cone, tmp_path, capfd
     fits_its_stiffness(law, result)
     is_told_by_a_force_record(law, result)
     assert cone in LAWS.values()
-    assert tables.law_text(law) == f"Cone, stiffness {law.stiffness:.6g} N/m^2"
+    assert tables.law_text(law) == f"SharpCone, stiffness {law.stiffness:.6g} N/m^2"
     power = sb.PowerLaw(law.stiffness, 2.0)
     assert np.array_equal(result.rebound_speeds, sb.simulate(alone(power)).rebound_speeds)
 
     pair = sb.Drop([sb.Ball(0.2), sb.Ball(0.1)], [law, law], impact_speed=1.0)
     models = sb.standard_models(pair)
-    assert models["Cone"].drop.contacts[1].stiffness == pytest.approx(law.stiffness)
+    assert models["SharpCone"].drop.contacts[1].stiffness == pytest.approx(law.stiffness)
 
 
 def test_a_law_without_closed_forms_is_measured_by_a_run():
@@ -183,3 +183,9 @@ def test_an_incomplete_law_is_refused():
     with pytest.raises(TypeError, match="Silent must set formula, source, form"):
         register(Silent)
     assert "Silent" not in LAWS
+
+
+def test_a_name_belongs_to_one_law():
+    with pytest.raises(TypeError, match=r"Spring is the name of a law in stackbounce\.model"):
+        register(type("Spring", (SharpCone,), {}))
+    assert LAWS["Spring"] is sb.Spring

@@ -27,11 +27,14 @@ def register(law: type[_Law]) -> type[_Law]:
     Raises
     ------
     TypeError
-        If the class does not say what every law has to say.
+        If the class does not say what every law has to say, or another law has its name.
     """
     missing = [name for name in ("says", "formula", "source", "form") if not hasattr(law, name)]
     if missing:
         raise TypeError(f"{law.__name__} must set {', '.join(missing)}")
+    other = LAWS.get(law.__name__, law)
+    if (other.__module__, other.__qualname__) != (law.__module__, law.__qualname__):
+        raise TypeError(f"{law.__name__} is the name of a law in {other.__module__} already")
     LAWS[law.__name__] = law
     return law
 
