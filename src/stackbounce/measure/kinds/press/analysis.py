@@ -93,14 +93,15 @@ def press(
 def _press(record: Record, cycle: int | None) -> Press:
     found = cycles(record)
     chosen = _chosen(found, cycle)
-    if not len(found[chosen].loading):
-        return unloading_only(record, found[chosen], chosen, len(found))
-    all_of_them = {
-        i: result_of(record, one, i, len(found)) for i, one in enumerate(found) if len(one.loading)
-    }
-    own = all_of_them.pop(chosen)
-    own = replace(own, others=tuple(all_of_them.values()))
-    return replace(own, notes=(*record.notes, *sentences(own, len(found[chosen].held))))
+    if len(found[chosen].loading):
+        own = {i: result_of(record, one) for i, one in enumerate(found) if len(one.loading)}
+    else:
+        own = {chosen: unloading_only(record, found[chosen])}
+    own = {i: replace(one, cycle=i, cycles=len(found)) for i, one in own.items()}
+    result = own.pop(chosen)
+    result = replace(result, others=tuple(own.values()))
+    notes = result.notes or sentences(result, len(found[chosen].held))
+    return replace(result, notes=(*record.notes, *notes))
 
 
 def _chosen(found: list[Cycle], cycle: int | None) -> int:

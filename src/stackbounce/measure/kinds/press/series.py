@@ -146,10 +146,9 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Spl
 def _compression(name: str, one: Any, force: "UFloat") -> "UFloat":
     """Return a compression at a force, as given or read off a curve."""
     if isinstance(one, Press):
-        if one.stiffness is None or one.exponent is None:
+        if one.loading is None:
             raise InvalidValue(f"{name} must be a press curve with a loading, got none")
-        c: UFloat = (force / one.stiffness) ** (1.0 / one.exponent)
-        return c
+        return one.compression_at(force)
     try:
         return measured(name, one, "metres")
     except InvalidType:

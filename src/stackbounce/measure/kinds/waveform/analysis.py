@@ -18,10 +18,11 @@ from stackbounce.measure.kinds.waveform.intervals import (
     smoothed,
     which_sign,
 )
-from stackbounce.measure.kinds.waveform.record import Array, Record, read_record
+from stackbounce.measure.kinds.waveform.record import Record, read_record
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import known, sensitivity_of
 from stackbounce.measure.quantities import known_to
+from stackbounce.measure.samples import Array
 from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:

@@ -6,7 +6,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.record import Array, Record
+from stackbounce.measure.kinds.waveform.record import Record
+from stackbounce.measure.samples import Array
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
 __all__ = ["Quiet", "first_guess", "quiet_parts", "scatter", "stuck"]

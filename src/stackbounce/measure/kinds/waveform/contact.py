@@ -12,10 +12,10 @@ from stackbounce.measure.kinds.waveform.ends import Ends
 from stackbounce.measure.kinds.waveform.flanks import Flank, fit_flank
 from stackbounce.measure.kinds.waveform.intervals import Stretch
 from stackbounce.measure.kinds.waveform.peaks import Peak, find_peaks, flat_top, impulse_of
-from stackbounce.measure.kinds.waveform.record import Array
 from stackbounce.measure.kinds.waveform.result import Contact
 from stackbounce.measure.kinds.waveform.shapes import Shape
 from stackbounce.measure.quantities import known_to
+from stackbounce.measure.samples import Array
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

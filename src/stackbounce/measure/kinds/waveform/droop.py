@@ -4,7 +4,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from stackbounce.errors import InvalidValue, positive
-from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.samples import Array
 
 __all__ = ["drooped", "undrooped"]
 

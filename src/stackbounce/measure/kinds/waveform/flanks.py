@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from stackbounce.measure.kinds.waveform.intervals import smoothed
-from stackbounce.measure.kinds.waveform.record import Array
 from stackbounce.measure.kinds.waveform.shapes import Shape
+from stackbounce.measure.samples import Array
 
 __all__ = ["Flank", "fit_flank"]
 

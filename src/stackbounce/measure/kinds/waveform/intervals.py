@@ -1,11 +1,10 @@
-"""Where a record shows contacts: stretches that stand out of the noise."""
+"""The stretches of a record that stand out of the noise: its contacts."""
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.samples import Array, runs
 
 __all__ = ["Stretch", "find_stretches", "smoothed", "which_sign"]
 
@@ -93,17 +92,15 @@ def find_stretches(
 
 def _runs(signal: Array, high: float, low: float, join: int) -> list[Stretch]:
     """Return runs above `low` that reach `high`; those less than `join` samples apart are one."""
-    above: NDArray[np.int8] = (signal > low).astype(np.int8)
-    edges = np.diff(np.concatenate([[0], above, [0]]))
-    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
+    starts, ends = runs(signal > low)
     if not len(starts):
         return []
     tops = np.maximum.reduceat(signal, np.stack([starts, ends + 1], 1).ravel()[:-1])[::2]
     kept = tops > high
-    runs: list[Stretch] = []
+    found: list[Stretch] = []
     for start, end in zip(starts[kept].tolist(), ends[kept].tolist(), strict=True):
-        if runs and start - runs[-1].last <= join:
-            runs[-1] = Stretch(runs[-1].first, end)
+        if found and start - found[-1].last <= join:
+            found[-1] = Stretch(found[-1].first, end)
         else:
-            runs.append(Stretch(start, end))
-    return runs
+            found.append(Stretch(start, end))
+    return found

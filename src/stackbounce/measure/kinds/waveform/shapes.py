@@ -20,7 +20,7 @@ from math import log
 
 import numpy as np
 
-from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.samples import Array
 
 __all__ = ["Shape"]
 

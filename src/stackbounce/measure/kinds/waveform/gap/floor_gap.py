@@ -1,21 +1,18 @@
 """The gap between two falling balls from the force on the floor, with and without the upper one."""
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, fraction
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.gap.result import FloorGap
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
-from stackbounce.measure.quantities import measured
+from stackbounce.measure.quantities import known_to, measured
+from stackbounce.measure.samples import Array
 from stackbounce.measure.statistics.change_point import Kink, find_kink
 from stackbounce.model.drop import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["floor_gap"]
 
@@ -96,13 +93,13 @@ def floor_gap(
     since = single.times - touch_alone
     noise = float(np.hypot(both.noise, single.noise * np.sqrt(single.step / both.step)))
     kink = find_kink(times, both.force, (since, force), noise, lasting)
-    fall = _Fall(since, *_integrals(since, force, lasting), lasting)
+    fall = _fall(since, force, lasting)
     scale = _scale(single, free, mass, impact_speed, restitution)
     limits, why = _limits(both, kink, lasting)
     reach = tuple(scale.nominal_value * fall.of(limit) for limit in limits)
     delay = gap = None
     if not why:
-        delay = _ufloat(kink.time, kink.error) - (pressed.start - touch)
+        delay = known_to(kink.time, kink.error) - (pressed.start - touch)
         gap = scale * (fall.of(kink.time) + fall.speed(kink.time) * (delay - kink.time))
     notes = (*both.notes, *_notes(kink, lasting), *why)
     return FloorGap(delay, gap, limits, reach, kink.gain, notes, both, single, kink)
@@ -111,9 +108,9 @@ def floor_gap(
 class _Fall(NamedTuple):
     """How the lower ball's fall is stopped: force over time, integrated once and twice."""
 
-    times: NDArray[np.float64]
-    once: NDArray[np.float64]
-    twice: NDArray[np.float64]
+    times: Array
+    once: Array
+    twice: Array
     lasting: float
 
     def speed(self, time: float) -> float:
@@ -129,12 +126,6 @@ class _Fall(NamedTuple):
         return down + float(self.once[-1]) * flown
 
 
-def _ufloat(value: float, error: float) -> Any:
-    from uncertainties import ufloat
-
-    return ufloat(value, error)
-
-
 def _first(name: str, found: Waveform) -> Any:
     contact = found.contacts[0] if found.contacts else None
     if contact is None or contact.time is None:
@@ -145,15 +136,13 @@ def _first(name: str, found: Waveform) -> Any:
     return contact
 
 
-def _integrals(
-    since: NDArray[np.float64], force: NDArray[np.float64], lasting: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the force alone, integrated once and twice over time from the touch."""
+def _fall(since: Array, force: Array, lasting: float) -> _Fall:
+    """Return the force of the ball alone, integrated over time from its touch."""
     from scipy.integrate import cumulative_trapezoid
 
     felt = np.where((since > 0.0) & (since < lasting), force, 0.0)
     once = cumulative_trapezoid(felt, since, initial=0.0)
-    return once, cumulative_trapezoid(once, since, initial=0.0)
+    return _Fall(since, once, cumulative_trapezoid(once, since, initial=0.0), lasting)
 
 
 def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution: Any) -> Any:
@@ -168,7 +157,7 @@ def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution
         )
     v = measured("impact_speed", speed, "m/s")
     if restitution is not None:
-        e = measured("restitution", restitution, "", lambda name, e, _: fraction(name, e))
+        e = measured("restitution", restitution, "", lambda name, value, _: fraction(name, value))
     else:
         e = _bounce(alone, v)
     return v * (1.0 + e) / contact.impulse
@@ -180,7 +169,7 @@ def _bounce(alone: Waveform, speed: Any) -> Any:
         e = STANDARD_GRAVITY * (alone.contacts[1].start - alone.contacts[0].end) / (2.0 * speed)
         if 0.0 < e.nominal_value <= 1.0:
             return e
-    return _ufloat(*_UNKNOWN)
+    return known_to(*_UNKNOWN)
 
 
 def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, float], list[str]]:
