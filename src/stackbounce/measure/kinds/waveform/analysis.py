@@ -2,14 +2,14 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.errors import InvalidValue, positive, shown
-from stackbounce.measure.kinds.waveform.baseline import Quiet, first_guess, quiet_parts
-from stackbounce.measure.kinds.waveform.contact import Local, measure_contact
+from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
+from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.droop import undrooped
 from stackbounce.measure.kinds.waveform.ends import UNTOLD, ends_of
 from stackbounce.measure.kinds.waveform.intervals import (
@@ -35,16 +35,6 @@ _ROUNDS = 4
 _FEW = 6  # samples of a contact that are few
 _UNDERSHOOT = 5.0  # errors
 _STEEP, _SURELY = 0.85, 3.0  # an exponent too small for a power law; errors below 1
-
-
-class _Seen(NamedTuple):
-    """A record on its way: signal upward, quiet parts, contacts, things too short to be any."""
-
-    signal: Array
-    quiet: Quiet
-    stretches: list[Stretch]
-    short: int
-    sign: int
 
 
 def waveform(
@@ -130,33 +120,31 @@ def waveform(
     if threshold is not None:
         threshold = positive("threshold", threshold, "the record's unit")
     m, v = known("mass", mass, "kilograms"), known("impact_speed", impact_speed, "m/s")
-    record = original = read_record(data)
-    seen = _see(record, threshold, sign)
+    record = read_record(data)
+    raw = record.values
+    seen = _see(record, raw, threshold, sign)
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)
-        seen = _see(record, threshold, sign)
-    raw = seen.sign * original.values
-    quiet = _outside(len(record.times), seen.stretches)
-    local = Local(record.times, seen.signal, raw, seen.quiet, record.quantum, quiet)
+        seen = _see(record, raw, threshold, sign)
     around = [None, *seen.stretches, None]
     contacts = tuple(
-        measure_contact(local, around[k], one, around[k + 2], ends)
+        measure_contact(seen, around[k], one, around[k + 2], ends)
         for k, one in enumerate(seen.stretches)
     )
-    notes = [
-        *record.notes,
-        *_notes(original, seen, contacts, m),
-        *_droops(seen, local, time_constant),
-        *(_steep(contacts) if ends == UNTOLD else ()),
-    ]
+    notes = [*record.notes, *_notes(record.unit, seen, contacts, m)]
+    if time_constant is None:
+        notes += _droops(seen, record.step)
+    if ends == UNTOLD:
+        notes += _steep(contacts)
     sensitivity, why = sensitivity_of(contacts, record.unit, m, v)
+    zero = seen.zero
     return Waveform(
         contacts=contacts,
         unit=record.unit,
-        noise=seen.quiet.noise,
-        baseline=_level(seen.quiet),
-        drift=float(seen.quiet.baseline[-1] - seen.quiet.baseline[0]),
-        hum=seen.quiet.hum,
+        noise=zero.noise,
+        baseline=known_to(float(np.median(zero.baseline)), zero.error),
+        drift=float(zero.baseline[-1] - zero.baseline[0]),
+        hum=zero.hum,
         sign=seen.sign,
         step=record.step,
         notes=(*notes, *why),
@@ -165,23 +153,24 @@ def waveform(
         impact_speed=v,
         times=record.times,
         force=seen.signal,
-        zero=seen.sign * seen.quiet.baseline,
+        zero=seen.sign * zero.baseline,
     )
 
 
-def _see(record: Record, threshold: float | None, sign: int | None) -> _Seen:
+def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
     """Find baseline and contacts in turns, as each needs the other."""
-    level, noise = first_guess(record)
-    quiet = Quiet(np.full(len(record.times), level), noise, noise, noise, 0.0, 0.0)
+    zero = quiet_parts(record, np.zeros(len(record.times), dtype=bool), hum=False)
     stretches: list[Stretch] = []
     short, own = 0, sign or 1
     for k in range(_ROUNDS):
-        bare = record.values - quiet.baseline
-        own = sign or which_sign(bare, quiet.noise)
-        stretches, short = find_stretches(own * bare, quiet.noise, quiet.density, threshold)
-        quiet = quiet_parts(record, _outside(len(bare), stretches), hum=k > 0)
-    signal = own * (record.values - quiet.baseline)
-    return _Seen(signal, quiet, stretches, short, own)
+        bare = record.values - zero.baseline
+        own = sign or which_sign(bare, zero.noise)
+        stretches, short = find_stretches(own * bare, zero.noise, zero.density, threshold)
+        quiet = _outside(len(bare), stretches)
+        zero = quiet_parts(record, quiet, hum=k > 0)
+    signal = own * (record.values - zero.baseline)
+    times, quantum = record.times, record.quantum
+    return Seen(times, signal, own * raw, quantum, zero, quiet, stretches, short, own)
 
 
 def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
@@ -196,27 +185,23 @@ def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
     return quiet
 
 
-def _undrooped(record: Record, seen: _Seen, time_constant: float) -> Record:
+def _undrooped(record: Record, seen: Seen, time_constant: float) -> Record:
     """Return the record with its droop put back, from the level before the first contact on."""
-    quiet = np.flatnonzero(_outside(len(record.times), seen.stretches))
-    first = seen.stretches[0].first if seen.stretches else len(record.times)
-    before = quiet[quiet < first]
-    level = float(np.mean(record.values[before])) if len(before) else first_guess(record)[0]
+    before = seen.quiet.copy()
+    if seen.stretches:
+        before[seen.stretches[0].first :] = False
+    level = float(record.values[before].mean()) if before.any() else first_guess(record)[0]
     values = level + undrooped(record.times, record.values - level, time_constant)
     return replace(record, values=values)
 
 
-def _level(quiet: Quiet) -> Any:
-    return known_to(float(np.median(quiet.baseline)), quiet.error)
-
-
-def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
+def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
     """Return what should be known about the record."""
     notes = []
     if not contacts:
         high = float(np.max(np.abs(seen.signal)))
         notes.append(
-            f"no contact stands out of the noise of {seen.quiet.noise:.3g} {record.unit}".rstrip()
+            f"no contact stands out of the noise of {seen.zero.noise:.3g} {unit}".rstrip()
             + f" (largest deviation {high:.3g}): try threshold, or a more sensitive channel"
         )
     if seen.short:
@@ -228,11 +213,10 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
         top = max(
             (s for s, one in zip(seen.stretches, contacts, strict=True) if one.clipped), key=len
         )
-        level = record.values[top.first : top.last + 1]
-        height = float(level.max() if seen.sign > 0 else level.min())
+        height = seen.sign * float(seen.raw[top.first : top.last + 1].max())
         count = sum(one.clipped for one in contacts)
         notes.append(
-            f"clipped at {height:.4g} {record.unit}".rstrip()
+            f"clipped at {height:.4g} {unit}".rstrip()
             + (f" in {count} contacts" if count > 1 else "")
             + ": peak force and impulse are lower limits"
         )
@@ -243,10 +227,10 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
     few = min((one.samples for one in contacts), default=_FEW)
     if few < _FEW:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
-    if seen.quiet.hum:
+    if seen.zero.hum:
         notes.append(
-            f"hum of {seen.quiet.mains:.0f} Hz was taken off, amplitude "
-            f"{seen.quiet.hum:.3g} {record.unit}".rstrip()
+            f"hum of {seen.zero.mains:.0f} Hz was taken off, amplitude "
+            f"{seen.zero.hum:.3g} {unit}".rstrip()
         )
     whole = next((one for one in contacts if one.time is not None), None)
     if mass is not None and whole is not None and len(whole.peaks) > 1:
@@ -269,26 +253,25 @@ def _steep(contacts: tuple[Contact, ...]) -> list[str]:
     return [note]
 
 
-def _droops(seen: _Seen, local: Local, time_constant: float | None) -> list[str]:
+def _droops(seen: Seen, step: float) -> list[str]:
     """Return a note if the baseline lies lower after a contact, as a high-pass makes it."""
-    if time_constant is not None or not seen.stretches or seen.quiet.hum:
+    if not seen.stretches or seen.zero.hum:
         return []
     one = seen.stretches[0]
-    after = np.flatnonzero(local.quiet[one.last :])[: max(8, len(one) // 2)] + one.last
-    before = np.flatnonzero(local.quiet[: one.first])[-max(8, len(one)) :]
+    after = np.flatnonzero(seen.quiet[one.last :])[: max(8, len(one) // 2)] + one.last
+    before = np.flatnonzero(seen.quiet[: one.first])[-max(8, len(one)) :]
     if len(after) < 4 or len(before) < 4:
         return []
     part = np.concatenate([before, after])
-    later = (part > one.last).astype(float)
-    times = local.times[part] - local.times[one.first]
-    columns = np.stack([later, np.ones_like(times), times], axis=1)  # a step on a drift
-    weights = np.linalg.lstsq(columns, local.raw[part], rcond=None)[0]
-    low, scatter = float(weights[0]), float(np.std(local.raw[part] - columns @ weights))
+    times = seen.times[part] - seen.times[one.first]
+    columns = np.column_stack([part > one.last, np.ones_like(times), times])  # a step on a drift
+    weights = np.linalg.lstsq(columns, seen.raw[part], rcond=None)[0]
+    low, scatter = float(weights[0]), float(np.std(seen.raw[part] - columns @ weights))
     error = scatter * np.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0])
     top = float(smoothed(seen.signal, 3)[one.first : one.last + 1].max())
     if low > -max(_UNDERSHOOT * error, 0.005 * top):
         return []
-    area = float(np.sum(seen.signal[one.first : one.last + 1])) * local.step
+    area = float(np.sum(seen.signal[one.first : one.last + 1])) * step
     note = (
         f"after the contact the signal lies {-low / top:.1%} of its peak too low, as by the droop "
         f"of a piezo sensor: give time_constant (about {area / -low:.2g} s)"

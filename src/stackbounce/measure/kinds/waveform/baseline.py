@@ -10,7 +10,7 @@ from stackbounce.measure.kinds.waveform.record import Record
 from stackbounce.measure.samples import Array
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
-__all__ = ["Quiet", "first_guess", "quiet_parts", "scatter", "stuck"]
+__all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter", "stuck"]
 
 _SHARE = 0.25  # of a record that is surely quiet
 _FAR = 0.2  # of a record's range: the ends are not at this level
@@ -104,14 +104,14 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
     if not _holds(line, quiet):
         line = line[:, :1]
-    best, base = line, _fitted(line, record.values, quiet)
+    best, base = line, fit_quiet(line, record.values, quiet)
     height = mains = 0.0
     if hum and quiet.sum() >= _ENOUGH:
         tone = _tone(times, record, quiet)
         waves = np.concatenate([line, _waves(times, tone)], axis=1)
         if tone and _holds(waves, quiet):
-            best, mains, base = waves, tone, _fitted(waves, record.values, quiet)
-            height = float(np.ptp(base - _fitted(line, base, quiet))) / 2.0
+            best, mains, base = waves, tone, fit_quiet(waves, record.values, quiet)
+            height = float(np.ptp(base - fit_quiet(line, base, quiet))) / 2.0
     rest = (record.values - base)[quiet]
     noise, density = scatter(rest, best.shape[1], record.quantum)
     floor = _floor(record)
@@ -161,12 +161,12 @@ def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
     line = np.stack([np.ones_like(t), t], axis=1)
     if len(t) < _ENOUGH:
         return 0.0
-    found, least = 0.0, float(np.sum((y - _fitted(line, y, every)) ** 2))
+    found, least = 0.0, float(np.sum((y - fit_quiet(line, y, every)) ** 2))
     # two more numbers must pay for themselves many times over
     least /= 1.0 + _WORTH / len(t)
     for tone in _tones(float(times[-1]), record.step):
         columns = np.concatenate([line, _waves(t, tone)], axis=1)
-        left = float(np.sum((y - _fitted(columns, y, every)) ** 2))
+        left = float(np.sum((y - fit_quiet(columns, y, every)) ** 2))
         if left < least:
             found, least = tone, left
     return found
@@ -185,11 +185,11 @@ def _waves(times: Array, tone: float) -> Array:
     return np.stack([np.sin(angle), np.cos(angle)], axis=1)
 
 
-def _fitted(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
-    """Return the columns' best sum, found where it is quiet, everywhere."""
+def fit_quiet(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
+    """Return the linear regression on columns at all samples, fitted to the quiet ones."""
     weights = np.linalg.lstsq(columns[quiet], values[quiet], rcond=None)[0]
-    fitted: Array = columns @ weights
-    return fitted
+    best: Array = columns @ weights
+    return best
 
 
 def _robust(rest: Array, quantum: float) -> float:

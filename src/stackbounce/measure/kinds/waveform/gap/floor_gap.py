@@ -176,34 +176,33 @@ def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, fl
     """Return between which times the balls touched, and why no more can be told, if that is so."""
     low, high = kink.time - 2.0 * kink.error, kink.time + 2.0 * kink.error
     if kink.time - kink.error < _EARLY * lasting:
-        why = "balls that touch from the start look like this too: the gap may be 0"
-        return (0.0, high), [f"the forces part early: {why}"]
+        return (0.0, high), [
+            "the forces part early: balls that touch from the start look like this too: the gap "
+            "may be 0"
+        ]
     if kink.time > 0.0:
         return (low, high), []
     if kink.pressed:
-        why = "the second ball came before the lower one left the floor, too faintly to tell when"
-        return (0.0, lasting), [why]
+        return (0.0, lasting), [
+            "the second ball came before the lower one left the floor, too faintly to tell when"
+        ]
     back = _thrown_back(both, lasting)
     if back is None:
-        why = (
+        return (0.0, math.inf), [
             "no second ball is seen while the lower one is on the floor: it came too late, or is "
             "too light for this noise, and the gap cannot be told"
-        )
-        return (0.0, math.inf), [why]
-    why = (
+        ]
+    return (_LATE * lasting, back), [
         "the force is that of the lower ball alone until that leaves the floor, and then it was "
         "thrown back: the second ball came late, and only limits can be told"
-    )
-    return (_LATE * lasting, back), [why]
+    ]
 
 
 def _thrown_back(both: Waveform, lasting: float) -> float | None:
     """Return when the lower ball was pressed on the floor again in the same impact, if it was."""
-    first, *more = both.contacts
-    if not more or first.start is None or more[0].start is None:
-        return None
-    back = (more[0].start - first.start).nominal_value
-    return float(back) if back < _NEXT * lasting else None
+    starts = [one.start.nominal_value for one in both.contacts[:2] if one.start is not None]
+    back = float(np.ptp(starts))
+    return back if 0.0 < back < _NEXT * lasting else None
 
 
 def _notes(kink: Kink, lasting: float) -> list[str]:
