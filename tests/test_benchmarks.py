@@ -1,11 +1,11 @@
 import numpy as np
 import pytest
+from benchmarks import figures, laws, race, random_drops, report, startup
 from benchmarks.peers import by_scipy, by_steps
 from benchmarks.peers.common import Peer
 from benchmarks.random_drops import Drops
 
 import stackbounce as sb
-from benchmarks import figures, laws, race, random_drops, report, startup
 
 EASY = Drops(np.array([[1.0, 1.0, 0.0], [3.0, 0.5, 0.3], [0.4, 2.0, 0.0]]))
 NONE = Peer("nobody", "a-solver-that-nobody-has", "by magic", lambda: pytest.fail("prepared"))

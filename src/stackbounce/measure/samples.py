@@ -53,7 +53,9 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
         raise InvalidValue(f"data must be ({', '.join(names)}), got {len(arrays)} arrays")
     if any(one.shape != arrays[0].shape or one.ndim != 1 for one in arrays):
         shapes = " and ".join(str(one.shape) for one in arrays)
-        raise InvalidValue(f"{' and '.join(names)} must be of one length, got shapes {shapes}")
+        raise InvalidValue(
+            f"data must hold {' and '.join(names)} of one length, got shapes {shapes}"
+        )
     return arrays
 
 

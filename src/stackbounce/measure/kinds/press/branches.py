@@ -1,4 +1,4 @@
-"""A press record, sorted: its sign, its cycles, their loading and unloading."""
+"""A press record: its signs, noise and cycles, each with loading and unloading."""
 
 from dataclasses import dataclass
 from itertools import pairwise
@@ -17,26 +17,26 @@ if TYPE_CHECKING:
 __all__ = ["Cycle", "Record", "cycles", "record_of"]
 
 LEAST = 6  # points of a branch, below which nothing is fitted
-_DEEP = 0.15  # of the range: reversals that are less are part of their branch
+_DEEP = 0.15  # of the range: smaller reversals are part of a branch
 _HELD = 1e-3  # of the range, within which the compression is held
-_TOUCHES = 5.0  # standard errors by which a force must rise
+_TOUCHES = 5.0  # standard errors, which the slope of the force must exceed
 
 
 @dataclass(frozen=True)
 class Record:
-    """Compression and force, both growing as the ball is pressed.
+    """Compression and force; both increase as the ball is pressed.
 
     Parameters
     ----------
     compression, force : ndarray
         (N,) in m and N, in the order in which they were recorded, without gaps.
     jitter, hiss : float
-        Noise of the compression in m and of the force in N from point to point, not less than what
-        the steps of their digits make.
+        White noise of the compression in m and of the force in N, not less than their quantisation
+        noise.
     step : float
-        Step of the force's digits in N, 0 if none is seen.
+        Quantisation step of the force in N, 0 if none is seen.
     notes : tuple of str
-        What was done to it.
+        On the changes that were made to it.
     """
 
     compression: Array
@@ -49,18 +49,18 @@ class Record:
 
 @dataclass(frozen=True)
 class Cycle:
-    """Which points of a record are one loading and the unloading after it.
+    """The points of a loading and of the unloading after it.
 
     Parameters
     ----------
     loading, unloading : ndarray of int
         Their places in the record; either may be empty, not both.
     held : ndarray of int
-        Where the press stood still at the peak.
+        Places at which the press stood still at the peak.
     peak, peak_error : float
-        The compression in m at which it turned, and its standard error.
+        The compression in m of the turning point, and its standard error.
     sampled : bool
-        Whether the peak is the last point of the loading, and shares its error.
+        Whether the turning point is the last point of the loading, and shares its error.
     """
 
     loading: NDArray[np.intp]
@@ -113,7 +113,7 @@ def cycles(record: Record) -> list[Cycle]:
     low, high = float(path.min()), float(path.max())
     deep = max(_DEEP * (high - low), 8.0 * record.jitter)
     padded = np.concatenate([[low - 1.0], path, [low - 1.0]])
-    padded[[0, -1]] -= 10.0 * (high - low)  # so that an end can be a peak
+    padded[[0, -1]] -= 10.0 * (high - low)  # an end of the record can be a peak
     peaks = find_peaks(padded, prominence=min(deep, 0.9 * (high - low)))[0] - 1
     if not len(peaks):  # a plateau over the whole of it
         peaks = np.array([int(path.argmax())])
@@ -123,7 +123,7 @@ def cycles(record: Record) -> list[Cycle]:
 
 
 def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array, Array, list[str]]:
-    """Return both columns so that they grow as the ball is pressed, and notes on that."""
+    """Return both columns with signs by which they increase with the load, and notes on that."""
     from scipy.stats import linregress
 
     notes = []
@@ -161,7 +161,9 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
     near = np.flatnonzero(path[start : end + 1] >= path[peak] - reach) + start
     first, last = int(near[0]), int(near[-1])
     step = float(np.median(np.abs(np.diff(path[start : end + 1]))))
-    ramp = 2.0 * reach / step + 3.0 if step > 0.0 else 3.0  # points that a turn has anyway
+    ramp = (
+        2.0 * reach / step + 3.0 if step > 0.0 else 3.0
+    )  # points near the peak of a press that never stands still
     still = last - first + 1 > 2.0 * ramp and last - first + 1 >= LEAST
     if still:
         held = np.arange(first, last + 1)
@@ -178,7 +180,10 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
 
 
 def _turn(record: Record, start: int, peak: int, end: int) -> tuple[float, float]:
-    """Return where the compression turned: the point itself, or lines through its neighbours."""
+    """Return the compression at the turning point, and its standard error.
+
+    It is the point itself or, where the noise exceeds the steps, the crossing of two lines.
+    """
     path = record.compression
     sides = [(start, peak), (peak, end)]
     steps = [abs(path[b] - path[a]) / (b - a) for a, b in sides if b - a >= 2]

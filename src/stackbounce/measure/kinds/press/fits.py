@@ -14,8 +14,8 @@ from stackbounce.measure.samples import Array
 __all__ = ["PowerFit", "fit_power_law", "power", "power_law", "rough_contact"]
 
 _EXPONENTS = (0.7, 1.0, 1.5, 2.0, 3.0)  # tried first
-_PLACES = 48  # of the touch, tried first
-_FEW = 300  # points, which are enough for that
+_PLACES = 48  # of the contact, tried first
+_FEW = 300  # points that are used for that
 _WIDEST = 20.0  # ln of a parameter stays within ±this, so that no power overflows
 
 
@@ -56,7 +56,7 @@ def power(ratio: Array, exponent: float) -> Array:
 
 
 def rough_contact(x: Array, y: Array) -> tuple[float, float]:
-    """Return about where the force begins to rise, and the exponent, whatever the force's zero.
+    """Return rough values of the contact and the exponent, independent of the force's zero.
 
     Parameters
     ----------

@@ -7,7 +7,7 @@ from stackbounce.measure.kinds.press.result import Press
 __all__ = ["sentences"]
 
 _CLEAR = 3.0  # standard errors
-_WORTH = 0.02  # of a number, below which a difference is not worth a sentence
+_WORTH = 0.02  # of a number, below which a difference gets no note
 
 
 def sentences(found: Press, held: int) -> list[str]:

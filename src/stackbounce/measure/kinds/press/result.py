@@ -47,7 +47,7 @@ class Curve:
 
 @dataclass(frozen=True, kw_only=True)
 class Press(Finding):
-    """What the analysis of a press curve found; see `press`. What cannot be known is None.
+    """The result of the analysis of a press curve; see `press`. None stands for unknown numbers.
 
     Parameters
     ----------
@@ -72,14 +72,14 @@ class Press(Finding):
     restitution : UFloat or None
         ``sqrt(work_out/work_in)``.
     unloading_exponent : UFloat or None
-        n of the unloading ``F ∝ c**n``, as fitted.
+        n of the unloading ``F ∝ c**n``, by the fit.
     energy_exponent : UFloat or None
-        n as it follows from the works, ``(p + 1) work_in/work_out - 1``.
+        n by the works, ``(p + 1) work_in/work_out - 1``.
     contact : UFloat
-        Where on the record's scale of compression the contact begins, in m.
+        Compression at which the contact begins, on the record's scale, in m.
     zero : UFloat
-        What the force sensor showed with nothing pressed, in N; exactly 0 where the record has no
-        such part and was taken as it is.
+        Force in the record with nothing pressed, in N; exactly 0 where the record has no such part:
+        then the force is taken as recorded.
     relaxed : UFloat or None
         By how much the force dropped at the turn, in N.
     loading, unloading : Curve or None

@@ -1,4 +1,4 @@
-"""A force record from its samples to contacts, times, peaks and impulses."""
+"""The analysis of a force record: its contacts, their times, peaks and impulses."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -30,11 +30,11 @@ if TYPE_CHECKING:
 
 __all__ = ["waveform"]
 
-_MARGIN = 0.2  # of a contact, on each side of it, that is not taken as quiet
+_MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _ROUNDS = 4
-_FEW = 6  # samples of a contact that are few
-_UNDERSHOOT = 5.0  # errors
-_STEEP, _SURELY = 0.85, 3.0  # an exponent too small for a power law; errors below 1
+_FEW = 6  # samples of a contact, below which a note says so
+_UNDERSHOOT = 5.0  # standard errors of the step of the baseline
+_STEEP, _SURELY = 0.85, 3.0  # an exponent too small for any spring; standard errors below 1
 
 
 def waveform(
@@ -48,26 +48,27 @@ def waveform(
     law: "ContactLaw | type[ContactLaw] | str | None" = None,
     exponent: float | None = None,
 ) -> Waveform:
-    """Find the contacts in a force record, when they begin and end, their peaks and impulses.
+    """Find the contacts of a force record: their starts and ends, peaks and impulses.
 
     Parameters
     ----------
     data : xarray.Dataset or (array_like, array_like)
-        A record as `read` gives it, of which the first force (N) or voltage (V) is taken; or times
-        in s and values. Values need no calibration.
+        A record as `read` gives it, whose first force (N) or voltage (V) is analysed; or times in s
+        and values. Values need no calibration.
     mass : float or UFloat, optional
         Of the ball in kg: gives the dynamic stiffness.
     impact_speed : float or UFloat, optional
         In m/s: with `mass` it calibrates a sensor that shows volts, see Notes.
     time_constant : float, optional
-        RC in s of a piezo sensor and its amplifier: the droop is put back.
+        RC in s of a piezo sensor and its amplifier: the droop is corrected.
     threshold : float, optional
-        What a contact must rise above the baseline, in the record's unit. Default: 6 times the
-        noise, and 1 % of the highest peak.
+        The force above the baseline that a contact must reach, in the record's unit. Default: the
+        larger of 6 times the noise and 1 % of the highest peak.
     sign : int, optional
         +1 or -1 if contacts go up or down in the record. Default: it is found.
     law : ContactLaw, its class or its name, optional
-        Of the contact, if it is known: touch and release are the surer. `Rigid` tells nothing.
+        Of the contact, if it is known: touch and release are then more accurate. `Rigid` has no
+        effect.
     exponent : float, optional
         Of the loading curve of a law that has one to choose; default unknown.
 
@@ -85,20 +86,19 @@ def waveform(
 
     Notes
     -----
-    Touch and release are not where the force passes a threshold, which is late, but where its
-    flanks begin: they are fitted by the curves of `shapes`. Where no
-    `law` is told these are powers of the time since the touch, of unknown exponent, with
-    corrections. Before the data are seen, the exponent of a touch is from 1 (a linear spring) to
-    1.5 (Hertz's law) or, less probably, up to 2.5, and that of a release from 1 to 2.5 or more, as
-    lossy contacts end softly. Where samples are many and noise is low this does not matter; else
-    the error bars hold it. They do not hold touches that begin with a jump (`Dashpot`) or as the
+    The force crosses a threshold later than the touch. Therefore touch and release are found by a
+    fit of the flanks of a contact with the curves of `shapes`. Without a `law` these are powers of
+    the time since the touch, with corrections. The prior of the exponent is 1 (a linear spring) to
+    1.5 (Hertz's law) or, less probably, up to 2.5 for a touch, and 1 to 2.5 or more for a release,
+    as lossy contacts end softly. The prior matters only where samples are few or noise is high; the
+    error bars include it. They do not include touches that begin with a jump (`Dashpot`) or as the
     root of the time (`Viscoelastic`), which are found too early, nor releases of very lossy
-    contacts (a restitution below 0.8 or so): there tell the law.
+    contacts (a restitution below 0.8 or so): give the law there.
 
-    A law that is told is believed: touch and release begin as it says, and the errors are those for
-    this law, and for a ball that no other presses at its touch and release. Where the noise is as
-    low as 0.1 % of the peak, the errors of exponents of 2 and more and those of the releases of
-    `Hysteretic` and `Viscoelastic` contacts are too small.
+    A law that is given is taken as exact: the errors are those for this law, and for a ball that
+    touches no other ball at its touch and release. Where the noise is as low as 0.1 % of the peak,
+    the errors of exponents of 2 and more and those of the releases of `Hysteretic` and
+    `Viscoelastic` contacts are too small.
 
     The impulse is ``m v0 (1 + e)``. With `mass` and `impact_speed`, and e from the time to the next
     contact, if one follows, it gives the volts per newton; without a next contact e may be
@@ -158,7 +158,7 @@ def waveform(
 
 
 def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
-    """Find baseline and contacts in turns, as each needs the other."""
+    """Find baseline and contacts in turns, as each depends on the other."""
     zero = quiet_parts(record, np.zeros(len(record.times), dtype=bool), hum=False)
     stretches: list[Stretch] = []
     short, own = 0, sign or 1
@@ -174,7 +174,7 @@ def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) 
 
 
 def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
-    """Tell which samples are clear of all contacts."""
+    """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
     ends = [-1, *(one.last for one in stretches)]
     starts = [*(one.first for one in stretches), count]
@@ -186,7 +186,7 @@ def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
 
 
 def _undrooped(record: Record, seen: Seen, time_constant: float) -> Record:
-    """Return the record with its droop put back, from the level before the first contact on."""
+    """Return the record with its droop corrected; its level is that before the first contact."""
     before = seen.quiet.copy()
     if seen.stretches:
         before[seen.stretches[0].first :] = False
@@ -196,7 +196,7 @@ def _undrooped(record: Record, seen: Seen, time_constant: float) -> Record:
 
 
 def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
-    """Return what should be known about the record."""
+    """Return the notes on a record."""
     notes = []
     if not contacts:
         high = float(np.max(np.abs(seen.signal)))
@@ -254,7 +254,7 @@ def _steep(contacts: tuple[Contact, ...]) -> list[str]:
 
 
 def _droops(seen: Seen, step: float) -> list[str]:
-    """Return a note if the baseline lies lower after a contact, as a high-pass makes it."""
+    """Return a note if the baseline is lower after the first contact, an effect of a high-pass."""
     if not seen.stretches or seen.zero.hum:
         return []
     one = seen.stretches[0]

@@ -19,11 +19,11 @@ from stackbounce.measure.samples import Array
 
 __all__ = ["Seen", "measure_contact"]
 
-_BESIDE = 2  # contacts' lengths of baseline on each side
-_SOME = 4  # quiet samples that tell a level
-_MANY = 60  # quiet samples that tell the noise
+_BESIDE = 2  # times the contact's length: baseline on each side
+_SOME = 4  # quiet samples, at least, for a level
+_MANY = 60  # quiet samples, at least, for the noise
 _LEAST = 40  # samples of baseline looked at on each side
-_AVERAGES = 80  # over a contact, to see where its flanks are
+_AVERAGES = 80  # moving averages over a contact, by which its flanks are found
 _TAIL = 0.25  # of a contact's length that its end may still reach
 
 
@@ -35,7 +35,7 @@ class Seen(NamedTuple):
     times, signal : ndarray
         (n,) in s and in the record's unit.
     raw : ndarray
-        (n,) as it was recorded, but contacts upward: at a recorder's limit all values are equal.
+        (n,) as recorded, but contacts upward; where the record is clipped all values are equal.
     quantum : float
         The step of the converter, 0 where none is seen.
     zero : Quiet
@@ -63,9 +63,10 @@ class Seen(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """The samples around a contact, without the baseline beside it, whose error is `offset`.
+    """The samples around a contact, with the local baseline taken off.
 
-    The noise is that beside the contact, where there are samples enough to tell.
+    `offset` is the baseline's standard error. The noise is that beside the contact, where there are
+    enough samples.
     """
 
     times: Array
@@ -80,7 +81,7 @@ class _Part:
 def measure_contact(
     seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | None, ends: Ends
 ) -> Contact:
-    """Return what a stretch of the record tells about a contact.
+    """Return the times, peaks and impulse of a contact.
 
     Parameters
     ----------
@@ -89,7 +90,7 @@ def measure_contact(
     before, one, after : Stretch
         The contact and its neighbours, None where it has none.
     ends : Ends
-        How it may begin and end.
+        The shapes of its flanks.
 
     Returns
     -------
@@ -130,7 +131,7 @@ def measure_contact(
 
 
 def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | None) -> _Part:
-    """Return the contact with what is quiet beside it, the line through which is taken off."""
+    """Return a contact and the quiet samples beside it, without the line through these."""
     reach = max(_BESIDE * len(one), _LEAST)
     low, high = max(0, one.first - reach), min(len(seen.times) - 1, one.last + reach)
     if before is not None:

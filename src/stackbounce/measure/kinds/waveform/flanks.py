@@ -1,9 +1,9 @@
-"""Touch and release of a contact, by a fit of its flanks.
+"""Touch and release of a contact: a Bayesian fit of its flanks.
 
-A threshold is crossed too late, by an amount that depends on the threshold. Therefore the rise is
-fitted by the curve of a shape (`shapes`). The start, the shape's unknown, the other coefficients of
-the curve and the level before the touch are free, and the error of the start is marginalised over
-all of them.
+The force crosses a threshold later than the touch, the more so the higher the threshold. Therefore
+the rise is fitted by the curve of a shape (`shapes`). The start, the shape's unknown, the other
+coefficients of the curve and the level before the touch are free, and the error of the start is
+marginalised over all of them.
 """
 
 from dataclasses import dataclass, replace
@@ -30,7 +30,7 @@ _SLACK = 3.0  # standard deviations of chi squared
 
 @dataclass(frozen=True, eq=False)
 class Flank:
-    """The beginning of a contact, or with time reversed its end.
+    """The beginning of a contact or, with time reversed, its end.
 
     Parameters
     ----------
@@ -53,7 +53,7 @@ class Flank:
     misfit: float
 
     def reversed(self) -> "Flank":
-        """Return the same with time running the other way."""
+        """Return the flank with time reversed."""
         times, force = -self.times[::-1], self.force[::-1]
         return replace(self, time=-self.time, times=times, force=force)
 
@@ -77,7 +77,7 @@ class _Points:
 
     @property
     def unit(self) -> float:
-        """The whole time in s."""
+        """The duration of the samples in s, the unit of time of the fit."""
         return float(self.times[-1] - self.times[0])
 
 
@@ -92,7 +92,7 @@ def fit_flank(
     length: float,
     width: int = 1,
 ) -> Flank | None:
-    """Return the beginning of a rise from the baseline, or None where nothing rises.
+    """Return the fit of a rise from the baseline, or None where nothing rises.
 
     Parameters
     ----------
@@ -103,15 +103,15 @@ def fit_flank(
     sigma : float
         Standard deviation of a value.
     shape : Shape
-        How the force may begin.
+        The curve and the prior of its unknown.
     peak : float
         The height of the first peak.
     offset : float
-        How far the baseline may be off, one standard deviation.
+        Standard error of the baseline.
     length : float
         Of the contact, in s, roughly.
     width : int, optional
-        How many samples are averaged to see where the rise is; odd.
+        How many samples are averaged to find the rise; odd.
 
     Returns
     -------
@@ -148,7 +148,7 @@ class _Cut(NamedTuple):
 
 
 def _cut(times: Array, even: Array, calm: float, level: float) -> _Cut | None:
-    """Return where a rise is: from well before its foot to the first two values above a level."""
+    """Return the places of a rise: well before its foot, its foot, and the end above a level."""
     if level < _CLEAR * calm or len(even) < _FEWEST:
         return None
     over = even >= level
@@ -178,7 +178,7 @@ def _points(times: Array, values: Array, sigma: float, cut: _Cut) -> _Points:
 
 
 def _fit(points: _Points, shape: Shape) -> Flank:
-    """Return the flank from all starts and unknowns of the shape."""
+    """Return the flank, by the posterior on a grid of starts and unknowns of the shape."""
     times = points.times
     end = times[-1]
     low = np.flatnonzero(points.values < max(0.3 * points.height, 2.0 * points.sigma))
@@ -188,7 +188,7 @@ def _fit(points: _Points, shape: Shape) -> Flank:
     starts = np.tile(first, (len(logs), 1))
     for k in range(_ZOOMS):
         score = _scan(points, shape, starts, logs)[0]
-        finer = k >= _SETTLED and not shape.known  # each needs its best start first
+        finer = k >= _SETTLED and not shape.known  # first each unknown gets its best start
         starts, logs = _closer(starts, logs, score, end, finer=finer)
     score, chi, best = _scan(points, shape, starts, logs)
     weight = np.exp(score - score.max())
@@ -206,7 +206,7 @@ def _fit(points: _Points, shape: Shape) -> Flank:
 def _closer(
     starts: Array, logs: Array, score: Array, end: float, *, finer: bool
 ) -> tuple[Array, Array]:
-    """Return a finer grid around the weight on a coarse one.
+    """Return a finer grid around the posterior on a coarse one.
 
     Start and exponent are correlated: the larger the exponent, the earlier the start. At low noise
     the posterior is a narrow ridge, so each exponent has its own grid of starts.
@@ -248,7 +248,7 @@ def _half(grid: Array, weight: Array) -> float:
 def _scan(
     points: _Points, shape: Shape, starts: Array, logs: Array
 ) -> tuple[Array, float, tuple[float, float, Array]]:
-    """Return the logarithm of the probability of each pair of start and unknown.
+    """Return the log-posterior of each pair of start and unknown.
 
     For each pair the curve is linear in its other coefficients, which are integrated out. Also
     return chi squared of the best pair, and its start, unknown and coefficients.

@@ -31,7 +31,7 @@ def _analyse(
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> "tuple[Finding, ...]":
-    """Analyse a force, and the gap between two balls where a second record tells it."""
+    """Analyse a force, and the gap between two balls where there is a second channel or record."""
     from stackbounce.measure.kinds.heights.analysis import fallen
     from stackbounce.measure.kinds.waveform.analysis import waveform
     from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
@@ -49,7 +49,7 @@ def _analyse(
 
 
 def _by_two_sensors(data: "xr.Dataset", speed: Any, contact_time: Any) -> "tuple[SensorGap, ...]":
-    """Return the gap of two balls if the record's second channel feels them touch."""
+    """Return the gap of two balls if the second channel is a sensor between them."""
     from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
 
     try:

@@ -17,7 +17,7 @@ _SHARE = 0.02  # of the highest peak, likewise
 _CAP = 0.82  # of a peak's height, above which its cap is fitted
 _DEGREE = 4
 _RUN = 3  # equal samples that make a flat top
-_NEXT = 0.15  # of the samples at the top may lie one step below it if it was cut off
+_NEXT = 0.15  # of the number of top samples, one step below them, at most, if it is clipped
 
 
 class Peak(NamedTuple):
@@ -42,8 +42,8 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
     Returns
     -------
     list of Peak
-        At least one. Dips are told from noise where they are 7 noise levels of the averages deep,
-        and 2 % of the highest peak.
+        At least one. A dip between two peaks is at least 7 noise levels of the averages deep, and
+        2 % of the highest peak.
 
     Examples
     --------
@@ -55,7 +55,7 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
     from scipy.signal import find_peaks as maxima
 
     width = 2 * (len(values) // _AVERAGES // 2) + 1
-    even = np.maximum(smoothed(values, width), 0.0)  # what noise does below zero is no dip
+    even = np.maximum(smoothed(values, width), 0.0)  # noise below zero is no dip
     calm = density / np.sqrt(width)
     padded = np.concatenate([[0.0], even, [0.0]])
     stand_out = max(_STAND_OUT * max(calm, noise / width), _SHARE * float(even.max()))
@@ -128,8 +128,8 @@ def impulse_of(
     Returns
     -------
     (float, float)
-        In s times the values' unit. The trapezium rule errs where the force begins and ends; half
-        a step's worth of that, over √3, is in the error.
+        In s times the values' unit. The error includes that of the trapezoidal rule at the kinks
+        where the force begins and ends.
 
     Examples
     --------
@@ -154,7 +154,7 @@ def impulse_of(
 
 
 def flat_top(values: Array, quantum: float) -> bool:
-    """Tell whether the top of a contact was cut off: equal samples, and hardly any just below.
+    """Tell whether a contact is clipped: its top samples are equal, with hardly any just below.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """The gap between two falling balls, from the delay between floor contact and ball contact.
 
 When the lower ball touches the floor the upper one is a gap above it and falls on at the impact
-speed. They touch when it has fallen the gap and what the lower ball went down meanwhile:
+speed. They touch when the gap is closed by its fall and the lower ball's displacement:
 
     gap(t) = v0 t + q(t),
 
@@ -42,9 +42,9 @@ def gap_from_delay(
     contact: "ContactLaw | None" = None,
     restitution: float = 1.0,
 ) -> "UFloat":
-    """Return the gap that makes two falling balls touch so long after the lower one's landing.
+    """Return the gap of two falling balls that touch a delay after the lower one's landing.
 
-    How the lower ball bounces alone is told by exactly one of `contact_time`, `stiffness` (with
+    The bounce of the lower ball alone is given by exactly one of `contact_time`, `stiffness` (with
     `mass`) and `contact` (with `mass` unless it is `Rigid`).
 
     Parameters
@@ -62,18 +62,18 @@ def gap_from_delay(
     contact : ContactLaw, optional
         Any law of its contact with the floor; the single ball is simulated.
     restitution : float, optional
-        At what share of the impact speed the ball leaves, where `contact_time` or `stiffness` is
-        given; while it is on the floor it moves as without loss. Default 1.
+        Of the lower ball alone, where `contact_time` or `stiffness` is given: it only sets the
+        speed at which the ball leaves the floor. Default 1.
 
     Returns
     -------
     UFloat
-        In m; its error follows from those of all that was given.
+        In m; its error follows from those of all arguments, to first order.
 
     Raises
     ------
     InvalidValue
-        If a number is out of its range, or not one way to bounce is given.
+        If a number is out of its range, or the bounce is given in no way or more than one.
     InvalidType
         If something has the wrong type.
 
@@ -103,9 +103,7 @@ def delay_from_gap(
     contact: "ContactLaw | None" = None,
     restitution: float = 1.0,
 ) -> "UFloat":
-    """Return how long after the lower ball's landing two balls touch that fall a gap apart.
-
-    `gap_from_delay` turned round; everything else is as there.
+    """Return the delay after which two falling balls touch: the inverse of `gap_from_delay`.
 
     Parameters
     ----------
@@ -191,7 +189,10 @@ def _checked(
     contact: Any,
     restitution: float,
 ) -> tuple[_Gap, dict[str, Any]]:
-    """Return the gap as a function of delay, speed and what tells the ball; and its numbers."""
+    """Return the gap as a function of delay, speed and ball, and the numbers that were given.
+
+    The ball is given by its contact time on a spring, or by its mass.
+    """
     ways = {"stiffness": stiffness, "contact_time": contact_time, "contact": contact}
     given = [way for way, one in ways.items() if one is not None]
     if len(given) != 1:
@@ -229,7 +230,7 @@ def _simulated_gap(contact: Any, t: float, v: float, mass: float) -> float:
 
 
 def _inverted(gap_of: _Gap, value: float, v: float, ball: float) -> float:
-    """Return when a gap is closed; what is closed grows with the delay."""
+    """Return the delay of a gap, which grows with the delay."""
     from scipy.optimize import brentq
 
     high = value / v

@@ -16,10 +16,10 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["floor_gap"]
 
-_UNKNOWN = (0.75, 0.144)  # restitution: anything from 0.5 to 1
+_UNKNOWN = (0.75, 0.144)  # prior of the restitution: uniform from 0.5 to 1
 _SAME = 0.04  # relative, by which two drops from one height may differ
-_EARLY, _LATE = 0.33, 0.6  # of the contact time alone: a kink at which balls that touch from the
-# start may show, and from when on a second ball may stay unseen
+_EARLY = 0.33  # of the contact time alone: earlier change points do not exclude a gap of 0
+_LATE = 0.6  # of the contact time alone: later a second ball may be invisible
 _NEXT = 8.0  # contact times within which a second contact belongs to the same impact
 
 
@@ -32,12 +32,12 @@ def floor_gap(
     restitution: Any = None,
     time_constant: float | None = None,
 ) -> FloorGap:
-    """Return the delay and the gap of two balls by the floor's force under them, and under one.
+    """Return delay and gap of two balls from the floor's force under both and under one.
 
     One sensor on the floor, two drops from the same height: the lower ball alone, and both. Until
-    the balls touch both forces are the same; where they part the second ball has come. How a ball
-    presses on the floor differs too much from ball to ball for one record to tell: the dent that a
-    second ball makes in it may as well be the first ball's own.
+    the balls touch both forces are the same; they part when the second ball touches. One record
+    alone is not enough: the force of a single ball differs so much from ball to ball that a dent
+    in it need not come from a second ball.
 
     Parameters
     ----------
@@ -106,7 +106,7 @@ def floor_gap(
 
 
 class _Fall(NamedTuple):
-    """How the lower ball's fall is stopped: force over time, integrated once and twice."""
+    """The force on the lower ball alone, integrated over time once and twice."""
 
     times: Array
     once: Array
@@ -146,7 +146,7 @@ def _fall(since: Array, force: Array, lasting: float) -> _Fall:
 
 
 def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution: Any) -> Any:
-    """Return what makes an acceleration of the force alone."""
+    """Return the factor from the force on the lower ball alone to its acceleration."""
     if mass is not None and alone.unit == "N":
         return 1.0 / measured("mass", mass, "kilograms")
     if speed is None:
@@ -164,7 +164,7 @@ def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution
 
 
 def _bounce(alone: Waveform, speed: Any) -> Any:
-    """Return the restitution by the flight to a second bounce, or what it may be."""
+    """Return the restitution from the flight to a second bounce, or its prior."""
     if len(alone.contacts) > 1 and alone.contacts[1].start is not None:
         e = STANDARD_GRAVITY * (alone.contacts[1].start - alone.contacts[0].end) / (2.0 * speed)
         if 0.0 < e.nominal_value <= 1.0:
@@ -173,33 +173,34 @@ def _bounce(alone: Waveform, speed: Any) -> Any:
 
 
 def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, float], list[str]]:
-    """Return between which times the balls touched, and why no more can be told, if that is so."""
+    """Return limits of the delay, and a note if the delay itself is unknown."""
     low, high = kink.time - 2.0 * kink.error, kink.time + 2.0 * kink.error
-    if kink.time - kink.error < _EARLY * lasting:
-        return (0.0, high), [
-            "the forces part early: balls that touch from the start look like this too: the gap "
-            "may be 0"
-        ]
-    if kink.time > 0.0:
-        return (low, high), []
-    if kink.pressed:
-        return (0.0, lasting), [
-            "the second ball came before the lower one left the floor, too faintly to tell when"
-        ]
     back = _thrown_back(both, lasting)
-    if back is None:
-        return (0.0, math.inf), [
+    if kink.time - kink.error < _EARLY * lasting:
+        low = 0.0
+        why = "the forces part as early as with balls that touch from the start: the gap may be 0"
+    elif kink.time > 0.0:
+        return (low, high), []
+    elif kink.pressed:
+        low, high = 0.0, lasting
+        why = "the second ball came before the lower one left the floor, too faintly to tell when"
+    elif back is None:
+        low, high = 0.0, math.inf
+        why = (
             "no second ball is seen while the lower one is on the floor: it came too late, or is "
             "too light for this noise, and the gap cannot be told"
-        ]
-    return (_LATE * lasting, back), [
-        "the force is that of the lower ball alone until that leaves the floor, and then it was "
-        "thrown back: the second ball came late, and only limits can be told"
-    ]
+        )
+    else:
+        low, high = _LATE * lasting, back
+        why = (
+            "the force is that of the lower ball alone until that leaves the floor, and then it "
+            "was thrown back: the second ball came late, and only limits can be told"
+        )
+    return (low, high), [why]
 
 
 def _thrown_back(both: Waveform, lasting: float) -> float | None:
-    """Return when the lower ball was pressed on the floor again in the same impact, if it was."""
+    """Return when the lower ball hit the floor again in the same impact, or None."""
     starts = [one.start.nominal_value for one in both.contacts[:2] if one.start is not None]
     back = float(np.ptp(starts))
     return back if 0.0 < back < _NEXT * lasting else None
