@@ -58,27 +58,24 @@ class Flank:
         return replace(self, time=-self.time, times=times, force=force)
 
 
-@dataclass(frozen=True, eq=False)
-class _Points:
-    """Samples, or averages over blocks of them between `edges`; `level` is that of the last.
+class _Points(NamedTuple):
+    """Samples, or averages over blocks of them between `edges`; `height` is about the last one.
 
-    `length` is that of the contact and `step` that between averaged samples, in s.
+    `level` is `height` over that of the peak, `offset` the standard error of the baseline, `length`
+    that of the contact and `step` that between averaged samples, in s; `unit` is the duration of
+    all, in s.
     """
 
     times: Array
     edges: Array | None
     values: Array
     sigma: float
-    height: float = 0.0
-    level: float = 0.0
-    offset: float = 0.0
-    length: float = 0.0
-    step: float = 0.0
-
-    @property
-    def unit(self) -> float:
-        """The duration of the samples in s, the unit of time of the fit."""
-        return float(self.times[-1] - self.times[0])
+    unit: float
+    step: float
+    height: float
+    level: float
+    offset: float
+    length: float
 
 
 def fit_flank(
@@ -130,51 +127,46 @@ def fit_flank(
     even = smoothed(values, width)
     calm = sigma / np.sqrt(width)
     for level in _LEVELS:
-        cut = _cut(times, even, calm, level * peak)
-        if cut is None or (found is not None and (cut.stop - cut.foot) // width < _FEW):
+        start, foot, stop = _cut(times, even, calm, level * peak)
+        if stop == 0 or (found is not None and (stop - foot) // width < _FEW):
             break
-        bare = _points(times, values, sigma, cut)
-        points = replace(bare, height=level * peak, level=level, offset=offset, length=length)
-        found = _fit(points, shape)
+        samples = _averages(times[start:stop], values[start:stop], sigma)
+        found = _fit(_Points(*samples, level * peak, level, offset, length), shape)
         if found.misfit == 1.0:
             break
     return found
 
 
-class _Cut(NamedTuple):
-    start: int
-    foot: int
-    stop: int
+def _cut(times: Array, even: Array, calm: float, level: float) -> tuple[int, int, int]:
+    """Return the places of a rise: well before its foot, its foot, and the end above a level.
 
-
-def _cut(times: Array, even: Array, calm: float, level: float) -> _Cut | None:
-    """Return the places of a rise: well before its foot, its foot, and the end above a level."""
-    if level < _CLEAR * calm or len(even) < _FEWEST:
-        return None
+    The end is 0 where no rise is seen.
+    """
     over = even >= level
     above = np.flatnonzero(over[:-1] & over[1:])  # one may be noise
-    if len(above) and above[0] == 0:
-        return None
+    if level < _CLEAR * calm or len(even) < _FEWEST or (len(above) and above[0] == 0):
+        return 0, 0, 0
     last = int(above[0]) if len(above) else len(even) - 1
     low = np.flatnonzero(even[: last + 1] < max(0.1 * level, 2.0 * calm))
     foot = int(low[-1]) if len(low) else 0
     rise = max(times[last] - times[foot], times[last] - times[last - 1])
     start = min(int(np.searchsorted(times, times[foot] - 2.0 * rise)), max(0, foot - 4))
-    return _Cut(start, foot, last + 1)
+    return start, foot, last + 1
 
 
-def _points(times: Array, values: Array, sigma: float, cut: _Cut) -> _Points:
-    """Return the samples of a cut, averaged over blocks where they are many."""
-    width = max(1, (cut.stop - cut.start) // _MOST)
-    first = cut.start + (cut.stop - cut.start) % width
-    t, y = times[first : cut.stop], values[first : cut.stop]
+def _averages(
+    t: Array, y: Array, sigma: float
+) -> tuple[Array, Array | None, Array, float, float, float]:
+    """Return the first fields of `_Points`: samples, averaged over blocks where they are many."""
+    width = max(1, len(t) // _MOST)
     if width == 1:
-        return _Points(t, None, y, sigma)
+        return t, None, y, sigma, float(t[-1] - t[0]), 0.0
+    t, y = t[len(t) % width :], y[len(y) % width :]
     half = 0.5 * (t[1] - t[0])
     inner = 0.5 * (t[width - 1 : -1 : width] + t[width::width])
     edges = np.concatenate([[t[0] - half], inner, [t[-1] + half]])
     t, y = (one.reshape(-1, width).mean(axis=1) for one in (t, y))
-    return _Points(t, edges, y, float(sigma / np.sqrt(width)), step=2.0 * half)
+    return t, edges, y, float(sigma / np.sqrt(width)), float(t[-1] - t[0]), 2.0 * half
 
 
 def _fit(points: _Points, shape: Shape) -> Flank:
