@@ -12,7 +12,8 @@ measurement   a file or typed numbers, and what was found, for all faces
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
 quantities    numbers with errors; a row of a table
-statistics/   regression, change points, AR noise
+samples       columns of a Dataset or arrays; runs; trapezoids
+statistics/   regression, change points, AR noise, error propagation
 ============= ================================================================
 """
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from stackbounce.calibration import calibrate
 from stackbounce.errors import InvalidValue, between, fraction, positive, shown
 from stackbounce.measure.quantities import Row, measured
+from stackbounce.measure.statistics.propagation import propagate
 from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
 __all__ = ["LawConstants", "dynamic_stiffness", "law_constants"]
 
-_STEP = 1e-4  # relative, of the central differences; runs repeat to about 1e-10
+_BOUNDS = {"restitution": (0.0, 1.0), "exponent": (1.0, math.inf)}
 _UNITS = {"mass": "kilograms", "contact_time": "seconds", "impact_speed": "m/s"}
 
 
@@ -166,14 +167,16 @@ def law_constants(
     at = {name: value.nominal_value for name, value in sources.items()}
     found: Any = calibrate(kind, **at)
     names = list(found.quantities())  # both of a pair that follow from each other
-    constants: dict[str, Any] = {name: getattr(found, name) for name in names}
-    for name, source in sources.items():
-        if source.std_dev > 0.0:
-            slopes = _slopes(kind, at, name, names)
-            for constant, slope in zip(names, slopes, strict=True):
-                constants[constant] = constants[constant] + slope * (source - source.nominal_value)
-    kept = {name: measured(name, value, "", _any) for name, value in constants.items()}
-    return LawConstants(found, kept, sources)
+
+    def constants_of(**numbers: float) -> list[float]:
+        try:
+            law: Any = calibrate(kind, **numbers)
+        except InvalidValue:  # a class without losses, which is told only restitution = 1
+            law = found
+        return [getattr(law, name) for name in names]
+
+    constants = propagate(constants_of, sources, _BOUNDS)
+    return LawConstants(found, dict(zip(names, constants, strict=True)), sources)
 
 
 def _moving(mass: Any) -> "UFloat":
@@ -187,10 +190,6 @@ def _moving(mass: Any) -> "UFloat":
     return both
 
 
-def _any(name: str, value: object, of: str) -> float:  # noqa: ARG001
-    return float(value)  # type: ignore[arg-type]
-
-
 def _checks(kind: object, name: str) -> Callable[[str, object, str], float]:
     """Return what a number must pass before `calibrate` looks at it."""
     if name == "restitution":
@@ -199,21 +198,3 @@ def _checks(kind: object, name: str) -> Callable[[str, object, str], float]:
     if name == "exponent":
         return lambda name, value, _: between(name, value, 1.0, STEEPEST)
     return positive
-
-
-def _slopes(
-    kind: type[ContactLaw], at: dict[str, float], name: str, names: list[str]
-) -> list[float]:
-    """Return the derivative of each constant by one of the numbers that were measured."""
-    low, high = (at[name] * (1.0 + sign * _STEP) for sign in (-1.0, 1.0))
-    if name == "restitution":
-        high = min(high, 1.0)
-        if high <= low:  # restitution 0
-            high = low + _STEP
-    if name == "exponent":
-        low = max(low, 1.0)
-    try:
-        ends: list[Any] = [calibrate(kind, **(at | {name: value})) for value in (low, high)]
-    except InvalidValue:  # a class without losses, which is told only restitution = 1
-        return [0.0] * len(names)
-    return [(getattr(ends[1], one) - getattr(ends[0], one)) / (high - low) for one in names]

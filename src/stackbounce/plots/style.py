@@ -2,10 +2,13 @@
 
 from typing import Any
 
-__all__ = ["COLORS", "STYLE", "color_of", "written"]
+__all__ = ["COLORS", "FORCES", "STYLE", "color_of", "written"]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
+
+FORCES = {"N": "force (N)", "V": "signal (V)"}
+"""The name of an axis of forces, by the record's unit."""
 
 STYLE: Any = {
     "axes.spines.top": False,

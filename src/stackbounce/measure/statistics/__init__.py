@@ -1,1 +1,1 @@
-"""Statistics that several kinds of measurement share: regression, AR noise, change points."""
+"""Statistics of several kinds: regression, AR noise, change points, error propagation."""

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, FORCES, STYLE
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -46,23 +46,18 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         above.plot(ms, like, color=COLORS[1], linewidth=1.3, label="lower ball alone, as high")
         below.plot(ms, force - like, color=COLORS[2], linewidth=1.1)
         below.axhspan(-stack.noise, stack.noise, color="#bdbdbd", alpha=0.45, linewidth=0)
+        title = f"gap between the balls: {found.rows()[0].value} m"
         if found.delay is not None:
             middle, wide = 1e3 * found.delay.nominal_value, 1e3 * found.delay.std_dev
             for axes in (above, below):
                 axes.axvspan(middle - wide, middle + wide, color=COLORS[3], alpha=0.25, linewidth=0)
                 axes.axvline(middle, color=COLORS[3], linewidth=1.2)
-            above.set_title(
+            title = (
                 f"the balls touch {1e3 * found.delay:.1uS} ms after the floor: "
-                f"a gap of {1e3 * found.gap:.1uS} mm",
-                loc="left",
-                fontsize=10,
+                f"a gap of {1e3 * found.gap:.1uS} mm"
             )
-        else:
-            above.set_title(
-                f"gap between the balls: {found.rows()[0].value} m", loc="left", fontsize=10
-            )
-        name = {"N": "force (N)", "V": "signal (V)"}.get(stack.unit, "signal")
-        above.set_ylabel(name)
+        above.set_title(title, loc="left", fontsize=10)
+        above.set_ylabel(FORCES.get(stack.unit, "signal"))
         below.set_ylabel("difference")
         below.set_xlabel("time since the touch (ms)")
         above.legend(frameon=False, loc="upper right")

@@ -123,10 +123,8 @@ def _draw_line(axes: "Axes", found: Any) -> None:
         return
     end = float(found.peak_compression.nominal_value)
     k = float(found.linear_stiffness.nominal_value)
-    label = f"straight line: {_kilo(k)}"
-    axes.plot(
-        [0.0, 1e3 * end], [0.0, k * end], "--", color=_LINE, linewidth=1.2, label=label, zorder=4
-    )
+    look: Any = {"color": _LINE, "linewidth": 1.2, "label": f"straight line: {_kilo(k)}"}
+    axes.plot([0.0, 1e3 * end], [0.0, k * end], "--", zorder=4, **look)
 
 
 def _kilo(stiffness: float) -> str:
@@ -152,16 +150,11 @@ def _draw_residuals(axes: "Axes", found: Any) -> None:
 
 def _title(data: Any, found: Any) -> str:
     """Return one line: the file, the exponent and the restitution."""
-    words = []
     source = getattr(data, "attrs", {}).get("source", "")
-    if source and source != "synthetic":
-        words.append(source)
-    if found.exponent is not None:
-        words.append(f"exponent {_short(found.exponent)}")
-    if found.restitution is not None:
-        words.append(f"restitution {_short(found.restitution)}")
+    words = [source] if source and source != "synthetic" else []
+    for name in ("exponent", "restitution"):
+        value = getattr(found, name)
+        if value is not None:
+            short = f"{value:.1uP}" if value.std_dev > 0.0 else f"{value.nominal_value:.3g}"
+            words.append(f"{name} {short}")
     return ", ".join(words)
-
-
-def _short(value: Any) -> str:
-    return f"{value:.1uP}" if value.std_dev > 0.0 else f"{value.nominal_value:.3g}"

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, FORCES, STYLE
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -97,8 +97,7 @@ def _draw_panel(
             _label_contacts(axes, contacts, factor, factor * (high - low))
     axes.set_xlim(factor * low, factor * high)
     axes.set_xlabel(f"time ({unit})")
-    name = {"N": "force (N)", "V": "signal (V)"}.get(found.unit, "signal")
-    axes.set_ylabel(name + ("" if found.sign > 0 else ", turned over"))
+    axes.set_ylabel(FORCES.get(found.unit, "signal") + ("" if found.sign > 0 else ", turned over"))
 
 
 def _extent(found: Any, contacts: Any) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""The analysis of a press curve, from the record to what was found."""
+"""The analysis of a press curve."""
 
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -32,12 +32,12 @@ def press(
         loading, a hold or not, unloading or not, once or several times. Points without a number are
         left out.
     compliance : float or UFloat, optional
-        How much the machine itself gives way, in m/N, which is taken off the compression.
+        Of the machine itself, in m/N; its own compression is taken off.
     sign : {1, -1}, optional
-        Of the force that presses. By default that of the larger forces.
+        Of the force in the record while the ball is pressed. By default that of the larger forces.
     cycle : int, optional
         Which cycle, from 0; negative from the last. By default the last one that has a loading and
-        an unloading, as a ball is softer at first.
+        an unloading, as the first cycles of a ball differ from later ones.
 
     Returns
     -------
@@ -46,7 +46,7 @@ def press(
     Raises
     ------
     InvalidType
-        If `data` is nothing of the kind.
+        If `data` is neither.
     InvalidValue
         If there are fewer than 6 points, nothing changes, the force does not rise beyond its noise,
         or there is no such cycle.
@@ -93,24 +93,25 @@ def press(
 def _press(record: Record, cycle: int | None) -> Press:
     found = cycles(record)
     chosen = _chosen(found, cycle)
-    if not len(found[chosen].loading):
-        return unloading_only(record, found[chosen], chosen, len(found))
-    all_of_them = {
-        i: result_of(record, one, i, len(found)) for i, one in enumerate(found) if len(one.loading)
-    }
-    own = all_of_them.pop(chosen)
-    own = replace(own, others=tuple(all_of_them.values()))
-    return replace(own, notes=(*record.notes, *sentences(own, len(found[chosen].held))))
+    if len(found[chosen].loading):
+        own = {i: result_of(record, one) for i, one in enumerate(found) if len(one.loading)}
+    else:
+        own = {chosen: unloading_only(record, found[chosen])}
+    own = {i: replace(one, cycle=i, cycles=len(found)) for i, one in own.items()}
+    result = own.pop(chosen)
+    result = replace(result, others=tuple(own.values()))
+    notes = result.notes or sentences(result, len(found[chosen].held))
+    return replace(result, notes=(*record.notes, *notes))
 
 
 def _chosen(found: list[Cycle], cycle: int | None) -> int:
-    """Return the place of the cycle that is asked for."""
+    """Return the place of the cycle that was asked for, or of the best one."""
     if cycle is not None:
         place = whole("cycle", cycle, -len(found), len(found) - 1)
         if not len(found[place].loading) and not len(found[place].unloading):
             raise InvalidValue(f"cycle must be one with enough points, got {cycle}")
         return place % len(found)
-    # both branches before a loading alone, that before an unloading alone, the last of each
+    # a cycle with both branches is preferred to a loading alone, that to an unloading alone
     worth = [2 * bool(len(one.loading)) + bool(len(one.unloading)) for one in found]
     if max(worth) > 0:
         return len(worth) - 1 - worth[::-1].index(max(worth))
@@ -118,7 +119,7 @@ def _chosen(found: list[Cycle], cycle: int | None) -> int:
 
 
 def _with_compliance(one: Press, moved: Press, unit: Any) -> Press:
-    """Return what was found with the error of the machine's compliance in it."""
+    """Return a result with the error of the machine's compliance added to its errors."""
     changes: dict[str, Any] = {}
     for name in Press.__dataclass_fields__:
         value, other = getattr(one, name), getattr(moved, name)

@@ -1,13 +1,14 @@
-"""A press record, sorted: its sign, its cycles, their loading and unloading."""
+"""A press record: its signs, noise and cycles, each with loading and unloading."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.errors import InvalidValue
+from stackbounce.measure.samples import Array, columns
 from stackbounce.measure.statistics.ar_noise import difference_noise
 
 if TYPE_CHECKING:
@@ -15,29 +16,27 @@ if TYPE_CHECKING:
 
 __all__ = ["Cycle", "Record", "cycles", "record_of"]
 
-Array = NDArray[np.float64]
-
 LEAST = 6  # points of a branch, below which nothing is fitted
-_DEEP = 0.15  # of the range: reversals that are less are part of their branch
+_DEEP = 0.15  # of the range: smaller reversals are part of a branch
 _HELD = 1e-3  # of the range, within which the compression is held
-_TOUCHES = 5.0  # standard errors by which a force must rise
+_TOUCHES = 5.0  # standard errors, which the slope of the force must exceed
 
 
 @dataclass(frozen=True)
 class Record:
-    """Compression and force, both growing as the ball is pressed.
+    """Compression and force; both increase as the ball is pressed.
 
     Parameters
     ----------
     compression, force : ndarray
         (N,) in m and N, in the order in which they were recorded, without gaps.
     jitter, hiss : float
-        Noise of the compression in m and of the force in N from point to point, not less than what
-        the steps of their digits make.
+        White noise of the compression in m and of the force in N, not less than their quantisation
+        noise.
     step : float
-        Step of the force's digits in N, 0 if none is seen.
+        Quantisation step of the force in N, 0 if none is seen.
     notes : tuple of str
-        What was done to it.
+        On the changes that were made to it.
     """
 
     compression: Array
@@ -50,18 +49,18 @@ class Record:
 
 @dataclass(frozen=True)
 class Cycle:
-    """Which points of a record are one loading and the unloading after it.
+    """The points of a loading and of the unloading after it.
 
     Parameters
     ----------
     loading, unloading : ndarray of int
         Their places in the record; either may be empty, not both.
     held : ndarray of int
-        Where the press stood still at the peak.
+        Places at which the press stood still at the peak.
     peak, peak_error : float
-        The compression in m at which it turned, and its standard error.
+        The compression in m of the turning point, and its standard error.
     sampled : bool
-        Whether the peak is the last point of the loading, and shares its error.
+        Whether the turning point is the last point of the loading, and shares its error.
     """
 
     loading: NDArray[np.intp]
@@ -82,12 +81,7 @@ def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> 
     InvalidValue
         If there are too few points, or the force does not rise with the compression.
     """
-    compression, force = _columns(data)
-    if compression.shape != force.shape or compression.ndim != 1:
-        raise InvalidValue(
-            "compression and force must be two columns of one length, "
-            f"got shapes {compression.shape} and {force.shape}"
-        )
+    compression, force = columns(data, ("compression", "force"))
     notes = []
     good = np.isfinite(compression) & np.isfinite(force)
     if not good.all():
@@ -105,10 +99,10 @@ def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> 
     if compliance:
         compression = compression - compliance * force
         notes.append(f"The machine's own {compliance:.3g} m/N was taken off the compression.")
-    jitter = max(difference_noise(compression), _digit(compression) / np.sqrt(12.0))
-    step = _digit(force)
-    hiss = max(difference_noise(force), step / np.sqrt(12.0))
-    return Record(compression, force, jitter, hiss, step, tuple(notes))
+    jitter, hiss = (
+        max(difference_noise(one), _digit(one) / np.sqrt(12.0)) for one in (compression, force)
+    )
+    return Record(compression, force, jitter, hiss, _digit(force), tuple(notes))
 
 
 def cycles(record: Record) -> list[Cycle]:
@@ -119,35 +113,19 @@ def cycles(record: Record) -> list[Cycle]:
     low, high = float(path.min()), float(path.max())
     deep = max(_DEEP * (high - low), 8.0 * record.jitter)
     padded = np.concatenate([[low - 1.0], path, [low - 1.0]])
-    padded[[0, -1]] -= 10.0 * (high - low)  # so that an end can be a peak
+    padded[[0, -1]] -= 10.0 * (high - low)  # an end of the record can be a peak
     peaks = find_peaks(padded, prominence=min(deep, 0.9 * (high - low)))[0] - 1
     if not len(peaks):  # a plateau over the whole of it
         peaks = np.array([int(path.argmax())])
     valleys = [int(a + path[a : b + 1].argmin()) for a, b in pairwise(peaks)]
-    starts = [0, *valleys]
-    ends = [*valleys, len(path) - 1]
-    return [
-        _cycle(record, start, int(peak), end)
-        for start, peak, end in zip(starts, peaks, ends, strict=True)
-    ]
-
-
-def _columns(data: Any) -> tuple[Array, Array]:
-    """Return compression and force of a Dataset, or of a pair of arrays."""
-    try:
-        pair = (data["compression"], data["force"]) if hasattr(data, "attrs") else tuple(data)
-        compression, force = (np.asarray(getattr(one, "values", one), float) for one in pair)
-    except (KeyError, TypeError, ValueError):
-        held = ", ".join(map(str, getattr(data, "data_vars", ()))) or shown(data)
-        raise InvalidType(
-            "data must be a Dataset with compression (m) and force (N), or a pair of arrays of "
-            f"them, got {held}"
-        ) from None
-    return compression, force
+    edges = [0, *valleys, len(path) - 1]
+    return [_cycle(record, edges[k], int(peak), edges[k + 1]) for k, peak in enumerate(peaks)]
 
 
 def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array, Array, list[str]]:
-    """Return both columns so that they grow as the ball is pressed, and what was turned."""
+    """Return both columns with signs by which they increase with the load, and notes on that."""
+    from scipy.stats import linregress
+
     notes = []
     if sign is None:
         quiet = float(np.median(np.sort(np.abs(force))[: max(1, len(force) // 10)]))
@@ -155,29 +133,21 @@ def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array
     if sign < 0:
         force = -force
         notes.append("The force was taken with the other sign, so that pressing is positive.")
-    slope, error = _trend(compression, force)
-    if abs(slope) < _TOUCHES * error:
+    line = linregress(compression, force)
+    if abs(line.slope) < _TOUCHES * line.stderr:
         raise InvalidValue(
             "force must rise with the compression beyond its noise, "
-            f"got a slope of ({slope:.3g} ± {error:.2g}) N/m"
+            f"got a slope of ({line.slope:.3g} ± {line.stderr:.2g}) N/m"
         )
-    if slope < 0.0:
+    if line.slope < 0.0:
         compression = -compression
         notes.append("The compression was taken with the other sign: the force fell as it grew.")
     return compression, force, notes
 
 
-def _trend(x: Array, y: Array) -> tuple[float, float]:
-    """Return the slope of a straight line and its error, for points that are independent."""
-    dx, dy = x - x.mean(), y - y.mean()
-    slope = float(dx @ dy / (dx @ dx))
-    rest = dy - slope * dx
-    return slope, float(np.sqrt(rest @ rest / (len(x) - 2) / (dx @ dx)))
-
-
 def _digit(values: Array) -> float:
-    """Return the step between neighbouring values if they repeat, as a converter's do; else 0."""
-    some = values[: 4096 if len(values) > 4096 else None]
+    """Return the step of a converter: between neighbouring values if these repeat; else 0."""
+    some = values[:4096]
     unique = np.unique(some)
     if len(unique) < 2 or len(unique) > 0.8 * len(some):
         return 0.0
@@ -191,32 +161,29 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
     near = np.flatnonzero(path[start : end + 1] >= path[peak] - reach) + start
     first, last = int(near[0]), int(near[-1])
     step = float(np.median(np.abs(np.diff(path[start : end + 1]))))
-    ramp = 2.0 * reach / step + 3.0 if step > 0.0 else 3.0  # points that a turn has anyway
+    ramp = (
+        2.0 * reach / step + 3.0 if step > 0.0 else 3.0
+    )  # points near the peak of a press that never stands still
     still = last - first + 1 > 2.0 * ramp and last - first + 1 >= LEAST
     if still:
-        top = np.sort(path[first : last + 1])
-        middle = float(np.median(top))
-        error = record.jitter / np.sqrt(len(top))
         held = np.arange(first, last + 1)
-        return _branches(start, first, last, end, held, middle, error)
-    level, error = _turn(record, start, peak, end)
-    whole = _branches(start, peak, peak + 1, end, np.empty(0, np.intp), level, error)
-    return replace(whole, sampled=level == path[peak])
-
-
-def _branches(
-    start: int, first: int, last: int, end: int, held: NDArray[np.intp], peak: float, error: float
-) -> Cycle:
-    loading, unloading = np.arange(start, first + 1), np.arange(last, end + 1)
-    if len(loading) < LEAST:
-        loading = loading[:0]
-    if len(unloading) < LEAST:
-        unloading = unloading[:0]
-    return Cycle(loading, unloading, held, peak, error)
+        level, error = float(np.median(path[held])), record.jitter / np.sqrt(len(held))
+    else:
+        first, last, held = peak, peak + 1, np.empty(0, np.intp)
+        level, error = _turn(record, start, peak, end)
+    loading, unloading = (
+        places if len(places) >= LEAST else places[:0]
+        for places in (np.arange(start, first + 1), np.arange(last, end + 1))
+    )
+    sampled = not still and level == path[peak]
+    return Cycle(loading, unloading, held, level, error, sampled)
 
 
 def _turn(record: Record, start: int, peak: int, end: int) -> tuple[float, float]:
-    """Return where the compression turned: the point itself, or lines through its neighbours."""
+    """Return the compression at the turning point, and its standard error.
+
+    It is the point itself or, where the noise exceeds the steps, the crossing of two lines.
+    """
     path = record.compression
     sides = [(start, peak), (peak, end)]
     steps = [abs(path[b] - path[a]) / (b - a) for a, b in sides if b - a >= 2]

@@ -1,22 +1,21 @@
 """Power laws fitted to a press record by least squares, with the sensitivity to each point's noise.
 
-To first order every number found is a linear function of the noise of the points. Its weights are
-kept as a row, so that all errors and correlations follow from one covariance of the noise.
+To first order every number that is found is a linear function of the noise of the points. Its
+weights are kept as a row; all errors and correlations follow from one covariance of the noise.
 """
 
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-__all__ = ["PowerFit", "fit_loading", "fit_unloading", "power", "rough_contact"]
+from stackbounce.measure.samples import Array
 
-Array = NDArray[np.float64]
+__all__ = ["PowerFit", "fit_power_law", "power", "power_law", "rough_contact"]
 
 _EXPONENTS = (0.7, 1.0, 1.5, 2.0, 3.0)  # tried first
-_PLACES = 48  # of the touch, tried first
-_FEW = 300  # points, which are enough for that
+_PLACES = 48  # of the contact, tried first
+_FEW = 300  # points that are used for that
 _WIDEST = 20.0  # ln of a parameter stays within ±this, so that no power overflows
 
 
@@ -27,11 +26,11 @@ class PowerFit:
     Parameters
     ----------
     values : ndarray
-        P, ln p, and for the loading ln C, where c0 is the given peak less C.
+        P, ln p and ln C, where c0 is the given peak less C.
     weights : ndarray
-        (q, N) how much each of them moves with the noise of each point.
+        (q, N) derivatives of those that were fitted by the noise of each point.
     jacobian : ndarray
-        (N, q) how much the fit moves with each of them.
+        (N, q) derivatives of the curve by them.
     residual : ndarray
         (N,) force less fit.
     """
@@ -57,7 +56,7 @@ def power(ratio: Array, exponent: float) -> Array:
 
 
 def rough_contact(x: Array, y: Array) -> tuple[float, float]:
-    """Return about where the force begins to rise, and the exponent, whatever the force's zero.
+    """Return rough values of the contact and the exponent, independent of the force's zero.
 
     Parameters
     ----------
@@ -86,10 +85,37 @@ def rough_contact(x: Array, y: Array) -> tuple[float, float]:
     return best[1], best[2]
 
 
-def fit_loading(
-    x: Array, y: Array, peak: float, start: tuple[float, float], scale: Any
+def power_law(x: Array, peak: float, values: Array) -> tuple[Array, Array]:
+    """Return ``P ((x - peak + C)/C)**p``, and its derivatives by P, ln p and ln C.
+
+    Parameters
+    ----------
+    x : ndarray
+        (N,) compression.
+    peak : float
+        Where the force is P.
+    values : ndarray
+        P, ln p and ln C.
+
+    Returns
+    -------
+    force : ndarray
+        (N,).
+    jacobian : ndarray
+        (N, 3).
+    """
+    top, p, c = values[0], *np.exp(np.clip(values[1:], -_WIDEST, _WIDEST))
+    ratio = 1.0 - (peak - x) / c
+    unit = power(ratio, p)
+    by_exponent = top * p * unit * np.log(np.where(ratio > 0.0, ratio, 1.0))
+    by_length = top * p * power(ratio, p - 1.0) * (1.0 - ratio)
+    return top * unit, np.column_stack([unit, by_exponent, by_length])
+
+
+def fit_power_law(
+    x: Array, y: Array, peak: float, first: Array, free: int, scale: Any = 1.0
 ) -> PowerFit:
-    """Fit ``P ((x - peak + C)/C)**p``, with P, ln p and ln C open.
+    """Fit `power_law` by least squares.
 
     Parameters
     ----------
@@ -97,51 +123,27 @@ def fit_loading(
         (N,) compression and force, its zero taken off.
     peak : float
         Where the force is P.
-    start : (float, float)
-        Contact and exponent to start from.
-    scale : ndarray or float
+    first : ndarray
+        P, ln p and ln C to start from.
+    free : int
+        How many of them are fitted: 3, or 2 where C is known.
+    scale : ndarray or float, optional
         Relative noise of the points.
 
     Returns
     -------
     PowerFit
     """
-
-    def curve(values: Array) -> tuple[Array, Array]:
-        top, p, c = values[0], *np.exp(np.clip(values[1:], -_WIDEST, _WIDEST))
-        ratio = 1.0 - (peak - x) / c
-        unit = power(ratio, p)
-        log = np.log(np.where(ratio > 0.0, ratio, 1.0))
-        by_length = top * p * power(ratio, p - 1.0) * (1.0 - ratio)
-        by_length[ratio <= 0.0] = 0.0
-        return top * unit, np.column_stack([unit, top * p * unit * log, by_length])
-
-    first = np.array([max(float(y[-1]), 0.1 * float(np.ptp(y))), np.log(start[1]), 0.0])
-    first[2] = np.log(max(peak - start[0], 1e-3 * float(np.ptp(x))))
-    return _least_squares(curve, first, y, scale)
-
-
-def fit_unloading(x: Array, y: Array, peak: float, length: float, scale: Any) -> PowerFit:
-    """Fit ``P ((x - peak + C)/C)**n``, with P and ln n open, and C known as `length`."""
-    ratio = 1.0 - (peak - x) / length
-    log = np.log(np.where(ratio > 0.0, ratio, 1.0))
-
-    def curve(values: Array) -> tuple[Array, Array]:
-        top, n = values[0], np.exp(np.clip(values[1], -_WIDEST, _WIDEST))
-        unit = power(ratio, n)
-        return top * unit, np.column_stack([unit, top * n * unit * log])
-
-    first = np.array([max(float(y[0]), 0.1 * float(np.ptp(y))), np.log(2.0)])
-    return _least_squares(curve, first, y, scale)
-
-
-def _least_squares(curve: Any, first: Array, y: Array, scale: Any) -> PowerFit:
     from scipy.optimize import least_squares
+
+    def curve(values: Array) -> tuple[Array, Array]:
+        force, jacobian = power_law(x, peak, np.append(values, first[free:]))
+        return force, jacobian[:, :free]
 
     weight: Array = np.broadcast_to(1.0 / np.asarray(scale, float), y.shape)
     solved = least_squares(
         lambda values: (curve(values)[0] - y) * weight,
-        first,
+        first[:free],
         jac=lambda values: curve(values)[1] * weight[:, None],
         method="lm",
         xtol=1e-10,
@@ -151,4 +153,4 @@ def _least_squares(curve: Any, first: Array, y: Array, scale: Any) -> PowerFit:
     fitted, jacobian = curve(solved.x)
     # weights = (JᵀWJ)⁻¹ JᵀW
     inverse = np.linalg.pinv(jacobian * weight[:, None], rcond=1e-11)
-    return PowerFit(solved.x, inverse * weight, jacobian, y - fitted)
+    return PowerFit(np.append(solved.x, first[free:]), inverse * weight, jacobian, y - fitted)

@@ -7,7 +7,7 @@ from stackbounce.measure.kinds.press.result import Press
 __all__ = ["sentences"]
 
 _CLEAR = 3.0  # standard errors
-_WORTH = 0.02  # of a number, below which a difference is not worth a sentence
+_WORTH = 0.02  # of a number, below which a difference gets no note
 
 
 def sentences(found: Press, held: int) -> list[str]:
@@ -46,17 +46,14 @@ def sentences(found: Press, held: int) -> list[str]:
 
 
 def _on_fits(found: Press) -> list[str]:
-    notes = []
-    for name, curve, law in (
-        ("loading", found.loading, "one power law"),
-        ("unloading", found.unloading, "the power law that Hysteretic unloads by"),
-    ):
-        if curve is not None and not curve.fits:
-            notes.append(
-                f"The {name} is not well described by {law}: it is off by "
-                f"{100.0 * curve.misfit:.2g} % of the peak force."
-            )
-    return notes
+    laws = {"loading": "one power law", "unloading": "the power law that Hysteretic unloads by"}
+    curves = {name: getattr(found, name) for name in laws}
+    return [
+        f"The {name} is not well described by {laws[name]}: it is off by "
+        f"{100.0 * curve.misfit:.2g} % of the peak force."
+        for name, curve in curves.items()
+        if curve is not None and not curve.fits
+    ]
 
 
 def _on_loss(found: Press, held: int) -> list[str]:

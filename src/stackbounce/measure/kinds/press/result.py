@@ -3,19 +3,15 @@
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from stackbounce.errors import InvalidValue, positive
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Finding
-from stackbounce.measure.quantities import Row
+from stackbounce.measure.quantities import Row, measured
+from stackbounce.measure.samples import Array
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
 __all__ = ["Curve", "Press"]
-
-Array = NDArray[np.float64]
 
 _AGREES = 2.0  # standard errors
 
@@ -31,12 +27,12 @@ class Curve:
     force : ndarray
         (N,) in N, its zero taken off.
     fit : ndarray
-        (N,) in N, the power law; empty where there is none.
+        (N,) in N, the power law.
     misfit : float
-        The part of force less fit that is smooth along the curve, so no noise: its root mean square
-        over the peak force.
+        Root mean square of the part of the residuals that is smooth along the curve, over the peak
+        force.
     noise : float
-        The other part, root mean square in N.
+        Root mean square of the other part, in N.
     fits : bool
         Whether the smooth part is small (below 1 % of the peak force) or lost in the noise.
     """
@@ -49,9 +45,9 @@ class Curve:
     fits: bool
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Press(Finding):
-    """What the analysis of a press curve found; see `press`. What cannot be known is None.
+    """The result of the analysis of a press curve; see `press`. None stands for unknown numbers.
 
     Parameters
     ----------
@@ -76,14 +72,14 @@ class Press(Finding):
     restitution : UFloat or None
         ``sqrt(work_out/work_in)``.
     unloading_exponent : UFloat or None
-        n of the unloading ``F ∝ c**n``, as fitted.
+        n of the unloading ``F ∝ c**n``, by the fit.
     energy_exponent : UFloat or None
-        n as it follows from the works, ``(p + 1) work_in/work_out - 1``.
+        n by the works, ``(p + 1) work_in/work_out - 1``.
     contact : UFloat
-        Where on the record's scale of compression the contact begins, in m.
+        Compression at which the contact begins, on the record's scale, in m.
     zero : UFloat
-        What the force sensor showed with nothing pressed, in N; exactly 0 where the record has no
-        such part and was taken as it is.
+        Force in the record with nothing pressed, in N; exactly 0 where the record has no such part:
+        then the force is taken as recorded.
     relaxed : UFloat or None
         By how much the force dropped at the turn, in N.
     loading, unloading : Curve or None
@@ -100,29 +96,29 @@ class Press(Finding):
 
     picture: ClassVar[str] = "press"
 
-    stiffness: "UFloat | None"
-    exponent: "UFloat | None"
-    linear_stiffness: "UFloat | None"
-    tangent_stiffness: "UFloat | None"
-    secant_stiffness: "UFloat | None"
     peak_compression: "UFloat"
     peak_force: "UFloat"
-    work_in: "UFloat | None"
-    work_out: "UFloat | None"
-    loss: "UFloat | None"
-    restitution: "UFloat | None"
-    unloading_exponent: "UFloat | None"
-    energy_exponent: "UFloat | None"
     contact: "UFloat"
     zero: "UFloat"
-    relaxed: "UFloat | None"
-    loading: Curve | None
-    unloading: Curve | None
     record: tuple[Array, Array]
-    cycle: int
-    cycles: int
-    others: "tuple[Press, ...]"
-    notes: tuple[str, ...]
+    stiffness: "UFloat | None" = None
+    exponent: "UFloat | None" = None
+    linear_stiffness: "UFloat | None" = None
+    tangent_stiffness: "UFloat | None" = None
+    secant_stiffness: "UFloat | None" = None
+    work_in: "UFloat | None" = None
+    work_out: "UFloat | None" = None
+    loss: "UFloat | None" = None
+    restitution: "UFloat | None" = None
+    unloading_exponent: "UFloat | None" = None
+    energy_exponent: "UFloat | None" = None
+    relaxed: "UFloat | None" = None
+    loading: Curve | None = None
+    unloading: Curve | None = None
+    cycle: int = 0
+    cycles: int = 1
+    others: "tuple[Press, ...]" = ()
+    notes: tuple[str, ...] = ()
 
     @property
     def linear(self) -> bool:
@@ -136,7 +132,7 @@ class Press(Finding):
         loss: Any = self.loss
         return None if loss is None else bool(loss.nominal_value <= _AGREES * loss.std_dev)
 
-    def compression_at(self, force: float) -> "UFloat":
+    def compression_at(self, force: "UFloat | float") -> "UFloat":
         """Return the compression in m at which the loading has a force in N.
 
         Raises
@@ -144,10 +140,10 @@ class Press(Finding):
         InvalidValue
             If there is no loading, or `force` is not positive.
         """
-        positive("force", force, "newtons")
+        at = measured("force", force, "newtons")
         if self.stiffness is None or self.exponent is None:
             raise InvalidValue("compression_at must have a loading to read it from, got none")
-        c: UFloat = (force / self.stiffness) ** (1.0 / self.exponent)
+        c: UFloat = (at / self.stiffness) ** (1.0 / self.exponent)
         return c
 
     def rows(self) -> list[Row]:

@@ -1,4 +1,4 @@
-"""Two bodies pressed one on the other: who gives way by how much."""
+"""Two balls pressed in series: the compression of each."""
 
 import math
 from dataclasses import dataclass
@@ -17,28 +17,28 @@ __all__ = ["Split", "series_stiffness", "split_series"]
 
 @dataclass(frozen=True)
 class Split:
-    """How a compression in series divides at one force; see `split_series`. Lengths in m.
+    """The parts of a compression in series at one force; see `split_series`. Lengths in m.
 
     Parameters
     ----------
     force : UFloat
         In N.
     bottom : UFloat
-        Of the lower ball at the plate (or floor) below it.
+        Compression of the lower ball at the plate (or floor) below it.
     top : UFloat
         Of the lower ball at the upper one.
     upper : UFloat
         Of the upper ball.
     between : UFloat
-        What closes the centres' distance: `top`, and the upper ball's lower half.
+        Of the centres' distance: `top` and half of `upper`.
     excess : UFloat
-        Of both beyond the sum of each alone: 0 for springs in series.
+        Of both together, less the sum of each alone: 0 for springs in series.
     floor_stiffness, ball_stiffness : UFloat
         Force over `bottom` and over `between`, in N/m.
     ratio : UFloat
         Their ratio, k1/k2.
     notes : tuple of str
-        What is worth knowing, a sentence each.
+        What a reader of the numbers should know, a sentence each.
     """
 
     force: "UFloat"
@@ -73,7 +73,7 @@ class Split:
 
 
 def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Split:
-    """Return how the compression of two balls pressed in series divides, as in Figure 7.
+    """Return the parts of the compression of two balls pressed in series, as in Figure 7.
 
     Parameters
     ----------
@@ -92,17 +92,18 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Spl
     Raises
     ------
     InvalidType
-        If one of them is nothing of the kind.
+        If one of them is neither.
     InvalidValue
         If a number is not positive, or `force` is needed and missing.
 
     Notes
     -----
-    A ball alone gives way by the same at both plates, and so by half of it at the bottom, whatever
-    lies on it. What is left of both's compression, once the upper ball's own is off, is the lower
-    ball's top: R. Cross, Am. J. Phys. 75, 1009 (2007), section III. The stiffness between the balls
-    is that of their centres, so that half of the upper ball's compression counts: the other half is
-    at the plate above it. This is the reading that gives the paper's ratio of 1.8.
+    A ball alone between two plates is compressed equally at both, so that half of its compression
+    is at the bottom; this half is the same with the other ball on top. The compression of both,
+    less this half and the upper ball's own compression, is that of the lower ball's top: R. Cross,
+    Am. J. Phys. 75, 1009 (2007), section III. The stiffness between the balls is defined by the
+    distance of their centres, so that half of the upper ball's compression counts; the other half
+    is at the plate above it. This reading gives the paper's ratio of 1.8.
 
     Examples
     --------
@@ -146,10 +147,9 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Spl
 def _compression(name: str, one: Any, force: "UFloat") -> "UFloat":
     """Return a compression at a force, as given or read off a curve."""
     if isinstance(one, Press):
-        if one.stiffness is None or one.exponent is None:
+        if one.loading is None:
             raise InvalidValue(f"{name} must be a press curve with a loading, got none")
-        c: UFloat = (force / one.stiffness) ** (1.0 / one.exponent)
-        return c
+        return one.compression_at(force)
     try:
         return measured(name, one, "metres")
     except InvalidType:

@@ -1,15 +1,15 @@
-"""A force record from its samples to contacts, times, peaks and impulses."""
+"""The analysis of a force record: its contacts, their times, peaks and impulses."""
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.errors import InvalidValue, positive, shown
-from stackbounce.measure.kinds.waveform.baseline import Quiet, first_guess, quiet_parts
-from stackbounce.measure.kinds.waveform.contact import Local, measure_contact
+from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
+from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.droop import undrooped
 from stackbounce.measure.kinds.waveform.ends import UNTOLD, ends_of
 from stackbounce.measure.kinds.waveform.intervals import (
@@ -18,10 +18,11 @@ from stackbounce.measure.kinds.waveform.intervals import (
     smoothed,
     which_sign,
 )
-from stackbounce.measure.kinds.waveform.record import Array, Record, read_record
+from stackbounce.measure.kinds.waveform.record import Record, read_record
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import known, sensitivity_of
 from stackbounce.measure.quantities import known_to
+from stackbounce.measure.samples import Array
 from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
@@ -29,21 +30,11 @@ if TYPE_CHECKING:
 
 __all__ = ["waveform"]
 
-_MARGIN = 0.2  # of a contact, on each side of it, that is not taken as quiet
+_MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _ROUNDS = 4
-_FEW = 6  # samples of a contact that are few
-_UNDERSHOOT = 5.0  # errors
-_STEEP, _SURELY = 0.85, 3.0  # an exponent too small for a power law; errors below 1
-
-
-class _Seen(NamedTuple):
-    """A record on its way: signal upward, quiet parts, contacts, things too short to be any."""
-
-    signal: Array
-    quiet: Quiet
-    stretches: list[Stretch]
-    short: int
-    sign: int
+_FEW = 6  # samples of a contact, below which a note says so
+_UNDERSHOOT = 5.0  # standard errors of the step of the baseline
+_STEEP, _SURELY = 0.85, 3.0  # an exponent too small for any spring; standard errors below 1
 
 
 def waveform(
@@ -57,26 +48,27 @@ def waveform(
     law: "ContactLaw | type[ContactLaw] | str | None" = None,
     exponent: float | None = None,
 ) -> Waveform:
-    """Find the contacts in a force record, when they begin and end, their peaks and impulses.
+    """Find the contacts of a force record: their starts and ends, peaks and impulses.
 
     Parameters
     ----------
     data : xarray.Dataset or (array_like, array_like)
-        A record as `read` gives it, of which the first force (N) or voltage (V) is taken; or times
-        in s and values. Values need no calibration.
+        A record as `read` gives it, whose first force (N) or voltage (V) is analysed; or times in s
+        and values. Values need no calibration.
     mass : float or UFloat, optional
         Of the ball in kg: gives the dynamic stiffness.
     impact_speed : float or UFloat, optional
         In m/s: with `mass` it calibrates a sensor that shows volts, see Notes.
     time_constant : float, optional
-        RC in s of a piezo sensor and its amplifier: the droop is put back.
+        RC in s of a piezo sensor and its amplifier: the droop is corrected.
     threshold : float, optional
-        What a contact must rise above the baseline, in the record's unit. Default: 6 times the
-        noise, and 1 % of the highest peak.
+        The force above the baseline that a contact must reach, in the record's unit. Default: the
+        larger of 6 times the noise and 1 % of the highest peak.
     sign : int, optional
         +1 or -1 if contacts go up or down in the record. Default: it is found.
     law : ContactLaw, its class or its name, optional
-        Of the contact, if it is known: touch and release are the surer. `Rigid` tells nothing.
+        Of the contact, if it is known: touch and release are then more accurate. `Rigid` has no
+        effect.
     exponent : float, optional
         Of the loading curve of a law that has one to choose; default unknown.
 
@@ -94,20 +86,19 @@ def waveform(
 
     Notes
     -----
-    Touch and release are not where the force passes a threshold, which is late, but where its
-    flanks begin: they are fitted by the curves of `shapes`. Where no
-    `law` is told these are powers of the time since the touch, of unknown exponent, with
-    corrections. Before the data are seen, the exponent of a touch is from 1 (a linear spring) to
-    1.5 (Hertz's law) or, less probably, up to 2.5, and that of a release from 1 to 2.5 or more, as
-    lossy contacts end softly. Where samples are many and noise is low this does not matter; else
-    the error bars hold it. They do not hold touches that begin with a jump (`Dashpot`) or as the
+    The force crosses a threshold later than the touch. Therefore touch and release are found by a
+    fit of the flanks of a contact with the curves of `shapes`. Without a `law` these are powers of
+    the time since the touch, with corrections. The prior of the exponent is 1 (a linear spring) to
+    1.5 (Hertz's law) or, less probably, up to 2.5 for a touch, and 1 to 2.5 or more for a release,
+    as lossy contacts end softly. The prior matters only where samples are few or noise is high; the
+    error bars include it. They do not include touches that begin with a jump (`Dashpot`) or as the
     root of the time (`Viscoelastic`), which are found too early, nor releases of very lossy
-    contacts (a restitution below 0.8 or so): there tell the law.
+    contacts (a restitution below 0.8 or so): give the law there.
 
-    A law that is told is believed: touch and release begin as it says, and the errors are those for
-    this law, and for a ball that no other presses at its touch and release. Where the noise is as
-    low as 0.1 % of the peak, the errors of exponents of 2 and more and those of the releases of
-    `Hysteretic` and `Viscoelastic` contacts are too small.
+    A law that is given is taken as exact: the errors are those for this law, and for a ball that
+    touches no other ball at its touch and release. Where the noise is as low as 0.1 % of the peak,
+    the errors of exponents of 2 and more and those of the releases of `Hysteretic` and
+    `Viscoelastic` contacts are too small.
 
     The impulse is ``m v0 (1 + e)``. With `mass` and `impact_speed`, and e from the time to the next
     contact, if one follows, it gives the volts per newton; without a next contact e may be
@@ -129,33 +120,31 @@ def waveform(
     if threshold is not None:
         threshold = positive("threshold", threshold, "the record's unit")
     m, v = known("mass", mass, "kilograms"), known("impact_speed", impact_speed, "m/s")
-    record = original = read_record(data)
-    seen = _see(record, threshold, sign)
+    record = read_record(data)
+    raw = record.values
+    seen = _see(record, raw, threshold, sign)
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)
-        seen = _see(record, threshold, sign)
-    raw = seen.sign * original.values
-    quiet = _outside(len(record.times), seen.stretches)
-    local = Local(record.times, seen.signal, raw, seen.quiet, record.quantum, quiet)
+        seen = _see(record, raw, threshold, sign)
     around = [None, *seen.stretches, None]
     contacts = tuple(
-        measure_contact(local, around[k], one, around[k + 2], ends)
+        measure_contact(seen, around[k], one, around[k + 2], ends)
         for k, one in enumerate(seen.stretches)
     )
-    notes = [
-        *record.notes,
-        *_notes(original, seen, contacts, m),
-        *_droops(seen, local, time_constant),
-        *(_steep(contacts) if ends == UNTOLD else ()),
-    ]
+    notes = [*record.notes, *_notes(record.unit, seen, contacts, m)]
+    if time_constant is None:
+        notes += _droops(seen, record.step)
+    if ends == UNTOLD:
+        notes += _steep(contacts)
     sensitivity, why = sensitivity_of(contacts, record.unit, m, v)
+    zero = seen.zero
     return Waveform(
         contacts=contacts,
         unit=record.unit,
-        noise=seen.quiet.noise,
-        baseline=_level(seen.quiet),
-        drift=float(seen.quiet.baseline[-1] - seen.quiet.baseline[0]),
-        hum=seen.quiet.hum,
+        noise=zero.noise,
+        baseline=known_to(float(np.median(zero.baseline)), zero.error),
+        drift=float(zero.baseline[-1] - zero.baseline[0]),
+        hum=zero.hum,
         sign=seen.sign,
         step=record.step,
         notes=(*notes, *why),
@@ -164,27 +153,28 @@ def waveform(
         impact_speed=v,
         times=record.times,
         force=seen.signal,
-        zero=seen.sign * seen.quiet.baseline,
+        zero=seen.sign * zero.baseline,
     )
 
 
-def _see(record: Record, threshold: float | None, sign: int | None) -> _Seen:
-    """Find baseline and contacts in turns, as each needs the other."""
-    level, noise = first_guess(record)
-    quiet = Quiet(np.full(len(record.times), level), noise, noise, noise, 0.0, 0.0)
+def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
+    """Find baseline and contacts in turns, as each depends on the other."""
+    zero = quiet_parts(record, np.zeros(len(record.times), dtype=bool), hum=False)
     stretches: list[Stretch] = []
     short, own = 0, sign or 1
     for k in range(_ROUNDS):
-        bare = record.values - quiet.baseline
-        own = sign or which_sign(bare, quiet.noise)
-        stretches, short = find_stretches(own * bare, quiet.noise, quiet.density, threshold)
-        quiet = quiet_parts(record, _outside(len(bare), stretches), hum=k > 0)
-    signal = own * (record.values - quiet.baseline)
-    return _Seen(signal, quiet, stretches, short, own)
+        bare = record.values - zero.baseline
+        own = sign or which_sign(bare, zero.noise)
+        stretches, short = find_stretches(own * bare, zero.noise, zero.density, threshold)
+        quiet = _outside(len(bare), stretches)
+        zero = quiet_parts(record, quiet, hum=k > 0)
+    signal = own * (record.values - zero.baseline)
+    times, quantum = record.times, record.quantum
+    return Seen(times, signal, own * raw, quantum, zero, quiet, stretches, short, own)
 
 
 def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
-    """Tell which samples are clear of all contacts."""
+    """Return which samples are outside all contacts, with a margin."""
     quiet = np.ones(count, dtype=bool)
     ends = [-1, *(one.last for one in stretches)]
     starts = [*(one.first for one in stretches), count]
@@ -195,27 +185,23 @@ def _outside(count: int, stretches: list[Stretch]) -> NDArray[np.bool_]:
     return quiet
 
 
-def _undrooped(record: Record, seen: _Seen, time_constant: float) -> Record:
-    """Return the record with its droop put back, from the level before the first contact on."""
-    quiet = np.flatnonzero(_outside(len(record.times), seen.stretches))
-    first = seen.stretches[0].first if seen.stretches else len(record.times)
-    before = quiet[quiet < first]
-    level = float(np.mean(record.values[before])) if len(before) else first_guess(record)[0]
+def _undrooped(record: Record, seen: Seen, time_constant: float) -> Record:
+    """Return the record with its droop corrected; its level is that before the first contact."""
+    before = seen.quiet.copy()
+    if seen.stretches:
+        before[seen.stretches[0].first :] = False
+    level = float(record.values[before].mean()) if before.any() else first_guess(record)[0]
     values = level + undrooped(record.times, record.values - level, time_constant)
     return replace(record, values=values)
 
 
-def _level(quiet: Quiet) -> Any:
-    return known_to(float(np.median(quiet.baseline)), quiet.error)
-
-
-def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
-    """Return what should be known about the record."""
+def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
+    """Return the notes on a record."""
     notes = []
     if not contacts:
         high = float(np.max(np.abs(seen.signal)))
         notes.append(
-            f"no contact stands out of the noise of {seen.quiet.noise:.3g} {record.unit}".rstrip()
+            f"no contact stands out of the noise of {seen.zero.noise:.3g} {unit}".rstrip()
             + f" (largest deviation {high:.3g}): try threshold, or a more sensitive channel"
         )
     if seen.short:
@@ -227,11 +213,10 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
         top = max(
             (s for s, one in zip(seen.stretches, contacts, strict=True) if one.clipped), key=len
         )
-        level = record.values[top.first : top.last + 1]
-        height = float(level.max() if seen.sign > 0 else level.min())
+        height = seen.sign * float(seen.raw[top.first : top.last + 1].max())
         count = sum(one.clipped for one in contacts)
         notes.append(
-            f"clipped at {height:.4g} {record.unit}".rstrip()
+            f"clipped at {height:.4g} {unit}".rstrip()
             + (f" in {count} contacts" if count > 1 else "")
             + ": peak force and impulse are lower limits"
         )
@@ -242,10 +227,10 @@ def _notes(record: Record, seen: _Seen, contacts: tuple[Contact, ...], mass: Any
     few = min((one.samples for one in contacts), default=_FEW)
     if few < _FEW:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
-    if seen.quiet.hum:
+    if seen.zero.hum:
         notes.append(
-            f"hum of {seen.quiet.mains:.0f} Hz was taken off, amplitude "
-            f"{seen.quiet.hum:.3g} {record.unit}".rstrip()
+            f"hum of {seen.zero.mains:.0f} Hz was taken off, amplitude "
+            f"{seen.zero.hum:.3g} {unit}".rstrip()
         )
     whole = next((one for one in contacts if one.time is not None), None)
     if mass is not None and whole is not None and len(whole.peaks) > 1:
@@ -268,26 +253,25 @@ def _steep(contacts: tuple[Contact, ...]) -> list[str]:
     return [note]
 
 
-def _droops(seen: _Seen, local: Local, time_constant: float | None) -> list[str]:
-    """Return a note if the baseline lies lower after a contact, as a high-pass makes it."""
-    if time_constant is not None or not seen.stretches or seen.quiet.hum:
+def _droops(seen: Seen, step: float) -> list[str]:
+    """Return a note if the baseline is lower after the first contact, an effect of a high-pass."""
+    if not seen.stretches or seen.zero.hum:
         return []
     one = seen.stretches[0]
-    after = np.flatnonzero(local.quiet[one.last :])[: max(8, len(one) // 2)] + one.last
-    before = np.flatnonzero(local.quiet[: one.first])[-max(8, len(one)) :]
+    after = np.flatnonzero(seen.quiet[one.last :])[: max(8, len(one) // 2)] + one.last
+    before = np.flatnonzero(seen.quiet[: one.first])[-max(8, len(one)) :]
     if len(after) < 4 or len(before) < 4:
         return []
     part = np.concatenate([before, after])
-    later = (part > one.last).astype(float)
-    times = local.times[part] - local.times[one.first]
-    columns = np.stack([later, np.ones_like(times), times], axis=1)  # a step on a drift
-    weights = np.linalg.lstsq(columns, local.raw[part], rcond=None)[0]
-    low, scatter = float(weights[0]), float(np.std(local.raw[part] - columns @ weights))
+    times = seen.times[part] - seen.times[one.first]
+    columns = np.column_stack([part > one.last, np.ones_like(times), times])  # a step on a drift
+    weights = np.linalg.lstsq(columns, seen.raw[part], rcond=None)[0]
+    low, scatter = float(weights[0]), float(np.std(seen.raw[part] - columns @ weights))
     error = scatter * np.sqrt(np.linalg.pinv(columns.T @ columns)[0, 0])
     top = float(smoothed(seen.signal, 3)[one.first : one.last + 1].max())
     if low > -max(_UNDERSHOOT * error, 0.005 * top):
         return []
-    area = float(np.sum(seen.signal[one.first : one.last + 1])) * local.step
+    area = float(np.sum(seen.signal[one.first : one.last + 1])) * step
     note = (
         f"after the contact the signal lies {-low / top:.1%} of its peak too low, as by the droop "
         f"of a piezo sensor: give time_constant (about {area / -low:.2g} s)"

@@ -1,4 +1,4 @@
-"""The quiet parts of a record: level, drift, hum of the mains, noise."""
+"""The quiet parts of a record: level, drift, mains hum, noise."""
 
 import math
 from dataclasses import dataclass
@@ -6,21 +6,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.record import Array, Record
+from stackbounce.measure.kinds.waveform.record import Record
+from stackbounce.measure.samples import Array
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
-__all__ = ["Quiet", "first_guess", "quiet_parts", "scatter", "stuck"]
+__all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter", "stuck"]
 
-_SHARE = 0.25  # of a record that is surely quiet
-_FAR = 0.2  # of a record's range: the ends are not at this level
-_FIFTH = (0.2, 0.2533)  # of normal deviates are within this
+_SHARE = 0.25  # of a record, at least, is quiet
+_FAR = 0.2  # of a record's range, by which its ends are off a level that is a limit
+_FIFTH = (0.2, 0.2533)  # this share of normal deviates is within so many standard deviations
 _MAINS = (50.0, 60.0)  # Hz
 _BLOCK = 1e-3  # s, over which a hum hardly changes
-_WORTH = 40.0
-_PERIODS = 2.0  # below, hum is a drift
+_WORTH = 40.0  # decrease of chi squared that a hum must give
+_PERIODS = 2.0  # of a hum, in a record that is long enough to tell it from a drift
 _LEVERAGE = 5.0  # of a sample over that of a typical quiet one
-_ONE = 0.683  # of normal deviates are within one standard deviation
-_CLIPS, _CLIP = 4, 4.0  # times that what lies beyond so many standard deviations is left out
+_ONE = 0.683  # share of normal deviates within one standard deviation
+_CLIPS, _CLIP = 4, 4.0  # rounds of sigma clipping; standard deviations
 _ENOUGH = 24  # quiet samples for a fit with hum
 
 
@@ -35,8 +36,8 @@ class Quiet:
     noise : float
         Standard deviation of one sample.
     density : float
-        Standard deviation of independent samples whose averages would have the same error: `noise`
-        times the root of `correlation_factor`.
+        Standard deviation of independent samples whose averages have the same error as averages of
+        these: `noise` times the root of `correlation_factor`.
     error : float
         Of the baseline's level, one standard deviation.
     hum : float
@@ -64,7 +65,7 @@ def first_guess(record: Record) -> tuple[float, float]:
     limits = (values == values.max()) | (values == values.min())
     at_limit = level in (values.max(), values.min())
     if at_limit and not limits.all() and abs(np.median(ends) - level) > _FAR * np.ptp(values):
-        level = _densest(values[~limits])  # at the recorder's limit it is as even
+        level = _densest(values[~limits])  # the recorder's limit is as even as a baseline
     fast = difference_noise(values, 1)
     slow = float(np.quantile(np.abs(values - level), _FIFTH[0])) / _FIFTH[1]
     return level, max(fast, slow, _floor(record))
@@ -103,14 +104,14 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     line = np.stack([np.ones_like(times), times / span - 0.5], axis=1)
     if not _holds(line, quiet):
         line = line[:, :1]
-    best, base = line, _fitted(line, record.values, quiet)
+    best, base = line, fit_quiet(line, record.values, quiet)
     height = mains = 0.0
     if hum and quiet.sum() >= _ENOUGH:
         tone = _tone(times, record, quiet)
         waves = np.concatenate([line, _waves(times, tone)], axis=1)
         if tone and _holds(waves, quiet):
-            best, mains, base = waves, tone, _fitted(waves, record.values, quiet)
-            height = float(np.ptp(base - _fitted(line, base, quiet))) / 2.0
+            best, mains, base = waves, tone, fit_quiet(waves, record.values, quiet)
+            height = float(np.ptp(base - fit_quiet(line, base, quiet))) / 2.0
     rest = (record.values - base)[quiet]
     noise, density = scatter(rest, best.shape[1], record.quantum)
     floor = _floor(record)
@@ -120,7 +121,7 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
 
 
 def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
-    """Return the noise of one sample and of averages, see `Quiet`, from the residuals of a fit.
+    """Return noise and density, see `Quiet`, from the residuals of a fit.
 
     Parameters
     ----------
@@ -141,7 +142,7 @@ def scatter(rest: Array, fitted: int, quantum: float) -> tuple[float, float]:
 
 
 def _tones(span: float, step: float) -> list[float]:
-    """Return the frequencies in Hz tried for the mains, as fine as the record can tell them."""
+    """Return the mains frequencies in Hz to try, in steps that the record resolves."""
     if span < _PERIODS / _MAINS[0] or step > 0.2 / _MAINS[1]:
         return []
     if span < 0.1:
@@ -151,7 +152,7 @@ def _tones(span: float, step: float) -> list[float]:
 
 
 def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
-    """Return the frequency in Hz of a hum that stands out, or 0."""
+    """Return the frequency in Hz of a significant hum, or 0."""
     width = max(1, int(_BLOCK / record.step))
     count = len(times) // width * width
     calm = quiet[:count].reshape(-1, width).all(axis=1)
@@ -160,19 +161,18 @@ def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
     line = np.stack([np.ones_like(t), t], axis=1)
     if len(t) < _ENOUGH:
         return 0.0
-    found, least = 0.0, float(np.sum((y - _fitted(line, y, every)) ** 2))
-    # two more numbers must pay for themselves many times over
+    found, least = 0.0, float(np.sum((y - fit_quiet(line, y, every)) ** 2))
     least /= 1.0 + _WORTH / len(t)
     for tone in _tones(float(times[-1]), record.step):
         columns = np.concatenate([line, _waves(t, tone)], axis=1)
-        left = float(np.sum((y - _fitted(columns, y, every)) ** 2))
+        left = float(np.sum((y - fit_quiet(columns, y, every)) ** 2))
         if left < least:
             found, least = tone, left
     return found
 
 
 def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
-    """Tell whether a fit to the quiet samples is well determined between them."""
+    """Tell whether a fit to the quiet samples is well determined at all samples."""
     normal = columns[quiet].T @ columns[quiet] / quiet.sum()
     some = columns[:: max(1, len(columns) // 500)]
     errors = np.sum(some * (some @ np.linalg.pinv(normal, hermitian=True)), axis=1)
@@ -184,15 +184,15 @@ def _waves(times: Array, tone: float) -> Array:
     return np.stack([np.sin(angle), np.cos(angle)], axis=1)
 
 
-def _fitted(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
-    """Return the columns' best sum, found where it is quiet, everywhere."""
+def fit_quiet(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
+    """Return the linear regression on columns at all samples, fitted to the quiet ones."""
     weights = np.linalg.lstsq(columns[quiet], values[quiet], rcond=None)[0]
-    fitted: Array = columns @ weights
-    return fitted
+    best: Array = columns @ weights
+    return best
 
 
 def _robust(rest: Array, quantum: float) -> float:
-    """Return the standard deviation without outliers."""
+    """Return the standard deviation after sigma clipping."""
     scale = float(np.quantile(np.abs(rest), _ONE)) + 0.5 * quantum
     for _ in range(_CLIPS):
         inside = rest[np.abs(rest) <= _CLIP * scale]

@@ -1,31 +1,31 @@
-"""The droop of a piezo sensor: what its amplifier lets leak away is put back."""
+"""The droop of a piezo sensor: a high-pass of first order, and its inverse."""
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from stackbounce.errors import InvalidValue, positive
-from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.samples import Array
 
 __all__ = ["drooped", "undrooped"]
 
 
 def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Array:
-    """Return what a sensor felt, from what came out of a high-pass of first order.
+    """Return the input of a high-pass of first order from its output.
 
     Parameters
     ----------
     times : array_like
         (n,) in s, ascending.
     values : array_like
-        (n,) what was recorded, without any offset of the recorder.
+        (n,) the output, without any offset of the recorder.
     time_constant : float
-        RC in s, above 0: after so long a constant force has leaked away to 1/e.
+        RC in s, above 0, in which the response to a constant force decays to 1/e.
 
     Returns
     -------
     ndarray
-        (n,) in the unit of `values`: ``y + (1/RC) ∫ y dt``, exact for a force that changes evenly
-        between samples.
+        (n,) in the unit of `values`: ``y + (1/RC) ∫ y dt``, exact for a force that is
+        linear in time between samples.
 
     Raises
     ------
@@ -36,13 +36,13 @@ def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Arra
 
     Notes
     -----
-    An offset b that is left in `values` comes out as a drift b t/RC, and the recorder's noise as a
-    random walk on top of itself, which grows to σ sqrt(Δt t)/RC.
+    An offset b in `values` becomes a drift b t/RC. White noise of the recorder becomes white noise
+    plus a random walk, whose standard deviation is σ sqrt(Δt t)/RC.
 
     Examples
     --------
     >>> times = np.linspace(0.0, 2.0, 2001)
-    >>> leaked = np.exp(-times / 0.5)  # of a constant force
+    >>> leaked = np.exp(-times / 0.5)  # the response to a constant force
     >>> float(np.abs(undrooped(times, leaked, 0.5) - 1.0).max().round(5))
     0.0
     """
@@ -54,21 +54,21 @@ def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Arra
 
 
 def drooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Array:
-    """Return what comes out of a high-pass of first order: `undrooped` turned round, exactly.
+    """Return the output of a high-pass of first order: the exact inverse of `undrooped`.
 
     Parameters
     ----------
     times : array_like
         (n,) in s, ascending.
     values : array_like
-        (n,) what the sensor feels.
+        (n,) the input.
     time_constant : float
         RC in s, above 0.
 
     Returns
     -------
     ndarray
-        (n,) in the unit of `values`, for a force that changes evenly between samples.
+        (n,) in the unit of `values`, for a force that is linear in time between samples.
 
     Raises
     ------

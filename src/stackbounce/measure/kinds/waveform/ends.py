@@ -1,4 +1,4 @@
-"""How contacts of a law begin and end in a force record: what the law says, as shapes to fit."""
+"""The shapes of touch and release that a contact law gives, for a fit to a force record."""
 
 from typing import Any, NamedTuple
 
@@ -8,19 +8,19 @@ from stackbounce.model.laws import LAWS, ContactLaw, law_named
 
 __all__ = ["UNTOLD", "Ends", "ends_of"]
 
-_OTHERS, _SLOWING = 0.03, 0.04  # spreads of the corrections where the law leaves little else
+_OTHERS, _SLOWING = 0.03, 0.04  # prior spreads of the corrections where the law is exact
 _STEEPEST = 100.0  # the largest exponent of a flank that can be fitted
 
 
 class Ends(NamedTuple):
-    """What the touch of a contact may be, and its release."""
+    """The shapes of the two flanks of a contact."""
 
     touch: Shape
     release: Shape
 
 
 UNTOLD = Ends(Shape(1.0, 1.5), Shape(1.0, 2.5))
-"""Where no law is told.
+"""The shapes without a law.
 
 A linear spring has the exponent 1, Hertz's law 1.5; larger ones are rarer, 2 (a cone) to 2.5. A
 contact that loses energy ends more softly than it begins: with an exponent of (p + 1) / e**2 - 1
@@ -31,14 +31,14 @@ where it unloads along a power law of its own, which is 2.5 for p = 1.25 and a r
 def ends_of(
     law: "ContactLaw | type[ContactLaw] | str | None", exponent: float | None = None
 ) -> Ends:
-    """Return how contacts of a law begin and end.
+    """Return the shapes of touch and release of a law.
 
     Parameters
     ----------
     law : law, class of a law, or name
-        None, or `Rigid`, which has no finite force, tells nothing.
+        None and `Rigid`, which has no finite force, give `UNTOLD`.
     exponent : float, optional
-        Of its loading curve, where the law itself does not tell; default unknown.
+        Of its loading curve, where the law itself does not have it; default unknown.
 
     Returns
     -------

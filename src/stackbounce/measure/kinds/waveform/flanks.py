@@ -1,9 +1,9 @@
-"""Touch and release of a contact, by a fit of its flanks.
+"""Touch and release of a contact: a Bayesian fit of its flanks.
 
-A threshold is crossed too late, by an amount that depends on the threshold. Therefore the rise is
-fitted by the curve of a shape (`shapes`). The start, the shape's unknown, the other coefficients of
-the curve and the level before the touch are free, and the error of the start is marginalised over
-all of them.
+The force crosses a threshold later than the touch, the more so the higher the threshold. Therefore
+the rise is fitted by the curve of a shape (`shapes`). The start, the shape's unknown, the other
+coefficients of the curve and the level before the touch are free, and the error of the start is
+marginalised over all of them.
 """
 
 from dataclasses import dataclass, replace
@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from stackbounce.measure.kinds.waveform.intervals import smoothed
-from stackbounce.measure.kinds.waveform.record import Array
 from stackbounce.measure.kinds.waveform.shapes import Shape
+from stackbounce.measure.samples import Array
 
 __all__ = ["Flank", "fit_flank"]
 
@@ -30,7 +30,7 @@ _SLACK = 3.0  # standard deviations of chi squared
 
 @dataclass(frozen=True, eq=False)
 class Flank:
-    """The beginning of a contact, or with time reversed its end.
+    """The beginning of a contact or, with time reversed, its end.
 
     Parameters
     ----------
@@ -53,32 +53,29 @@ class Flank:
     misfit: float
 
     def reversed(self) -> "Flank":
-        """Return the same with time running the other way."""
+        """Return the flank with time reversed."""
         times, force = -self.times[::-1], self.force[::-1]
         return replace(self, time=-self.time, times=times, force=force)
 
 
-@dataclass(frozen=True, eq=False)
-class _Points:
-    """Samples, or averages over blocks of them between `edges`; `level` is that of the last.
+class _Points(NamedTuple):
+    """Samples, or averages over blocks of them between `edges`; `height` is about the last one.
 
-    `length` is that of the contact and `step` that between averaged samples, in s.
+    `level` is `height` over that of the peak, `offset` the standard error of the baseline, `length`
+    that of the contact and `step` that between averaged samples, in s; `unit` is the duration of
+    all, in s.
     """
 
     times: Array
     edges: Array | None
     values: Array
     sigma: float
-    height: float = 0.0
-    level: float = 0.0
-    offset: float = 0.0
-    length: float = 0.0
-    step: float = 0.0
-
-    @property
-    def unit(self) -> float:
-        """The whole time in s."""
-        return float(self.times[-1] - self.times[0])
+    unit: float
+    step: float
+    height: float
+    level: float
+    offset: float
+    length: float
 
 
 def fit_flank(
@@ -92,7 +89,7 @@ def fit_flank(
     length: float,
     width: int = 1,
 ) -> Flank | None:
-    """Return the beginning of a rise from the baseline, or None where nothing rises.
+    """Return the fit of a rise from the baseline, or None where nothing rises.
 
     Parameters
     ----------
@@ -103,15 +100,15 @@ def fit_flank(
     sigma : float
         Standard deviation of a value.
     shape : Shape
-        How the force may begin.
+        The curve and the prior of its unknown.
     peak : float
         The height of the first peak.
     offset : float
-        How far the baseline may be off, one standard deviation.
+        Standard error of the baseline.
     length : float
         Of the contact, in s, roughly.
     width : int, optional
-        How many samples are averaged to see where the rise is; odd.
+        How many samples are averaged to find the rise; odd.
 
     Returns
     -------
@@ -130,55 +127,50 @@ def fit_flank(
     even = smoothed(values, width)
     calm = sigma / np.sqrt(width)
     for level in _LEVELS:
-        cut = _cut(times, even, calm, level * peak)
-        if cut is None or (found is not None and (cut.stop - cut.foot) // width < _FEW):
+        start, foot, stop = _cut(times, even, calm, level * peak)
+        if stop == 0 or (found is not None and (stop - foot) // width < _FEW):
             break
-        bare = _points(times, values, sigma, cut)
-        points = replace(bare, height=level * peak, level=level, offset=offset, length=length)
-        found = _fit(points, shape)
+        samples = _averages(times[start:stop], values[start:stop], sigma)
+        found = _fit(_Points(*samples, level * peak, level, offset, length), shape)
         if found.misfit == 1.0:
             break
     return found
 
 
-class _Cut(NamedTuple):
-    start: int
-    foot: int
-    stop: int
+def _cut(times: Array, even: Array, calm: float, level: float) -> tuple[int, int, int]:
+    """Return the places of a rise: well before its foot, its foot, and the end above a level.
 
-
-def _cut(times: Array, even: Array, calm: float, level: float) -> _Cut | None:
-    """Return where a rise is: from well before its foot to the first two values above a level."""
-    if level < _CLEAR * calm or len(even) < _FEWEST:
-        return None
+    The end is 0 where no rise is seen.
+    """
     over = even >= level
     above = np.flatnonzero(over[:-1] & over[1:])  # one may be noise
-    if len(above) and above[0] == 0:
-        return None
+    if level < _CLEAR * calm or len(even) < _FEWEST or (len(above) and above[0] == 0):
+        return 0, 0, 0
     last = int(above[0]) if len(above) else len(even) - 1
     low = np.flatnonzero(even[: last + 1] < max(0.1 * level, 2.0 * calm))
     foot = int(low[-1]) if len(low) else 0
     rise = max(times[last] - times[foot], times[last] - times[last - 1])
     start = min(int(np.searchsorted(times, times[foot] - 2.0 * rise)), max(0, foot - 4))
-    return _Cut(start, foot, last + 1)
+    return start, foot, last + 1
 
 
-def _points(times: Array, values: Array, sigma: float, cut: _Cut) -> _Points:
-    """Return the samples of a cut, averaged over blocks where they are many."""
-    width = max(1, (cut.stop - cut.start) // _MOST)
-    first = cut.start + (cut.stop - cut.start) % width
-    t, y = times[first : cut.stop], values[first : cut.stop]
+def _averages(
+    t: Array, y: Array, sigma: float
+) -> tuple[Array, Array | None, Array, float, float, float]:
+    """Return the first fields of `_Points`: samples, averaged over blocks where they are many."""
+    width = max(1, len(t) // _MOST)
     if width == 1:
-        return _Points(t, None, y, sigma)
+        return t, None, y, sigma, float(t[-1] - t[0]), 0.0
+    t, y = t[len(t) % width :], y[len(y) % width :]
     half = 0.5 * (t[1] - t[0])
     inner = 0.5 * (t[width - 1 : -1 : width] + t[width::width])
     edges = np.concatenate([[t[0] - half], inner, [t[-1] + half]])
     t, y = (one.reshape(-1, width).mean(axis=1) for one in (t, y))
-    return _Points(t, edges, y, float(sigma / np.sqrt(width)), step=2.0 * half)
+    return t, edges, y, float(sigma / np.sqrt(width)), float(t[-1] - t[0]), 2.0 * half
 
 
 def _fit(points: _Points, shape: Shape) -> Flank:
-    """Return the flank from all starts and unknowns of the shape."""
+    """Return the flank, by the posterior on a grid of starts and unknowns of the shape."""
     times = points.times
     end = times[-1]
     low = np.flatnonzero(points.values < max(0.3 * points.height, 2.0 * points.sigma))
@@ -188,7 +180,7 @@ def _fit(points: _Points, shape: Shape) -> Flank:
     starts = np.tile(first, (len(logs), 1))
     for k in range(_ZOOMS):
         score = _scan(points, shape, starts, logs)[0]
-        finer = k >= _SETTLED and not shape.known  # each needs its best start first
+        finer = k >= _SETTLED and not shape.known  # first each unknown gets its best start
         starts, logs = _closer(starts, logs, score, end, finer=finer)
     score, chi, best = _scan(points, shape, starts, logs)
     weight = np.exp(score - score.max())
@@ -206,7 +198,7 @@ def _fit(points: _Points, shape: Shape) -> Flank:
 def _closer(
     starts: Array, logs: Array, score: Array, end: float, *, finer: bool
 ) -> tuple[Array, Array]:
-    """Return a finer grid around the weight on a coarse one.
+    """Return a finer grid around the posterior on a coarse one.
 
     Start and exponent are correlated: the larger the exponent, the earlier the start. At low noise
     the posterior is a narrow ridge, so each exponent has its own grid of starts.
@@ -248,7 +240,7 @@ def _half(grid: Array, weight: Array) -> float:
 def _scan(
     points: _Points, shape: Shape, starts: Array, logs: Array
 ) -> tuple[Array, float, tuple[float, float, Array]]:
-    """Return the logarithm of the probability of each pair of start and unknown.
+    """Return the log-posterior of each pair of start and unknown.
 
     For each pair the curve is linear in its other coefficients, which are integrated out. Also
     return chi squared of the best pair, and its start, unknown and coefficients.

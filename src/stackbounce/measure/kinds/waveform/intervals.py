@@ -1,18 +1,17 @@
-"""Where a record shows contacts: stretches that stand out of the noise."""
+"""The stretches of a record that stand out of the noise: its contacts."""
 
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.samples import Array, runs
 
 __all__ = ["Stretch", "find_stretches", "smoothed", "which_sign"]
 
-_OUT = 6.0  # noise levels that no noise reaches, in a million samples
+_OUT = 6.0  # noise levels, which noise does not reach in a million samples
 _LOW = 3.0  # noise levels to which a contact is followed down
 _SMALL = 0.01  # of the highest peak: smaller things are ringing
-_SMOOTH = 25  # averages over a contact
+_SMOOTH = 25  # moving averages over a contact
 _WIDE = 3  # samples of the shortest contact
 _WIDEST = 20_001
 
@@ -48,7 +47,7 @@ def smoothed(values: Array, width: int) -> Array:
 
 
 def which_sign(signal: Array, noise: float) -> int:
-    """Return +1 if contacts go up and -1 if they go down, by what stands out of the noise."""
+    """Return +1 if the larger part of the signal above the noise is upward, else -1."""
     out = np.where(np.abs(signal) > _OUT * noise, signal, 0.0)
     up, down = np.sum(out[out > 0.0] ** 2), np.sum(out[out < 0.0] ** 2)
     return -1 if down > up else 1
@@ -57,7 +56,7 @@ def which_sign(signal: Array, noise: float) -> int:
 def find_stretches(
     signal: Array, noise: float, density: float, threshold: float | None
 ) -> tuple[list[Stretch], int]:
-    """Return the stretches in which an upward signal stands out, and how many were too short.
+    """Return the stretches above the noise, and how many were too short.
 
     Parameters
     ----------
@@ -73,14 +72,14 @@ def find_stretches(
     list of Stretch
         In order.
     int
-        How many things of one or two samples were left out.
+        How many peaks of one or two samples were left out.
     """
     high = max(_OUT * noise, _SMALL * float(signal.max())) if threshold is None else threshold
     rough = _runs(signal, high, min(_LOW * noise, 0.5 * high), 2)
     wide = np.sort([len(one) for one in rough if len(one) >= _WIDE])
     if not len(wide):
         return [], len(rough)
-    # noise breaks the flanks of long ones to pieces: half of all samples are in longer ones
+    # the median length by samples, as noise breaks the flanks of long contacts into short pieces
     usual = int(wide[np.searchsorted(np.cumsum(wide), 0.5 * wide.sum())])
     width = 2 * (min(usual, _WIDEST) // _SMOOTH // 2) + 1
     if width == 1:
@@ -93,17 +92,15 @@ def find_stretches(
 
 def _runs(signal: Array, high: float, low: float, join: int) -> list[Stretch]:
     """Return runs above `low` that reach `high`; those less than `join` samples apart are one."""
-    above: NDArray[np.int8] = (signal > low).astype(np.int8)
-    edges = np.diff(np.concatenate([[0], above, [0]]))
-    starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1) - 1
+    starts, ends = runs(signal > low)
     if not len(starts):
         return []
     tops = np.maximum.reduceat(signal, np.stack([starts, ends + 1], 1).ravel()[:-1])[::2]
     kept = tops > high
-    runs: list[Stretch] = []
+    found: list[Stretch] = []
     for start, end in zip(starts[kept].tolist(), ends[kept].tolist(), strict=True):
-        if runs and start - runs[-1].last <= join:
-            runs[-1] = Stretch(runs[-1].first, end)
+        if found and start - found[-1].last <= join:
+            found[-1] = Stretch(found[-1].first, end)
         else:
-            runs.append(Stretch(start, end))
-    return runs
+            found.append(Stretch(start, end))
+    return found

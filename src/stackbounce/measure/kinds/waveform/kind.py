@@ -1,5 +1,6 @@
 """Force against time as a kind of measurement."""
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidValue
@@ -10,7 +11,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
     from stackbounce.measure.finding import Finding
-    from stackbounce.measure.kinds.waveform.gap.result import SensorGap
 
 __all__ = ["WAVEFORM"]
 
@@ -31,31 +31,24 @@ def _analyse(
     time_constant: float | None = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> "tuple[Finding, ...]":
-    """Analyse a force, and the gap between two balls where a second record tells it."""
+    """Analyse a force, and the gap between two balls where there is a second channel or record."""
     from stackbounce.measure.kinds.heights.analysis import fallen
     from stackbounce.measure.kinds.waveform.analysis import waveform
     from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
+    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
 
     height = fallen(height, measured_to, diameter)
     known: Any = {"time_constant": time_constant, "law": law, "exponent": exponent}
     one = waveform(data, mass=mass, impact_speed=speed, **known)
     if speed is None and height is not None:
         speed = (2.0 * gravity * height) ** 0.5
-    found: tuple[Finding, ...] = (*_by_two_sensors(data, speed, contact_time), one)
+    found: tuple[Finding, ...] = (one,)
+    with suppress(InvalidValue):  # there is one channel, or the second is no sensor of balls
+        found = (sensor_gap(data, impact_speed=speed, contact_time=contact_time), one)
     if alone is None:
         return found
     told = {"impact_speed": speed, "restitution": restitution, "time_constant": time_constant}
     return (*found, floor_gap(one, waveform(alone, **known), mass=mass, **told))
-
-
-def _by_two_sensors(data: "xr.Dataset", speed: Any, contact_time: Any) -> "tuple[SensorGap, ...]":
-    """Return the gap of two balls if the record's second channel feels them touch."""
-    from stackbounce.measure.kinds.waveform.gap.sensor_gap import sensor_gap
-
-    try:
-        return (sensor_gap(data, impact_speed=speed, contact_time=contact_time),)
-    except InvalidValue:  # one channel, or one of something else
-        return ()
 
 
 WAVEFORM = Kind(

@@ -1,13 +1,13 @@
 """The peaks of a contact, their heights, and its impulse."""
 
-from dataclasses import dataclass
 from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
+from numpy.polynomial import polynomial
 
 from stackbounce.measure.kinds.waveform.intervals import smoothed
-from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.samples import Array, runs, trapezoid
 
 __all__ = ["Peak", "find_peaks", "flat_top", "impulse_of"]
 
@@ -17,7 +17,7 @@ _SHARE = 0.02  # of the highest peak, likewise
 _CAP = 0.82  # of a peak's height, above which its cap is fitted
 _DEGREE = 4
 _RUN = 3  # equal samples that make a flat top
-_NEXT = 0.15  # of the samples at the top may lie one step below it if it was cut off
+_NEXT = 0.15  # of the number of top samples, one step below them, at most, if it is clipped
 
 
 class Peak(NamedTuple):
@@ -27,12 +27,6 @@ class Peak(NamedTuple):
     time_error: float
     force: float
     force_error: float
-
-
-@dataclass(frozen=True)
-class _Cap:
-    low: int
-    high: int
 
 
 def find_peaks(times: Array, values: Array, noise: float, density: float) -> list[Peak]:
@@ -48,8 +42,8 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
     Returns
     -------
     list of Peak
-        At least one. Dips are told from noise where they are 7 noise levels of the averages deep,
-        and 2 % of the highest peak.
+        At least one. A dip between two peaks is at least 7 noise levels of the averages deep, and
+        2 % of the highest peak.
 
     Examples
     --------
@@ -61,7 +55,7 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
     from scipy.signal import find_peaks as maxima
 
     width = 2 * (len(values) // _AVERAGES // 2) + 1
-    even = np.maximum(smoothed(values, width), 0.0)  # what noise does below zero is no dip
+    even = np.maximum(smoothed(values, width), 0.0)  # noise below zero is no dip
     calm = density / np.sqrt(width)
     padded = np.concatenate([[0.0], even, [0.0]])
     stand_out = max(_STAND_OUT * max(calm, noise / width), _SHARE * float(even.max()))
@@ -70,19 +64,22 @@ def find_peaks(times: Array, values: Array, noise: float, density: float) -> lis
         tops = np.array([int(np.argmax(even))])
     dips = [int(a + np.argmin(even[a:b])) for a, b in pairwise(tops)]
     edges = [0, *dips, len(even) - 1]
+    rooms = pairwise(edges)
     return [
-        _cap(times, values, even, int(top), _Cap(*edges[k : k + 2]), density)
-        for k, top in enumerate(tops)
+        _cap(times, values, even, int(top), room, density)
+        for top, room in zip(tops, rooms, strict=True)
     ]
 
 
-def _cap(times: Array, values: Array, even: Array, top: int, room: _Cap, density: float) -> Peak:
+def _cap(
+    times: Array, values: Array, even: Array, top: int, room: tuple[int, int], density: float
+) -> Peak:
     """Return time and height of a peak by a polynomial through its cap."""
     floor = _CAP * even[top]
     low = high = top
-    while low > room.low and even[low - 1] > floor:
+    while low > room[0] and even[low - 1] > floor:
         low -= 1
-    while high < room.high and even[high + 1] > floor:
+    while high < room[1] and even[high + 1] > floor:
         high += 1
     if high - low < 2:  # one sample on each side at least
         low, high = max(top - 1, 0), min(top + 1, len(even) - 1)
@@ -99,13 +96,13 @@ def _cap(times: Array, values: Array, even: Array, top: int, room: _Cap, density
     scatter = float(np.sqrt(np.sum(rest**2) / freedom)) if freedom > 4 else 0.0
     sigma = max(density, scatter)
     fine = np.linspace(u[0], u[-1], 401)
-    curve = np.vander(fine, degree + 1, increasing=True) @ weights
+    curve = polynomial.polyval(fine, weights)
     best = int(np.argmax(curve))
     cover = np.linalg.pinv(columns.T @ columns) * sigma**2
-    at = np.vander(fine[best : best + 1], degree + 1, increasing=True)[0]
-    slope = np.array([k * fine[best] ** max(k - 1, 0) for k in range(degree + 1)])
-    bend = sum(k * (k - 1) * weights[k] * fine[best] ** (k - 2) for k in range(2, degree + 1))
-    shift = np.sqrt(slope @ cover @ slope) / max(abs(float(bend)), 1e-300)
+    at = fine[best] ** np.arange(degree + 1)
+    slope = np.append(0.0, np.arange(1, degree + 1) * at[:-1])
+    bend = float(polynomial.polyval(fine[best], polynomial.polyder(weights, 2)))
+    shift = np.sqrt(slope @ cover @ slope) / max(abs(bend), 1e-300)
     return Peak(
         float(middle + half * fine[best]),
         float(half * min(shift, 1.0)),
@@ -131,8 +128,8 @@ def impulse_of(
     Returns
     -------
     (float, float)
-        In s times the values' unit. The trapezium rule errs where the force begins and ends; half
-        a step's worth of that, over √3, is in the error.
+        In s times the values' unit. The error includes that of the trapezoidal rule at the kinks
+        where the force begins and ends.
 
     Examples
     --------
@@ -147,9 +144,7 @@ def impulse_of(
     last = min(int(np.searchsorted(times, ends[1], "left")), len(times) - 1)
     t, f = times[first : last + 1], values[first : last + 1]
     steps = np.diff(t)
-    weights = np.zeros(len(t))
-    weights[:-1] += 0.5 * steps
-    weights[1:] += 0.5 * steps
+    weights = trapezoid(t)
     slopes = np.abs(np.diff(f)) / np.maximum(steps, 1e-300)
     bends = (slopes[:2].max(), slopes[-2:].max()) if len(slopes) > 1 else (0.0, 0.0)
     rule = float(np.max(steps)) ** 2 / 12.0 * np.hypot(*bends) if len(steps) else 0.0
@@ -159,7 +154,7 @@ def impulse_of(
 
 
 def flat_top(values: Array, quantum: float) -> bool:
-    """Tell whether the top of a contact was cut off: equal samples, and hardly any just below.
+    """Tell whether a contact is clipped: its top samples are equal, with hardly any just below.
 
     Examples
     --------
@@ -170,8 +165,8 @@ def flat_top(values: Array, quantum: float) -> bool:
     top = float(values.max())
     step = quantum or 1e-9 * abs(top)
     at = values > top - 0.5 * step
-    runs = np.diff(np.flatnonzero(np.diff(np.concatenate([[0], at.astype(int), [0]]))))[::2]
-    if runs.max() < _RUN:
+    first, last = runs(at)
+    if (last - first + 1).max() < _RUN:
         return False
     below = (values > top - 1.5 * step) & ~at
     return bool(below.sum() <= _NEXT * at.sum())

@@ -1,4 +1,4 @@
-"""A force record before anything is looked for in it: cleaned, with what is odd about it said."""
+"""A force record before the analysis: cleaned, with notes on what is odd about it."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -7,21 +7,19 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.errors import InvalidValue
+from stackbounce.measure.finding import force_channels
+from stackbounce.measure.samples import Array, columns
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Array", "Record", "read_record"]
-
-Array = NDArray[np.float64]
+__all__ = ["Record", "read_record"]
 
 _FEWEST = 8  # samples of a record
 _UNEVEN = 0.01  # of a step
 _SPIKE = 12.0  # noise levels of a second difference
 _STEPS = 4096  # distinct values, beyond which no steps of a converter are looked for
-_NAMES = ("force", "voltage")
-_PAIR = 2
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +74,7 @@ def read_record(data: "xr.Dataset | Sequence[ArrayLike]") -> Record:
     >>> read_record(([0, 1, 2, 3, 4, 5, 6, 7], [0, 0, 1, 2, 1, 0, 0, 0])).quantum
     1.0
     """
-    times, values, unit, others = _columns(data)
+    times, values, unit, others = _channel(data)
     notes = [f"only {others[0]} was analysed, not {', '.join(others[1:])}"] if others[1:] else []
     known = np.isfinite(times) & np.isfinite(values)
     if known.sum() < _FEWEST:
@@ -98,46 +96,24 @@ def read_record(data: "xr.Dataset | Sequence[ArrayLike]") -> Record:
         notes.append(f"the time steps are uneven, from {steps.min():.3g} s to {steps.max():.3g} s")
     spiky = _spikes(values)
     if spiky.any():
-        notes.append(f"{_counted(int(spiky.sum()), 'spike')} of one sample left out")
+        count = int(spiky.sum())
+        notes.append(f"{count} spike{'s' * (count > 1)} of one sample left out")
         times, values = times[~spiky], values[~spiky]
     return Record(times, values, unit, step, _quantum(values), tuple(notes))
 
 
-def _columns(data: Any) -> tuple[Array, Array, str, list[str]]:
+def _channel(data: Any) -> tuple[Array, Array, str, list[str]]:
     """Return times, values, unit and the names of all channels, that of the values first."""
-    if isinstance(data, (tuple, list)):
-        if len(data) != _PAIR:
-            raise InvalidValue(f"data must be times and values, got {len(data)} columns")
-        times, values = (_numbers(one) for one in data)
-        unit, names = "", ["values"]
-    else:
-        if not hasattr(data, "data_vars"):
-            raise InvalidType(
-                f"data must be a Dataset from read, or times and values, got {shown(data)}"
-            )
-        names = [
-            str(name)
-            for start in _NAMES
-            for name in data.data_vars
-            if str(name).split("_")[0] == start and data[name].dims == ("time",)
-        ]
-        if not names:
-            got = ", ".join(map(str, data.data_vars)) or "nothing"
-            raise InvalidValue(f"data must hold a force or a voltage over time, got {got}")
-        times, values = _numbers(data["time"]), _numbers(data[names[0]])
-        unit = str(data[names[0]].attrs.get("units", ""))
-    if times.shape != values.shape or times.ndim != 1:
-        raise InvalidValue(
-            f"data must have a value for each time, got shapes {times.shape} and {values.shape}"
-        )
-    return times, values, unit, names
-
-
-def _numbers(column: Any) -> Array:
-    try:
-        return np.asarray(column, dtype=float)
-    except (TypeError, ValueError) as error:
-        raise InvalidType(f"data must hold numbers, got {shown(column)}") from error
+    if not hasattr(data, "data_vars"):
+        times, values = columns(data, ("time", "force"))
+        return times, values, "", ["values"]
+    names = [name for name in force_channels(data) if data[name].dims == ("time",)]
+    if not names:
+        got = ", ".join(map(str, data.data_vars)) or "nothing"
+        raise InvalidValue(f"data must hold a force or a voltage over time, got {got}")
+    names.sort(key=lambda name: name.startswith("voltage"))  # forces come first
+    times, values = columns(data, ("time", names[0]))
+    return times, values, str(data[names[0]].attrs.get("units", "")), names
 
 
 def _spikes(values: Array) -> NDArray[np.bool_]:
@@ -151,10 +127,8 @@ def _spikes(values: Array) -> NDArray[np.bool_]:
     scale = max(quiet, 1e-9 * float(np.ptp(values)))
     before, here, after = bend[:-2], bend[1:-1], bend[2:]
     high = np.abs(here) > _SPIKE * scale
-    like = (np.abs(before + 0.5 * here) < 0.15 * np.abs(here)) & (
-        np.abs(after + 0.5 * here) < 0.15 * np.abs(here)
-    )
-    found[2:-2] = high & like
+    off = np.maximum(np.abs(before + 0.5 * here), np.abs(after + 0.5 * here))
+    found[2:-2] = high & (off < 0.15 * np.abs(here))
     return found
 
 
@@ -169,14 +143,3 @@ def _quantum(values: Array) -> float:
     multiples = gaps / least
     even = np.abs(multiples - np.round(multiples)) < 0.1 * np.maximum(multiples, 1.0) ** 0.5
     return least if even.mean() > 0.9 else 0.0
-
-
-def _counted(count: int, what: str) -> str:
-    """Return a count in words.
-
-    Examples
-    --------
-    >>> _counted(1, "spike"), _counted(3, "peak")
-    ('1 spike', '3 peaks')
-    """
-    return f"{count} {what}" if count == 1 else f"{count} {what}s"

@@ -1,4 +1,4 @@
-"""Numbers with or without errors, and what a known bounce tells about a sensor."""
+"""The calibration of a sensor by a bounce of a known ball."""
 
 import math
 from typing import TYPE_CHECKING, Any
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["known", "sensitivity_of"]
 
-_APART = 3.0  # contact times between two contacts of one ball that flies in between
+_APART = 3.0  # contact times: the shortest flight between two bounces
 
 
 def known(name: str, value: Any, of: str = "") -> "UFloat | None":
@@ -44,7 +44,7 @@ def sensitivity_of(
     Parameters
     ----------
     contacts : tuple of Contact
-        What was found.
+        Of the record, in order.
     unit : str
         Only a record in V is calibrated.
     mass, speed : UFloat, float or None
@@ -53,9 +53,9 @@ def sensitivity_of(
     Returns
     -------
     UFloat or None
-        None where something is missing.
+        In V/N; None where something is missing.
     list of str
-        Sentences.
+        Notes, a sentence each.
     """
     from uncertainties import ufloat
 

@@ -1,11 +1,11 @@
-"""How a force may begin: the curves of the contact laws' flanks, and what is supposed of them.
+"""The curves of the contact laws' flanks, and the priors of their unknowns.
 
 With u the time since the touch, or until the release, a flank is
 
     F = A (L(u) + b u**q + c u**r),
 
-where the lead L is what a law begins or ends with, b stands for what else presses or accelerates,
-and c for the ball's own slowing down, which Newton's law ties to the lead: see `_slowing`. The
+where the lead L is the leading term of a law, b stands for other forces on the ball, and c for the
+ball's own slowing down, whose mean follows from the lead by Newton's law: see `_slowing`. The
 leads, with one unknown each:
 
 - power, ``u**p``: a `Spring` has p = 1, `Hertz` 1.5;
@@ -20,7 +20,7 @@ from math import log
 
 import numpy as np
 
-from stackbounce.measure.kinds.waveform.record import Array
+from stackbounce.measure.samples import Array
 
 __all__ = ["Shape"]
 
@@ -37,17 +37,17 @@ _CORRECTIONS = {"jump": (2.0, 3.0), "root": (3.0, 4.0), "fade": (2.0, 3.5)}  # q
 
 @dataclass(frozen=True)
 class Shape:
-    """A lead, what its unknown may be before the flank is seen, and its corrections.
+    """A lead, the prior of its unknown, and its corrections.
 
     Parameters
     ----------
     least, most : float
-        Between which the unknown is as probable everywhere, on a log scale, and rarely beyond;
-        equal where it is known. It is p, or a as a share of the contact's length.
+        Range of the unknown: its prior is log-uniform there, with normal tails; equal where it is
+        known. The unknown is p, or a over the contact's length.
     kind : str, optional
         ``"power"``, ``"jump"``, ``"root"`` or ``"fade"``.
     others, slowing : float, optional
-        Spreads of the corrections b and c, as shares of the flank's height.
+        Prior standard deviations of the corrections b and c, over the flank's height.
 
     Examples
     --------
@@ -63,18 +63,18 @@ class Shape:
 
     @property
     def known(self) -> bool:
-        """Whether nothing is unknown of the lead."""
+        """Whether the lead has no unknown."""
         return self.least == self.most
 
     def grid(self) -> Array:
-        """Return logarithms of the unknown that cover what it may be."""
+        """Return logarithms of the unknown that cover its prior."""
         if self.known:
             return np.array([log(self.least)])
         below, above = _EDGES
         return np.linspace(log(self.least) - 3.0 * below, log(self.most) + 3.0 * above, _GRID)
 
     def prior(self, logs: Array) -> Array:
-        """Return the logarithm of how probable these are before the flank is seen."""
+        """Return the log-prior of logarithms of the unknown."""
         beyond = np.maximum(
             (log(self.least) - logs) / _EDGES[0], (logs - log(self.most)) / _EDGES[1]
         )
@@ -87,15 +87,15 @@ class Shape:
         return unknown if self.kind == "power" else unknown * length
 
     def begins(self, log: float, spread: float) -> tuple[float, float]:
-        """Return the power of the time with which the force begins, and the error of that."""
+        """Return the power of the time with which the force begins, and its standard error."""
         if self.kind == "power":
             return float(np.exp(log)), float(np.exp(log)) * spread
         return _BEGINS[self.kind], 0.0
 
     def corrections(self, logs: Array, level: float) -> tuple[Array, Array]:
-        """Return what b and c are on average, as shares of the flank's height.
+        """Return the prior means of b and c, over the flank's height.
 
-        A loss takes some of the slowing's curve forward, to b.
+        In a lossy contact a part of the slowing shows in b.
         """
         if self.kind == "power":
             return np.zeros_like(logs), _slowing(np.exp(logs), level)

@@ -1,7 +1,7 @@
 """The gap between two falling balls, from the delay between floor contact and ball contact.
 
 When the lower ball touches the floor the upper one is a gap above it and falls on at the impact
-speed. They touch when it has fallen the gap and what the lower ball went down meanwhile:
+speed. They touch when the gap is closed by its fall and the lower ball's displacement:
 
     gap(t) = v0 t + q(t),
 
@@ -11,13 +11,13 @@ where q is the lower ball's displacement, up-positive, as it bounces alone: on a
 
 import math
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from stackbounce.errors import InvalidValue, fraction, shown
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Waveform
 from stackbounce.measure.kinds.waveform.sensor import known
-from stackbounce.measure.quantities import known_to
+from stackbounce.measure.statistics.propagation import propagate
 from stackbounce.model import Ball, Drop
 from stackbounce.run.driver import simulate
 
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["delay", "delay_from_gap", "gap_from_delay"]
 
-_STEP = 1e-4  # relative, of a difference quotient
+_Gap: TypeAlias = Callable[[float, float, float], float]
 _TURNS = 200
 
 
@@ -42,9 +42,9 @@ def gap_from_delay(
     contact: "ContactLaw | None" = None,
     restitution: float = 1.0,
 ) -> "UFloat":
-    """Return the gap that makes two falling balls touch so long after the lower one's landing.
+    """Return the gap of two falling balls that touch a delay after the lower one's landing.
 
-    How the lower ball bounces alone is told by exactly one of `contact_time`, `stiffness` (with
+    The bounce of the lower ball alone is given by exactly one of `contact_time`, `stiffness` (with
     `mass`) and `contact` (with `mass` unless it is `Rigid`).
 
     Parameters
@@ -62,18 +62,18 @@ def gap_from_delay(
     contact : ContactLaw, optional
         Any law of its contact with the floor; the single ball is simulated.
     restitution : float, optional
-        At what share of the impact speed the ball leaves, where `contact_time` or `stiffness` is
-        given; while it is on the floor it moves as without loss. Default 1.
+        Of the lower ball alone, where `contact_time` or `stiffness` is given: it only sets the
+        speed at which the ball leaves the floor. Default 1.
 
     Returns
     -------
     UFloat
-        In m; its error follows from those of all that was given.
+        In m; its error follows from those of all arguments, to first order.
 
     Raises
     ------
     InvalidValue
-        If a number is out of its range, or not one way to bounce is given.
+        If a number is out of its range, or the bounce is given in no way or more than one.
     InvalidType
         If something has the wrong type.
 
@@ -86,11 +86,11 @@ def gap_from_delay(
     >>> print(f"{gap * 1e3:.1uS} mm")
     1.3(9) mm
     """
-    t, v, spring = _checked("delay", delay, impact_speed, mass, stiffness, contact_time, contact)
-    fraction("restitution", restitution)
-    if contact is not None:
-        return _through(lambda *one: _simulated_gap(contact, *one), t, v, known("mass", mass))
-    return _through(lambda a, b, c: _spring_gap(a, b, c, restitution), t, v, spring)
+    gap, given = _checked(
+        "delay", delay, impact_speed, mass, stiffness, contact_time, contact, restitution
+    )
+    result: UFloat = propagate(lambda value, v, ball: [gap(value, v, ball)], given)[0]
+    return result
 
 
 def delay_from_gap(
@@ -103,9 +103,7 @@ def delay_from_gap(
     contact: "ContactLaw | None" = None,
     restitution: float = 1.0,
 ) -> "UFloat":
-    """Return how long after the lower ball's landing two balls touch that fall a gap apart.
-
-    `gap_from_delay` turned round; everything else is as there.
+    """Return the delay after which two falling balls touch: the inverse of `gap_from_delay`.
 
     Parameters
     ----------
@@ -131,18 +129,11 @@ def delay_from_gap(
     >>> print(f"{delay_from_gap(1e-3, 1.98, contact_time=4.3e-3) * 1e3:.2f} ms")
     1.84+/-0 ms
     """
-    d, v, spring = _checked("gap", gap, impact_speed, mass, stiffness, contact_time, contact)
-    fraction("restitution", restitution)
-    if contact is not None:
-        return _through(
-            lambda a, b, c: _inverted(lambda t: _simulated_gap(contact, t, b, c), a, b),
-            d,
-            v,
-            known("mass", mass),
-        )
-    return _through(
-        lambda a, b, c: _inverted(lambda t: _spring_gap(t, b, c, restitution), a, b), d, v, spring
+    gap_of, given = _checked(
+        "gap", gap, impact_speed, mass, stiffness, contact_time, contact, restitution
     )
+    result: UFloat = propagate(lambda **numbers: [_inverted(gap_of, **numbers)], given)[0]
+    return result
 
 
 def delay(floor: Any, balls: Any) -> "UFloat":
@@ -196,8 +187,12 @@ def _checked(
     stiffness: Any,
     contact_time: Any,
     contact: Any,
-) -> tuple[Any, Any, Any]:
-    """Return what was given, with its errors, and the contact time on a spring."""
+    restitution: float,
+) -> tuple[_Gap, dict[str, Any]]:
+    """Return the gap as a function of delay, speed and ball, and the numbers that were given.
+
+    The ball is given by its contact time on a spring, or by its mass.
+    """
     ways = {"stiffness": stiffness, "contact_time": contact_time, "contact": contact}
     given = [way for way, one in ways.items() if one is not None]
     if len(given) != 1:
@@ -213,7 +208,12 @@ def _checked(
     k, tau = known("stiffness", stiffness, "N/m"), known("contact_time", contact_time, "seconds")
     if k is not None and m is not None:
         tau = math.pi * (m / k) ** 0.5
-    return known(name, value), known("impact_speed", speed, "m/s"), tau
+    numbers = {"value": known(name, value), "v": known("impact_speed", speed, "m/s")}
+    fraction("restitution", restitution)
+    if contact is None:
+        return lambda t, v, ball: _spring_gap(t, v, ball, restitution), numbers | {"ball": tau}
+    ball = 1.0 if m is None else m
+    return lambda t, v, ball: _simulated_gap(contact, t, v, ball), numbers | {"ball": ball}
 
 
 def _spring_gap(t: float, v: float, tau: float, e: float) -> float:
@@ -223,43 +223,22 @@ def _spring_gap(t: float, v: float, tau: float, e: float) -> float:
     return v * (t + e * (t - tau))
 
 
-def _simulated_gap(contact: Any, t: float, v: float, mass: float | None) -> float:
+def _simulated_gap(contact: Any, t: float, v: float, mass: float) -> float:
     """Return v0 t + q(t) of a ball on any law."""
-    single = simulate(Drop([Ball(1.0 if mass is None else mass)], [contact], impact_speed=v))
+    single = simulate(Drop([Ball(mass)], [contact], impact_speed=v))
     return v * t + float(single.sample([t]).position.values[0, 0])
 
 
-def _inverted(gap_of: Callable[[float], float], gap: float, v: Any) -> float:
-    """Return when the gap is closed: it grows with the delay all the time."""
-    high = float(gap / v)
+def _inverted(gap_of: _Gap, value: float, v: float, ball: float) -> float:
+    """Return the delay of a gap, which grows with the delay."""
+    from scipy.optimize import brentq
+
+    high = value / v
     for _ in range(_TURNS):
-        if gap_of(high) >= gap:
+        if gap_of(high, v, ball) >= value:
             break
         high *= 2.0
     else:
-        raise InvalidValue(f"gap must be one that closes, got {gap:g}")
-    from scipy.optimize import brentq
-
-    return float(brentq(lambda t: gap_of(t) - gap, 0.0, high, xtol=1e-15 * high, rtol=1e-13))
-
-
-def _through(function: Callable[..., float], *given: Any) -> "UFloat":
-    """Return a function of numbers with errors, to first order, by difference quotients.
-
-    Where a quotient on both sides differs, as at a corner, their mean is taken.
-    """
-    from uncertainties import UFloat, nominal_value
-
-    values: list[Any] = [None if one is None else nominal_value(one) for one in given]
-    result = function(*values)
-    total: Any = result
-    for k, one in enumerate(given):
-        if isinstance(one, UFloat) and one.std_dev > 0.0:
-            step = min(max(_STEP * abs(values[k]), 1e-3 * one.std_dev), 0.1 * abs(values[k]))
-            ends = []
-            for side in (step, -step):
-                moved = list(values)
-                moved[k] = values[k] + side
-                ends.append(function(*moved))
-            total = total + (ends[0] - ends[1]) / (2.0 * step) * (one - values[k])
-    return total if isinstance(total, UFloat) else known_to(result, 0.0)
+        raise InvalidValue(f"gap must be one that closes, got {value:g}")
+    tolerances = {"xtol": 1e-15 * high, "rtol": 1e-13}
+    return float(brentq(lambda t: gap_of(t, v, ball) - value, 0.0, high, **tolerances))

@@ -1,28 +1,25 @@
 """The gap between two falling balls from the force on the floor, with and without the upper one."""
 
 import math
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, fraction
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.gap.result import FloorGap
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
-from stackbounce.measure.quantities import measured
+from stackbounce.measure.quantities import known_to, measured
+from stackbounce.measure.samples import Array
 from stackbounce.measure.statistics.change_point import Kink, find_kink
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-if TYPE_CHECKING:
-    pass
-
 __all__ = ["floor_gap"]
 
-_UNKNOWN = (0.75, 0.144)  # restitution: anything from 0.5 to 1
+_UNKNOWN = (0.75, 0.144)  # prior of the restitution: uniform from 0.5 to 1
 _SAME = 0.04  # relative, by which two drops from one height may differ
-_EARLY, _LATE = 0.33, 0.6  # of the contact time alone: a kink at which balls that touch from the
-# start may show, and from when on a second ball may stay unseen
+_EARLY = 0.33  # of the contact time alone: earlier change points do not exclude a gap of 0
+_LATE = 0.6  # of the contact time alone: later a second ball may be invisible
 _NEXT = 8.0  # contact times within which a second contact belongs to the same impact
 
 
@@ -35,12 +32,12 @@ def floor_gap(
     restitution: Any = None,
     time_constant: float | None = None,
 ) -> FloorGap:
-    """Return the delay and the gap of two balls by the floor's force under them, and under one.
+    """Return delay and gap of two balls from the floor's force under both and under one.
 
     One sensor on the floor, two drops from the same height: the lower ball alone, and both. Until
-    the balls touch both forces are the same; where they part the second ball has come. How a ball
-    presses on the floor differs too much from ball to ball for one record to tell: the dent that a
-    second ball makes in it may as well be the first ball's own.
+    the balls touch both forces are the same; they part when the second ball touches. One record
+    alone is not enough: the force of a single ball differs so much from ball to ball that a dent
+    in it need not come from a second ball.
 
     Parameters
     ----------
@@ -96,24 +93,24 @@ def floor_gap(
     since = single.times - touch_alone
     noise = float(np.hypot(both.noise, single.noise * np.sqrt(single.step / both.step)))
     kink = find_kink(times, both.force, (since, force), noise, lasting)
-    fall = _Fall(since, *_integrals(since, force, lasting), lasting)
+    fall = _fall(since, force, lasting)
     scale = _scale(single, free, mass, impact_speed, restitution)
     limits, why = _limits(both, kink, lasting)
     reach = tuple(scale.nominal_value * fall.of(limit) for limit in limits)
     delay = gap = None
     if not why:
-        delay = _ufloat(kink.time, kink.error) - (pressed.start - touch)
+        delay = known_to(kink.time, kink.error) - (pressed.start - touch)
         gap = scale * (fall.of(kink.time) + fall.speed(kink.time) * (delay - kink.time))
     notes = (*both.notes, *_notes(kink, lasting), *why)
     return FloorGap(delay, gap, limits, reach, kink.gain, notes, both, single, kink)
 
 
 class _Fall(NamedTuple):
-    """How the lower ball's fall is stopped: force over time, integrated once and twice."""
+    """The force on the lower ball alone, integrated over time once and twice."""
 
-    times: NDArray[np.float64]
-    once: NDArray[np.float64]
-    twice: NDArray[np.float64]
+    times: Array
+    once: Array
+    twice: Array
     lasting: float
 
     def speed(self, time: float) -> float:
@@ -129,12 +126,6 @@ class _Fall(NamedTuple):
         return down + float(self.once[-1]) * flown
 
 
-def _ufloat(value: float, error: float) -> Any:
-    from uncertainties import ufloat
-
-    return ufloat(value, error)
-
-
 def _first(name: str, found: Waveform) -> Any:
     contact = found.contacts[0] if found.contacts else None
     if contact is None or contact.time is None:
@@ -145,19 +136,17 @@ def _first(name: str, found: Waveform) -> Any:
     return contact
 
 
-def _integrals(
-    since: NDArray[np.float64], force: NDArray[np.float64], lasting: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return the force alone, integrated once and twice over time from the touch."""
+def _fall(since: Array, force: Array, lasting: float) -> _Fall:
+    """Return the force of the ball alone, integrated over time from its touch."""
     from scipy.integrate import cumulative_trapezoid
 
     felt = np.where((since > 0.0) & (since < lasting), force, 0.0)
     once = cumulative_trapezoid(felt, since, initial=0.0)
-    return once, cumulative_trapezoid(once, since, initial=0.0)
+    return _Fall(since, once, cumulative_trapezoid(once, since, initial=0.0), lasting)
 
 
 def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution: Any) -> Any:
-    """Return what makes an acceleration of the force alone."""
+    """Return the factor from the force on the lower ball alone to its acceleration."""
     if mass is not None and alone.unit == "N":
         return 1.0 / measured("mass", mass, "kilograms")
     if speed is None:
@@ -168,53 +157,53 @@ def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution
         )
     v = measured("impact_speed", speed, "m/s")
     if restitution is not None:
-        e = measured("restitution", restitution, "", lambda name, e, _: fraction(name, e))
+        e = measured("restitution", restitution, "", lambda name, value, _: fraction(name, value))
     else:
         e = _bounce(alone, v)
     return v * (1.0 + e) / contact.impulse
 
 
 def _bounce(alone: Waveform, speed: Any) -> Any:
-    """Return the restitution by the flight to a second bounce, or what it may be."""
+    """Return the restitution from the flight to a second bounce, or its prior."""
     if len(alone.contacts) > 1 and alone.contacts[1].start is not None:
         e = STANDARD_GRAVITY * (alone.contacts[1].start - alone.contacts[0].end) / (2.0 * speed)
         if 0.0 < e.nominal_value <= 1.0:
             return e
-    return _ufloat(*_UNKNOWN)
+    return known_to(*_UNKNOWN)
 
 
 def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, float], list[str]]:
-    """Return between which times the balls touched, and why no more can be told, if that is so."""
+    """Return limits of the delay, and a note if the delay itself is unknown."""
     low, high = kink.time - 2.0 * kink.error, kink.time + 2.0 * kink.error
-    if kink.time - kink.error < _EARLY * lasting:
-        why = "balls that touch from the start look like this too: the gap may be 0"
-        return (0.0, high), [f"the forces part early: {why}"]
-    if kink.time > 0.0:
-        return (low, high), []
-    if kink.pressed:
-        why = "the second ball came before the lower one left the floor, too faintly to tell when"
-        return (0.0, lasting), [why]
     back = _thrown_back(both, lasting)
-    if back is None:
+    if kink.time - kink.error < _EARLY * lasting:
+        low = 0.0
+        why = "the forces part as early as with balls that touch from the start: the gap may be 0"
+    elif kink.time > 0.0:
+        return (low, high), []
+    elif kink.pressed:
+        low, high = 0.0, lasting
+        why = "the second ball came before the lower one left the floor, too faintly to tell when"
+    elif back is None:
+        low, high = 0.0, math.inf
         why = (
             "no second ball is seen while the lower one is on the floor: it came too late, or is "
             "too light for this noise, and the gap cannot be told"
         )
-        return (0.0, math.inf), [why]
-    why = (
-        "the force is that of the lower ball alone until that leaves the floor, and then it was "
-        "thrown back: the second ball came late, and only limits can be told"
-    )
-    return (_LATE * lasting, back), [why]
+    else:
+        low, high = _LATE * lasting, back
+        why = (
+            "the force is that of the lower ball alone until that leaves the floor, and then it "
+            "was thrown back: the second ball came late, and only limits can be told"
+        )
+    return (low, high), [why]
 
 
 def _thrown_back(both: Waveform, lasting: float) -> float | None:
-    """Return when the lower ball was pressed on the floor again in the same impact, if it was."""
-    first, *more = both.contacts
-    if not more or first.start is None or more[0].start is None:
-        return None
-    back = (more[0].start - first.start).nominal_value
-    return float(back) if back < _NEXT * lasting else None
+    """Return when the lower ball hit the floor again in the same impact, or None."""
+    starts = [one.start.nominal_value for one in both.contacts[:2] if one.start is not None]
+    back = float(np.ptp(starts))
+    return back if 0.0 < back < _NEXT * lasting else None
 
 
 def _notes(kink: Kink, lasting: float) -> list[str]:

@@ -1,4 +1,4 @@
-"""The gap between two balls, as a record tells it."""
+"""The results of the analyses of the gap between two balls."""
 
 import math
 from dataclasses import dataclass, field
@@ -84,7 +84,7 @@ class SensorGap(Finding):
 
 
 def _limited(value: Any, limits: tuple[float, float]) -> Any:
-    """Return a value, or its limits as words."""
+    """Return a value or, where there is none, its limits as words."""
     low, high = limits
     if value is not None:
         return value

@@ -10,7 +10,7 @@ __all__ = ["sensor_gap"]
 
 
 def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None) -> SensorGap:
-    """Return the delay between the first two channels of a record, and the gap that it tells.
+    """Return the delay between the first two channels of a record, and the gap.
 
     Parameters
     ----------
