@@ -49,9 +49,7 @@ def print_audit(console: "Console", done: "Audit", page: Path) -> None:
     """Print how many rows of the audit have which verdict, and where its page lies."""
     from stackbounce.cli.tables import new_table
 
-    table = new_table("Audit of the paper")
-    table.add_column("verdict")
-    table.add_column("rows", justify="right")
+    table = new_table("Audit of the paper", ["verdict"], ["rows"])
     for verdict, count in (done.counts | {"all": len(done.rows)}).items():
         table.add_row(verdict, str(count))
     console.print(table)

@@ -14,7 +14,16 @@ from stackbounce.model.laws import ContactLaw
 from stackbounce.model.schema import read_law
 from stackbounce.units import quantity
 
-__all__ = ["DEFAULT_HEIGHT", "Scenario", "change", "is_file", "read", "read_contact"]
+__all__ = [
+    "DEFAULT_HEIGHT",
+    "Scenario",
+    "change",
+    "is_file",
+    "read",
+    "read_contact",
+    "read_fall",
+    "read_until",
+]
 
 DEFAULT_HEIGHT = 1.0
 """The height in m from which balls of the catalogue fall if nothing is said about it."""
@@ -30,15 +39,7 @@ class Scenario:
     speed_source: str
 
 
-def read(
-    what: Sequence[str],
-    *,
-    height: str | None = None,
-    speed: str | None = None,
-    gaps: Sequence[str] | None = None,
-    contacts: Sequence[str] | None = None,
-    gravity: str | None = None,
-) -> Scenario:
+def read(what: Sequence[str], **options: Any) -> Scenario:
     """Return the scenario that the arguments of ``stackbounce simulate`` describe.
 
     Parameters
@@ -46,10 +47,9 @@ def read(
     what : sequence of str
         One scenario file; files of one ball each, the lowest first, to be stacked; or names of the
         catalogue, the lowest first.
-    height, speed, gravity : str, optional
-        Numbers with or without a unit; they replace the file's.
-    gaps, contacts : sequence of str, optional
-        All gaps, all contacts; they replace those of the file or catalogue.
+    **options
+        ``height``, ``speed`` and ``gravity``, texts with or without a unit, replace the numbers of
+        the file; ``gap`` and ``contact``, sequences of texts, all gaps and all contacts.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def read(
     StackbounceError
         If one of them cannot be read.
     """
-    changes = _changes(height, speed, gaps, contacts, gravity)
+    changes = _changes(**options)
     if any(is_file(name) for name in what):
         if not all(is_file(name) for name in what):
             raise InvalidValue(
@@ -73,7 +73,7 @@ def read(
 
 
 def change(drop: Drop, **options: Any) -> Drop:
-    """Return a drop with the options of `read` in place: height, speed, gaps, contacts, gravity."""
+    """Return a drop with the options of `read` in place."""
     return _with(Scenario(drop, (), (), ""), _changes(**options)).drop
 
 
@@ -126,25 +126,47 @@ def is_file(name: str) -> bool:
     return name.endswith(".toml") or Path(name).name != name
 
 
-def _changes(
-    height: str | None,
-    speed: str | None,
-    gaps: Sequence[str] | None,
-    contacts: Sequence[str] | None,
-    gravity: str | None,
-) -> dict[str, Any]:
-    changes: dict[str, Any] = {}
+def read_fall(height: str | None, speed: str | None) -> dict[str, float]:
+    """Return the height or the impact speed of ``--height`` and ``--speed``, if one is given.
+
+    Examples
+    --------
+    >>> read_fall("63cm", None), read_fall(None, None)
+    ({'height': 0.63}, {})
+    """
     if height is not None and speed is not None:
         raise InvalidValue("--height and --speed: only one of the two can be given, got both")
     if height is not None:
-        changes["height"] = quantity(height, "m", "--height")
-    if speed is not None:
-        changes["impact_speed"] = quantity(speed, "m/s", "--speed")
-    if gaps:
-        changes["gaps"] = [quantity(gap, "m", "--gap") for gap in gaps]
-    if contacts:
+        return {"height": quantity(height, "m", "--height")}
+    return {} if speed is None else {"impact_speed": quantity(speed, "m/s", "--speed")}
+
+
+def read_until(text: str | None) -> float | None:
+    """Return the time in s of ``--until``.
+
+    Examples
+    --------
+    >>> read_until("5 ms")
+    0.005
+    """
+    return None if text is None else quantity(text, "s", "--until")
+
+
+def _changes(
+    *,
+    height: str | None = None,
+    speed: str | None = None,
+    gap: Sequence[str] | None = None,
+    contact: Sequence[str] | None = None,
+    gravity: str | None = None,
+) -> dict[str, Any]:
+    """Return the fields of a drop that the options change."""
+    changes: dict[str, Any] = {**read_fall(height, speed)}
+    if gap:
+        changes["gaps"] = [quantity(one, "m", "--gap") for one in gap]
+    if contact:
         changes["contacts"] = [
-            read_contact(text, f"--contact {i}") for i, text in enumerate(contacts)
+            read_contact(text, f"--contact {i}") for i, text in enumerate(contact)
         ]
     if gravity is not None:
         changes["gravity"] = quantity(gravity, "m/s**2", "--gravity")

@@ -10,13 +10,23 @@ from stackbounce.cli.scenario import DEFAULT_HEIGHT, Scenario
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
 
-__all__ = ["add_columns", "incidence", "label", "law_text", "meeting", "new_table", "number"]
+__all__ = [
+    "add_columns",
+    "incidence",
+    "label",
+    "law_text",
+    "meeting",
+    "new_table",
+    "number",
+    "percent",
+    "write_count",
+]
 
 
-def new_table(title: str) -> Table:
-    """Return a table in the style of all of them, without columns."""
-    return Table(
-        title=f"\n{title}",
+def new_table(title: str | None, texts: Sequence[str] = (), numbers: Sequence[str] = ()) -> Table:
+    """Return a table in the style of all of them, with columns of texts, then of numbers."""
+    table = Table(
+        title=title and f"\n{title}",
         title_justify="left",
         title_style="bold",
         box=box.SIMPLE_HEAD,
@@ -24,6 +34,10 @@ def new_table(title: str) -> Table:
         pad_edge=False,
         padding=(0, 1, 0, 0),
     )
+    for heading in texts:
+        table.add_column(heading, overflow="fold")
+    add_columns(table, numbers)
+    return table
 
 
 def add_columns(table: Table, headings: Sequence[str], style: str = "") -> None:
@@ -58,6 +72,28 @@ def number(value: float) -> str:
     if 1e3 <= abs(value) < 1e7:
         return f"{value:.0f}"
     return f"{value:#.4g}".removesuffix(".")
+
+
+def percent(share: float) -> str:
+    """Return a share in percent, as people write it.
+
+    Examples
+    --------
+    >>> percent(0.5), percent(float("nan"))
+    ('50.0 %', '–')
+    """
+    return f"{100.0 * share:.1f} %" if math.isfinite(share) else number(share)
+
+
+def write_count(count: int) -> str:
+    """Return how many collisions there were; a negative count stands for infinitely many.
+
+    Examples
+    --------
+    >>> write_count(3), write_count(-1)
+    ('3', '∞')
+    """
+    return "∞" if count < 0 else str(count)
 
 
 def label(name: str | None, i: int) -> str:

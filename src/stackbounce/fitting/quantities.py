@@ -1,16 +1,18 @@
 """What can be measured of a drop, and how it follows from the engine's results."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.engine.batch import Outcomes
-from stackbounce.errors import InvalidValue, nearest
+from stackbounce.errors import InvalidValue, finite, nearest, positive, shown
+from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.units import quantity
 
-__all__ = ["QUANTITIES", "Quantity", "find_quantity"]
+__all__ = ["QUANTITIES", "Quantity", "find_quantity", "read_with_error"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -138,3 +140,34 @@ def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:
     if index not in map(str, range(last + 1)):
         raise InvalidValue(f"{path[:60]} must end in the number of a {part} from 0 to {last}")
     return base, int(index)
+
+
+def read_with_error(given: object, unit: str, name: str, right: str) -> tuple[float, float]:
+    """Return a number and its error in SI units, from a text, a pair or a UFloat.
+
+    Parameters
+    ----------
+    given : str, (float or str, float or str), or UFloat
+        The number with its error, one standard deviation above 0.
+    unit : str
+        The SI unit.
+    name, right : str
+        The number in messages, and what would be right.
+
+    Raises
+    ------
+    InvalidValue
+        If it is no number with an error, the number is not finite, or the error not above 0.
+
+    Examples
+    --------
+    >>> read_with_error("1.64 ± 0.02", "", "rebound_ratios.1", "a number with its error")
+    (1.64, 0.02)
+    """
+    pair: Any = quantity_with_error(given, unit, name) if isinstance(given, str) else given
+    if hasattr(pair, "nominal_value"):
+        pair = (pair.nominal_value, pair.std_dev)
+    if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
+        raise InvalidValue(f"{name} must be {right}, got {shown(given)}")
+    value, error = (quantity(one, unit, name) for one in pair)
+    return finite(name, value), positive(f"{name}'s error", error)
