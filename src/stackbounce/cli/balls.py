@@ -1,4 +1,4 @@
-"""``stackbounce balls``: the catalogue, each figure with its source."""
+"""The command ``stackbounce balls``: the catalogue, each number with its source."""
 
 import math
 from collections.abc import Sequence

@@ -20,8 +20,8 @@ EPILOG = (
     "For example: stackbounce fit basketball tennis --height 63cm --measured "
     "'rebound_ratios.1=1.64 ± 0.02' --vary 'contacts.1.stiffness=0.7kN/m:2.5kN/m' --interval"
 )
-_PROBLEM: Any = {"rich_help_panel": "What is asked"}
-_SEARCH: Any = {"rich_help_panel": "How it is answered"}
+_PROBLEM: Any = {"rich_help_panel": "The problem"}
+_SEARCH: Any = {"rich_help_panel": "The search and its results"}
 
 What = Annotated[
     list[str],
@@ -55,13 +55,14 @@ _DATA = {
         list[str] | None,
         "PATH=BOUNDS",
         "What may change: 'gaps.0=0mm:5mm', or what is known of it, 'gaps.0=1.3 ± 0.9 mm', or "
-        "its name alone; once per number.",
+        "its path alone; once per number.",
         **_PROBLEM,
     ),
     "tie": option(
         list[str] | None,
         "PATH=FORMULA",
-        "What follows: 'contacts.1.stiffness=0.5*contacts.0.stiffness'; once per number.",
+        "A number that follows from others: 'contacts.1.stiffness=0.5*contacts.0.stiffness'; "
+        "once per number.",
         **_PROBLEM,
     ),
 }
@@ -82,7 +83,7 @@ Interval = Annotated[
 ]
 Sample = Annotated[
     int | None,
-    typer.Option(metavar="DRAWS", help="Draw that often from the posterior.", **_SEARCH),
+    typer.Option(metavar="DRAWS", help="Take so many draws from the posterior.", **_SEARCH),
 ]
 Starts = Annotated[
     int | None,

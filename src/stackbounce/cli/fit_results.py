@@ -1,4 +1,4 @@
-"""``stackbounce fit``: a problem from arguments and files, the results as tables and JSON."""
+"""Fits on the command line: the problem from arguments and files, tables and JSON of results."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -23,6 +23,7 @@ from stackbounce.fitting import (
     standard_models,
 )
 from stackbounce.fitting.files import Parts, convert_measured, read_parts
+from stackbounce.fitting.notes import describe_freedom
 from stackbounce.fitting.quantities import QUANTITIES
 from stackbounce.run.paths import numbers_of
 from stackbounce.units import handy, rounded
@@ -47,7 +48,7 @@ __all__ = [
 _STRONG = 0.5  # a correlation above it is printed
 _QUANTILES = (0.159, 0.5, 0.841)
 _CRITERIA = {"aicc": "AICc", "bic": "BIC"}
-_MANY = 8  # data, up to which each has a column of its own
+_MANY = 8  # more data are not printed in a column each
 
 
 @dataclass(frozen=True)
@@ -71,7 +72,7 @@ def read_problem(
 ) -> FitProblem:
     """Return the fit problem of the arguments: that of a file or a drop, changed by options.
 
-    To have models `compared`, nothing has to vary: each model has parameters of its own.
+    With `compared`, nothing has to vary: each of the models has its own parameters.
     """
     parts = _read_parts(what, changes)
     if data is not None:
@@ -262,7 +263,7 @@ def _tabulate_parameters(done: Fitted) -> "Table":
 
 
 def _least(done: Fitted, name: str) -> float:
-    """Return the smallest error that is printed of a number, which sets its decimals."""
+    """Return the smallest error that is printed for a number; it sets the decimals."""
     value = done.fit[name]
     errors: list[float] = [value.std_dev]
     if done.intervals:
@@ -289,8 +290,7 @@ def _tabulate_residuals(found: Fit) -> "Table":
 def _describe_goodness(found: Fit) -> str:
     """Return chi squared in words."""
     count = found.degrees_of_freedom
-    freedom = f"{count} degree{'' if count == 1 else 's'} of freedom"
-    words = f"Chi squared: {number(found.chi_squared)} for {freedom}"
+    words = f"Chi squared: {number(found.chi_squared)} for {describe_freedom(count)}"
     if not count:
         return f"{words}: too few data to tell whether the model is right."
     share = 100.0 * found.probability

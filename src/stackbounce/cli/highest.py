@@ -1,4 +1,4 @@
-"""``stackbounce highest``: which stack of some balls throws its top ball highest."""
+"""The command ``stackbounce highest``: the stack that throws its top ball highest."""
 
 import math
 from typing import TYPE_CHECKING, Annotated, Any
@@ -113,7 +113,7 @@ def summary(data: "xr.Dataset") -> dict[str, Any]:
 
 
 def print_stacks(console: "Console", data: "xr.Dataset", rows: int) -> None:
-    """Print the first stacks in order, for people, and what the gap does to the order."""
+    """Print the first stacks in order, and how the gap changes the order."""
     import numpy as np
 
     from stackbounce.cli.tables import new_table, number, percent

@@ -1,4 +1,4 @@
-"""``stackbounce masses``: the masses in between that throw the top ball highest."""
+"""The command ``stackbounce masses``: the inner masses that throw the top ball highest."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -93,7 +93,7 @@ def summary(given: "Drop", best: "Drop", within: tuple[float, float] | None) -> 
 
 
 def print_masses(console: "Console", scenario: "Scenario", found: dict[str, Any]) -> None:
-    """Print the best masses, for people, beside those given and the geometric means."""
+    """Print the best masses beside those given and the geometric means."""
     from stackbounce.cli.tables import incidence, label, new_table, number
 
     console.print(incidence(scenario), style="bold")

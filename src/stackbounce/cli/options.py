@@ -1,4 +1,4 @@
-"""Options that several commands share, and how a table of options becomes a command's signature."""
+"""Options that several commands share, and tables of options for their signatures."""
 
 import inspect
 from collections.abc import Callable, Mapping

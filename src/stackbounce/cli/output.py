@@ -1,4 +1,4 @@
-"""The terminal, and pictures, whose files are checked before anything is computed."""
+"""Output: the terminal, JSON, and files, whose paths are checked before anything is computed."""
 
 import contextlib
 import sys

@@ -1,4 +1,4 @@
-"""``stackbounce paper``: the paper recomputed."""
+"""The command ``stackbounce paper``: the paper recomputed."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -35,7 +35,7 @@ def run(
     need("paper", "stackbounce paper")
     from stackbounce import cross2007
 
-    if not out:  # as a path it would be this folder
+    if not out:  # Path("") is the current folder
         raise InvalidValue("--out must name a folder, got ''")
     folder = Path(out)
     audit = cross2007.write(folder, lambda line: typer.echo(line, err=True), study=study)

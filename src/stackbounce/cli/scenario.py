@@ -1,4 +1,4 @@
-"""From arguments to a drop: a scenario file or balls of the catalogue, and what to change."""
+"""A drop from arguments: a scenario file or balls of the catalogue, and options that change it."""
 
 import dataclasses
 import itertools
@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from stackbounce.errors import InvalidValue, StackbounceError, shown
+from stackbounce.errors import InvalidValue, shown
 from stackbounce.model.catalogue import stack
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
@@ -31,7 +31,7 @@ DEFAULT_HEIGHT = 1.0
 
 @dataclasses.dataclass(frozen=True)
 class Scenario:
-    """A drop, and for people where its numbers come from."""
+    """A drop, and where its numbers come from."""
 
     drop: Drop
     contact_sources: tuple[str, ...]
@@ -189,7 +189,7 @@ def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
                 f"{len(drop.balls)} balls{'' if drop.contacts[0] else ' and no floor'}"
             )
         laws.append(drop.contacts[0])
-    contacts = changes.get("contacts") or [laws[0], *_between(names, laws)]
+    contacts = changes.get("contacts") or _joined(names, laws)
     lowest = drops[0]
     drop = Drop(
         [drop.balls[0] for drop in drops],
@@ -202,18 +202,13 @@ def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
     return Scenario(drop, (names[0], *pairs), ("no gap given",) * len(pairs), names[0])
 
 
-def _between(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
-    from stackbounce.calibration import between
+def _joined(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
+    from stackbounce.gaps_and_masses.ranking import join_contacts
 
-    found = []
-    for (one, lower), (other, upper) in itertools.pairwise(zip(names, laws, strict=True)):
-        try:
-            found.append(between(lower, upper))
-        except StackbounceError as error:
-            raise InvalidValue(
-                f"{one} and {other}: {error}; give all contacts with --contact"
-            ) from error
-    return found
+    try:
+        return join_contacts(names, laws)
+    except InvalidValue as error:
+        raise InvalidValue(f"{error}; give all contacts with --contact") from error
 
 
 def _from_catalogue(names: Sequence[str], changes: dict[str, Any]) -> Scenario:

@@ -1,4 +1,4 @@
-"""``stackbounce simulate``: one drop, and how each ball bounces."""
+"""The command ``stackbounce simulate``: how each ball of one drop bounces."""
 
 from typing import TYPE_CHECKING, Any
 

@@ -95,7 +95,7 @@ def _contacts(result: Result) -> Table:
 
 
 def _apexes(result: Result) -> Table:
-    """Return the first highest points of each ball; the rest is a number."""
+    """Return the table of the first highest points of each ball, and how many it has."""
     points = [part for k in range(_APEXES) for part in (f"{k + 1}\ns", "\nm")]
     title = f"Highest points, the first {_APEXES} of each ball"
     table = new_table(title, ["\nball"], ["how\nmany", *points])

@@ -1,4 +1,4 @@
-"""``stackbounce sweep``: a grid into a file, with its progress, and what came of it."""
+"""The command ``stackbounce sweep``: solve a grid of drops into a file, and summarise it."""
 
 import contextlib
 import logging
@@ -33,7 +33,7 @@ EPILOG = (
     "For example: stackbounce sweep basketball tennis --over balls.0.mass=50g:500g:100:log "
     "--over gaps.0=0mm:5mm:50 --out map.zarr --plot map.png"
 )
-_BLOCK = 2**18  # drops that are looked at together
+_BLOCK = 2**18  # drops that are summarised together
 _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
 
 
@@ -100,7 +100,7 @@ def run(
 def _write(
     drop: "Drop", over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
 ) -> "xr.Dataset":
-    """Sweep a drop over what ``--over`` names, into a file, showing how far it is; return it."""
+    """Sweep a drop over the numbers of ``--over`` into a file with a progress bar; return it."""
     from stackbounce.sweeps import grid, opened, write
 
     values = grid(drop, over)
@@ -135,7 +135,7 @@ def _draw(data: "xr.Dataset", show: str, path: Path) -> None:
 
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
-    """Return what came of a sweep, for machines; a file larger than memory is read in blocks."""
+    """Return the summary of a sweep for --json, read in blocks as it may exceed the memory."""
     import numpy as np
 
     from stackbounce.run.blocks import blocks, sides
@@ -165,7 +165,7 @@ def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
 
 
 def print_sweep(console: "Console", data: "xr.Dataset", out: Path) -> None:
-    """Print what came of a sweep, for people."""
+    """Print the summary of a sweep."""
     from stackbounce.run.result import Status
 
     found = summary(data, out)
@@ -203,12 +203,12 @@ def _client(address: str | None) -> Iterator[Any]:
     need("cluster", "--cluster")
     import distributed
 
-    for name in ("distributed", "distributed.client"):  # errors of ours say it in one line
+    for name in ("distributed", "distributed.client"):  # our own error says it in one line
         logging.getLogger(name).setLevel(logging.CRITICAL)
     wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
     connect: Any = distributed.Client
     try:
-        _knock(address)
+        _check_listening(address)
         client = connect(address, timeout="10s")
     except (OSError, ValueError) as error:
         raise InvalidValue(wrong) from error
@@ -216,8 +216,8 @@ def _client(address: str | None) -> Iterator[Any]:
         yield client
 
 
-def _knock(address: str) -> None:
-    """Raise OSError or ValueError where nobody listens: a client would try again for long."""
+def _check_listening(address: str) -> None:
+    """Raise OSError or ValueError if nothing listens there; dask would retry for a long time."""
     host, _, port = address.rpartition("://")[2].rpartition(":")
     with socket.create_connection((host, int(port)), timeout=5.0):
         pass

@@ -1,4 +1,4 @@
-"""Tables for people, no wider than 100 columns, and how they write numbers, balls and laws."""
+"""Tables of at most 100 columns, and how numbers, balls and laws are written in them."""
 
 import math
 from collections.abc import Sequence
@@ -47,7 +47,7 @@ def add_columns(table: Table, headings: Sequence[str], style: str = "") -> None:
 
 
 def number(value: float) -> str:
-    """Return a number with four digits that count, as people write it.
+    """Return a number with four significant digits.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def number(value: float) -> str:
 
 
 def percent(share: float) -> str:
-    """Return a share in percent, as people write it.
+    """Return a share in percent.
 
     Examples
     --------
@@ -97,7 +97,7 @@ def write_count(count: int) -> str:
 
 
 def label(name: str | None, i: int) -> str:
-    """Return what a table calls ball `i`: its name, printable and not too long.
+    """Return the name of ball `i` in tables: printable, and at most 16 characters.
 
     Examples
     --------
@@ -109,7 +109,7 @@ def label(name: str | None, i: int) -> str:
 
 
 def incidence(scenario: Scenario) -> str:
-    """Return what falls, and from where or how fast."""
+    """Return the names of the balls, and their height or speed."""
     drop = scenario.drop
     names = " + ".join(label(ball.name, i) for i, ball in enumerate(drop.balls))
     if drop.velocities is not None:
@@ -124,14 +124,14 @@ def incidence(scenario: Scenario) -> str:
 
 
 def meeting(drop: Drop, contact: int) -> str:
-    """Return what meets at a contact: the floor or the ball below, and the ball above."""
+    """Return the two sides of a contact: the floor or the ball below, and the ball above."""
     upper = label(drop.balls[contact].name, contact)
     below = "floor" if contact == 0 else label(drop.balls[contact - 1].name, contact - 1)
     return f"{below} – {upper}"
 
 
 def law_text(law: ContactLaw | None) -> str:
-    """Return a contact law as people write it.
+    """Return a contact law in words.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""``stackbounce transition``: from touching balls to separate collisions."""
+"""The command ``stackbounce transition``: a stack with gaps from 0 to separate collisions."""
 
 import math
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,9 +18,9 @@ __all__ = ["EPILOG", "run"]
 
 EPILOG = "For example: stackbounce transition basketball tennis --plot gaps.svg"
 _SHARES = (0.02, 0.05, 0.1, 0.2, 0.5)  # of the whole range, at which the table has rows
-_CHANGES = 12  # that have rows
-_WIDE = 5  # balls that have a column each
-_REST = 1e-6  # a smaller rebound ratio is shown as none
+_CHANGES = 12  # at most so many changes of a count have rows
+_WIDE = 5  # of more balls only the top one has a column
+_REST = 1e-6  # a smaller rebound ratio is shown as 0
 _OUTPUTS = ("rebound_ratio", "collisions", "first_touch", "last_release", "energy_retained")
 
 
@@ -88,7 +88,7 @@ def summary(scenario: "Scenario", data: "xr.Dataset") -> dict[str, Any]:
 
 
 def print_transition(console: "Console", scenario: "Scenario", data: "xr.Dataset") -> None:
-    """Print a transition, for people: some gaps, and those at which a count changes."""
+    """Print a transition: some of the gaps, and those at which a count changes."""
     import numpy as np
 
     from stackbounce.cli.tables import incidence, label, new_table

@@ -132,7 +132,8 @@ def read_measured(drop: Drop, given: object, path: str = "") -> Measured:
             data.append(
                 Datum(name, base, index, *read_with_error(value, known.unit, shown_as, right))
             )
-    names = [one.name for one in (*data, *counts, *waveforms)]
+    every: list[Datum | Count | Waveform] = [*data, *counts, *waveforms]
+    names = [one.name for one in every]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InvalidValue(f"{path}{twice} is given twice")

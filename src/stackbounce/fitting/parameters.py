@@ -4,21 +4,18 @@ import keyword
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import OWN_WORDS
-from stackbounce.fitting.quantities import read_with_error
+from stackbounce.fitting.quantities import Array, read_with_error
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of
 from stackbounce.units import quantity
 
 __all__ = ["Parameter", "Range", "read_parameters"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 _WIDE = 100.0  # default bounds: the drop's own number divided and multiplied by this
 _MOST_GAP = 0.02  # m: default upper bound of a gap, or ten times the drop's own if larger

@@ -2,20 +2,18 @@
 
 import functools
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, shown, whole
 from stackbounce.fitting.objective import Objective
+from stackbounce.fitting.quantities import Array
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
 __all__ = ["Posterior", "sample"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 _WALKERS = 32  # walkers, at least; also at least four per parameter
 _STEPS = 1000  # of a walker: more draws mean more walkers

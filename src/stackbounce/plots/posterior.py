@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, new_figure
 from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
@@ -48,8 +48,6 @@ def corner(posterior: Any) -> "Figure":
     1
     """
     import corner as library
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
 
     draws, labels = [], []
     for name in posterior.names:
@@ -58,8 +56,8 @@ def corner(posterior: Any) -> "Figure":
         draws.append(factor * own[:: max(1, len(own) // _MOST)])
         labels.append(f"{name} ({unit})".replace("**", "^") if unit else name)
     count = len(labels)
-    with mpl.rc_context(STYLE | _OWN_STYLE):
-        figure = Figure(figsize=(_SIDE * max(count, 1.6), _SIDE * max(count, 1.6)))
+    side = _SIDE * max(count, 1.6)
+    with new_figure(side, side, _OWN_STYLE) as figure:
         library.corner(
             np.stack(draws, axis=1),
             fig=figure,

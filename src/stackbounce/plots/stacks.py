@@ -6,7 +6,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.plots.scales import show_in_handy_unit
-from stackbounce.plots.style import STYLE, color_of
+from stackbounce.plots.style import color_of, new_figure
 from stackbounce.plots.sweep_curves import draw_legend, name_of
 
 if TYPE_CHECKING:
@@ -51,11 +51,7 @@ def transition(data: "xr.Dataset") -> "Figure":
     ['rebound ratio', 'collisions']
     """
     _check(data, "textbook_ratio", "transition")
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 5.2))
+    with new_figure(6.4, 5.2) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1.6])
         gap = data["gap"].values
         for ball in data["ball"].values:
@@ -111,13 +107,9 @@ def highest(data: "xr.Dataset") -> "Figure":
     if data.sizes["gap"] > len(_MARKS):
         most = len(_MARKS)
         raise InvalidValue(f"data must have at most {most} gaps, got {data.sizes['gap']}")
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        best = data.isel(stack=slice(_BARS))
-        rows = np.arange(best.sizes["stack"])
-        figure = Figure(figsize=(7.2, 1.4 + 0.32 * len(rows)))
+    best = data.isel(stack=slice(_BARS))
+    rows = np.arange(best.sizes["stack"])
+    with new_figure(7.2, 1.4 + 0.32 * len(rows)) as figure:
         axes = figure.subplots()
         heights = best["height_ratio"].values
         axes.hlines(rows, heights.min(axis=1), heights.max(axis=1), color="#c8c8c8", linewidth=3.0)

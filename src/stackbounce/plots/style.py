@@ -1,8 +1,13 @@
 """The style of all pictures."""
 
-from typing import Any
+import contextlib
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["COLORS", "STYLE", "color_of", "written"]
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["COLORS", "STYLE", "color_of", "new_figure", "written"]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
@@ -20,6 +25,16 @@ STYLE: Any = {
     "figure.constrained_layout.use": True,
 }
 """Matplotlib's settings."""
+
+
+@contextlib.contextmanager
+def new_figure(width: float, height: float, style: Any = None) -> "Iterator[Figure]":
+    """Give a new figure, its width and height in inches; the style holds while it is drawn."""
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE | (style or {})):
+        yield Figure(figsize=(width, height))
 
 
 def color_of(index: int) -> str:
