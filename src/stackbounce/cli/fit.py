@@ -86,8 +86,7 @@ Sample = Annotated[
     typer.Option(metavar="DRAWS", help="Take so many draws from the posterior.", **_SEARCH),
 ]
 Starts = Annotated[
-    int | None,
-    typer.Option(metavar="COUNT", help="How many trials are screened first.", **_SEARCH),
+    int | None, typer.Option(metavar="COUNT", help="How many trials are screened first.", **_SEARCH)
 ]
 Seed = Annotated[
     int, typer.Option(metavar="NUMBER", help="The seed of trials and draws.", **_SEARCH)

@@ -21,13 +21,7 @@ from stackbounce.errors import (
 )
 from stackbounce.gaps_and_masses.batch import solve_drops
 from stackbounce.gaps_and_masses.separation_limit import replace_gaps
-from stackbounce.model import (
-    STANDARD_GRAVITY,
-    Ball,
-    ContactLaw,
-    Drop,
-    Hysteretic,
-)
+from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteretic
 from stackbounce.model.catalogue import BALLS, catalogue_ball
 from stackbounce.version import __version__
 

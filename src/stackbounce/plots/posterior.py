@@ -12,11 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["corner"]
 
-_OWN_STYLE = {
-    "axes.grid": False,
-    "figure.constrained_layout.use": False,
-    "lines.linewidth": 1.2,
-}
+_OWN_STYLE = {"axes.grid": False, "figure.constrained_layout.use": False, "lines.linewidth": 1.2}
 _SIDE = 2.5  # inches of a panel
 _MOST = 20_000  # draws; more are thinned evenly
 _WITHIN = (0.393, 0.865)  # of the draws of two: one and two standard deviations of a Gaussian
