@@ -248,29 +248,19 @@ def _tabulate_parameters(done: Fitted) -> "Table":
     table = new_table(None, ["\nVaried"], headings)
     table.add_column("\nunit")
     for name, one in done.fit.values.items():
-        values = [one.nominal_value, one.std_dev]
-        if done.intervals:
-            values += done.intervals[name][:2]
-        if done.posterior:
-            values += done.posterior.quantiles(name, _QUANTILES).tolist()
+        interval = done.intervals[name][:2] if done.intervals else ()
+        drawn = done.posterior.quantiles(name, _QUANTILES).tolist() if done.posterior else []
+        values = [one.nominal_value, one.std_dev, *interval, *drawn]
+        errors = [one.std_dev, *(abs(end - values[0]) for end in interval), *np.diff(drawn)]
+        # the smallest error sets the decimals, unless it is nearly 0
+        least = min((error for error in errors if error > 0.01 * errors[0]), default=errors[0])
         unit, factor = handy(max(map(abs, values)), done.fit.units[name])
-        texts = rounded([factor * value for value in values], factor * _least(done, name))
+        texts = rounded([factor * value for value in values], factor * least)
         if done.intervals:
             for k in (2, 3):
                 texts[k] += " (bound)" if done.intervals[name][k] else ""
         table.add_row(name, *texts, unit)
     return table
-
-
-def _least(done: Fitted, name: str) -> float:
-    """Return the smallest error that is printed for a number; it sets the decimals."""
-    value = done.fit[name]
-    errors: list[float] = [value.std_dev]
-    if done.intervals:
-        errors += [abs(end - value.nominal_value) for end in done.intervals[name][:2]]
-    if done.posterior:
-        errors += np.diff(done.posterior.quantiles(name, _QUANTILES)).tolist()
-    return min((one for one in errors if one > 0.01 * errors[0]), default=errors[0])
 
 
 def _tabulate_residuals(found: Fit) -> "Table":

@@ -220,7 +220,7 @@ def sample(
 
 def _log_probability(objective: Objective) -> Any:
     spans = objective.spans
-    # a prior is a density of the value, not of its logarithm: that of the coordinate has a factor
+    # a prior is a density of the value; the density of its logarithm has the value as a factor
     known = [one.prior is not None and one.logarithmic for one in objective.parameters]
 
     def evaluate(x: Array) -> Array:

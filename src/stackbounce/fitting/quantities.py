@@ -12,7 +12,7 @@ from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.units import quantity
 
-__all__ = ["QUANTITIES", "Array", "Quantity", "find_quantity", "read_with_error"]
+__all__ = ["QUANTITIES", "Array", "Quantity", "find_quantity", "read_index", "read_with_error"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -107,14 +107,26 @@ def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:
         raise InvalidValue(
             f"{path[:60]} is not a measured quantity; {nearest(base, [*QUANTITIES, 'force.0'])}"
         )
-    part, last = QUANTITIES[base].part, len(drop.balls) - 1
-    if not part:
-        if dot:
-            raise InvalidValue(f"{path}: {base} is of the whole stack and takes no number")
-        return base, 0
+    part = QUANTITIES[base].part
+    if not part and dot:
+        raise InvalidValue(f"{path}: {base} is of the whole stack and takes no number")
+    return base, read_index(drop, part, index, path) if part else 0
+
+
+def read_index(drop: Drop, part: str, index: str, path: str) -> int:
+    """Return the number of a ball or contact at the end of a name.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> read_index(drop, "ball", "0", "rebound_ratios.0")
+    0
+    """
+    last = len(drop.balls) - 1
     if index not in map(str, range(last + 1)):
         raise InvalidValue(f"{path[:60]} must end in the number of a {part} from 0 to {last}")
-    return base, int(index)
+    return int(index)
 
 
 def read_with_error(given: object, unit: str, name: str, right: str) -> tuple[float, float]:

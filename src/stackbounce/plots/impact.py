@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
-from stackbounce.plots.style import color_of, new_figure, written
+from stackbounce.plots.style import color_of, styled_figure, written
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def bounce(result: Result) -> "Figure":
     """
     if not isinstance(result, Result):
         raise InvalidType(f"result must be a Result, got {type(result).__name__}")
-    with new_figure(7.2, 5.6) as figure:
+    with styled_figure(7.2, 5.6) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = np.linspace(*choose_window(result), _SAMPLES)
         sample = sample_with_approach(result, times)

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, new_figure
+from stackbounce.plots.style import COLORS, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -43,7 +43,7 @@ def compared(comparison: Any) -> "Figure":
     names = [score.model for score in comparison.scores]
     pulls = comparison.pulls.sel(model=names)
     wide = 5.0 + 0.55 * min(pulls.sizes["datum"], _WIDEST)
-    with new_figure(max(8.0, wide), 1.9 + 0.42 * len(names)) as figure:
+    with styled_figure(max(8.0, wide), 1.9 + 0.42 * len(names)) as figure:
         left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
         _draw_scores(left, comparison)
         _draw_pulls(figure, right, pulls)

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, new_figure
+from stackbounce.plots.style import COLORS, styled_figure
 from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
@@ -53,7 +53,7 @@ def corner(posterior: Any) -> "Figure":
         labels.append(f"{name} ({unit})".replace("**", "^") if unit else name)
     count = len(labels)
     side = _SIDE * max(count, 1.6)
-    with new_figure(side, side, _OWN_STYLE) as figure:
+    with styled_figure(side, side, _OWN_STYLE) as figure:
         library.corner(
             np.stack(draws, axis=1),
             fig=figure,

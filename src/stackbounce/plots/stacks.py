@@ -6,7 +6,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue
 from stackbounce.plots.scales import show_in_handy_unit
-from stackbounce.plots.style import color_of, new_figure
+from stackbounce.plots.style import color_of, styled_figure
 from stackbounce.plots.sweep_curves import IN_A_ROW, check_source, draw_legend, name_of
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def transition(data: "xr.Dataset") -> "Figure":
     ['rebound ratio', 'collisions']
     """
     check_source(data, "textbook_ratio", "transition")
-    with new_figure(6.4, 5.2) as figure:
+    with styled_figure(6.4, 5.2) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1.6])
         gap = data["gap"].values
         for ball in data["ball"].values:
@@ -108,7 +108,7 @@ def highest(data: "xr.Dataset") -> "Figure":
         raise InvalidValue(f"data must have at most {most} gaps, got {data.sizes['gap']}")
     best = data.isel(stack=slice(_BARS))
     rows = np.arange(best.sizes["stack"])
-    with new_figure(7.2, 1.4 + 0.32 * len(rows)) as figure:
+    with styled_figure(7.2, 1.4 + 0.32 * len(rows)) as figure:
         axes = figure.subplots()
         heights = best["height_ratio"].values
         axes.hlines(rows, heights.min(axis=1), heights.max(axis=1), color="#c8c8c8", linewidth=3.0)

@@ -1,13 +1,13 @@
 """The style of all pictures."""
 
-import contextlib
 from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-__all__ = ["COLORS", "STYLE", "color_of", "new_figure", "written"]
+__all__ = ["COLORS", "STYLE", "color_of", "styled_figure", "written"]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
@@ -27,9 +27,17 @@ STYLE: Any = {
 """Matplotlib's settings."""
 
 
-@contextlib.contextmanager
-def new_figure(width: float, height: float, style: Any = None) -> "Iterator[Figure]":
-    """Give a new figure, its width and height in inches; the style holds while it is drawn."""
+@contextmanager
+def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[Figure]":
+    """Give an empty figure, in inches, and draw on it in this style, with other settings if given.
+
+    Examples
+    --------
+    >>> with styled_figure(7.2, 4.4) as figure:
+    ...     axes = figure.subplots()
+    >>> axes.spines["top"].get_visible()
+    False
+    """
     import matplotlib as mpl
     from matplotlib.figure import Figure
 

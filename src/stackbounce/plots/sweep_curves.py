@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.plots.maps import draw_counts, draw_levels, hatch
 from stackbounce.plots.scales import is_flat, label, read_scale, show_in_handy_unit
-from stackbounce.plots.style import COLORS, color_of, new_figure
+from stackbounce.plots.style import COLORS, color_of, styled_figure
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -73,7 +73,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
     chosen = range(own.sizes[part]) if part else range(1)
     if part and index is not None:
         chosen = range(_index(own, part, index), _index(own, part, index) + 1)
-    with new_figure(6.4, 4.0) as figure:
+    with styled_figure(6.4, 4.0) as figure:
         axes = figure.subplots()
         scale = read_scale(data, dim)
         rows = [own.isel({part: k}).values if part else own.values for k in chosen]
@@ -132,7 +132,7 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     if part:
         title += f" of {name_of(data, part, _index(own, part, index))}"
         own = own.isel({part: index})
-    with new_figure(6.4, 4.8, {"axes.grid": False}) as figure:
+    with styled_figure(6.4, 4.8, {"axes.grid": False}) as figure:
         axes = figure.subplots()
         x, y = read_scale(data, across), read_scale(data, up)
         label(axes, "x", str(across), x)
