@@ -112,7 +112,7 @@ def test_a_table_for_people(run):
     )
     assert "gap 0, basketball – tennis: 2 mm  [--gap]" in out
     assert "Energy retained: 100.0 %" in out
-    result = sb.simulate(read(PAIR[1:3], height="0.63m", gaps=["2mm"]).drop)
+    result = sb.simulate(read(PAIR[1:3], height="0.63m", gap=["2mm"]).drop)
     textbook = sb.simulate(separate(result.drop))
     for i, name in enumerate(("basketball", "tennis")):
         _, mass, before, after, ratio, bounce, height, *other = rows(out, name)[0]

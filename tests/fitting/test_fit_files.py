@@ -142,7 +142,7 @@ def test_a_force_record_beside_the_file(write, tmp_path):
         ),
         (
             ("[measured]", "[measured]\nforce.0 = {file = 'a.csv', unit = 'N'}"),
-            "force.0.unit: unknown; did you mean units?",
+            "force.0.unit is not a known key; did you mean units?",
         ),
         (("[vary]", "[[drops]]\nname = 'a'\n[vary]"), "measured belongs to one of the drops"),
         (("gaps = [", "gaps = {"), "is not TOML"),

@@ -1,4 +1,4 @@
-"""``stackbounce balls``: the catalogue, each figure with its source."""
+"""The command ``stackbounce balls``: the catalogue, each number with its source."""
 
 import math
 from collections.abc import Sequence
@@ -23,13 +23,11 @@ def run(as_json: AsJson = False) -> None:
 
 def print_catalogue(console: "Console") -> None:
     """Print the catalogue: balls, pairs, and where each figure comes from."""
-    from stackbounce.cli.tables import add_columns, label, new_table, number
+    from stackbounce.cli.tables import label, new_table, number
     from stackbounce.model.catalogue import BALLS, PAIRS
 
-    table = new_table("Balls")
-    table.add_column("\nball")
-    add_columns(table, ("mass\ng", "diameter\nmm", "restitution\non floor", "contact time\nms"))
-    add_columns(table, ("stiffness\nN/m", "static\nN/m"))
+    headings = ("mass\ng", "diameter\nmm", "restitution\non floor", "contact time\nms")
+    table = new_table("Balls", ["\nball"], (*headings, "stiffness\nN/m", "static\nN/m"))
     for entry in BALLS:
         table.add_row(
             label(entry.ball.name, 0),
@@ -43,10 +41,8 @@ def print_catalogue(console: "Console") -> None:
     console.print(table)
     for entry in BALLS:
         console.print(f"{entry.ball.name}: {_sources(entry.sources)}")
-    table = new_table("Pairs: springs fitted to a drop of two balls")
-    table.add_column("\nlower")
-    table.add_column("\nupper")
-    add_columns(table, ("floor\nN/m", "between\nN/m", "gap\nmm"))
+    title = "Pairs: springs fitted to a drop of two balls"
+    table = new_table(title, ["\nlower", "\nupper"], ("floor\nN/m", "between\nN/m", "gap\nmm"))
     table.add_column("\nsource")
     for pair in PAIRS:
         table.add_row(

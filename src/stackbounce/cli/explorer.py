@@ -1,4 +1,4 @@
-"""``stackbounce app``: the explorer in the browser."""
+"""The command ``stackbounce app``: the explorer in the browser."""
 
 import os
 from typing import Annotated

@@ -5,8 +5,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import AsJson, Contact, Gap, Gravity, Height, Plot, Speed
-from stackbounce.cli.output import check_picture, console, draw, print_json
+from stackbounce.cli.options import DROP, AsJson, Plot, add_options, option
+from stackbounce.cli.output import check_picture, console, draw_picture, print_files, print_json
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 from stackbounce.model.laws import usual_laws
@@ -20,7 +20,8 @@ EPILOG = (
     "For example: stackbounce fit basketball tennis --height 63cm --measured "
     "'rebound_ratios.1=1.64 ± 0.02' --vary 'contacts.1.stiffness=0.7kN/m:2.5kN/m' --interval"
 )
-_ASKED, _SEARCH = "What is asked", "How it is answered"
+_PROBLEM: Any = {"rich_help_panel": "The problem"}
+_SEARCH: Any = {"rich_help_panel": "The search and its results"}
 
 What = Annotated[
     list[str],
@@ -32,76 +33,63 @@ What = Annotated[
         show_default=False,
     ),
 ]
-Data = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="FILE",
-        readable=False,
-        help="A table, such as drops.csv: each row a drop of this stack, columns such as "
+_DATA = {
+    "data": option(
+        Path | None,
+        "FILE",
+        "A table, such as drops.csv: each row a drop of this stack, columns such as "
         "'height (cm)', 'gaps.0 (mm)', rebound_ratios.1 and 'error of rebound_ratios.1'.",
-        rich_help_panel=_ASKED,
+        readable=False,
+        **_PROBLEM,
     ),
-]
-Measured = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="NAME=VALUE",
-        help="What was measured, with its error: 'rebound_ratios.1=1.64 ± 0.02', "
+    "measured": option(
+        list[str] | None,
+        "NAME=VALUE",
+        "What was measured, with its error: 'rebound_ratios.1=1.64 ± 0.02', "
         "'rebound_heights.0=12 ± 1 cm', 'first_touch.1=2.0 ± 0.5 ms', durations.0, last_release.0, "
         "rebound_speeds.0, energy_retained; collisions.0=2 and force.0=scope.csv have none; once "
         "per number. Balls and contacts count from 0, the lowest.",
-        rich_help_panel=_ASKED,
+        **_PROBLEM,
     ),
-]
-Vary = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="PATH=BOUNDS",
-        help="What may change: 'gaps.0=0mm:5mm', or what is known of it, 'gaps.0=1.3 ± 0.9 mm', or "
-        "its name alone; once per number.",
-        rich_help_panel=_ASKED,
+    "vary": option(
+        list[str] | None,
+        "PATH=BOUNDS",
+        "What may change: 'gaps.0=0mm:5mm', or what is known of it, 'gaps.0=1.3 ± 0.9 mm', or "
+        "its path alone; once per number.",
+        **_PROBLEM,
     ),
-]
-Tie = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="PATH=FORMULA",
-        help="What follows: 'contacts.1.stiffness=0.5*contacts.0.stiffness'; once per number.",
-        rich_help_panel=_ASKED,
+    "tie": option(
+        list[str] | None,
+        "PATH=FORMULA",
+        "A number that follows from others: 'contacts.1.stiffness=0.5*contacts.0.stiffness'; "
+        "once per number.",
+        **_PROBLEM,
     ),
-]
-Interval = Annotated[
-    bool,
-    typer.Option(
-        "--interval",
-        help="Give confidence intervals of 68.3 % that need not be symmetric.",
-        rich_help_panel=_SEARCH,
-    ),
-]
-Sample = Annotated[
-    int | None,
-    typer.Option(
-        metavar="DRAWS", help="Draw that often from the posterior.", rich_help_panel=_SEARCH
-    ),
-]
+}
 Compare = Annotated[
     bool,
     typer.Option(
         "--compare",
         help=f"Fit the usual models ({', '.join(usual_laws())}) instead and lay them side by side; "
         "the search starts from the contacts and gaps of the drop.",
-        rich_help_panel=_SEARCH,
+        **_SEARCH,
     ),
+]
+Interval = Annotated[
+    bool,
+    typer.Option(
+        "--interval", help="Give confidence intervals of 68.3 %, often asymmetric.", **_SEARCH
+    ),
+]
+Sample = Annotated[
+    int | None,
+    typer.Option(metavar="DRAWS", help="Take so many draws from the posterior.", **_SEARCH),
 ]
 Starts = Annotated[
-    int | None,
-    typer.Option(
-        metavar="COUNT", help="How many trials are screened first.", rich_help_panel=_SEARCH
-    ),
+    int | None, typer.Option(metavar="COUNT", help="How many trials are screened first.", **_SEARCH)
 ]
 Seed = Annotated[
-    int,
-    typer.Option(metavar="NUMBER", help="The seed of trials and draws.", rich_help_panel=_SEARCH),
+    int, typer.Option(metavar="NUMBER", help="The seed of trials and draws.", **_SEARCH)
 ]
 Corner = Annotated[
     Path | None,
@@ -120,17 +108,10 @@ Save = Annotated[
 ]
 
 
+@add_options(_DATA | DROP)
 def run(
     what: What,
-    data: Data = None,
-    measured: Measured = None,
-    vary: Vary = None,
-    tie: Tie = None,
-    height: Height = None,
-    speed: Speed = None,
-    gap: Gap = None,
-    contact: Contact = None,
-    gravity: Gravity = None,
+    *,
     compare: Compare = False,
     interval: Interval = False,
     sample: Sample = None,
@@ -140,56 +121,36 @@ def run(
     plot: Plot = None,
     corner: Corner = None,
     as_json: AsJson = False,
+    **given: Any,
 ) -> None:
     """Find the numbers of a drop that describe best what was measured, with errors."""
     need("fit", "stackbounce fit")
     from stackbounce.cli import fit_results
 
-    for option, path in (("--plot", plot), ("--corner", corner)):
-        if path is not None:
-            check_picture(path, option)
+    check_picture(plot)
+    check_picture(corner, "--corner")
     if corner is not None and sample is None:
         raise InvalidValue("--corner draws the posterior of --sample: give both")
-    for option, given in {
-        "--vary": vary,
-        "--tie": tie,
-        "--interval": interval,
-        "--sample": sample,
-        "--save": save,
-    }.items():
-        if compare and given:
-            raise InvalidValue(f"--compare has models of its own: {option} is for one fit")
-    problem = fit_results.read_problem(
-        what,
-        data=data,
-        measured=measured or [],
-        vary=vary or [],
-        tie=tie or [],
-        compared=compare,
-        height=height,
-        speed=speed,
-        gaps=gap,
-        contacts=contact,
-        gravity=gravity,
-    )
+    single = {"interval": interval, "sample": sample, "save": save}
+    for name, value in (given | single).items():
+        if compare and value and name in ("vary", "tie", *single):
+            raise InvalidValue(f"--compare has models of its own: --{name} is for one fit")
+    problem = fit_results.read_problem(what, compared=compare, **given)
     if compare:
         _compare(problem, starts, seed, plot, as_json)
         return
-    if save is not None:
-        fit_results.check_save(save, problem)
+    fit_results.check_save(save, problem)
     done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
-    _draw("fitted", done.fit, plot)
-    _draw("corner", done.posterior, corner)
-    saved = [] if save is None else fit_results.save(done, save)
+    draw_picture(plot, "fitted", done.fit)
+    draw_picture(corner, "corner", done.posterior)
+    saved = fit_results.save(done, save)
     if as_json:
         print_json(fit_results.as_dict(done, saved))
         return
     fit_results.print_fit(console(), done)
     if saved:
         typer.echo(f"Fitted: {save}; now: stackbounce simulate {saved[0]}")
-    for picture in (plot, corner):
-        if picture is not None:
-            typer.echo(f"Picture: {picture}")
+    print_files(plot, corner)
 
 
 def _compare(
@@ -198,18 +159,9 @@ def _compare(
     from stackbounce.cli import fit_results
 
     done = fit_results.compare_models(problem, starts=starts, seed=seed)
-    _draw("compared", done, plot)
+    draw_picture(plot, "compared", done)
     if as_json:
         print_json(fit_results.comparison_as_dict(done))
         return
     fit_results.print_comparison(console(), done)
-    if plot is not None:
-        typer.echo(f"Picture: {plot}")
-
-
-def _draw(name: str, of: Any, path: Path | None) -> None:
-    """Draw a picture of `stackbounce.plots` into a file, if one is asked for."""
-    from stackbounce import plots
-
-    if path is not None:
-        draw(lambda: getattr(plots, name)(of), path)
+    print_files(plot)

@@ -1,4 +1,4 @@
-"""``stackbounce fit``: a problem from arguments and files, the results as tables and JSON."""
+"""Fits on the command line: the problem from arguments and files, tables and JSON of results."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.cli import scenario
-from stackbounce.cli.output import check_scenario, new_table, progress_bar, write_scenario
-from stackbounce.cli.tables import number
+from stackbounce.cli.output import check_scenario, progress_bar, write_scenario
+from stackbounce.cli.tables import new_table, number
 from stackbounce.cross2007.datasets import PREFIX, load_dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
 from stackbounce.fitting import (
@@ -23,6 +23,7 @@ from stackbounce.fitting import (
     standard_models,
 )
 from stackbounce.fitting.files import Parts, convert_measured, read_parts
+from stackbounce.fitting.notes import describe_freedom
 from stackbounce.fitting.quantities import QUANTITIES
 from stackbounce.run.paths import numbers_of
 from stackbounce.units import handy, rounded
@@ -47,7 +48,7 @@ __all__ = [
 _STRONG = 0.5  # a correlation above it is printed
 _QUANTILES = (0.159, 0.5, 0.841)
 _CRITERIA = {"aicc": "AICc", "bic": "BIC"}
-_MANY = 8  # data, up to which each has a column of its own
+_MANY = 8  # more data are not printed in a column each
 
 
 @dataclass(frozen=True)
@@ -62,16 +63,16 @@ class Fitted:
 def read_problem(
     what: Sequence[str],
     *,
-    data: Path | None,
-    measured: Sequence[str],
-    vary: Sequence[str],
-    tie: Sequence[str],
+    data: Path | None = None,
+    measured: Sequence[str] | None = None,
+    vary: Sequence[str] | None = None,
+    tie: Sequence[str] | None = None,
     compared: bool = False,
     **changes: Any,
 ) -> FitProblem:
     """Return the fit problem of the arguments: that of a file or a drop, changed by options.
 
-    To have models `compared`, nothing has to vary: each model has parameters of its own.
+    With `compared`, nothing has to vary: each of the models has its own parameters.
     """
     parts = _read_parts(what, changes)
     if data is not None:
@@ -117,11 +118,11 @@ def _read_parts(what: Sequence[str], changes: dict[str, Any]) -> Parts:
 
 
 def _pairs(
-    texts: Sequence[str], option: str, right: str, *, alone: bool = False
+    texts: Sequence[str] | None, option: str, right: str, *, alone: bool = False
 ) -> list[tuple[str, Any]]:
     """Return the ``NAME=VALUE`` texts of an option; a name alone, if allowed, has None."""
     found: list[tuple[str, Any]] = []
-    for text in texts:
+    for text in texts or ():
         name, equals, value = (part.strip() for part in text.partition("="))
         if not name or not (value or (alone and not equals)):
             raise InvalidValue(f"{option} must be {right}, got {shown(text)}")
@@ -155,9 +156,9 @@ def run(
     return Fitted(found, intervals, drawn)
 
 
-def check_save(path: Path, problem: FitProblem) -> None:
+def check_save(path: Path | None, problem: FitProblem) -> None:
     """Refuse a path for --save that cannot be written, before anything is computed."""
-    if len(problem.drops) == 1:
+    if path is None or len(problem.drops) == 1:
         check_scenario(path)
     elif path.suffix or (path.exists() and not path.is_dir()):
         raise InvalidValue(
@@ -167,8 +168,10 @@ def check_save(path: Path, problem: FitProblem) -> None:
         raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
 
 
-def save(done: Fitted, path: Path) -> list[Path]:
+def save(done: Fitted, path: Path | None) -> list[Path]:
     """Write the fitted drop into a file, or several into a folder, and return the files."""
+    if path is None:
+        return []
     drops = done.fit.drops
     files = {path: next(iter(drops.values()))}
     if len(drops) > 1:
@@ -239,21 +242,20 @@ def _drawn(drawn: Posterior, name: str) -> dict[str, Any]:
 
 def _tabulate_parameters(done: Fitted) -> "Table":
     """Return the table of the parameters."""
-    table = new_table("\nVaried")
     headings = ["\nvalue", "\nerror"]
     headings += ["interval\nfrom", "\nto"] if done.intervals else []
     headings += ["draws\n15.9 %", "\n50 %", "\n84.1 %"] if done.posterior else []
-    for heading in headings:
-        table.add_column(heading, justify="right", no_wrap=True)
+    table = new_table(None, ["\nVaried"], headings)
     table.add_column("\nunit")
     for name, one in done.fit.values.items():
-        values = [one.nominal_value, one.std_dev]
-        if done.intervals:
-            values += done.intervals[name][:2]
-        if done.posterior:
-            values += done.posterior.quantiles(name, _QUANTILES).tolist()
+        interval = done.intervals[name][:2] if done.intervals else ()
+        drawn = done.posterior.quantiles(name, _QUANTILES).tolist() if done.posterior else []
+        values = [one.nominal_value, one.std_dev, *interval, *drawn]
+        errors = [one.std_dev, *(abs(end - values[0]) for end in interval), *np.diff(drawn)]
+        # the smallest error sets the decimals, unless it is nearly 0
+        least = min((error for error in errors if error > 0.01 * errors[0]), default=errors[0])
         unit, factor = handy(max(map(abs, values)), done.fit.units[name])
-        texts = rounded([factor * value for value in values], factor * _least(done, name))
+        texts = rounded([factor * value for value in values], factor * least)
         if done.intervals:
             for k in (2, 3):
                 texts[k] += " (bound)" if done.intervals[name][k] else ""
@@ -261,21 +263,9 @@ def _tabulate_parameters(done: Fitted) -> "Table":
     return table
 
 
-def _least(done: Fitted, name: str) -> float:
-    """Return the smallest error that is printed of a number, which sets its decimals."""
-    value = done.fit[name]
-    errors: list[float] = [value.std_dev]
-    if done.intervals:
-        errors += [abs(end - value.nominal_value) for end in done.intervals[name][:2]]
-    if done.posterior:
-        errors += np.diff(done.posterior.quantiles(name, _QUANTILES)).tolist()
-    return min((one for one in errors if one > 0.01 * errors[0]), default=errors[0])
-
-
 def _tabulate_residuals(found: Fit) -> "Table":
-    table = new_table("\nMeasured")
-    for heading in ("\nvalue", "\nerror", "\nfitted", "off by\nerrors"):
-        table.add_column(heading, justify="right", no_wrap=True)
+    headings = ("\nvalue", "\nerror", "\nfitted", "off by\nerrors")
+    table = new_table(None, ["\nMeasured"], headings)
     table.add_column("\nunit")
     most: dict[str, float] = {}
     for one in found.residuals:
@@ -290,8 +280,7 @@ def _tabulate_residuals(found: Fit) -> "Table":
 def _describe_goodness(found: Fit) -> str:
     """Return chi squared in words."""
     count = found.degrees_of_freedom
-    freedom = f"{count} degree{'' if count == 1 else 's'} of freedom"
-    words = f"Chi squared: {number(found.chi_squared)} for {freedom}"
+    words = f"Chi squared: {number(found.chi_squared)} for {describe_freedom(count)}"
     if not count:
         return f"{words}: too few data to tell whether the model is right."
     share = 100.0 * found.probability
@@ -336,17 +325,16 @@ def comparison_as_dict(done: Comparison) -> dict[str, Any]:
 
 def print_comparison(console: "Console", done: Comparison) -> None:
     """Print a comparison."""
-    table = new_table("\nModel")
     name = _CRITERIA[done.criterion]
-    right = ("\nnumbers", "chi\nsquared", "for\ndegrees", f"{name}\nabove best")
-    for heading in (*right, "left out:\nscore"):
-        table.add_column(heading, justify="right", no_wrap=True)
+    scores = (f"{name}\nabove best", "left out:\nscore")
+    headings = ("\nnumbers", "chi\nsquared", "for\ndegrees", *scores)
+    table = new_table(None, ["\nModel"], headings)
     best = getattr(done.scores[0], done.criterion)
     for score in done.scores:
         above = getattr(score, done.criterion) - best
         row = (score.parameters, number(score.chi_squared), score.degrees_of_freedom)
-        scores = (number(above), number(done.predictive(score.model)))
-        table.add_row(score.model, *map(str, row), *scores)
+        criteria = (number(above), number(done.predictive(score.model)))
+        table.add_row(score.model, *map(str, row), *criteria)
     console.print(table)
     console.print(
         f"\n{name} is chi squared plus a penalty for each fitted number: 10 above the best is "
@@ -366,9 +354,8 @@ def _print_pulls(console: "Console", done: Comparison) -> None:
     data = done.pulls.datum.values.tolist()
     if len(data) > _MANY:
         return
-    table = new_table("Fitted less measured, in errors")
-    for datum in data:
-        table.add_column(datum.replace(".", ".\n", 1), justify="right", no_wrap=True)
+    headings = [datum.replace(".", ".\n", 1) for datum in data]
+    table = new_table(None, ["Fitted less measured, in errors"], headings)
     for score in done.scores:
         row = done.pulls.sel(model=score.model).values
         table.add_row(score.model, *(f"{pull:+.1f}" for pull in row))

@@ -1,22 +1,21 @@
-"""``stackbounce highest``: which stack of some balls throws its top ball highest."""
+"""The command ``stackbounce highest``: the stack that throws its top ball highest."""
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import AsJson, Height, Plot, Save, Speed
+from stackbounce.cli.options import DROP, AsJson, Plot, Save, add_options
 from stackbounce.cli.output import (
     check_picture,
     check_scenario,
     console,
-    draw,
-    print_best_files,
+    draw_picture,
+    print_files,
     print_json,
     write_scenario,
 )
-from stackbounce.errors import InvalidValue, positive
+from stackbounce.errors import positive
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,6 +26,7 @@ __all__ = ["EPILOG", "run"]
 EPILOG = "For example: stackbounce highest --balls 3 --gap 0 --gap 2mm --plot stacks.svg"
 
 
+@add_options({name: DROP[name] for name in ("height", "speed")})
 def run(
     what: Annotated[
         list[str] | None,
@@ -37,6 +37,7 @@ def run(
             show_default=False,
         ),
     ] = None,
+    *,
     balls: Annotated[int, typer.Option(metavar="NUMBER", help="Balls in a stack.")] = 3,
     repeat: Annotated[
         bool, typer.Option("--repeat", help="Take each ball any number of times.")
@@ -57,62 +58,45 @@ def run(
             "hysteretic, or spring, which loses nothing.",
         ),
     ] = "hysteretic",
-    height: Height = None,
-    speed: Speed = None,
     rows: Annotated[int, typer.Option(metavar="NUMBER", help="Stacks to print.", min=1)] = 10,
     save: Save = None,
     plot: Plot = None,
     as_json: AsJson = False,
+    **given: Any,
 ) -> None:
     """Try all stacks of some balls: which one throws its top ball highest."""
     from stackbounce import highest
+    from stackbounce.cli.scenario import is_file
+    from stackbounce.model import Drop
+    from stackbounce.model.laws import law_named
+    from stackbounce.units import quantity
 
-    if plot is not None:
-        check_picture(plot)
-    if save is not None:
-        check_scenario(save)
-    given = _candidates(what, law=law, gaps=gap, height=height, speed=speed)
-    data = highest(count=balls, repeat=repeat, **given)
-    if save is not None:
-        write_scenario(data.attrs["best"], save)
-    if plot is not None:
-        from stackbounce import plots
-
-        draw(lambda: plots.highest(data), plot)
+    check_picture(plot)
+    check_scenario(save)
+    chosen: dict[str, Any] = {"law": law_named(law), "impact_speed": _impact_speed(**given)}
+    if what:
+        chosen["balls"] = [Drop.from_toml(one) if is_file(one) else one for one in what]
+    if gap:
+        chosen["gaps"] = [quantity(one, "m", "--gap") for one in gap]
+    data = highest(count=balls, repeat=repeat, **chosen)
+    write_scenario(data.attrs["best"], save)
+    draw_picture(plot, "highest", data)
     if as_json:
         print_json(summary(data))
         return
     print_stacks(console(), data, rows)
-    print_best_files(save, plot)
+    print_files(plot, best=save)
 
 
-def _candidates(
-    what: Sequence[str] | None,
-    *,
-    law: str,
-    gaps: Sequence[str] | None,
-    height: str | None,
-    speed: str | None,
-) -> dict[str, Any]:
-    """Return what `stackbounce.highest` is given."""
-    from stackbounce.cli.scenario import is_file
-    from stackbounce.model import STANDARD_GRAVITY, Drop
-    from stackbounce.model.laws import law_named
-    from stackbounce.units import quantity
+def _impact_speed(height: str | None, speed: str | None) -> float | None:
+    """Return the impact speed in m/s of ``--height`` or ``--speed``."""
+    from stackbounce.cli.scenario import read_fall
+    from stackbounce.model import STANDARD_GRAVITY
 
-    given: dict[str, Any] = {"law": law_named(law)}
-    if what:
-        given["balls"] = [Drop.from_toml(one) if is_file(one) else one for one in what]
-    if gaps:
-        given["gaps"] = [quantity(gap, "m", "--gap") for gap in gaps]
-    if height is not None and speed is not None:
-        raise InvalidValue("--height and --speed: only one of the two can be given, got both")
-    if height is not None:
-        fallen = positive("--height", quantity(height, "m", "--height"), "metres")
-        given["impact_speed"] = math.sqrt(2.0 * STANDARD_GRAVITY * fallen)
-    if speed is not None:
-        given["impact_speed"] = quantity(speed, "m/s", "--speed")
-    return given
+    fall = read_fall(height, speed)
+    if "height" in fall:
+        return math.sqrt(2.0 * STANDARD_GRAVITY * positive("--height", fall["height"], "metres"))
+    return fall.get("impact_speed")
 
 
 def summary(data: "xr.Dataset") -> dict[str, Any]:
@@ -129,22 +113,19 @@ def summary(data: "xr.Dataset") -> dict[str, Any]:
 
 
 def print_stacks(console: "Console", data: "xr.Dataset", rows: int) -> None:
-    """Print the first stacks in order, for people, and what the gap does to the order."""
+    """Print the first stacks in order, and how the gap changes the order."""
     import numpy as np
 
-    from stackbounce.cli.tables import add_columns, new_table, number
+    from stackbounce.cli.tables import new_table, number, percent
 
     speed = data.attrs["impact_speed"]
     count, gaps = data.sizes["stack"], 1e3 * data["gap"].values
     shown_rows = min(rows, count)
     console.print(f"The best {shown_rows} of {count} stacks, at {number(speed)} m/s", style="bold")
-    table = new_table(f"Top ball, with gaps of {number(gaps[0])} mm")
-    table.add_column("\nballs, the lowest first")
-    add_columns(table, ("ratio\nv/v0", "bounce\n/drop", "share of\nenergy"))
-    add_columns(
-        table,
-        [f"{'place, bounce' if k == 1 else ''}\n{gap:.4g} mm" for k, gap in enumerate(gaps)][1:],
-    )
+    title = f"Top ball, with gaps of {number(gaps[0])} mm"
+    places = [f"{'' if k else 'place, bounce'}\n{gap:.4g} mm" for k, gap in enumerate(gaps[1:])]
+    numbers = ["ratio\nv/v0", "bounce\n/drop", "share of\nenergy", *places]
+    table = new_table(title, ["\nballs, the lowest first"], numbers)
     for i in range(shown_rows):
         row = data.isel(stack=i)
         others = [
@@ -155,7 +136,7 @@ def print_stacks(console: "Console", data: "xr.Dataset", rows: int) -> None:
             " + ".join(map(str, row["balls"].values)),
             number(float(row["rebound_ratio"][0, -1])),
             number(float(row["height_ratio"][0])),
-            f"{100.0 * float(row['energy_share'][0]):.1f} %",
+            percent(float(row["energy_share"][0])),
             *others[1:],
         )
     console.print(table)

@@ -1,17 +1,11 @@
-"""``stackbounce masses``: the masses in between that throw the top ball highest."""
+"""The command ``stackbounce masses``: the inner masses that throw the top ball highest."""
 
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import AsJson, Contact, Gap, Height, Save, Speed, What
-from stackbounce.cli.output import (
-    check_scenario,
-    console,
-    print_best_files,
-    print_json,
-    write_scenario,
-)
+from stackbounce.cli.options import DROP, AsJson, Save, What, add_options
+from stackbounce.cli.output import check_scenario, console, print_files, print_json, write_scenario
 from stackbounce.errors import InvalidValue, shown
 
 if TYPE_CHECKING:
@@ -26,8 +20,10 @@ EPILOG = "For example: stackbounce masses basketball tennis B3 --save best.toml"
 _AT_THE_END = 1e-3  # relative
 
 
+@add_options({name: DROP[name] for name in ("height", "speed", "gap", "contact")})
 def run(
     what: What,
+    *,
     within: Annotated[
         str | None,
         typer.Option(
@@ -36,30 +32,25 @@ def run(
             "those of the lowest and the top ball.",
         ),
     ] = None,
-    height: Height = None,
-    speed: Speed = None,
-    gap: Gap = None,
-    contact: Contact = None,
     save: Save = None,
     as_json: AsJson = False,
+    **given: Any,
 ) -> None:
     """Find the masses between the lowest and the top ball that throw the top one highest."""
     from stackbounce import best_masses
     from stackbounce.cli import scenario
 
-    if save is not None:
-        check_scenario(save)
+    check_scenario(save)
     tried = None if within is None else limits(within)
-    chosen = scenario.read(what, height=height, speed=speed, gaps=gap, contacts=contact)
+    chosen = scenario.read(what, **given)
     best = best_masses(chosen.drop, within=tried)
-    if save is not None:
-        write_scenario(best.to_toml(), save)
+    write_scenario(best.to_toml(), save)
     found = summary(chosen.drop, best, tried)
     if as_json:
         print_json(found)
         return
     print_masses(console(), chosen, found)
-    print_best_files(save)
+    print_files(best=save)
 
 
 def limits(text: str) -> tuple[float, float]:
@@ -102,15 +93,14 @@ def summary(given: "Drop", best: "Drop", within: tuple[float, float] | None) -> 
 
 
 def print_masses(console: "Console", scenario: "Scenario", found: dict[str, Any]) -> None:
-    """Print the best masses, for people, beside those given and the geometric means."""
-    from stackbounce.cli.tables import add_columns, incidence, label, new_table, number
+    """Print the best masses beside those given and the geometric means."""
+    from stackbounce.cli.tables import incidence, label, new_table, number
 
     console.print(incidence(scenario), style="bold")
-    table = new_table("Masses in g, the lowest first, and the top ball")
-    table.add_column("")
     balls = scenario.drop.balls
-    add_columns(table, [label(ball.name, i) for i, ball in enumerate(balls)])
-    add_columns(table, ("v/v0", "bounce/drop"))
+    names = [label(ball.name, i) for i, ball in enumerate(balls)]
+    title = "Masses in g, the lowest first, and the top ball"
+    table = new_table(title, [""], [*names, "v/v0", "bounce/drop"])
     for name in ("best", "given", "geometric_means"):
         one = found[name]
         top = float(one["rebound_ratios"][-1])

@@ -1,31 +1,78 @@
-"""Options that several commands share."""
+"""Options that several commands share, and tables of options for their signatures."""
 
+import inspect
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any, TypeVar
 
 import typer
 
 from stackbounce.model.laws import LAWS
 
-__all__ = [
-    "AsJson",
-    "Contact",
-    "Gap",
-    "Gravity",
-    "Height",
-    "Plot",
-    "Save",
-    "Speed",
-    "Tolerance",
-    "Until",
-    "What",
-]
+__all__ = ["DROP", "AsJson", "Plot", "Save", "Tolerance", "Until", "What", "add_options", "option"]
+
+Command = TypeVar("Command", bound=Callable[..., None])
+
+
+def option(
+    kind: Any, metavar: str | None, says: str, *names: str, default: Any = None, **more: Any
+) -> tuple[Any, Any]:
+    """Return the annotation and the default of an option, for `add_options`.
+
+    Parameters
+    ----------
+    kind : type
+        As typer takes it.
+    metavar, says : str
+        What its value is called, and its help.
+    *names : str
+        What it is called on the command line, where that is not ``--`` and its key.
+    default : optional
+        Its value where it is not given.
+    **more
+        Other arguments of `typer.Option`.
+    """
+    return Annotated[kind, typer.Option(*names, metavar=metavar, help=says, **more)], default
+
+
+def add_options(options: Mapping[str, tuple[Any, Any]]) -> Callable[[Command], Command]:
+    """Return a decorator that gives a command more options, which it takes as ``**given``.
+
+    They come after the command's positional parameters and before its keyword-only ones.
+    """
+
+    def changed(run: Command) -> Command:
+        own = inspect.signature(run)
+        *rest, _ = own.parameters.values()
+        first = [one for one in rest if one.kind is not one.KEYWORD_ONLY]
+        added = [
+            inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=kind, default=value)
+            for name, (kind, value) in options.items()
+        ]
+        ordered = [*first, *added, *rest[len(first) :]]
+        run.__signature__ = own.replace(parameters=ordered)  # type: ignore[attr-defined]
+        return run
+
+    return changed
+
+
+DROP = {
+    "height": option(str | None, "LENGTH", "Height fallen from rest, such as 0.63m."),
+    "speed": option(str | None, "SPEED", "Impact speed, such as 3.53m/s."),
+    "gap": option(
+        list[str] | None, "LENGTH", "Gap between two balls; once per pair, lowest first."
+    ),
+    "contact": option(
+        list[str] | None,
+        "LAW",
+        "Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
+        f"lowest first. Laws: {', '.join(LAWS)}; none for no floor.",
+    ),
+    "gravity": option(str | None, "ACCELERATION", "Gravity during the run, such as 9.81m/s^2."),
+}
+"""The options that change a drop, as `stackbounce.cli.scenario.read` takes them."""
 
 AsJson = Annotated[bool, typer.Option("--json", help="Print JSON, for machines.")]
-Height = Annotated[
-    str | None, typer.Option(metavar="LENGTH", help="Height fallen from rest, such as 0.63m.")
-]
-Speed = Annotated[str | None, typer.Option(metavar="SPEED", help="Impact speed, such as 3.53m/s.")]
 Plot = Annotated[
     Path | None, typer.Option(metavar="FILE", readable=False, help="Draw it: .svg, .png or .pdf.")
 ]
@@ -37,28 +84,13 @@ What = Annotated[
         show_default=False,
     ),
 ]
-Gap = Annotated[
-    list[str] | None,
-    typer.Option(metavar="LENGTH", help="Gap between two balls; once per pair, lowest first."),
-]
-Contact = Annotated[
-    list[str] | None,
-    typer.Option(
-        metavar="LAW",
-        help="Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
-        f"lowest first. Laws: {', '.join(LAWS)}; none for no floor.",
-    ),
-]
-Gravity = Annotated[
-    str | None,
-    typer.Option(metavar="ACCELERATION", help="Gravity during the run, such as 9.81m/s^2."),
-]
 Until = Annotated[
     str | None,
     typer.Option(metavar="TIME", help="Stop at this time, not when the balls have parted."),
 ]
 Tolerance = Annotated[
-    float, typer.Option(metavar="NUMBER", help="Relative error to aim at under laws not linear.")
+    float,
+    typer.Option(metavar="NUMBER", help="Relative error to aim at under nonlinear contact laws."),
 ]
 Save = Annotated[
     Path | None,

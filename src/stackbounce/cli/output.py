@@ -1,4 +1,4 @@
-"""The terminal, and pictures, whose files are checked before anything is computed."""
+"""Output: the terminal, JSON, and files, whose paths are checked before anything is computed."""
 
 import contextlib
 import sys
@@ -14,7 +14,6 @@ from stackbounce.extras import need
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from rich.console import Console
-    from rich.table import Table
 
 __all__ = [
     "SUFFIXES",
@@ -22,9 +21,9 @@ __all__ = [
     "check_scenario",
     "console",
     "draw",
+    "draw_picture",
     "json_text",
-    "new_table",
-    "print_best_files",
+    "print_files",
     "print_json",
     "progress_bar",
     "write_scenario",
@@ -36,8 +35,8 @@ SUFFIXES = (".svg", ".png", ".pdf")
 _UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
 
-def check_picture(path: Path, option: str = "--plot") -> None:
-    """Refuse a picture of another kind, or in a folder that is not there.
+def check_picture(path: Path | None, option: str = "--plot") -> None:
+    """Refuse a picture of another kind, or in a folder that does not exist.
 
     Raises
     ------
@@ -48,14 +47,16 @@ def check_picture(path: Path, option: str = "--plot") -> None:
     MissingExtra
         If matplotlib is not installed.
     """
+    if path is None:
+        return
     if path.suffix.lower() not in SUFFIXES:
         raise InvalidValue(f"{option} must end in {', '.join(SUFFIXES)}, got {path}")
     _check_place(path)
     need("plots", option)
 
 
-def check_scenario(path: Path) -> None:
-    """Refuse a scenario of another name, or in a folder that is not there.
+def check_scenario(path: Path | None) -> None:
+    """Refuse a scenario file of another suffix, or in a folder that does not exist.
 
     Raises
     ------
@@ -64,6 +65,8 @@ def check_scenario(path: Path) -> None:
     FileError
         If the folder does not exist, or `path` is one.
     """
+    if path is None:
+        return
     if path.suffix.lower() != ".toml":
         raise InvalidValue(f"--save must end in .toml, got {path}")
     _check_place(path)
@@ -98,14 +101,24 @@ def draw(make: Callable[[], "Figure"], path: Path) -> None:
         raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
 
 
-def write_scenario(text: str, path: Path) -> None:
-    """Write a scenario file that is whole or not there.
+def draw_picture(path: Path | None, kind: str, *given: Any, **options: Any) -> None:
+    """Write a picture of `stackbounce.plots` into a file, if one is asked for."""
+    if path is not None:
+        from stackbounce import plots
+
+        draw(lambda: getattr(plots, kind)(*given, **options), path)
+
+
+def write_scenario(text: str, path: Path | None) -> None:
+    """Write a scenario file, if one is asked for; after a failure there is no part of it.
 
     Raises
     ------
     FileError
         If it cannot be written.
     """
+    if path is None:
+        return
     part = path.with_name(f".{path.name}.part")
     try:
         try:
@@ -115,16 +128,6 @@ def write_scenario(text: str, path: Path) -> None:
             part.unlink(missing_ok=True)
     except OSError as error:
         raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
-
-
-def new_table(title: str) -> "Table":
-    """Return an empty table for people, with its first column."""
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
-    table.add_column(title, overflow="fold")
-    return table
 
 
 def console() -> "Console":
@@ -168,9 +171,9 @@ def print_json(value: object) -> None:
     typer.echo(json_text(value))
 
 
-def print_best_files(save: Path | None, plot: Path | None = None) -> None:
-    """Print where the best stack and the picture are."""
-    if save is not None:
-        typer.echo(f"Best stack: {save}; now: stackbounce simulate {save}")
-    if plot is not None:
-        typer.echo(f"Picture: {plot}")
+def print_files(*pictures: Path | None, best: Path | None = None) -> None:
+    """Print where the best stack and the pictures are, if they were asked for."""
+    if best is not None:
+        typer.echo(f"Best stack: {best}; now: stackbounce simulate {best}")
+    for picture in filter(None, pictures):
+        typer.echo(f"Picture: {picture}")

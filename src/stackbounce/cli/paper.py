@@ -1,4 +1,4 @@
-"""``stackbounce paper``: the paper recomputed."""
+"""The command ``stackbounce paper``: the paper recomputed."""
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -35,7 +35,7 @@ def run(
     need("paper", "stackbounce paper")
     from stackbounce import cross2007
 
-    if not out:  # as a path it would be this folder
+    if not out:  # Path("") is the current folder
         raise InvalidValue("--out must name a folder, got ''")
     folder = Path(out)
     audit = cross2007.write(folder, lambda line: typer.echo(line, err=True), study=study)
@@ -49,9 +49,7 @@ def print_audit(console: "Console", done: "Audit", page: Path) -> None:
     """Print how many rows of the audit have which verdict, and where its page lies."""
     from stackbounce.cli.tables import new_table
 
-    table = new_table("Audit of the paper")
-    table.add_column("verdict")
-    table.add_column("rows", justify="right")
+    table = new_table("Audit of the paper", ["verdict"], ["rows"])
     for verdict, count in (done.counts | {"all": len(done.rows)}).items():
         table.add_row(verdict, str(count))
     console.print(table)

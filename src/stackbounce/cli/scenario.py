@@ -1,4 +1,4 @@
-"""From arguments to a drop: a scenario file or balls of the catalogue, and what to change."""
+"""A drop from arguments: a scenario file or balls of the catalogue, and options that change it."""
 
 import dataclasses
 import itertools
@@ -7,14 +7,23 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from stackbounce.errors import InvalidValue, StackbounceError, shown
+from stackbounce.errors import InvalidValue, shown
 from stackbounce.model.catalogue import stack
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
 from stackbounce.model.schema import read_law
 from stackbounce.units import quantity
 
-__all__ = ["DEFAULT_HEIGHT", "Scenario", "change", "is_file", "read", "read_contact"]
+__all__ = [
+    "DEFAULT_HEIGHT",
+    "Scenario",
+    "change",
+    "is_file",
+    "read",
+    "read_contact",
+    "read_fall",
+    "read_until",
+]
 
 DEFAULT_HEIGHT = 1.0
 """The height in m from which balls of the catalogue fall if nothing is said about it."""
@@ -22,7 +31,7 @@ DEFAULT_HEIGHT = 1.0
 
 @dataclasses.dataclass(frozen=True)
 class Scenario:
-    """A drop, and for people where its numbers come from."""
+    """A drop, and where its numbers come from."""
 
     drop: Drop
     contact_sources: tuple[str, ...]
@@ -30,15 +39,7 @@ class Scenario:
     speed_source: str
 
 
-def read(
-    what: Sequence[str],
-    *,
-    height: str | None = None,
-    speed: str | None = None,
-    gaps: Sequence[str] | None = None,
-    contacts: Sequence[str] | None = None,
-    gravity: str | None = None,
-) -> Scenario:
+def read(what: Sequence[str], **options: Any) -> Scenario:
     """Return the scenario that the arguments of ``stackbounce simulate`` describe.
 
     Parameters
@@ -46,10 +47,9 @@ def read(
     what : sequence of str
         One scenario file; files of one ball each, the lowest first, to be stacked; or names of the
         catalogue, the lowest first.
-    height, speed, gravity : str, optional
-        Numbers with or without a unit; they replace the file's.
-    gaps, contacts : sequence of str, optional
-        All gaps, all contacts; they replace those of the file or catalogue.
+    **options
+        ``height``, ``speed`` and ``gravity``, texts with or without a unit, replace the numbers of
+        the file; ``gap`` and ``contact``, sequences of texts, all gaps and all contacts.
 
     Returns
     -------
@@ -60,7 +60,7 @@ def read(
     StackbounceError
         If one of them cannot be read.
     """
-    changes = _changes(height, speed, gaps, contacts, gravity)
+    changes = _changes(**options)
     if any(is_file(name) for name in what):
         if not all(is_file(name) for name in what):
             raise InvalidValue(
@@ -73,7 +73,7 @@ def read(
 
 
 def change(drop: Drop, **options: Any) -> Drop:
-    """Return a drop with the options of `read` in place: height, speed, gaps, contacts, gravity."""
+    """Return a drop with the options of `read` in place."""
     return _with(Scenario(drop, (), (), ""), _changes(**options)).drop
 
 
@@ -126,25 +126,47 @@ def is_file(name: str) -> bool:
     return name.endswith(".toml") or Path(name).name != name
 
 
-def _changes(
-    height: str | None,
-    speed: str | None,
-    gaps: Sequence[str] | None,
-    contacts: Sequence[str] | None,
-    gravity: str | None,
-) -> dict[str, Any]:
-    changes: dict[str, Any] = {}
+def read_fall(height: str | None, speed: str | None) -> dict[str, float]:
+    """Return the height or the impact speed of ``--height`` and ``--speed``, if one is given.
+
+    Examples
+    --------
+    >>> read_fall("63cm", None), read_fall(None, None)
+    ({'height': 0.63}, {})
+    """
     if height is not None and speed is not None:
         raise InvalidValue("--height and --speed: only one of the two can be given, got both")
     if height is not None:
-        changes["height"] = quantity(height, "m", "--height")
-    if speed is not None:
-        changes["impact_speed"] = quantity(speed, "m/s", "--speed")
-    if gaps:
-        changes["gaps"] = [quantity(gap, "m", "--gap") for gap in gaps]
-    if contacts:
+        return {"height": quantity(height, "m", "--height")}
+    return {} if speed is None else {"impact_speed": quantity(speed, "m/s", "--speed")}
+
+
+def read_until(text: str | None) -> float | None:
+    """Return the time in s of ``--until``.
+
+    Examples
+    --------
+    >>> read_until("5 ms")
+    0.005
+    """
+    return None if text is None else quantity(text, "s", "--until")
+
+
+def _changes(
+    *,
+    height: str | None = None,
+    speed: str | None = None,
+    gap: Sequence[str] | None = None,
+    contact: Sequence[str] | None = None,
+    gravity: str | None = None,
+) -> dict[str, Any]:
+    """Return the fields of a drop that the options change."""
+    changes: dict[str, Any] = {**read_fall(height, speed)}
+    if gap:
+        changes["gaps"] = [quantity(one, "m", "--gap") for one in gap]
+    if contact:
         changes["contacts"] = [
-            read_contact(text, f"--contact {i}") for i, text in enumerate(contacts)
+            read_contact(text, f"--contact {i}") for i, text in enumerate(contact)
         ]
     if gravity is not None:
         changes["gravity"] = quantity(gravity, "m/s**2", "--gravity")
@@ -167,7 +189,7 @@ def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
                 f"{len(drop.balls)} balls{'' if drop.contacts[0] else ' and no floor'}"
             )
         laws.append(drop.contacts[0])
-    contacts = changes.get("contacts") or [laws[0], *_between(names, laws)]
+    contacts = changes.get("contacts") or _joined(names, laws)
     lowest = drops[0]
     drop = Drop(
         [drop.balls[0] for drop in drops],
@@ -180,18 +202,13 @@ def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
     return Scenario(drop, (names[0], *pairs), ("no gap given",) * len(pairs), names[0])
 
 
-def _between(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
-    from stackbounce.calibration import between
+def _joined(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
+    from stackbounce.gaps_and_masses.ranking import join_contacts
 
-    found = []
-    for (one, lower), (other, upper) in itertools.pairwise(zip(names, laws, strict=True)):
-        try:
-            found.append(between(lower, upper))
-        except StackbounceError as error:
-            raise InvalidValue(
-                f"{one} and {other}: {error}; give all contacts with --contact"
-            ) from error
-    return found
+    try:
+        return join_contacts(names, laws)
+    except InvalidValue as error:
+        raise InvalidValue(f"{error}; give all contacts with --contact") from error
 
 
 def _from_catalogue(names: Sequence[str], changes: dict[str, Any]) -> Scenario:

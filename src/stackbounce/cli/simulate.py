@@ -1,22 +1,9 @@
-"""``stackbounce simulate``: one drop, and how each ball bounces."""
+"""The command ``stackbounce simulate``: how each ball of one drop bounces."""
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-import typer
-
-from stackbounce.cli.options import (
-    AsJson,
-    Contact,
-    Gap,
-    Gravity,
-    Height,
-    Plot,
-    Speed,
-    Tolerance,
-    Until,
-    What,
-)
-from stackbounce.cli.output import check_picture, console, draw, print_json
+from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, Until, What, add_options
+from stackbounce.cli.output import check_picture, console, draw_picture, print_files, print_json
 
 if TYPE_CHECKING:
     from stackbounce.cli.scenario import Scenario
@@ -27,43 +14,32 @@ __all__ = ["EPILOG", "run"]
 EPILOG = "For example: stackbounce simulate basketball tennis --height 0.63m --gap 2mm"
 
 
+@add_options(DROP)
 def run(
     what: What,
-    height: Height = None,
-    speed: Speed = None,
-    gap: Gap = None,
-    contact: Contact = None,
-    gravity: Gravity = None,
+    *,
     until: Until = None,
     rtol: Tolerance = 1e-12,
     plot: Plot = None,
     as_json: AsJson = False,
+    **given: Any,
 ) -> None:
     """Drop a stack of balls and tell how each one bounces."""
     from stackbounce import simulate
     from stackbounce.calibration import separate
     from stackbounce.cli import scenario
     from stackbounce.cli.simulation_tables import print_simulation
-    from stackbounce.units import quantity
 
-    if plot is not None:
-        check_picture(plot)
-    chosen = scenario.read(
-        what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
-    )
-    end = None if until is None else quantity(until, "s", "--until")
-    result = simulate(chosen.drop, until=end, rtol=rtol)
+    check_picture(plot)
+    chosen = scenario.read(what, **given)
+    result = simulate(chosen.drop, until=scenario.read_until(until), rtol=rtol)
     textbook = None if chosen.drop.rigid else simulate(separate(chosen.drop))
-    if plot is not None:
-        from stackbounce import plots
-
-        draw(lambda: plots.bounce(result), plot)
+    draw_picture(plot, "bounce", result)
     if as_json:
         print_json(summary(chosen, result, textbook))
-    else:
-        print_simulation(console(), chosen, result, textbook)
-        if plot is not None:
-            typer.echo(f"Picture: {plot}")
+        return
+    print_simulation(console(), chosen, result, textbook)
+    print_files(plot)
 
 
 def summary(scenario: "Scenario", result: "Result", textbook: "Result | None") -> dict[str, object]:

@@ -14,6 +14,8 @@ from stackbounce.cli.tables import (
     meeting,
     new_table,
     number,
+    percent,
+    write_count,
 )
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.result import Result, Status
@@ -45,10 +47,8 @@ def print_simulation(
 
 def _bounces(result: Result, textbook: Result | None) -> Table:
     drop = result.drop
-    table = new_table("Balls, the lowest first; speeds are upward")
-    table.add_column("\nball")
-    add_columns(table, ("mass\ng", "before\nm/s", "after\nm/s", "ratio\nv/v0", "bounce\n/drop"))
-    add_columns(table, ("height\nm",))
+    numbers = ("mass\ng", "before\nm/s", "after\nm/s", "ratio\nv/v0", "bounce\n/drop", "height\nm")
+    table = new_table("Balls, the lowest first; speeds are upward", ["\nball"], numbers)
     if textbook is not None:
         add_columns(table, ("separate\nm/s", "separate\n/drop"), "dim")
     for i, ball in enumerate(drop.balls):
@@ -73,41 +73,36 @@ def _height(result: Result, i: int) -> float:
 
 def _contacts(result: Result) -> Table:
     drop = result.drop
-    table = new_table("Contacts, with peak force and peak compression")
-    table.add_column("\ncontact")
-    add_columns(table, ("times\nclosed", "touch\nms", "release\nms", "longest\nms"))
-    add_columns(table, ("peak\nN", "peak\nmm", "impulse\nN s"))
+    times = ("times\nclosed", "touch\nms", "release\nms", "longest\nms")
+    peaks = ("peak\nN", "peak\nmm", "impulse\nN s")
+    table = new_table(
+        "Contacts, with peak force and peak compression", ["\ncontact"], times + peaks
+    )
     for i in range(len(drop.balls)):
         rows = result.intervals[result.intervals["contact"] == i]
-        count = int(result.collisions[i])
-        times = "∞" if count < 0 else str(count)
-        if len(rows) == 0:
-            table.add_row(meeting(drop, i), times, *["–"] * 6)
-            continue
-        table.add_row(
-            meeting(drop, i),
-            times,
-            number(float(rows["start"].min()) * 1e3),
-            _end(float(rows["end"].max())),
-            _end(float((rows["end"] - rows["start"]).max())),
-            number(float(rows["peak_force"].max())),
-            number(float(rows["peak_compression"].max()) * 1e3),
-            number(float(rows["impulse"].sum())),
-        )
+        cells = ["–"] * 6
+        if len(rows):
+            cells = [
+                number(1e3 * rows["start"].min()),
+                _end(rows["end"].max()),
+                _end((rows["end"] - rows["start"]).max()),
+                number(rows["peak_force"].max()),
+                number(1e3 * rows["peak_compression"].max()),
+                number(rows["impulse"].sum()),
+            ]
+        table.add_row(meeting(drop, i), write_count(result.collisions[i]), *cells)
     return table
 
 
 def _apexes(result: Result) -> Table:
-    """Return the first highest points of each ball; the rest is a number."""
-    table = new_table(f"Highest points, the first {_APEXES} of each ball")
-    table.add_column("\nball")
-    add_columns(table, ("how\nmany",))
-    add_columns(table, [part for k in range(_APEXES) for part in (f"{k + 1}\ns", "\nm")])
+    """Return the table of the first highest points of each ball, and how many it has."""
+    points = [part for k in range(_APEXES) for part in (f"{k + 1}\ns", "\nm")]
+    title = f"Highest points, the first {_APEXES} of each ball"
+    table = new_table(title, ["\nball"], ["how\nmany", *points])
     for i, ball in enumerate(result.drop.balls):
         rows = result.apexes[result.apexes["ball"] == i]
-        first = rows[:_APEXES]
-        cells = [number(float(row[name])) for row in first for name in ("time", "height")]
-        cells += ["–"] * (2 * (_APEXES - len(first)))
+        cells = [number(row[name]) for row in rows[:_APEXES] for name in ("time", "height")]
+        cells += ["–"] * (2 * _APEXES - len(cells))
         table.add_row(label(ball.name, i), str(len(rows)), *cells)
     return table
 
@@ -117,7 +112,7 @@ def _end(time: float) -> str:
 
 
 def _closing(console: Console, result: Result, textbook: Result | None) -> None:
-    console.print(f"\nEnergy retained: {_percent(result.energy_retained)}")
+    console.print(f"\nEnergy retained: {percent(result.energy_retained)}")
     if not any(law.loss for law in result.drop.contacts if law is not None):
         console.print(
             "Springs lose nothing. With losses: --contact 'Hysteretic stiffness=K restitution=E'"
@@ -128,7 +123,7 @@ def _closing(console: Console, result: Result, textbook: Result | None) -> None:
         console.print(
             "Separate: the textbook's collisions one after the other, restitution "
             f"{listed} from the floor up: {_counts(textbook)}, "
-            f"energy retained {_percent(textbook.energy_retained)}"
+            f"energy retained {percent(textbook.energy_retained)}"
         )
     for title, one in (("Status", result), ("Status of the separate collisions", textbook)):
         if one is not None and one.status is not Status.FINISHED:
@@ -136,9 +131,5 @@ def _closing(console: Console, result: Result, textbook: Result | None) -> None:
 
 
 def _counts(result: Result) -> str:
-    counts = ["∞" if count < 0 else str(count) for count in result.collisions.tolist()]
+    counts = [write_count(count) for count in result.collisions]
     return f"{' + '.join(counts)} collision{'' if counts == ['1'] else 's'}"
-
-
-def _percent(value: float) -> str:
-    return f"{100.0 * value:.1f} %" if math.isfinite(value) else number(value)

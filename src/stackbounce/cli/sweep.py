@@ -1,33 +1,28 @@
-"""``stackbounce sweep``: a grid into a file, with its progress, and what came of it."""
+"""The command ``stackbounce sweep``: solve a grid of drops into a file, and summarise it."""
 
 import contextlib
 import logging
 import socket
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, cast
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import (
-    AsJson,
-    Contact,
-    Gap,
-    Gravity,
-    Height,
-    Plot,
-    Speed,
-    Tolerance,
-    Until,
-    What,
+from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, Until, What, add_options
+from stackbounce.cli.output import (
+    check_picture,
+    console,
+    draw_picture,
+    print_files,
+    print_json,
+    progress_bar,
 )
-from stackbounce.cli.output import check_picture, console, draw, print_json, progress_bar
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
     from rich.console import Console
 
     from stackbounce.model import Drop
@@ -38,10 +33,11 @@ EPILOG = (
     "For example: stackbounce sweep basketball tennis --over balls.0.mass=50g:500g:100:log "
     "--over gaps.0=0mm:5mm:50 --out map.zarr --plot map.png"
 )
-_BLOCK = 2**18  # drops that are looked at together
+_BLOCK = 2**18  # drops that are summarised together
 _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
 
 
+@add_options(DROP)
 def run(
     what: What,
     over: Annotated[
@@ -64,11 +60,7 @@ def run(
             show_default=False,
         ),
     ],
-    height: Height = None,
-    speed: Speed = None,
-    gap: Gap = None,
-    contact: Contact = None,
-    gravity: Gravity = None,
+    *,
     until: Until = None,
     rtol: Tolerance = 1e-12,
     cluster: Annotated[
@@ -85,32 +77,30 @@ def run(
     ] = "rebound_ratio",
     plot: Plot = None,
     as_json: AsJson = False,
+    **given: Any,
 ) -> None:
     """Drop a stack for all combinations of other numbers in it, into a Zarr or NetCDF file."""
     from stackbounce.cli import scenario
-    from stackbounce.units import quantity
 
+    check_picture(plot)
+    drop = scenario.read(what, **given).drop
     if plot is not None:
-        check_picture(plot)
-    chosen = scenario.read(
-        what, height=height, speed=speed, gaps=gap, contacts=contact, gravity=gravity
-    )
+        _check_shown(drop, over, show)
+    end = scenario.read_until(until)
+    done = _write(drop, over, out, cluster=cluster, until=end, rtol=rtol)
     if plot is not None:
-        _check_shown(chosen.drop, over, show)
-    end = None if until is None else quantity(until, "s", "--until")
-    done = _write(chosen.drop, over, out, cluster=cluster, until=end, rtol=rtol)
-    if plot is not None:
-        draw(lambda: _picture(done, show), plot)
+        _draw(done.load(), show, plot)
     if as_json:
         print_json(summary(done, out))
-    else:
-        print_sweep(console(), done, out, plot)
+        return
+    print_sweep(console(), done, out)
+    print_files(plot)
 
 
 def _write(
     drop: "Drop", over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
 ) -> "xr.Dataset":
-    """Sweep a drop over what ``--over`` names, into a file, showing how far it is; return it."""
+    """Sweep a drop over the numbers of ``--over`` into a file with a progress bar; return it."""
     from stackbounce.sweeps import grid, opened, write
 
     values = grid(drop, over)
@@ -137,17 +127,15 @@ def _check_shown(drop: "Drop", over: Sequence[str], show: str) -> None:
         )
 
 
-def _picture(data: "xr.Dataset", show: str) -> "Figure":
-    """Return the lines or the map of a sweep over one number or two."""
-    from stackbounce import plots
-
+def _draw(data: "xr.Dataset", show: str, path: Path) -> None:
+    """Draw the lines or the map of a sweep over one number or two."""
     name, dot, which = show.partition(".")
-    draw: Any = plots.lines if len(data.status.dims) == 1 else plots.heatmap
-    return cast("Figure", draw(data.load(), name, **({"index": int(which)} if dot else {})))
+    kind = "lines" if len(data.status.dims) == 1 else "heatmap"
+    draw_picture(path, kind, data, name, **({"index": int(which)} if dot else {}))
 
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
-    """Return what came of a sweep, for machines; a file larger than memory is read in blocks."""
+    """Return the summary of a sweep for --json, read in blocks as it may exceed the memory."""
     import numpy as np
 
     from stackbounce.run.blocks import blocks, sides
@@ -176,8 +164,8 @@ def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
     }
 
 
-def print_sweep(console: "Console", data: "xr.Dataset", out: Path, plot: Path | None) -> None:
-    """Print what came of a sweep, for people."""
+def print_sweep(console: "Console", data: "xr.Dataset", out: Path) -> None:
+    """Print the summary of a sweep."""
     from stackbounce.run.result import Status
 
     found = summary(data, out)
@@ -191,8 +179,6 @@ def print_sweep(console: "Console", data: "xr.Dataset", out: Path, plot: Path | 
     for name, count in found["status"].items():
         console.print(f"  {count} {name}: {Status[name].advice}")
     console.print(f"Written: {out}")
-    if plot is not None:
-        console.print(f"Picture: {plot}")
 
 
 def _range(low: float, high: float) -> str:
@@ -217,12 +203,12 @@ def _client(address: str | None) -> Iterator[Any]:
     need("cluster", "--cluster")
     import distributed
 
-    for name in ("distributed", "distributed.client"):  # errors of ours say it in one line
+    for name in ("distributed", "distributed.client"):  # our own error says it in one line
         logging.getLogger(name).setLevel(logging.CRITICAL)
     wrong = f"--cluster must be the address of a dask scheduler, got {shown(address)}"
     connect: Any = distributed.Client
     try:
-        _knock(address)
+        _check_listening(address)
         client = connect(address, timeout="10s")
     except (OSError, ValueError) as error:
         raise InvalidValue(wrong) from error
@@ -230,8 +216,8 @@ def _client(address: str | None) -> Iterator[Any]:
         yield client
 
 
-def _knock(address: str) -> None:
-    """Raise OSError or ValueError where nobody listens: a client would try again for long."""
+def _check_listening(address: str) -> None:
+    """Raise OSError or ValueError if nothing listens there; dask would retry for a long time."""
     host, _, port = address.rpartition("://")[2].rpartition(":")
     with socket.create_connection((host, int(port)), timeout=5.0):
         pass

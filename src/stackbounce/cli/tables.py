@@ -1,4 +1,4 @@
-"""Tables for people, no wider than 100 columns, and how they write numbers, balls and laws."""
+"""Tables of at most 100 columns, and how numbers, balls and laws are written in them."""
 
 import math
 from collections.abc import Sequence
@@ -10,13 +10,23 @@ from stackbounce.cli.scenario import DEFAULT_HEIGHT, Scenario
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
 
-__all__ = ["add_columns", "incidence", "label", "law_text", "meeting", "new_table", "number"]
+__all__ = [
+    "add_columns",
+    "incidence",
+    "label",
+    "law_text",
+    "meeting",
+    "new_table",
+    "number",
+    "percent",
+    "write_count",
+]
 
 
-def new_table(title: str) -> Table:
-    """Return a table in the style of all of them, without columns."""
-    return Table(
-        title=f"\n{title}",
+def new_table(title: str | None, texts: Sequence[str] = (), numbers: Sequence[str] = ()) -> Table:
+    """Return a table in the style of all of them, with columns of texts, then of numbers."""
+    table = Table(
+        title=title and f"\n{title}",
         title_justify="left",
         title_style="bold",
         box=box.SIMPLE_HEAD,
@@ -24,6 +34,10 @@ def new_table(title: str) -> Table:
         pad_edge=False,
         padding=(0, 1, 0, 0),
     )
+    for heading in texts:
+        table.add_column(heading, overflow="fold")
+    add_columns(table, numbers)
+    return table
 
 
 def add_columns(table: Table, headings: Sequence[str], style: str = "") -> None:
@@ -33,7 +47,7 @@ def add_columns(table: Table, headings: Sequence[str], style: str = "") -> None:
 
 
 def number(value: float) -> str:
-    """Return a number with four digits that count, as people write it.
+    """Return a number with four significant digits.
 
     Parameters
     ----------
@@ -60,8 +74,30 @@ def number(value: float) -> str:
     return f"{value:#.4g}".removesuffix(".")
 
 
+def percent(share: float) -> str:
+    """Return a share in percent.
+
+    Examples
+    --------
+    >>> percent(0.5), percent(float("nan"))
+    ('50.0 %', '–')
+    """
+    return f"{100.0 * share:.1f} %" if math.isfinite(share) else number(share)
+
+
+def write_count(count: int) -> str:
+    """Return how many collisions there were; a negative count stands for infinitely many.
+
+    Examples
+    --------
+    >>> write_count(3), write_count(-1)
+    ('3', '∞')
+    """
+    return "∞" if count < 0 else str(count)
+
+
 def label(name: str | None, i: int) -> str:
-    """Return what a table calls ball `i`: its name, printable and not too long.
+    """Return the name of ball `i` in tables: printable, and at most 16 characters.
 
     Examples
     --------
@@ -73,7 +109,7 @@ def label(name: str | None, i: int) -> str:
 
 
 def incidence(scenario: Scenario) -> str:
-    """Return what falls, and from where or how fast."""
+    """Return the names of the balls, and their height or speed."""
     drop = scenario.drop
     names = " + ".join(label(ball.name, i) for i, ball in enumerate(drop.balls))
     if drop.velocities is not None:
@@ -88,14 +124,14 @@ def incidence(scenario: Scenario) -> str:
 
 
 def meeting(drop: Drop, contact: int) -> str:
-    """Return what meets at a contact: the floor or the ball below, and the ball above."""
+    """Return the two sides of a contact: the floor or the ball below, and the ball above."""
     upper = label(drop.balls[contact].name, contact)
     below = "floor" if contact == 0 else label(drop.balls[contact - 1].name, contact - 1)
     return f"{below} – {upper}"
 
 
 def law_text(law: ContactLaw | None) -> str:
-    """Return a contact law as people write it.
+    """Return a contact law in words.
 
     Examples
     --------

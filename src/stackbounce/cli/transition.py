@@ -1,12 +1,12 @@
-"""``stackbounce transition``: from touching balls to separate collisions."""
+"""The command ``stackbounce transition``: a stack with gaps from 0 to separate collisions."""
 
 import math
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import AsJson, Contact, Gap, Height, Plot, Speed, Tolerance, What
-from stackbounce.cli.output import check_picture, console, draw, print_json
+from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, What, add_options
+from stackbounce.cli.output import check_picture, console, draw_picture, print_files, print_json
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -18,14 +18,16 @@ __all__ = ["EPILOG", "run"]
 
 EPILOG = "For example: stackbounce transition basketball tennis --plot gaps.svg"
 _SHARES = (0.02, 0.05, 0.1, 0.2, 0.5)  # of the whole range, at which the table has rows
-_CHANGES = 12  # that have rows
-_WIDE = 5  # balls that have a column each
-_REST = 1e-6  # a smaller rebound ratio is shown as none
+_CHANGES = 12  # at most so many changes of a count have rows
+_WIDE = 5  # of more balls only the top one has a column
+_REST = 1e-6  # a smaller rebound ratio is shown as 0
 _OUTPUTS = ("rebound_ratio", "collisions", "first_touch", "last_release", "energy_retained")
 
 
+@add_options({name: DROP[name] for name in ("height", "speed", "gap", "contact")})
 def run(
     what: What,
+    *,
     only: Annotated[
         int | None,
         typer.Option(
@@ -40,34 +42,26 @@ def run(
             help="The widest gap; default where the collisions are separate, and a little more.",
         ),
     ] = None,
-    height: Height = None,
-    speed: Speed = None,
-    gap: Gap = None,
-    contact: Contact = None,
     rtol: Tolerance = 1e-12,
     plot: Plot = None,
     as_json: AsJson = False,
+    **given: Any,
 ) -> None:
     """Open the gaps of a stack, from touching balls to separate collisions."""
     from stackbounce import transition
     from stackbounce.cli import scenario
     from stackbounce.units import quantity
 
-    if plot is not None:
-        check_picture(plot)
+    check_picture(plot)
     last = None if stop is None else quantity(stop, "m", "--stop")
-    chosen = scenario.read(what, height=height, speed=speed, gaps=gap, contacts=contact)
+    chosen = scenario.read(what, **given)
     data = transition(chosen.drop, only, stop=last, rtol=rtol)
-    if plot is not None:
-        from stackbounce import plots
-
-        draw(lambda: plots.transition(data), plot)
+    draw_picture(plot, "transition", data)
     if as_json:
         print_json(summary(chosen, data))
         return
     print_transition(console(), chosen, data)
-    if plot is not None:
-        typer.echo(f"Picture: {plot}")
+    print_files(plot)
 
 
 def summary(scenario: "Scenario", data: "xr.Dataset") -> dict[str, Any]:
@@ -94,18 +88,18 @@ def summary(scenario: "Scenario", data: "xr.Dataset") -> dict[str, Any]:
 
 
 def print_transition(console: "Console", scenario: "Scenario", data: "xr.Dataset") -> None:
-    """Print a transition, for people: some gaps, and those at which a count changes."""
+    """Print a transition: some of the gaps, and those at which a count changes."""
     import numpy as np
 
-    from stackbounce.cli.tables import add_columns, incidence, label, new_table
+    from stackbounce.cli.tables import incidence, label, new_table
 
     drop, gap = scenario.drop, data["gap"].values
     console.print(incidence(scenario), style="bold")
     limit, last = data.attrs["separate_from"], gap[-1]
     balls = range(len(drop.balls)) if len(drop.balls) <= _WIDE else [len(drop.balls) - 1]
-    table = new_table("Rebound ratios, the lowest ball first, by the gap")
-    add_columns(table, ["gap\nmm", *(f"\n{label(drop.balls[i].name, i)}" for i in balls)])
-    add_columns(table, ("energy\nretained", "collisions,\nfloor first"))
+    names = [f"\n{label(drop.balls[i].name, i)}" for i in balls]
+    columns = ["gap\nmm", *names, "energy\nretained", "collisions,\nfloor first"]
+    table = new_table("Rebound ratios, the lowest ball first, by the gap", (), columns)
     table.add_column("\n")
     changes = data.attrs["changes"]
     notes = {0.0: "touching"} | dict.fromkeys(changes[:_CHANGES], "a count changes")
@@ -146,11 +140,13 @@ def _changes(data: "xr.Dataset") -> list[tuple[float, Any, Any]]:
 
 
 def _numbers(gap: float, ratios: Any, energy: Any) -> list[str]:
-    from stackbounce.cli.tables import number
+    from stackbounce.cli.tables import number, percent
 
     cells = [number(float(one) if abs(one) > _REST else 0.0) for one in ratios]
-    return [number(gap), *cells, f"{100.0 * float(energy):.1f} %"]
+    return [number(gap), *cells, percent(float(energy))]
 
 
 def _counts(counts: Any) -> str:
-    return " ".join("∞" if count < 0 else str(count) for count in counts.tolist())
+    from stackbounce.cli.tables import write_count
+
+    return " ".join(map(write_count, counts))

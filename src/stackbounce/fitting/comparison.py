@@ -4,15 +4,15 @@ import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.covariance import OPEN
 from stackbounce.fitting.least_squares import find_minima
 from stackbounce.fitting.problem import FitProblem, TooFewData
+from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.result import Fit
 from stackbounce.version import __version__
 
@@ -20,8 +20,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 __all__ = ["Comparison", "Score", "compare"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 _DRAWS = 256  # of the parameters, for the spread of a prediction
 _FOLLOWED = 3  # descents of a fit to part of the data, besides that from the best with all
@@ -104,16 +102,7 @@ class Comparison:
         rows = sorted(self.fits.items(), key=lambda one: known[one[0]])
         raw = [math.exp(-0.5 * (known[name] - known[rows[0][0]])) for name, _ in rows]
         return [
-            Score(
-                name,
-                found.free,
-                found.chi_squared,
-                found.degrees_of_freedom,
-                found.probability,
-                found.aicc,
-                found.bic,
-                weight / sum(raw),
-            )
+            Score(name, found.free, weight=weight / sum(raw), **found.goodness())
             for (name, found), weight in zip(rows, raw, strict=True)
         ]
 

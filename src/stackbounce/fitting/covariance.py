@@ -1,15 +1,12 @@
 """How well the data determine the parameters: directions and the covariance matrix."""
 
-from typing import TypeAlias
-
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.fitting.objective import Objective
+from stackbounce.fitting.quantities import Array
 
 __all__ = ["OPEN", "estimate_covariance", "find_directions"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 OPEN = 1.0
 """Root of chi squared's change between the bounds below which a direction is undetermined."""

@@ -1,7 +1,7 @@
 """A fit problem from a file: a scenario with what was measured, what varies, what follows."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Parts", "convert_measured", "read_force_record", "read_parts", "read_question"]
 
+_DROP = tuple(one.name for one in fields(Drop))
 _OWN = ("measured", "vary", "tie", "drops")
 _INCIDENCE = ("impact_speed", "height", "velocities")
 _RANGE = ("low", "high", "prior")
@@ -137,9 +138,7 @@ def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
     table = {"file": value} if isinstance(value, str) else value
     if not isinstance(table, Mapping) or not isinstance(table.get("file"), str):
         raise InvalidValue(f"{name} must be the name of a file with a force, got {shown(value)}")
-    for key in table:
-        if key not in _RECORD + _READING:
-            raise InvalidValue(f"{name}.{key}: unknown; {nearest(key, _RECORD + _READING)}")
+    _check_keys(table, _RECORD + _READING, f"{name}.")
     path = folder / table["file"]
     data = read(path, **{key: one for key, one in table.items() if key in _READING})
     own = [one for one in data.data_vars if str(one).split("_")[0] in ("force", "voltage")]
@@ -156,7 +155,7 @@ def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
 
 
 def _parts(mapping: Mapping[str, Any], folder: Path) -> Parts:
-    _check(mapping, _OWN, "")
+    _check_keys(mapping, _DROP + _OWN, "")
     rest = {key: value for key, value in mapping.items() if key not in _OWN}
     if "drops" in mapping:
         if "measured" in mapping:
@@ -185,7 +184,7 @@ def _several(
                 f"drops.{k}.name must be a name of its own in letters, digits and _, such as "
                 f"B2_on_B1, got {shown(name)}"
             )
-        _check(own, ("measured", "name"), f"drops.{k}.")
+        _check_keys(own, (*_DROP, "measured", "name"), f"drops.{k}.")
         data[name] = _measured(own.pop("measured", {}), f"{name}.measured", folder)
         common = {
             key: value
@@ -199,8 +198,7 @@ def _several(
     return drops, data
 
 
-def _check(table: Mapping[str, Any], more: tuple[str, ...], path: str) -> None:
-    known = [*(one.name for one in fields(Drop)), *more]
+def _check_keys(table: Mapping[str, Any], known: Sequence[str], path: str) -> None:
     for key in table:
         if key not in known:
             word = key if key.isidentifier() else shown(key)
@@ -223,9 +221,7 @@ def _bounds(name: str, value: object) -> object:
     """Return the bounds or prior of a number: a table as a `Range`, an empty text as None."""
     if not isinstance(value, Mapping):
         return None if value == "" else value
-    for key in value:
-        if key not in _RANGE:
-            raise InvalidValue(f"vary: {name}.{key} is not a known key; {nearest(key, _RANGE)}")
+    _check_keys(value, _RANGE, f"vary: {name}.")
     if ("low" in value) != ("high" in value) or not value:
         raise InvalidValue(f"vary: {name} must have both low and high, got {shown(dict(value))}")
     prior = value.get("prior")

@@ -1,17 +1,15 @@
 """The minima of chi squared: many trials are screened, descents by lmfit start at the best."""
 
 import math
-from typing import Any, NamedTuple, TypeAlias
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.fitting.covariance import OPEN, find_directions
 from stackbounce.fitting.objective import Objective
+from stackbounce.fitting.quantities import Array
 
 __all__ = ["EQUAL", "Minimum", "descend", "find_minima", "spread_trials"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 EQUAL = 1e-3
 """Minima whose chi squared differs by less are equally good."""

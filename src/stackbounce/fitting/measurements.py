@@ -1,18 +1,15 @@
 """What was measured of one drop: numbers with errors, counts and force records."""
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown, whole
-from stackbounce.fitting.quantities import QUANTITIES, find_quantity
+from stackbounce.errors import InvalidType, InvalidValue, shown, whole
+from stackbounce.fitting.quantities import QUANTITIES, find_quantity, read_with_error
 from stackbounce.fitting.waveforms import Waveform, read_waveform
-from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import Drop
-from stackbounce.units import quantity
 
 __all__ = ["Count", "Datum", "Measured", "read_measured"]
 
@@ -130,9 +127,13 @@ def read_measured(drop: Drop, given: object, path: str = "") -> Measured:
         if base == "collisions":
             counts.append(Count(name, index, whole(shown_as, value)))
         else:
-            data.append(Datum(name, base, index, *_with_error(value, base, shown_as)))
-    lists = (data, counts, waveforms)
-    names = [one.name for some in lists for one in some]
+            known = QUANTITIES[base]
+            right = f"a number with its error, such as '{known.example}'"
+            data.append(
+                Datum(name, base, index, *read_with_error(value, known.unit, shown_as, right))
+            )
+    every: list[Datum | Count | Waveform] = [*data, *counts, *waveforms]
+    names = [one.name for one in every]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InvalidValue(f"{path}{twice} is given twice")
@@ -160,20 +161,3 @@ def _one_by_one(drop: Drop, given: Mapping[Any, Any], path: str) -> list[tuple[s
             )
         found += [(f"{name}.{i}", one) for i, one in enumerate(value) if one not in (None, "")]
     return found
-
-
-def _with_error(value: object, base: str, path: str) -> tuple[float, float]:
-    """Return a number and its error in SI units."""
-    unit = QUANTITIES[base].unit
-    pair: Any = value
-    if isinstance(value, str):
-        pair = quantity_with_error(value, unit, path)
-    if hasattr(pair, "nominal_value"):
-        pair = (pair.nominal_value, pair.std_dev)
-    right = f"a number with its error, such as '{QUANTITIES[base].example}'"
-    if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
-        raise InvalidValue(f"{path} must be {right}, got {shown(value)}")
-    number, error = (quantity(one, unit, path) for one in pair)
-    if not (error > 0.0 and math.isfinite(error)):
-        raise InvalidValue(f"{path} must be {right}, got {shown(value)}")
-    return finite(path, number), positive(path, error)

@@ -4,17 +4,35 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from stackbounce.fitting.covariance import OPEN, Array
+from stackbounce.fitting.covariance import OPEN
 from stackbounce.fitting.least_squares import EQUAL, Minimum
 from stackbounce.fitting.objective import ABSENT, Objective
+from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.residuals import Residual
 
-__all__ = ["describe_undetermined", "note_bounds", "note_misfits", "note_search"]
+__all__ = [
+    "describe_freedom",
+    "describe_undetermined",
+    "note_bounds",
+    "note_misfits",
+    "note_search",
+]
 
 _CLOSE = 4.0  # chi squared above the best up to which another minimum is worth a note
 _UNLIKELY = 1e-3  # probability of chi squared below which the model is doubted
 _SHARE = 0.3  # of the largest part of an undetermined direction: parameters above it are named
 _EDGE = 1e-3  # of the width between the bounds: how near a bound is reached
+
+
+def describe_freedom(count: int) -> str:
+    """Return a number of degrees of freedom in words.
+
+    Examples
+    --------
+    >>> describe_freedom(1), describe_freedom(2)
+    ('1 degree of freedom', '2 degrees of freedom')
+    """
+    return f"{count} degree{'' if count == 1 else 's'} of freedom"
 
 
 def describe_undetermined(names: Sequence[str], sizes: Array, directions: Array) -> tuple[str, ...]:
@@ -87,8 +105,7 @@ def _note_unlikely(chi_squared: float, degrees_of_freedom: int) -> list[str]:
     # chi squared has no distribution with 0 degrees of freedom: 1 is taken instead
     if chi2.sf(chi_squared, max(1, degrees_of_freedom)) >= _UNLIKELY:
         return []
-    freedom = f"{degrees_of_freedom} degree{'' if degrees_of_freedom == 1 else 's'} of freedom"
-    bad = f"chi squared is {chi_squared:.4g} for {freedom}"
+    bad = f"chi squared is {chi_squared:.4g} for {describe_freedom(degrees_of_freedom)}"
     return [f"the model does not describe the data: {bad}; its parameters' errors mean little"]
 
 

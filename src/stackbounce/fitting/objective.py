@@ -5,7 +5,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from stackbounce.engine.batch import Outcomes
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.measurements import Measured
 from stackbounce.fitting.parameters import Parameter, find_numbers, value_in
-from stackbounce.fitting.quantities import QUANTITIES
+from stackbounce.fitting.quantities import QUANTITIES, Array
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
@@ -26,8 +26,6 @@ from stackbounce.run.paths import Number, drop_at, numbers_of
 from stackbounce.run.result import Status
 
 __all__ = ["ABSENT", "Objective", "touch_name"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 ABSENT = 1e4
 """The residual, in errors, of a number that a trial does not have, such as a missing touch."""

@@ -4,25 +4,26 @@ import keyword
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, finite, nearest, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import OWN_WORDS
-from stackbounce.measure.quantities import quantity_with_error
+from stackbounce.fitting.quantities import Array, read_with_error
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of
 from stackbounce.units import quantity
 
 __all__ = ["Parameter", "Range", "read_parameters"]
 
-Array: TypeAlias = NDArray[np.float64]
-
 _WIDE = 100.0  # default bounds: the drop's own number divided and multiplied by this
 _MOST_GAP = 0.02  # m: default upper bound of a gap, or ten times the drop's own if larger
 _LOG = 5.0  # a ratio of positive bounds above this makes the search coordinate logarithmic
+_RIGHT = (
+    "varied between two bounds, such as '1e3 : 1e6', or around what is known of it, such as "
+    "'1.3 ± 0.9 mm'"
+)
 _REACH = 6.0  # default bounds of a parameter with a prior, in its standard deviations
 
 
@@ -199,29 +200,14 @@ def _bounds(
     if isinstance(given, tuple | list) and len(given) == 2:
         given = Range(*given)
     if isinstance(given, Range):
-        low, high = (quantity(_stripped(one), unit, name) for one in (given.low, given.high))
-        return low, high, None if given.prior is None else _known(given.prior, unit, name)
+        low, high = (quantity(end, unit, name) for end in (given.low, given.high))
+        prior = given.prior
+        return low, high, None if prior is None else read_with_error(prior, unit, name, _RIGHT)
     if given is None:
         return *_default(drops, at, name), None
-    mean, error = _known(given, unit, name)
+    mean, error = read_with_error(given, unit, name, _RIGHT)
     low, high = _legal(drops, at, mean, mean - _REACH * error, mean + _REACH * error)
     return low, high, (mean, error)
-
-
-def _stripped(bound: Any) -> Any:
-    return bound.strip() if isinstance(bound, str) else bound
-
-
-def _known(given: Any, unit: str, name: str) -> tuple[float, float]:
-    value: Any = quantity_with_error(given, unit, name) if isinstance(given, str) else given
-    if hasattr(value, "nominal_value"):
-        value = (value.nominal_value, value.std_dev)
-    if not isinstance(value, tuple | list) or len(value) != 2:
-        raise InvalidValue(
-            f"{name} must be varied between two bounds, such as '1e3 : 1e6', or around what is "
-            f"known of it, such as '1.3 ± 0.9 mm', got {shown(given)}"
-        )
-    return finite(name, value[0]), positive(f"{name}'s error", value[1])
 
 
 def _default(
@@ -255,21 +241,17 @@ def _legal(
             return False
         return True
 
-    ends = []
-    for end in (low, high):
+    def moved(end: float) -> float:
+        for limit in (end, 1.0, 0.0):  # a drop's numbers are usually limited by 0 or 1
+            if limit != own and min(own, end) <= limit <= max(own, end) and holds(limit):
+                return limit
         good, bad = own, end
-        if holds(end):
-            good = end
-        else:
-            for limit in (0.0, 1.0):  # the usual limits of a drop's numbers
-                if min(own, end) <= limit <= max(own, end) and holds(limit):
-                    good = limit
-            if good == own:
-                for _ in range(60):
-                    middle = 0.5 * (good + bad)
-                    good, bad = (middle, bad) if holds(middle) else (good, middle)
-        ends.append(good)
-    return ends[0], ends[1]
+        for _ in range(60):
+            middle = 0.5 * (good + bad)
+            good, bad = (middle, bad) if holds(middle) else (good, middle)
+        return good
+
+    return moved(low), moved(high)
 
 
 def value_in(drop: Drop, number: Number) -> float:

@@ -2,20 +2,18 @@
 
 import functools
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, shown, whole
 from stackbounce.fitting.objective import Objective
+from stackbounce.fitting.quantities import Array
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
 
 __all__ = ["Posterior", "sample"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 _WALKERS = 32  # walkers, at least; also at least four per parameter
 _STEPS = 1000  # of a walker: more draws mean more walkers
@@ -222,7 +220,7 @@ def sample(
 
 def _log_probability(objective: Objective) -> Any:
     spans = objective.spans
-    # a prior is a density of the value, not of its logarithm: that of the coordinate has a factor
+    # a prior is a density of the value; the density of its logarithm has the value as a factor
     known = [one.prior is not None and one.logarithmic for one in objective.parameters]
 
     def evaluate(x: Array) -> Array:

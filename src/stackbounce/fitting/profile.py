@@ -2,19 +2,17 @@
 
 import math
 from dataclasses import dataclass
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import between
 from stackbounce.fitting.least_squares import Minimum, descend, spread_trials
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.parameters import Parameter
+from stackbounce.fitting.quantities import Array
 
 __all__ = ["Interval", "Profile"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 _FIRST = 0.2  # of the expected distance of the limit: the first step
 _GROWTH = 1.6  # of each step over the one before

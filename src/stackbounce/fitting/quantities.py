@@ -1,16 +1,18 @@
 """What can be measured of a drop, and how it follows from the engine's results."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.engine.batch import Outcomes
-from stackbounce.errors import InvalidValue, nearest
+from stackbounce.errors import InvalidValue, finite, nearest, positive, shown
+from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.units import quantity
 
-__all__ = ["QUANTITIES", "Quantity", "find_quantity"]
+__all__ = ["QUANTITIES", "Array", "Quantity", "find_quantity", "read_index", "read_with_error"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -24,8 +26,6 @@ class Quantity(NamedTuple):
         What has the quantity: ``ball``, ``contact``, or empty for the whole stack.
     unit : str
         The SI unit.
-    meaning : str
-        What it is, in words.
     example : str
         How a measured value is written, with its error.
     predict : callable
@@ -35,64 +35,41 @@ class Quantity(NamedTuple):
 
     part: str
     unit: str
-    meaning: str
     example: str
     predict: Callable[[Outcomes, Array, Array], Any]
 
 
 def _speeds(out: Outcomes, speed: Array, _: Array) -> Any:
+    """Return the velocities after the impact, up-positive."""
     return out.rebound_ratio * speed[:, None]
 
 
 def _heights(out: Outcomes, speed: Array, gravity: Array) -> Any:
+    """Return how far each ball rises at its speed; with a minus sign if it moves down."""
     velocity = _speeds(out, speed, gravity)
     pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
     return velocity * np.abs(velocity) / (2.0 * pull[:, None])
 
 
+def _durations(out: Outcomes, *_: Array) -> Any:
+    """Return the times from the first touch of each contact to its last release."""
+    return out.last_release - out.first_touch
+
+
 QUANTITIES: dict[str, Quantity] = {
-    "rebound_ratios": Quantity(
-        "ball",
-        "",
-        "velocity after over impact speed",
-        "1.64 ± 0.02",
-        lambda out, *_: out.rebound_ratio,
-    ),
-    "rebound_speeds": Quantity(
-        "ball", "m/s", "velocity after the impact, up-positive", "5.8 ± 0.1 m/s", _speeds
-    ),
-    "rebound_heights": Quantity(
-        "ball", "m", "how far a ball rises at that speed", "1.72 ± 0.03 m", _heights
-    ),
-    "first_touch": Quantity(
-        "contact", "s", "when it first closes", "2.0 ± 0.5 ms", lambda out, *_: out.first_touch
-    ),
-    "last_release": Quantity(
-        "contact", "s", "when it last opens", "2.0 ± 0.5 ms", lambda out, *_: out.last_release
-    ),
-    "durations": Quantity(
-        "contact",
-        "s",
-        "from first touch to last release",
-        "2.0 ± 0.5 ms",
-        lambda out, *_: out.last_release - out.first_touch,
-    ),
-    "energy_retained": Quantity(
-        "",
-        "",
-        "kinetic energy after over before",
-        "0.64 ± 0.02",
-        lambda out, *_: out.energy_retained,
-    ),
-    "collisions": Quantity(
-        "contact",
-        "",
-        "contact intervals: compared, not fitted",
-        "2",
-        lambda out, *_: out.collisions,
-    ),
+    "rebound_ratios": Quantity("ball", "", "1.64 ± 0.02", lambda out, *_: out.rebound_ratio),
+    "rebound_speeds": Quantity("ball", "m/s", "5.8 ± 0.1 m/s", _speeds),
+    "rebound_heights": Quantity("ball", "m", "1.72 ± 0.03 m", _heights),
+    "first_touch": Quantity("contact", "s", "2.0 ± 0.5 ms", lambda out, *_: out.first_touch),
+    "last_release": Quantity("contact", "s", "2.0 ± 0.5 ms", lambda out, *_: out.last_release),
+    "durations": Quantity("contact", "s", "2.0 ± 0.5 ms", _durations),
+    "energy_retained": Quantity("", "", "0.64 ± 0.02", lambda out, *_: out.energy_retained),
+    "collisions": Quantity("contact", "", "2", lambda out, *_: out.collisions),
 }
-"""By name, as in `Result`; that of one ball or contact is ``rebound_ratios.1``."""
+"""By name, as in `Result`; that of one ball or contact is ``rebound_ratios.1``.
+
+Collisions are compared, not fitted.
+"""
 
 
 def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:
@@ -130,11 +107,54 @@ def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:
         raise InvalidValue(
             f"{path[:60]} is not a measured quantity; {nearest(base, [*QUANTITIES, 'force.0'])}"
         )
-    part, last = QUANTITIES[base].part, len(drop.balls) - 1
-    if not part:
-        if dot:
-            raise InvalidValue(f"{path}: {base} is of the whole stack and takes no number")
-        return base, 0
+    part = QUANTITIES[base].part
+    if not part and dot:
+        raise InvalidValue(f"{path}: {base} is of the whole stack and takes no number")
+    return base, read_index(drop, part, index, path) if part else 0
+
+
+def read_index(drop: Drop, part: str, index: str, path: str) -> int:
+    """Return the number of a ball or contact at the end of a name.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
+    >>> read_index(drop, "ball", "0", "rebound_ratios.0")
+    0
+    """
+    last = len(drop.balls) - 1
     if index not in map(str, range(last + 1)):
         raise InvalidValue(f"{path[:60]} must end in the number of a {part} from 0 to {last}")
-    return base, int(index)
+    return int(index)
+
+
+def read_with_error(given: object, unit: str, name: str, right: str) -> tuple[float, float]:
+    """Return a number and its error in SI units, from a text, a pair or a UFloat.
+
+    Parameters
+    ----------
+    given : str, (float or str, float or str), or UFloat
+        The number with its error, one standard deviation above 0.
+    unit : str
+        The SI unit.
+    name, right : str
+        The number in messages, and what would be right.
+
+    Raises
+    ------
+    InvalidValue
+        If it is no number with an error, the number is not finite, or the error not above 0.
+
+    Examples
+    --------
+    >>> read_with_error("1.64 ± 0.02", "", "rebound_ratios.1", "a number with its error")
+    (1.64, 0.02)
+    """
+    pair: Any = quantity_with_error(given, unit, name) if isinstance(given, str) else given
+    if hasattr(pair, "nominal_value"):
+        pair = (pair.nominal_value, pair.std_dev)
+    if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
+        raise InvalidValue(f"{name} must be {right}, got {shown(given)}")
+    value, error = (quantity(one, unit, name) for one in pair)
+    return finite(name, value), positive(f"{name}'s error", error)

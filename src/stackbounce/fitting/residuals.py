@@ -1,15 +1,13 @@
 """The residuals of a fit: each measured number and each force record beside the fitted one."""
 
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.fitting.objective import Objective, touch_name
+from stackbounce.fitting.quantities import Array
 
 __all__ = ["Record", "Residual", "list_records", "list_residuals"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 
 class Residual(NamedTuple):

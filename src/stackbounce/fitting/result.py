@@ -4,10 +4,9 @@ import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, nearest, positive, shown
 from stackbounce.fitting import notes, posterior
@@ -16,6 +15,7 @@ from stackbounce.fitting.least_squares import Minimum
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.posterior import Posterior
 from stackbounce.fitting.profile import Interval, Profile
+from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.residuals import Record, Residual, list_records, list_residuals
 from stackbounce.model import Drop
 from stackbounce.version import __version__
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Fit"]
 
-Array: TypeAlias = NDArray[np.float64]
+_GOODNESS = ("chi_squared", "degrees_of_freedom", "probability", "aicc", "bic")
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,6 +165,10 @@ class Fit:
         """The Bayesian (Schwarz's) information criterion."""
         return self.chi_squared + self.free * math.log(self.objective.size)
 
+    def goodness(self) -> dict[str, Any]:
+        """Return `chi_squared`, `degrees_of_freedom`, `probability`, `aicc` and `bic` by name."""
+        return {name: getattr(self, name) for name in _GOODNESS}
+
     @functools.cached_property
     def residuals(self) -> list[Residual]:
         """Each measured number and prior beside the fitted one; `records` has force records."""
@@ -275,11 +279,7 @@ class Fit:
                 name: {"value": one.nominal_value, "error": one.std_dev, "unit": self.units[name]}
                 for name, one in self.values.items()
             },
-            "chi_squared": self.chi_squared,
-            "degrees_of_freedom": self.degrees_of_freedom,
-            "probability": self.probability,
-            "aicc": self.aicc,
-            "bic": self.bic,
+            **self.goodness(),
             "correlations": self.correlations.values.tolist(),
             "residuals": [one._asdict() for one in self.residuals],
             "notes": list(self.notes),

@@ -71,10 +71,7 @@ def standard_models(
 
 
 def _made(
-    drops: Mapping[str, Drop],
-    times: bool,
-    law: type[ContactLaw],
-    numbers: Mapping[str, float],
+    drops: Mapping[str, Drop], times: bool, law: type[ContactLaw], numbers: Mapping[str, float]
 ) -> FitProblem:
     """Return the model with all contacts of one finite law that last as long as the true ones."""
     given = {"restitution": _LOSSY, **numbers} if law.loss else numbers

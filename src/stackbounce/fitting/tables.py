@@ -1,8 +1,9 @@
 """Drops from a table: each row is a drop of the same stack with what was measured of it."""
 
+import io
 import os
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -15,13 +16,14 @@ from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.limits import COLUMNS, LINE, content_of, refuse_others
 from stackbounce.measure.reading.text import decode, split
 from stackbounce.model import Drop
-from stackbounce.run.paths import Number, drop_at, numbers_of
+from stackbounce.run.paths import drop_at, numbers_of
 from stackbounce.units import quantity
 
 __all__ = ["read_drops"]
 
 _MOST = 1000  # drops
 _ERROR = "error of "
+_KINDS = ("name", "number", "data", "error", "count", "force")  # of columns
 _FALLS = {"height": "m", "impact_speed": "m/s"}
 _MARKED = re.compile(r"\d+(?:[.,]\d+)+")
 _GROUPED = re.compile(r"[1-9]\d{0,2}(?:,\d{3})+")
@@ -35,6 +37,18 @@ class _Column(NamedTuple):
     name: str
     unit: str
     text: str
+
+    @property
+    def numeric(self) -> bool:
+        """Whether its cells may have a decimal mark."""
+        return self.kind in ("number", "data", "error")
+
+
+class _Cell(NamedTuple):
+    """A cell that is not empty: its text, with the unit of the heading, and its place."""
+
+    text: str
+    where: str
 
 
 def read_drops(
@@ -82,7 +96,7 @@ def read_drops(
     name, content = content_of(path)
     try:
         refuse_others(content)
-        rows = list(_rows(drop, decode(content)))
+        rows = _split_rows(drop, decode(content))
     except FileError as error:
         raise FileError(f"{name}: {error}") from error
     try:
@@ -91,23 +105,20 @@ def read_drops(
         raise type(error)(f"{name}: {error}") from error
 
 
-def _rows(drop: Drop, content: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the cells of each line that is not blank, with its number from 1; first the heading."""
-    start, line, count, delimiter = 0, 0, 0, ""
-    while start < len(content):
-        end = content.find("\n", start, start + LINE)
-        if end < 0 and len(content) > start + LINE:
-            raise FileError(f"row {line + 1} has more than {LINE} characters")
-        text = content[start : end if end >= 0 else None]
-        start = end + 1 if end >= 0 else len(content)
-        line += 1
-        if not text.strip(" \t;,"):
+def _split_rows(drop: Drop, content: str) -> list[tuple[int, list[str]]]:
+    """Return the number from 1 and the cells of each line that is not blank."""
+    rows: list[tuple[int, list[str]]] = []
+    delimiter = ""
+    for line, text in enumerate(io.StringIO(content), 1):
+        if len(text) > LINE + 1:
+            raise FileError(f"row {line} has more than {LINE} characters")
+        if not text.strip(" \t;,\n"):
             continue
         delimiter = delimiter or _delimiter(drop, text)
-        if text.count(delimiter) >= COLUMNS or count > _MOST:
+        if text.count(delimiter) >= COLUMNS or len(rows) > _MOST:
             raise FileError(f"it has more than {COLUMNS} columns or {_MOST} drops")
-        count += 1
-        yield line, split(text, delimiter)
+        rows.append((line, split(text.rstrip("\n"), delimiter)))
+    return rows
 
 
 def _delimiter(drop: Drop, first: str) -> str:
@@ -131,6 +142,11 @@ def _drops(
     (_, first), *rows = rows
     columns = [_column(drop, cell) for cell in first]
     _check_columns(columns)
+    units = {(one.kind, one.name): one.unit for one in columns}
+    columns = [
+        one._replace(unit=one.unit or units["data", one.name]) if one.kind == "error" else one
+        for one in columns
+    ]
     if not rows:
         raise InvalidValue("it has a heading but no drop below it")
     comma = _has_commas(columns, rows)
@@ -139,21 +155,23 @@ def _drops(
     for k, (line, cells) in enumerate(rows, 1):
         if any(cells[len(columns) :]):
             raise InvalidValue(f"row {line} has more cells than the heading, {len(columns)}")
-        cells += [""] * (len(columns) - len(cells))
-        table = {
-            column: cell.replace(",", ".") if comma and _numeric(column) else cell
-            for column, cell in zip(columns, cells, strict=False)
-            if cell and column.kind
-        }
-        named = {column.kind: cell for column, cell in table.items() if column.kind == "name"}
-        name = named.get("name", f"drop_{k}")
+        row: dict[str, dict[str, _Cell]] = {kind: {} for kind in _KINDS}
+        for column, cell in zip(columns, cells, strict=False):
+            if cell and column.kind:
+                text = cell.replace(",", ".") if comma and column.numeric else cell
+                alone = column.unit and _UNITLESS.fullmatch(text)
+                where = f"row {line}, {column.text}"
+                row[column.kind][column.name] = _Cell(
+                    f"{text} {column.unit}" if alone else text, where
+                )
+        name = row["name"]["name"].text if row["name"] else f"drop_{k}"
         if not name.isidentifier() or name in drops:
             raise InvalidValue(
                 f"row {line}, name must be a name of its own in letters, digits and _, such as "
                 f"B2_on_B1, got {shown(name)}"
             )
-        drops[name] = _drop(drop, table, line)
-        data[name] = _data(table, line, folder)
+        drops[name] = _drop(drop, row["number"], line)
+        data[name] = _data(row, folder)
         if not data[name]:
             raise InvalidValue(f"row {line} has nothing that was measured")
     return drops, data
@@ -163,8 +181,9 @@ def _column(drop: Drop, text: str) -> _Column:
     """Return the column that a heading describes."""
     of_error = text.casefold().startswith(_ERROR)
     head = heading(text[len(_ERROR) :] if of_error else text)
-    numbers, base = numbers_of(drop), head.name.partition(".")[0]
-    known = [*numbers, *(name for name in _FALLS if name not in numbers)]
+    base = head.name.partition(".")[0]
+    known = list(dict.fromkeys([*numbers_of(drop), *_FALLS]))
+    kind = ""
     if base in QUANTITIES:
         find_quantity(drop, head.name, f"column {shown(text)}")
         kind = "error" if of_error else "count" if base == "collisions" else "data"
@@ -172,19 +191,13 @@ def _column(drop: Drop, text: str) -> _Column:
         raise InvalidValue(
             f"column {shown(text)} does not belong to a measured quantity; {_known(head.name, [])}"
         )
-    elif not text:
-        kind = ""
-    elif base == "force":
-        kind = "force"
-    elif head.name == "name":
-        kind = "name"
-    elif head.name in known:
-        kind = "number"
-    else:
-        raise InvalidValue(
-            f"column {shown(text)} is neither a number of the drop nor measured; "
-            f"{_known(head.name, [*known, 'name'])}"
-        )
+    elif text:
+        kind = base if base == "force" or head.name == "name" else "number"
+        if kind == "number" and head.name not in known:
+            raise InvalidValue(
+                f"column {shown(text)} is neither a number of the drop nor measured; "
+                f"{_known(head.name, [*known, 'name'])}"
+            )
     return _Column(kind, head.name, head.unit, text)
 
 
@@ -207,17 +220,13 @@ def _check_columns(columns: Sequence[_Column]) -> None:
         raise InvalidValue(f"it has no column of what was measured; {_known('', [])}")
 
 
-def _numeric(column: _Column) -> bool:
-    return column.kind in ("number", "data", "error")
-
-
 def _has_commas(columns: Sequence[_Column], rows: Sequence[tuple[int, list[str]]]) -> bool:
     """Tell whether commas are decimal marks; refuse numbers that could be read in two ways."""
     found = [
         (mark[0], f"row {line}, {column.text}")
         for line, cells in rows
         for column, cell in zip(columns, cells, strict=False)
-        if _numeric(column)
+        if column.numeric
         for mark in _MARKED.finditer(cell)
     ]
     commas = [(text, where) for text, where in found if "," in text]
@@ -232,65 +241,45 @@ def _has_commas(columns: Sequence[_Column], rows: Sequence[tuple[int, list[str]]
     return True
 
 
-def _drop(drop: Drop, table: Mapping[_Column, str], line: int) -> Drop:
+def _drop(drop: Drop, row: Mapping[str, _Cell], line: int) -> Drop:
     """Return the drop of a row."""
-    numbers, values, falls = numbers_of(drop), {}, {}
-    for column, cell in table.items():
-        if column.kind != "number":
-            continue
-        known: Number | None = numbers.get(column.name)
-        unit = _FALLS[column.name] if known is None else known.unit
-        value = quantity(_with_unit(cell, column.unit), unit, f"row {line}, {column.text}")
-        if column.name in _FALLS:
-            falls[column.name] = value
-        elif known is not None:
-            values[known] = value
-    others: dict[str, Any] = {name: falls.get(name) for name in (*_FALLS, "velocities")}
+    numbers = numbers_of(drop)
+    units = _FALLS | {name: number.unit for name, number in numbers.items()}
+    values = {name: quantity(cell.text, units[name], cell.where) for name, cell in row.items()}
+    falls = {name: values.pop(name) for name in _FALLS if name in values}
+    others: dict[str, Any] = dict.fromkeys((*_FALLS, "velocities")) | falls if falls else {}
     try:
-        return drop_at(replace(drop, **others) if falls else drop, values)
+        drop = replace(drop, **others)
+        return drop_at(drop, {numbers[name]: value for name, value in values.items()})
     except (InvalidValue, InvalidType) as error:
         raise type(error)(f"row {line}: {error}") from error
 
 
-def _data(table: Mapping[_Column, str], line: int, folder: Path) -> dict[str, Any]:
+def _data(row: Mapping[str, Mapping[str, _Cell]], folder: Path) -> dict[str, Any]:
     """Return what was measured in a row."""
-    errors = {
-        column.name: (column, cell) for column, cell in table.items() if column.kind == "error"
+    found: dict[str, Any] = {
+        name: _with_error(name, cell, row["error"].get(name)) for name, cell in row["data"].items()
     }
-    found: dict[str, Any] = {}
-    for column, cell in table.items():
-        where = f"row {line}, {column.text}"
-        if column.kind == "force":
-            found[column.name] = read_force_record(column.name, cell, folder)
-        elif column.kind == "count":
-            if not cell.isdecimal():
-                raise InvalidValue(f"{where} must be a whole number, got {shown(cell)}")
-            found[column.name] = int(cell)
-        elif column.kind == "data":
-            found[column.name] = _with_error(column, cell, errors.get(column.name), where, line)
+    for name, cell in row["count"].items():
+        if not cell.text.isdecimal():
+            raise InvalidValue(f"{cell.where} must be a whole number, got {shown(cell.text)}")
+        found[name] = int(cell.text)
+    for name, cell in row["force"].items():
+        found[name] = read_force_record(name, cell.text, folder)
     return found
 
 
-def _with_error(
-    column: _Column, cell: str, beside: tuple[_Column, str] | None, where: str, line: int
-) -> tuple[float, float]:
-    unit = QUANTITIES[column.name.partition(".")[0]].unit
-    value: Any = quantity_with_error(_with_unit(cell, column.unit), unit, where)
+def _with_error(name: str, cell: _Cell, beside: _Cell | None) -> tuple[float, float]:
+    """Return a number and its error, from its own cell or the one in the column of errors."""
+    unit = QUANTITIES[name.partition(".")[0]].unit
+    value: Any = quantity_with_error(cell.text, unit, cell.where)
     if hasattr(value, "nominal_value"):
         if beside is not None:
-            raise InvalidValue(f"{where} has an error in its cell and one beside it")
+            raise InvalidValue(f"{cell.where} has an error in its cell and one beside it")
         return value.nominal_value, value.std_dev
     if beside is None:
         raise InvalidValue(
-            f"{where} must have an error, in its cell, such as '{cell} ± …', or in a column "
-            f"'{_ERROR}{column.name}', got {shown(cell)}"
+            f"{cell.where} must have an error, in its cell, such as '{cell.text} ± …', or in a "
+            f"column '{_ERROR}{name}', got {shown(cell.text)}"
         )
-    other, text = beside
-    path = f"row {line}, {other.text}"
-    error = quantity(_with_unit(text, other.unit or column.unit), unit, path)
-    return value, positive(path, error)
-
-
-def _with_unit(cell: str, unit: str) -> str:
-    """Return a cell with the unit of its heading, unless it has its own."""
-    return f"{cell} {unit}" if unit and _UNITLESS.fullmatch(cell) else cell
+    return value, positive(beside.where, quantity(beside.text, unit, beside.where))

@@ -3,20 +3,18 @@
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import Formula, read_formula
 from stackbounce.fitting.parameters import Parameter, find_numbers, list_paths, value_in
+from stackbounce.fitting.quantities import Array
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, numbers_of
 
 __all__ = ["Tie", "evaluate_ties", "read_ties"]
-
-Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.fitting.quantities import read_index
 from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
 from stackbounce.model import Drop
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Waveform", "read_waveform"]
 
-# The touch is searched this far from where the analysis finds it, the largest of:
+# The fit seeks the touch this far from where the analysis finds it: the largest of the three.
 _NEAR = 0.1  # of the first contact's duration
 _SIGMAS = 5.0  # of the standard error
 _SAMPLES = 3.0  # of the sampling interval
@@ -108,7 +109,7 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     Notes
     -----
     `stackbounce.measure.waveform` removes baseline, drift and hum, and finds the touch, around
-    which it is fitted. What follows the drop, such as the next bounce, has to be cut off before.
+    which it is fitted. The record must end before the next bounce.
 
     Examples
     --------
@@ -120,10 +121,7 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     >>> read_waveform(drop, "force.0", (times, noisy), "force.0").scaled
     False
     """
-    index = name.partition(".")[2]
-    last = len(drop.balls) - 1
-    if index not in map(str, range(last + 1)):
-        raise InvalidValue(f"{path[:60]} must end in the number of a contact from 0 to {last}")
+    index = read_index(drop, "contact", name.partition(".")[2], path)
     times, force, error, scaled = _arrays(value, path)
     try:
         found = analysed((times, force))
@@ -136,8 +134,8 @@ def read_waveform(drop: Drop, name: str, value: object, path: str) -> Waveform:
     sigma = found.noise if error is None else positive(f"{path}'s error", error)
     if not sigma > 0.0:
         raise InvalidValue(f"{path} must have the error of a sample: its own scatter is 0")
-    begins = _begins(found, int(index))
-    return Waveform(name, int(index), found.times, found.force, sigma, scaled, begins)
+    begins = _begins(found, index)
+    return Waveform(name, index, found.times, found.force, sigma, scaled, begins)
 
 
 def _begins(found: "Analysed", index: int) -> tuple[float, float]:

@@ -21,20 +21,14 @@ from stackbounce.errors import (
 )
 from stackbounce.gaps_and_masses.batch import solve_drops
 from stackbounce.gaps_and_masses.separation_limit import replace_gaps
-from stackbounce.model import (
-    STANDARD_GRAVITY,
-    Ball,
-    ContactLaw,
-    Drop,
-    Hysteretic,
-)
+from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteretic
 from stackbounce.model.catalogue import BALLS, catalogue_ball
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Candidate", "build_stack", "highest", "list_candidates"]
+__all__ = ["Candidate", "build_stack", "highest", "join_contacts", "list_candidates"]
 
 _GAPS = (0.0, 0.001, 0.005)
 _HEIGHT = 1.0  # m
@@ -195,13 +189,44 @@ def build_stack(stack: Sequence[Candidate], impact_speed: float) -> Drop:
     >>> build_stack(list_candidates(["B1", "B2"], Spring, 1.0), 1.0).balls[1].name
     'B2'
     """
-    contacts = [stack[0].contact]
-    for lower, upper in itertools.pairwise(stack):
-        try:
-            contacts.append(_pressed(lower.contact, upper.contact))
-        except StackbounceError as error:
-            raise InvalidValue(f"{lower.name} and {upper.name}: {error}") from error
+    contacts = join_contacts([one.name for one in stack], [one.contact for one in stack])
     return Drop([one.ball for one in stack], contacts, impact_speed=impact_speed)
+
+
+def join_contacts(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
+    """Return the contacts of a stack from the floor contact of each ball, the lowest first.
+
+    The contact of two balls is both floor contacts in series, as in `calibration.between`.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The balls, for messages.
+    laws : sequence of ContactLaw
+        The floor contact of each ball.
+
+    Returns
+    -------
+    list of ContactLaw
+
+    Raises
+    ------
+    InvalidValue
+        If the contacts of two neighbours cannot be combined into one law.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Spring
+    >>> join_contacts(["B1", "B2"], [Spring(2.0), Spring(2.0)])
+    [Spring(stiffness=2.0), Spring(stiffness=1.0)]
+    """
+    found = [laws[0]]
+    for (one, lower), (other, upper) in itertools.pairwise(zip(names, laws, strict=True)):
+        try:
+            found.append(_pressed(lower, upper))
+        except StackbounceError as error:
+            raise InvalidValue(f"{one} and {other}: {error}") from error
+    return found
 
 
 _pressed = functools.lru_cache(between)

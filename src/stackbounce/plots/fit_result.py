@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.plots.chi_squared import draw_map, draw_profile
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, styled_figure
 from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
@@ -49,15 +49,11 @@ def fitted(fit: Any) -> "Figure":
     >>> [axes.get_xlabel() for axes in plots.fitted(found).axes]
     ['fitted − measured (errors)', 'contacts.0.stiffness (N/m)']
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
     residuals, records = fit.residuals[:_MOST_PULLS], fit.records[:_MOST_RECORDS]
     count = 0 if records else len(fit.names)
     heights = [0.9 + _ROW * len(residuals)] if residuals else []
     heights += [2.4] * len(records) + ([3.0] if count == 1 else [5.6] if count == 2 else [])
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(_WIDE, sum(heights) + 0.3))
+    with styled_figure(_WIDE, sum(heights) + 0.3) as figure:
         parts = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
         figure.suptitle(_title(fit), x=0.01, ha="left", fontsize=10)
         if residuals:

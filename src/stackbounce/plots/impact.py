@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
-from stackbounce.plots.style import STYLE, color_of, written
+from stackbounce.plots.style import color_of, styled_figure, written
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
@@ -54,19 +54,12 @@ def bounce(result: Result) -> "Figure":
     """
     if not isinstance(result, Result):
         raise InvalidType(f"result must be a Result, got {type(result).__name__}")
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 5.6))
+    with styled_figure(7.2, 5.6) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = np.linspace(*choose_window(result), _SAMPLES)
         sample = sample_with_approach(result, times)
         _draw_positions(above, result, times, sample.position.values)
-        if result.drop.rigid:
-            _draw_impulses(below, result)
-        else:
-            _draw_forces(below, result, times, sample.force.values)
+        _draw_contacts(below, result, times, sample.force.values)
         floor = result.drop.contacts[0] is not None
         below.set_xlabel("time" + floor * " since the lowest ball touched the floor" + " (ms)")
         below.set_xlim(1e3 * times[0], 1e3 * times[-1])
@@ -90,10 +83,7 @@ def _draw_positions(
 
 
 def _label_ends(
-    axes: "Axes",
-    right: float,
-    ends: list[tuple[float, int, str]],
-    ratios: NDArray[np.float64],
+    axes: "Axes", right: float, ends: list[tuple[float, int, str]], ratios: NDArray[np.float64]
 ) -> None:
     """Write each ball's name and rebound ratio at the end of its path, without overlaps."""
     low, high = axes.get_ylim()
@@ -112,35 +102,24 @@ def _label_ends(
         )
 
 
-def _draw_forces(
+def _draw_contacts(
     axes: "Axes", result: Result, times: NDArray[np.float64], forces: NDArray[np.float64]
 ) -> None:
-    """Draw the force at each contact."""
-    for i, force in enumerate(forces):
-        if result.drop.contacts[i] is None:
-            continue
-        axes.plot(1e3 * times, force, color=color_of(i), label=_between(result, i))
-        axes.fill_between(1e3 * times, force, color=color_of(i), alpha=0.12, linewidth=0)
-    axes.set_ylabel("force (N)")
-    axes.set_ylim(bottom=0.0)
-    axes.legend(frameon=False, loc="upper right")
-
-
-def _draw_impulses(axes: "Axes", result: Result) -> None:
-    """Draw the impulse of each collision of a rigid stack as a stem."""
+    """Draw the force at each contact, or each impulse of a rigid stack as a stem."""
     for i, law in enumerate(result.drop.contacts):
         if law is None:
             continue
-        rows = result.intervals[result.intervals["contact"] == i]
-        axes.vlines(
-            1e3 * rows["start"],
-            0.0,
-            rows["impulse"],
-            color=color_of(i),
-            linewidth=3.0 if i == 0 else 1.6,
-            label=_between(result, i) + f" ({_count(int(result.collisions[i]))})",
-        )
-    axes.set_ylabel("impulse (N s)")
+        color, name = color_of(i), _between(result, i)
+        if law.rigid:
+            rows = result.intervals[result.intervals["contact"] == i]
+            name += f" ({_count(int(result.collisions[i]))})"
+            wide = 3.0 if i == 0 else 1.6
+            starts = 1e3 * rows["start"]
+            axes.vlines(starts, 0.0, rows["impulse"], color=color, linewidth=wide, label=name)
+        else:
+            axes.plot(1e3 * times, forces[i], color=color, label=name)
+            axes.fill_between(1e3 * times, forces[i], color=color, alpha=0.12, linewidth=0)
+    axes.set_ylabel("impulse (N s)" if result.drop.rigid else "force (N)")
     axes.set_ylim(bottom=0.0)
     axes.legend(frameon=False, loc="upper right")
 

@@ -17,7 +17,7 @@ _LEVELS = 7  # approximate number of contours
 _LEAST = 5  # values in each direction that contours need
 _BELOW = 0.05  # a smaller share of the other sign does not make a map signed
 _MOST = 12  # up to so many counts each have a color of their own
-_SINGLE = 8  # of more counts, so many
+_SINGLE = 8  # of more counts, the first so many have a color of their own
 _INFINITE = (0.75, 0.75, 0.75, 1.0)
 
 

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["compared"]
 
+_NAMES = {"aicc": "AICc", "bic": "BIC"}
 _MOST = 4.0  # errors: the strongest colour of a pull
 _WIDEST = 40  # data, of which each pull is written in its field
 
@@ -39,14 +40,10 @@ def compared(comparison: Any) -> "Figure":
     >>> len(compared(sb.compare(sb.standard_models(drop), data)).axes)
     3
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
     names = [score.model for score in comparison.scores]
     pulls = comparison.pulls.sel(model=names)
-    with mpl.rc_context(STYLE):
-        wide = 5.0 + 0.55 * min(pulls.sizes["datum"], _WIDEST)
-        figure = Figure(figsize=(max(8.0, wide), 1.9 + 0.42 * len(names)))
+    wide = 5.0 + 0.55 * min(pulls.sizes["datum"], _WIDEST)
+    with styled_figure(max(8.0, wide), 1.9 + 0.42 * len(names)) as figure:
         left, right = figure.subplots(1, 2, sharey=True, width_ratios=(2.2, wide - 3.0))
         _draw_scores(left, comparison)
         _draw_pulls(figure, right, pulls)
@@ -103,6 +100,3 @@ def _written(pull: float) -> str:
         return "–"
     written = f"{pull:+.1f}" if abs(pull) < 99.5 else f"{pull:+.0f}"
     return "0.0" if written in ("+0.0", "-0.0") else written
-
-
-_NAMES = {"aicc": "AICc", "bic": "BIC"}

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, styled_figure
 from stackbounce.units import handy, rounded
 
 if TYPE_CHECKING:
@@ -12,11 +12,7 @@ if TYPE_CHECKING:
 
 __all__ = ["corner"]
 
-_OWN_STYLE = {
-    "axes.grid": False,
-    "figure.constrained_layout.use": False,
-    "lines.linewidth": 1.2,
-}
+_OWN_STYLE = {"axes.grid": False, "figure.constrained_layout.use": False, "lines.linewidth": 1.2}
 _SIDE = 2.5  # inches of a panel
 _MOST = 20_000  # draws; more are thinned evenly
 _WITHIN = (0.393, 0.865)  # of the draws of two: one and two standard deviations of a Gaussian
@@ -48,8 +44,6 @@ def corner(posterior: Any) -> "Figure":
     1
     """
     import corner as library
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
 
     draws, labels = [], []
     for name in posterior.names:
@@ -58,8 +52,8 @@ def corner(posterior: Any) -> "Figure":
         draws.append(factor * own[:: max(1, len(own) // _MOST)])
         labels.append(f"{name} ({unit})".replace("**", "^") if unit else name)
     count = len(labels)
-    with mpl.rc_context(STYLE | _OWN_STYLE):
-        figure = Figure(figsize=(_SIDE * max(count, 1.6), _SIDE * max(count, 1.6)))
+    side = _SIDE * max(count, 1.6)
+    with styled_figure(side, side, _OWN_STYLE) as figure:
         library.corner(
             np.stack(draws, axis=1),
             fig=figure,

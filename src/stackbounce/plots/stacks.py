@@ -4,10 +4,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.errors import InvalidValue
 from stackbounce.plots.scales import show_in_handy_unit
-from stackbounce.plots.style import STYLE, color_of
-from stackbounce.plots.sweep_curves import draw_legend, name_of
+from stackbounce.plots.style import color_of, styled_figure
+from stackbounce.plots.sweep_curves import IN_A_ROW, check_source, draw_legend, name_of
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 
 __all__ = ["highest", "transition"]
 
-_IN_A_ROW = 4  # names in a horizontal legend
 _BARS = 12  # stacks that are drawn at most
 _MARKS = ("o", "s", "^", "D", "v", "P", "X", "*")
 
@@ -50,12 +49,8 @@ def transition(data: "xr.Dataset") -> "Figure":
     >>> [axes.get_ylabel() for axes in figure.axes]
     ['rebound ratio', 'collisions']
     """
-    _check(data, "textbook_ratio", "transition")
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 5.2))
+    check_source(data, "textbook_ratio", "transition")
+    with styled_figure(6.4, 5.2) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1.6])
         gap = data["gap"].values
         for ball in data["ball"].values:
@@ -107,17 +102,13 @@ def highest(data: "xr.Dataset") -> "Figure":
     >>> figure.axes[0].get_xlabel()
     'height of the top ball over that of the drop'
     """
-    _check(data, "height_ratio", "highest")
+    check_source(data, "height_ratio", "highest")
     if data.sizes["gap"] > len(_MARKS):
         most = len(_MARKS)
         raise InvalidValue(f"data must have at most {most} gaps, got {data.sizes['gap']}")
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        best = data.isel(stack=slice(_BARS))
-        rows = np.arange(best.sizes["stack"])
-        figure = Figure(figsize=(7.2, 1.4 + 0.32 * len(rows)))
+    best = data.isel(stack=slice(_BARS))
+    rows = np.arange(best.sizes["stack"])
+    with styled_figure(7.2, 1.4 + 0.32 * len(rows)) as figure:
         axes = figure.subplots()
         heights = best["height_ratio"].values
         axes.hlines(rows, heights.min(axis=1), heights.max(axis=1), color="#c8c8c8", linewidth=3.0)
@@ -129,7 +120,7 @@ def highest(data: "xr.Dataset") -> "Figure":
         axes.set_ylim(len(rows) - 0.5, -0.5)
         axes.set_xlim(left=0.0)
         axes.set_xlabel("height of the top ball over that of the drop")
-        figure.legend(loc="outside upper left", ncols=_IN_A_ROW, frameon=False, handlelength=1.6)
+        figure.legend(loc="outside upper left", ncols=IN_A_ROW, frameon=False, handlelength=1.6)
     return figure
 
 
@@ -151,10 +142,3 @@ def _draw_collisions(axes: "Axes", data: "xr.Dataset") -> None:
 
 def _gap_name(gap: float) -> str:
     return "touching" if gap == 0.0 else f"gaps of {1e3 * gap:.4g} mm"
-
-
-def _check(data: Any, name: str, source: str) -> None:
-    import xarray as xr
-
-    if not isinstance(data, xr.Dataset) or name not in data:
-        raise InvalidType(f"data must be a Dataset from {source}, got {shown(data)}")

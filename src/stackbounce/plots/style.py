@@ -1,8 +1,13 @@
 """The style of all pictures."""
 
-from typing import Any
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["COLORS", "FORCES", "STYLE", "color_of", "written"]
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+__all__ = ["COLORS", "FORCES", "STYLE", "color_of", "styled_figure", "written"]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
@@ -23,6 +28,24 @@ STYLE: Any = {
     "figure.constrained_layout.use": True,
 }
 """Matplotlib's settings."""
+
+
+@contextmanager
+def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[Figure]":
+    """Give an empty figure, in inches, and draw on it in this style, with other settings if given.
+
+    Examples
+    --------
+    >>> with styled_figure(7.2, 4.4) as figure:
+    ...     axes = figure.subplots()
+    >>> axes.spines["top"].get_visible()
+    False
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE | (style or {})):
+        yield Figure(figsize=(width, height))
 
 
 def color_of(index: int) -> str:

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.plots.maps import draw_counts, draw_levels, hatch
 from stackbounce.plots.scales import is_flat, label, read_scale, show_in_handy_unit
-from stackbounce.plots.style import COLORS, STYLE, color_of
+from stackbounce.plots.style import COLORS, color_of, styled_figure
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["TITLES", "draw_legend", "heatmap", "lines", "name_of"]
+__all__ = ["IN_A_ROW", "TITLES", "check_source", "draw_legend", "heatmap", "lines", "name_of"]
 
 TITLES = {
     "rebound_ratio": "rebound ratio",
@@ -27,9 +27,11 @@ TITLES = {
 }
 """The variables that can be drawn, with their titles."""
 
+IN_A_ROW = 4
+"""Names in a horizontal legend."""
+
 _STROKES = ("-", "--", ":", "-.")
 _FEW = 25  # up to so many values are marked with dots
-_IN_A_ROW = 4  # names in a horizontal legend
 
 
 def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None) -> "Figure":
@@ -71,11 +73,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
     chosen = range(own.sizes[part]) if part else range(1)
     if part and index is not None:
         chosen = range(_index(own, part, index), _index(own, part, index) + 1)
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(6.4, 4.0))
+    with styled_figure(6.4, 4.0) as figure:
         axes = figure.subplots()
         scale = read_scale(data, dim)
         rows = [own.isel({part: k}).values if part else own.values for k in chosen]
@@ -134,12 +132,7 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     if part:
         title += f" of {name_of(data, part, _index(own, part, index))}"
         own = own.isel({part: index})
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context():
-        mpl.rcParams.update(STYLE | {"axes.grid": False})
-        figure = Figure(figsize=(6.4, 4.8))
+    with styled_figure(6.4, 4.8, {"axes.grid": False}) as figure:
         axes = figure.subplots()
         x, y = read_scale(data, across), read_scale(data, up)
         label(axes, "x", str(across), x)
@@ -171,7 +164,7 @@ def _look(show: str, k: int, chosen: range, row: NDArray[Any]) -> dict[str, Any]
 def draw_legend(axes: "Axes", count: int) -> None:
     """Put the legend outside of the axes: above or, with many names, to the right."""
     look: Any = {"frameon": False, "handlelength": 1.6, "borderpad": 0.0}
-    if count <= _IN_A_ROW:
+    if count <= IN_A_ROW:
         look |= {"loc": "lower left", "bbox_to_anchor": (0.0, 1.02), "ncols": count}
     else:
         look |= {"loc": "upper left", "bbox_to_anchor": (1.02, 1.0)}
@@ -208,12 +201,17 @@ def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
     return list(np.where(rows < 0, top, rows))
 
 
-def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, ...]]:
-    """Return a sweep in ascending order and its dimensions; there must be `count` of them."""
+def check_source(data: Any, name: str, source: str) -> None:
+    """Refuse what is no Dataset with a variable that the function `source` gives."""
     import xarray as xr
 
-    if not isinstance(data, xr.Dataset) or "status" not in data:
-        raise InvalidType(f"data must be a Dataset from sweep, got {shown(data)}")
+    if not isinstance(data, xr.Dataset) or name not in data:
+        raise InvalidType(f"data must be a Dataset from {source}, got {shown(data)}")
+
+
+def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, ...]]:
+    """Return a sweep in ascending order and its dimensions; there must be `count` of them."""
+    check_source(data, "status", "sweep")
     if show not in TITLES:
         raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, TITLES)}")
     dims = data["status"].dims
