@@ -79,11 +79,11 @@ def test_it_is_printed_saved_and_drawn(path, capfd, tmp_path):
 
 
 def test_it_is_in_the_page_s_answer_and_form(path):
-    page = json.loads(records.measured(path.name, path.read_bytes(), {"gravity": "9.8"}))
+    page = json.loads(records.measure_record(path.name, path.read_bytes(), {"gravity": "9.8"}))
     assert page["holds"] == "pendulum"
     assert [row["value"] for row in page["found"]] == [0.5, 9.8]
     assert (page["series"], page["zero"], page["measured"]) == ([], None, {})
-    served = json.loads(records.options())
+    served = json.loads(records.list_options())
     assert {"name": "pendulum", "says": "how often it swings"} in served["kinds"]
     (holds,) = [one for one in served["options"] if one["name"] == "holds"]
     assert "pendulum" in holds["choices"]

@@ -53,7 +53,7 @@ def test_the_command_line_offers_each(capfd, monkeypatch):
 
 
 def test_the_page_offers_each():
-    served = json.loads(records.options())
+    served = json.loads(records.list_options())
     assert [one["name"] for one in served["kinds"]] == list(KINDS)
     offered = {one["name"]: one for one in served["options"]}
     assert set(offered) == {one.name for one in OPTIONS} - ONLY_TYPED
@@ -87,7 +87,7 @@ def test_a_decimal_mark_is_told_on_every_face(tmp_path, capfd):
     assert data.force.values[1] == 1.25
     assert main(["measure", str(path), "--decimal", ",", "--json"]) == 0
     (told,) = json.loads(capfd.readouterr().out)["files"]
-    page = json.loads(records.measured("force.csv", path.read_bytes(), {"decimal": ","}))
+    page = json.loads(records.measure_record("force.csv", path.read_bytes(), {"decimal": ","}))
     assert told["found"] == page["found"]
     assert main(["measure", str(path), "--decimal", ";"]) == 2
     assert "decimal" in capfd.readouterr().err
@@ -96,7 +96,9 @@ def test_a_decimal_mark_is_told_on_every_face(tmp_path, capfd):
 def test_a_law_with_an_exponent_is_told_on_every_face(capfd):
     path = LAB / "tennis-force.csv"
     (found,) = analyse(sb.read(path), mass=0.057, law="PowerLaw", exponent=1.3)
-    page = records.measured(path.name, path.read_bytes(), {"law": "PowerLaw", "exponent": "1.3"})
+    page = records.measure_record(
+        path.name, path.read_bytes(), {"law": "PowerLaw", "exponent": "1.3"}
+    )
     time = found.contacts[0].time.nominal_value
     assert {"contact time": time}.items() <= values(json.loads(page)["found"]).items()
     for law in (["power-law exponent=1.3"], ["power-law", "--exponent", "1.3"]):
@@ -111,7 +113,7 @@ def test_a_law_with_an_exponent_is_told_on_every_face(capfd):
 def test_the_record_of_the_lower_ball_alone_comes_with_the_page_too(capfd):
     path = LAB / "tennis-force.csv"
     file = (path.name, path.read_bytes())
-    page = json.loads(records.measured(*file, {"speed": "4.4 m/s"}, alone=file))
+    page = json.loads(records.measure_record(*file, {"speed": "4.4 m/s"}, alone=file))
     assert main(["measure", str(path), "--speed", "4.4", "--alone", str(path), "--json"]) == 0
     (told,) = json.loads(capfd.readouterr().out)["files"]
     assert page["found"] == told["found"]
@@ -134,4 +136,4 @@ def test_an_option_that_is_not_there_or_another_function_s_is_refused():
         read_options({"repeated": "yes"}, lambda one: one.name)
     for alone in ("/etc/hostname", ["a", "b"], {}):  # a request cannot name a file of the server
         with pytest.raises(InvalidType, match="alone must be a file"):
-            records.measured("a.csv", b"Time (s),Force (N)\n0,0\n", {"alone": alone})
+            records.measure_record("a.csv", b"Time (s),Force (N)\n0,0\n", {"alone": alone})

@@ -17,7 +17,7 @@ from stackbounce.model.laws.elastic import ElasticLaw
 from stackbounce.model.laws.law import ContactLaw, stiffness_in
 from stackbounce.model.laws.registry import register
 from stackbounce.synthetic.waveform import waveform as record_of
-from stackbounce.web.answers.catalogue import catalogue
+from stackbounce.web.answers.catalogue import list_choices
 from stackbounce.web.limits import LIMITS
 
 MASS, SPEED, TIME, KEPT = 0.1, 2.0, 4e-3, 0.8
@@ -39,10 +39,10 @@ class SharpCone(ElasticLaw):
 def cone():
     """Register the law for one test."""
     law = register(dataclasses.dataclass(frozen=True)(SharpCone))
-    catalogue.cache_clear()
+    list_choices.cache_clear()
     yield law
     del LAWS["SharpCone"]
-    catalogue.cache_clear()
+    list_choices.cache_clear()
 
 
 def measured(kind):
@@ -90,7 +90,7 @@ def goes_through_every_face(kind, tmp_path, capfd):
     table = capfd.readouterr().out
     assert tables.law_text(law) in " ".join(table.split())
 
-    (page,) = [one for one in json.loads(catalogue(LIMITS))["laws"] if one["law"] == name]
+    (page,) = [one for one in json.loads(list_choices(LIMITS))["laws"] if one["law"] == name]
     assert (page["formula"], page["source"], page["says"]) == (kind.formula, kind.source, kind.says)
     assert [one["name"] for one in page["fields"]] == list(kind.quantities())
     return law, result

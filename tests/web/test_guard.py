@@ -13,7 +13,7 @@ import uvicorn
 
 from stackbounce.errors import InvalidValue
 from stackbounce.web import LIMITS, timeouts
-from stackbounce.web.answers import compile_all
+from stackbounce.web.answers import kernels
 from stackbounce.web.guard import Guard
 from stackbounce.web.worker_pool import Busy, TooLong, Workers
 
@@ -230,17 +230,17 @@ def test_processes_that_were_ended_while_idle_are_made_anew(workers):
 
 
 def test_the_process_that_compiles_may_be_ended(monkeypatch):
-    monkeypatch.setattr(compile_all, "_COMPILING", 0.1)
+    monkeypatch.setattr(kernels, "_COMPILING", 0.1)
     held, ready = threading.Lock(), threading.Event()
     held.acquire()  # by a process that is no more
-    compile_all.prepare(held, ready)
+    kernels.load_kernels(held, ready)
     assert ready.is_set()
     assert held.locked()
 
 
 def test_silent_connections_are_closed():
     async def run():
-        protocol = timeouts.patient_protocol(0.2)
+        protocol = timeouts.make_protocol(0.2)
         config = uvicorn.Config(echo, http=protocol, log_level="error", lifespan="off")
         config.load()
         server = uvicorn.Server(config)

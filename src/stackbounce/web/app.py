@@ -1,27 +1,33 @@
-"""The server's addresses: what is asked there, and which answer is computed."""
+"""The server's addresses: the request that each takes, and the function that computes its answer.
+
+An address that takes and returns JSON is a line of `ROUTES`. Files need functions of their own.
+"""
 
 import contextlib
+import functools
+import inspect
 import json
 import tempfile
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NamedTuple
 
 from fastapi import FastAPI, File, Form, Request, UploadFile
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse, Response
 from fastapi.staticfiles import StaticFiles
+from pydantic import BaseModel
 
 from stackbounce.errors import InvalidValue, StackbounceError, shown
 from stackbounce.version import __version__
 from stackbounce.web import schema
 from stackbounce.web.answers import catalogue, exports, maps, play, records
 from stackbounce.web.guard import Guard
-from stackbounce.web.limits import Limits
+from stackbounce.web.limits import LIMITS, Limits
 from stackbounce.web.paper_pages import Papers
 from stackbounce.web.worker_pool import Busy, TooLong, Workers
 
-__all__ = ["create_app"]
+__all__ = ["ROUTES", "Route", "create_app"]
 
 _STATIC = Path(__file__).parent / "static"
 _PROBLEMS: dict[int | str, dict[str, Any]] = {
@@ -45,13 +51,33 @@ _EXPORTED: dict[int | str, dict[str, Any]] = {
 _ENDINGS = {"python": "py"}
 
 
+class Route(NamedTuple):
+    """An address that takes JSON and returns JSON, computed by a worker process."""
+
+    path: str
+    compute: Callable[..., str]
+    request: type[schema.Request]
+    answer: type[BaseModel]
+
+
+ROUTES = (
+    Route("/api/stack", catalogue.stack_balls, schema.StackRequest, schema.CatalogueStack),
+    Route("/api/law", catalogue.calibrate_law, schema.MeasuredLaw, schema.OneContact),
+    Route("/api/like", catalogue.convert_law, schema.LikeLaw, schema.OneContact),
+    Route("/api/simulate", play.play_drop, schema.Play, schema.Simulation),
+    Route("/api/map", maps.map_drop, schema.MapRequest, schema.Map),
+    Route("/api/map/paths", maps.list_paths, schema.MapPaths, schema.Paths),
+)
+"""All addresses that take and return JSON; a new one is a line here."""
+
+
 def create_app(limits: Limits) -> Any:
     """Return the explorer's server, an ASGI application.
 
     Parameters
     ----------
     limits : Limits
-        How much one request may ask for.
+        Of the server as a whole; those of a single request are always `LIMITS`.
 
     Returns
     -------
@@ -85,8 +111,10 @@ def create_app(limits: Limits) -> Any:
         responses=_PROBLEMS,
     )
     _add_errors(app)
-    _add_answers(app, workers, limits)
-    _add_records(app, workers, limits)
+    for route in ROUTES:
+        _add_route(app, workers, route)
+    _add_queries(app, workers, limits)
+    _add_files(app, workers)
     _add_pages(app)
     return Guard(app, limits)
 
@@ -95,119 +123,94 @@ def _json(text: str) -> Response:
     return Response(text, media_type="application/json")
 
 
-def _add_answers(app: FastAPI, workers: Workers, limits: Limits) -> None:
-    """Add the addresses that take JSON."""
-    seconds = limits.job_seconds
+def _add_route(app: FastAPI, workers: Workers, route: Route) -> None:
+    """Add a route: the request's fields are the keywords of its answer function."""
+
+    async def respond(asked: Any) -> Response:
+        job = functools.partial(route.compute, **dict(asked))
+        return _json(await workers.run(job, seconds=LIMITS.job_seconds))
+
+    respond.__annotations__["asked"] = route.request
+    app.post(
+        route.path,
+        response_model=route.answer,
+        name=route.compute.__name__,
+        description=inspect.cleandoc(route.compute.__doc__ or "").partition("\n")[0],
+    )(respond)
+
+
+def _add_queries(app: FastAPI, workers: Workers, limits: Limits) -> None:
+    """Add the addresses that take nothing."""
 
     @app.get("/api/status", response_model=schema.State)
-    async def status() -> dict[str, Any]:
-        """Tell whether the compiled kernels are there: the first start compiles them."""
+    async def read_status() -> dict[str, Any]:
+        """Tell whether the compiled kernels are loaded: the first start compiles them."""
         return {"stackbounce": __version__, "ready": workers.ready}
 
     @app.get("/api/catalogue", response_model=schema.Catalogue)
-    async def balls_laws_and_cases() -> Response:
-        """List the balls, the contact laws, the paper's cases, and the bounds of a request."""
-        return _json(await workers.run(catalogue.catalogue, limits, seconds=seconds))
+    async def list_choices() -> Response:
+        """List the balls, the contact laws, the paper's cases, and the limits of a request."""
+        job = (catalogue.list_choices, limits)
+        return _json(await workers.run(*job, seconds=LIMITS.job_seconds))
 
-    @app.post("/api/stack", response_model=schema.CatalogueStack)
-    async def stack(asked: schema.StackRequest) -> Response:
-        """Put balls of the catalogue on top of each other."""
-        job = (catalogue.stacked, asked.balls, asked.height)
-        return _json(await workers.run(*job, seconds=seconds))
+    @app.get("/api/measure/options", response_model=schema.MeasureOptions)
+    async def list_options() -> Response:
+        """List the kinds of measurement and the options of the page's form."""
+        return _json(records.list_options())
 
-    @app.post("/api/law", response_model=schema.OneContact)
-    async def law(asked: schema.MeasuredLaw) -> Response:
-        """Find the constants of a law from restitution and contact time."""
-        given = asked.model_dump(exclude={"law"}, exclude_none=True)
-        return _json(await workers.run(catalogue.measured_law, asked.law, given, seconds=seconds))
 
-    @app.post("/api/like", response_model=schema.OneContact)
-    async def like(asked: schema.LikeLaw) -> Response:
-        """Find another law with the restitution and contact time of this one."""
-        numbers = asked.mass, asked.impact_speed, asked.restitution, asked.contact_time
-        job = (catalogue.like, asked.contact, asked.to, *numbers)
-        return _json(await workers.run(*job, seconds=seconds))
-
-    @app.post("/api/simulate", response_model=schema.Simulation)
-    async def simulate(asked: schema.Play) -> Response:
-        """Drop a stack of balls: where everything is at each moment."""
-        job = (play.simulation, asked.drop, asked.until, asked.frames, limits.events)
-        return _json(await workers.run(*job, seconds=seconds))
-
-    @app.post("/api/map", response_model=schema.Map)
-    async def drop_map(asked: schema.MapRequest) -> Response:
-        """Map a number of the outcome over two numbers of the drop."""
-        points = asked.x.count * asked.y.count
-        if points > limits.map_points:
-            raise InvalidValue(
-                f"x.count times y.count must be at most {limits.map_points}, got {points}"
-            )
-        x, y = (maps.Line(**side.model_dump()) for side in (asked.x, asked.y))
-        job = (maps.drop_map, asked.drop, x, y, asked.show, limits.events)
-        return _json(await workers.run(*job, seconds=seconds))
-
-    @app.post("/api/map/paths", response_model=schema.Paths)
-    async def map_paths(asked: schema.MapPaths) -> Response:
-        """List what can vary over a map of this drop, and what it can show."""
-        return _json(await workers.run(maps.map_paths, asked.drop, seconds=seconds))
+def _add_files(app: FastAPI, workers: Workers) -> None:
+    """Add the addresses that take or return a file."""
 
     @app.post("/api/export/{kind}", response_class=Response, responses=_EXPORTED)
-    async def export(kind: schema.ExportKind, asked: schema.Export) -> Response:
-        """Write a drop to a file: its data, its picture, its scenario, or lines of Python."""
-        job = (exports.exported, kind, asked.drop, asked.until, limits.events)
-        content = await workers.run(*job, seconds=seconds)
+    async def export_drop(kind: schema.ExportKind, asked: schema.Export) -> Response:
+        """Export a drop as a file: its data, its picture, its scenario, or lines of Python."""
+        job = (exports.export_drop, kind, asked.drop, asked.until)
+        content = await workers.run(*job, seconds=LIMITS.job_seconds)
         name = f"drop.{_ENDINGS.get(kind, kind)}"
         headers = {"content-disposition": f'attachment; filename="{name}"'}
         return Response(content, media_type=exports.KINDS[kind], headers=headers)
 
-
-def _add_records(app: FastAPI, workers: Workers, limits: Limits) -> None:
-    """Add the addresses that take a file."""
-
-    @app.get("/api/measure/options", response_model=schema.MeasureOptions)
-    async def measure_options() -> Response:
-        """List the kinds of measurement, and the options that a file may need."""
-        return _json(records.options())
-
     @app.post("/api/measure", response_model=schema.Measured)
-    async def measure(
+    async def measure_record(
         file: Annotated[UploadFile, File()],
         options: Annotated[str, Form()] = "{}",
         alone: Annotated[UploadFile | None, File()] = None,
     ) -> Response:
-        """Tell what a file of measurements is, and what is found in it."""
+        """Recognise a file of measurements and analyse it."""
         other = None if alone is None else (_name(alone), await alone.read())
-        known = _object("options", options)
-        job = (records.measured, _name(file), await file.read(), known, other)
-        return _json(await workers.run(*job, seconds=limits.fit_seconds))
+        known = _parse_object("options", options)
+        job = (records.measure_record, _name(file), await file.read(), known, other)
+        return _json(await workers.run(*job, seconds=LIMITS.fit_seconds))
 
     @app.post("/api/fit", response_model=schema.Fitted)
-    async def fit(
+    async def fit_record(
         drop: Annotated[str, Form()],
         vary: Annotated[str, Form()],
         measured: Annotated[str, Form()] = "{}",
         file: Annotated[UploadFile | None, File()] = None,
         options: Annotated[str, Form()] = "{}",
     ) -> Response:
-        """Fit a drop to what was measured: numbers with errors, or the forces of a file."""
-        asked = schema.read_drop(_parsed("drop", drop))
-        paths = _parsed("vary", vary)
+        """Fit a drop to measured numbers, or to the forces of a file."""
+        asked = schema.read_drop(_parse("drop", drop))
+        paths = _parse("vary", vary)
         if not isinstance(paths, list) or not all(isinstance(path, str) for path in paths):
             raise InvalidValue(f"vary must be a list of paths, got {shown(vary)}")
-        if not 0 < len(paths) <= limits.varied:
-            raise InvalidValue(f"vary must have from 1 to {limits.varied} paths, got {len(paths)}")
-        told = _object("measured", measured)
-        if not all(isinstance(value, str) for value in told.values()):
+        if not 0 < len(paths) <= LIMITS.varied:
+            raise InvalidValue(f"vary must have from 1 to {LIMITS.varied} paths, got {len(paths)}")
+        values = _parse_object("measured", measured)
+        if not all(isinstance(value, str) for value in values.values()):
             raise InvalidValue("measured must have texts such as '1.64 ± 0.02'")
-        if not told:
+        if not values:
             raise InvalidValue(
                 "measured must name what was measured, such as "
                 '{"rebound_ratios.1": "1.64 ± 0.02"}, got nothing'
             )
         content = b"" if file is None else await file.read()
         name = "" if file is None else _name(file)
-        job = (records.fitted, asked, paths, told, name, content, _object("options", options))
-        return _json(await workers.run(*job, seconds=limits.fit_seconds))
+        known = _parse_object("options", options)
+        job = (records.fit_record, asked, paths, values, name, content, known)
+        return _json(await workers.run(*job, seconds=LIMITS.fit_seconds))
 
 
 def _name(file: UploadFile) -> str:
@@ -216,14 +219,14 @@ def _name(file: UploadFile) -> str:
     return "".join(c if c.isprintable() else "?" for c in name)[:80] or "the file"
 
 
-def _object(what: str, text: str) -> dict[str, Any]:
-    value = _parsed(what, text)
+def _parse_object(what: str, text: str) -> dict[str, Any]:
+    value = _parse(what, text)
     if not isinstance(value, dict):
         raise InvalidValue(f"{what} must be an object in JSON, got {shown(text)}")
     return value
 
 
-def _parsed(what: str, text: str) -> Any:
+def _parse(what: str, text: str) -> Any:
     try:
         return json.loads(text)
     except (ValueError, RecursionError):
@@ -247,7 +250,7 @@ def _add_pages(app: FastAPI) -> None:
 
 
 def _add_errors(app: FastAPI) -> None:
-    """Say in one line what was wrong, whatever it was."""
+    """Answer every error with one line that says what was wrong."""
 
     def problem(status: int, detail: str) -> JSONResponse:
         headers = {"retry-after": "5"} if status == 503 else None
@@ -256,7 +259,7 @@ def _add_errors(app: FastAPI) -> None:
 
     @app.exception_handler(RequestValidationError)
     async def invalid(_: Request, error: RequestValidationError) -> Response:
-        return problem(422, schema.told(error.errors()[0]))
+        return problem(422, schema.describe_error(error.errors()[0]))
 
     @app.exception_handler(StackbounceError)
     async def wrong(_: Request, error: StackbounceError) -> Response:

@@ -1,7 +1,7 @@
-"""Which requests are let in at all, and the headers that every answer has.
+"""Admission of requests, and the security headers of every answer.
 
-The server belongs to the page that it serves: pages of other sites must not use it behind their
-reader's back, so a request has to name this machine, and must not come from elsewhere.
+Only the page that this server serves may use it, not the pages of other sites that are open in the
+same browser. So a request must name this machine as its host, and must not come from another site.
 """
 
 import asyncio
@@ -30,7 +30,7 @@ PAPER = (
     "default-src 'none'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-"""What a page of the paper may load: it is one file with all its style and pictures inside."""
+"""The content security policy of the paper's pages, which hold their styles and pictures inline."""
 
 _HEADERS = {
     "x-content-type-options": "nosniff",
@@ -44,13 +44,13 @@ _HEADERS = {
 }
 _HOST = re.compile(r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::\d{1,5})?", re.ASCII)
 _POLICY = b"content-security-policy"
-_LINGER = 3.0  # s, for which a refused request is listened to
-_PATIENCE = 8  # times an upload, of a refused request that is still taken
+_DRAIN_SECONDS = 3.0  # s, for which a refused request is still read
+_DRAINED = 8  # most uploads' worth of bytes that is read of a refused request
 _UPLOADS = ("/api/measure", "/api/fit")
 
 
 class _Refused(Exception):
-    """A request that is not let in."""
+    """A request is refused."""
 
     def __init__(self, status: int, detail: str) -> None:
         super().__init__(detail)
@@ -58,14 +58,14 @@ class _Refused(Exception):
 
 
 class Guard:
-    """An ASGI application around another one.
+    """An ASGI application that checks requests before it passes them to another one.
 
     Parameters
     ----------
     app : callable
-        What answers the requests that are let in.
+        The ASGI application that answers admitted requests.
     limits : Limits
-        How large a request may be, and how long it may take to come.
+        Limits of the size of a request and of the time in which it must arrive.
 
     Examples
     --------
@@ -86,14 +86,14 @@ class Guard:
         headers = {
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
-        answer = _with_headers(send, scope["path"])
+        answer = _add_headers(send, scope["path"])
         body = bytearray()
         try:
             self._check(scope, headers)
             await self._receive(body, scope, headers, receive)
-            await self._app(scope, _replayed(bytes(body), receive), answer)
+            await self._app(scope, _replay(bytes(body), receive), answer)
         except _Refused as refused:
-            await self._let_out(receive)
+            await self._drain(receive)
             await _refuse(answer, refused)
         finally:
             self._held -= len(body)
@@ -108,12 +108,14 @@ class Guard:
         if origin is not None and origin.casefold() != f"http://{host.casefold()}":
             raise _Refused(403, "pages of other sites cannot use this server")
         site, mode = headers.get("sec-fetch-site", "").casefold(), headers.get("sec-fetch-mode")
-        followed = mode == "navigate" and scope["method"] == "GET"  # a link may lead here
+        followed = (
+            mode == "navigate" and scope["method"] == "GET"
+        )  # a link on another site may lead here
         if site in ("cross-site", "same-site") and not followed:
             raise _Refused(403, "pages of other sites cannot use this server")
 
     def _is_here(self, host: str) -> bool:
-        """Tell whether a name is this machine's: any other may have been made to lead here."""
+        """Return whether a host names this machine; another name may be one of DNS rebinding."""
         found = _HOST.fullmatch(host)
         if found is None:
             return False
@@ -129,7 +131,7 @@ class Guard:
     async def _receive(
         self, body: bytearray, scope: _Message, headers: dict[str, str], receive: _Receive
     ) -> None:
-        """Receive a request's body, if it is small enough and comes in time."""
+        """Receive the body of a request; refuse one that is too large or too slow."""
         limits = self._limits
         most = limits.upload_bytes if scope["path"] in _UPLOADS else limits.body_bytes
         length = headers.get("content-length", "0")
@@ -154,11 +156,11 @@ class Guard:
             seconds = limits.upload_seconds
             raise _Refused(408, f"the request did not come in whole within {seconds:g} s") from None
 
-    async def _let_out(self, receive: _Receive) -> None:
-        """Take what still comes of a refused request, so that its sender listens to the answer."""
-        left = _PATIENCE * self._limits.upload_bytes
+    async def _drain(self, receive: _Receive) -> None:
+        """Read the rest of a refused request: many clients send all before they read an answer."""
+        left = _DRAINED * self._limits.upload_bytes
         with contextlib.suppress(TimeoutError):
-            async with asyncio.timeout(_LINGER):
+            async with asyncio.timeout(_DRAIN_SECONDS):
                 while left > 0:
                     message = await receive()
                     left -= len(message.get("body", b""))
@@ -171,8 +173,8 @@ def _too_large(most: int) -> _Refused:
     return _Refused(413, f"the request is larger than {size}: send less, such as a shorter record")
 
 
-def _replayed(body: bytes, receive: _Receive) -> _Receive:
-    """Return what hands out a body that was received already."""
+def _replay(body: bytes, receive: _Receive) -> _Receive:
+    """Return a `receive` that delivers a body that was already received."""
     left = [body]
 
     async def again() -> _Message:
@@ -183,8 +185,8 @@ def _replayed(body: bytes, receive: _Receive) -> _Receive:
     return again
 
 
-def _with_headers(send: _Send, path: str) -> _Send:
-    """Return what sends an answer with the headers that all answers have."""
+def _add_headers(send: _Send, path: str) -> _Send:
+    """Return a `send` that adds the security headers to an answer."""
     policy = PAPER if path.startswith("/paper") else _PAGE
     own = [
         (name.encode(), value.encode())
@@ -194,7 +196,7 @@ def _with_headers(send: _Send, path: str) -> _Send:
 
     async def answer(message: _Message) -> None:
         if message["type"] == "http.response.start":
-            paper = path.startswith("/paper")  # which tells its own scripts, if it has any
+            paper = path.startswith("/paper")  # its policy may list its own scripts
             kept = {_POLICY} if paper and _POLICY in dict(message["headers"]) else set()
             given = [one for one in message["headers"] if one[0] not in names - kept]
             message = {**message, "headers": given + [one for one in own if one[0] not in kept]}

@@ -1,4 +1,4 @@
-"""How much one request may ask for, so that a class of fifty shares two cores."""
+"""Limits of a request, chosen so that a class of fifty can share two cores."""
 
 import dataclasses
 
@@ -7,42 +7,42 @@ __all__ = ["LIMITS", "Limits"]
 
 @dataclasses.dataclass(frozen=True)
 class Limits:
-    """The bounds of one request, and of all together.
+    """Limits of one request, and of all requests together.
 
     Parameters
     ----------
     balls : int
-        Of a drop.
+        Balls of a drop.
     frames : int
-        Times at which a drop is sampled.
+        Sample times of a drop.
     events : int
-        Of a run, after which it is stopped with a status that says so.
+        Events of a run; then it stops with the status EVENT_LIMIT.
     duration : float
-        In s, of a run with gravity.
+        Duration of a run in s.
     map_points : int
-        Of a map, both sides multiplied.
+        Points of a map.
     varied : int
         Numbers that a fit varies.
     body_bytes : int
-        Of a request without a file.
+        Size of a request without a file.
     upload_bytes : int
-        Of a request with a file.
+        Size of a request with a file.
     held_bytes : int
-        Of all requests that are being received or answered, together.
+        Total size of all requests that are being received or answered.
     upload_seconds : float
-        In s, for a request to come in whole.
+        Time in s in which a whole request must arrive.
     job_seconds : float
-        In s, for the computation of an answer.
+        Time limit of an ordinary job in s.
     fit_seconds : float
-        In s, for a fit.
+        Time limit of an analysis or a fit in s.
     paper_seconds : float
-        In s, for the paper's pages, which are computed once.
+        Time limit in s of the job that computes the paper's pages.
     waiting : int
-        Jobs that may be under way or wait, before further ones are sent away.
+        Jobs that may run or wait; further requests are refused.
     connections : int
-        That may be open at once.
+        Open connections.
     workers : int
-        Processes that compute.
+        Worker processes.
 
     Examples
     --------
@@ -69,4 +69,4 @@ class Limits:
 
 
 LIMITS = Limits()
-"""Those of ``stackbounce app``."""
+"""The limits of ``stackbounce app``."""

@@ -1,4 +1,4 @@
-"""The paper's pages: computed when they are first asked for, kept while the server runs."""
+"""The paper's pages: computed at the first request, kept while the server runs."""
 
 import asyncio
 import base64
@@ -18,7 +18,7 @@ from stackbounce.web.worker_pool import Workers
 __all__ = ["Papers"]
 
 _SCRIPT = re.compile(rb"<script>(.*?)</script>", re.DOTALL)
-_AGAIN = "2"  # s, until the page asks whether they are there
+_AGAIN = "2"  # s, after which the waiting page reloads itself
 _WAIT = """<!doctype html>
 <html lang="en">
 <head>
@@ -47,11 +47,11 @@ class Papers:
     Parameters
     ----------
     workers : Workers
-        What runs the job.
+        The pool that runs the job.
     folder : Path
-        Where to: an empty folder.
+        An empty folder for the pages.
     seconds : float
-        How long it may take.
+        Time limit of the job in s.
 
     Examples
     --------
@@ -66,7 +66,7 @@ class Papers:
         self._job: asyncio.Task[None] | None = None
 
     async def page(self, name: str) -> Response:
-        """Return a page or a file of the paper, or one that says that it is being computed.
+        """Return a page or file of the paper, or a waiting page while they are being computed.
 
         Raises
         ------
@@ -85,20 +85,20 @@ class Papers:
             return HTMLResponse(_WAIT.format(words=html.escape(f"It failed: {words}")), 503)
         if not name:
             return RedirectResponse("/paper/index.html")
-        return self._file(name)
+        return self._send_file(name)
 
-    def _file(self, name: str) -> Response:
+    def _send_file(self, name: str) -> Response:
         path = (self._folder / name).resolve()
         if not (path.is_relative_to(self._folder.resolve()) and path.is_file()):
             raise HTTPException(404, "the paper has no such page")
         if path.suffix != ".html":
             return FileResponse(path)
         content = path.read_bytes()
-        return HTMLResponse(content, headers={"content-security-policy": _policy(content)})
+        return HTMLResponse(content, headers={"content-security-policy": _allow_scripts(content)})
 
 
-def _policy(page: bytes) -> str:
-    """Return what a page may load, and that the scripts inside of it may run, and no others."""
+def _allow_scripts(page: bytes) -> str:
+    """Return the content security policy of a page: only its own inline scripts may run."""
     digests = [hashlib.sha256(script).digest() for script in _SCRIPT.findall(page)]
     allowed = " ".join(f"'sha256-{base64.b64encode(digest).decode()}'" for digest in digests)
     return f"{PAPER}; script-src {allowed}" if allowed else PAPER

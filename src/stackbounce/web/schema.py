@@ -1,7 +1,7 @@
-"""What requests and answers look like: pydantic over the model's own dataclasses.
+"""The schema of requests and answers: pydantic models around the package's own dataclasses.
 
-A drop is read by `Drop.from_mapping`, as from TOML: one schema, the same units, the same messages.
-What pydantic adds is the description for machines, and the bounds of one request.
+`Drop.from_mapping` reads a drop, as it does from TOML, so units and messages are the same.
+pydantic adds the OpenAPI description and the limits of a request.
 """
 
 from collections.abc import Callable
@@ -34,32 +34,33 @@ __all__ = [
     "Paths",
     "Play",
     "Problem",
+    "Request",
     "Scenario",
     "Simulation",
     "StackRequest",
     "State",
+    "describe_error",
     "read_drop",
-    "told",
 ]
 
 _Json = dict[str, Any]
 
 
-class _ReadBy:
-    """Says to pydantic that a function reads this value, and how it is described."""
+class _Reader:
+    """Makes a pydantic type from a function that reads a value and one that describes it."""
 
-    def __init__(self, read: Callable[[object], Any], described: Callable[[], _Json]) -> None:
-        self._read, self._described = read, described
+    def __init__(self, read: Callable[[object], Any], describe: Callable[[], _Json]) -> None:
+        self._read, self._describe = read, describe
 
     def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
         return core_schema.no_info_plain_validator_function(self._read)
 
     def __get_pydantic_json_schema__(self, _: CoreSchema, __: GetJsonSchemaHandler) -> _Json:
-        return self._described()
+        return self._describe()
 
 
 def read_drop(value: object) -> Drop:
-    """Return the drop that a mapping describes, if it is small enough.
+    """Read a drop from a mapping; refuse one with too many balls.
 
     Raises
     ------
@@ -83,40 +84,40 @@ def read_drop(value: object) -> Drop:
     return Drop.from_mapping(value)  # type: ignore[arg-type]
 
 
-def _described_drop() -> _Json:
-    drop = _described(Drop)
-    laws = [_described(law, name) for name, law in LAWS.items()]
-    laws.append(_object({"law": {"const": NO_FLOOR}}, ["law"]))
-    drop["properties"]["balls"] = _list(_described(Ball), 1)
-    drop["properties"]["contacts"] = _list({"anyOf": laws}, 1)
+def _describe_drop() -> _Json:
+    drop = _describe(Drop)
+    laws = [_describe(law, name) for name, law in LAWS.items()]
+    laws.append(_describe_object({"law": {"const": NO_FLOOR}}, ["law"]))
+    drop["properties"]["balls"] = _describe_list(_describe(Ball), 1)
+    drop["properties"]["contacts"] = _describe_list({"anyOf": laws}, 1)
     return drop
 
 
-def _described(kind: type, law: str | None = None) -> _Json:
-    """Return the JSON schema of a dataclass, whose numbers may be texts with a unit."""
+def _describe(kind: type, law: str | None = None) -> _Json:
+    """Return the JSON schema of a dataclass; its numbers may be texts with a unit."""
     properties: _Json = {} if law is None else {"law": {"const": law}}
     hints = get_type_hints(kind, include_extras=True)
     for one in fields(kind):
         if one.init and not one.name.startswith("_"):
-            properties[one.name] = _described_field(hints[one.name])
+            properties[one.name] = _describe_field(hints[one.name])
     missing = [one.name for one in fields(kind) if one.init and one.default is MISSING]
-    return _object(properties, ([] if law is None else ["law"]) + missing)
+    return _describe_object(properties, ([] if law is None else ["law"]) + missing)
 
 
-def _described_field(hint: Any) -> _Json:
+def _describe_field(hint: Any) -> _Json:
     unit = unit_of(hint)
     if unit is None:
         return {"type": "string"}
     said = f"in {unit.symbol}, or a text with a unit" if unit.symbol else "a pure number"
     number: _Json = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": said}
-    return _list(number, 0) if "Sequence" in str(hint) else number
+    return _describe_list(number, 0) if "Sequence" in str(hint) else number
 
 
-def _list(items: _Json, least: int) -> _Json:
+def _describe_list(items: _Json, least: int) -> _Json:
     return {"type": "array", "items": items, "minItems": least, "maxItems": LIMITS.balls}
 
 
-def _object(properties: _Json, required: list[str]) -> _Json:
+def _describe_object(properties: _Json, required: list[str]) -> _Json:
     return {
         "type": "object",
         "properties": properties,
@@ -125,14 +126,14 @@ def _object(properties: _Json, required: list[str]) -> _Json:
     }
 
 
-Scenario = Annotated[Drop, _ReadBy(read_drop, _described_drop)]
+Scenario = Annotated[Drop, _Reader(read_drop, _describe_drop)]
 """A drop, with the keys and units of a scenario file."""
 
 Contact = Annotated[
     ContactLaw | None,
-    _ReadBy(
+    _Reader(
         lambda value: read_law(value, "contact"),
-        lambda: {"anyOf": [_described(law, name) for name, law in LAWS.items()]},
+        lambda: {"anyOf": [_describe(law, name) for name, law in LAWS.items()]},
     ),
 ]
 """A contact law, as in a scenario file."""
@@ -145,18 +146,18 @@ _Law = Annotated[
 ]
 
 ExportKind = Literal["csv", "toml", "python", "svg", "png"]
-"""What a drop can be written to."""
+"""Kinds of file that a drop can be exported to."""
 
 
-def told(error: Any) -> str:
-    """Return an error of pydantic in one line: where it is, what was wrong, what was got.
+def describe_error(error: Any) -> str:
+    """Describe a pydantic error in one line: the field, what is wrong, and the value.
 
     Examples
     --------
-    >>> told({"type": "missing", "loc": ("body", "x", "low"), "msg": "Field required"})
+    >>> describe_error({"type": "missing", "loc": ("body", "x", "low"), "msg": "Field required"})
     'x.low: field required'
     """
-    if error["type"] == "value_error":  # the package's own words, which begin with the path
+    if error["type"] == "value_error":  # raised by this package; its message begins with the path
         return str(error["ctx"]["error"])
     if error["type"] == "json_invalid" or error["loc"] == ("body",):
         return "the request must be an object in JSON, with content-type application/json"
@@ -166,34 +167,36 @@ def told(error: Any) -> str:
     return f"{where}: {words}{got}"
 
 
-class _Request(BaseModel):
+class Request(BaseModel):
+    """The body of a request: a JSON object without unknown keys."""
+
     model_config = ConfigDict(extra="forbid")
 
 
-class Play(_Request):
-    """A drop to be played."""
+class Play(Request):
+    """A drop to simulate."""
 
     drop: Scenario
     until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
     frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
 
 
-class Export(_Request):
-    """A drop to be written to a file."""
+class Export(Request):
+    """A drop to export."""
 
     drop: Scenario
     until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
 
 
-class StackRequest(_Request):
+class StackRequest(Request):
     """Balls of the catalogue, the lowest first."""
 
     balls: Annotated[list[_Name], Field(min_length=1, max_length=LIMITS.balls)]
     height: _Positive = 1.0
 
 
-class MeasuredLaw(_Request):
-    """What was measured of a contact, and the law that is to have it."""
+class MeasuredLaw(Request):
+    """A measured contact, and the law to calibrate."""
 
     law: _Law
     mass: _Positive
@@ -203,8 +206,8 @@ class MeasuredLaw(_Request):
     exponent: _Positive | None = None
 
 
-class LikeLaw(_Request):
-    """A contact, and another law that is to have its restitution and contact time."""
+class LikeLaw(Request):
+    """A contact, and the law to replace its own, with the same restitution and contact time."""
 
     contact: Contact
     to: _Law
@@ -214,7 +217,7 @@ class LikeLaw(_Request):
     contact_time: _Positive | None = None
 
 
-class Axis(_Request):
+class Axis(Request):
     """A number that varies over one side of a map."""
 
     path: _Name
@@ -224,7 +227,7 @@ class Axis(_Request):
     log: bool = False
 
 
-class MapRequest(_Request):
+class MapRequest(Request):
     """A map of a drop over two of its numbers."""
 
     drop: Scenario
@@ -233,8 +236,8 @@ class MapRequest(_Request):
     show: _Name = "rebound_ratio.1"
 
 
-class MapPaths(_Request):
-    """A drop whose numbers are asked for."""
+class MapPaths(Request):
+    """A drop whose numbers and outcomes are to be listed."""
 
     drop: Scenario
 
@@ -246,7 +249,7 @@ class Problem(BaseModel):
 
 
 class State(BaseModel):
-    """Whether the compiled kernels are there yet."""
+    """Whether the compiled kernels are loaded."""
 
     stackbounce: str
     ready: bool
@@ -263,7 +266,7 @@ class Catalogue(BaseModel):
 
 
 class CatalogueStack(BaseModel):
-    """Balls of the catalogue on top of each other, and where their numbers come from."""
+    """Balls of the catalogue on top of each other, and the sources of their numbers."""
 
     drop: _Json
     contact_sources: list[str]
@@ -277,7 +280,7 @@ class OneContact(BaseModel):
 
 
 class Simulation(BaseModel):
-    """What happened to a drop, moment by moment; numbers in SI units, null if not finite."""
+    """The motion of a drop at each moment; numbers in SI units, null if not finite."""
 
     stackbounce: str
     drop: _Json
@@ -322,7 +325,7 @@ class Map(BaseModel):
 
 
 class Paths(BaseModel):
-    """What can vary over a map, and what it can show."""
+    """The numbers that a map can vary, and the outcomes that it can show."""
 
     paths: list[_Json]
     shows: list[_Json]
@@ -340,14 +343,14 @@ class Curve(BaseModel):
 
 
 class MeasureOptions(BaseModel):
-    """Kinds of measurement, and the options that a file may need, in a form's order."""
+    """Kinds of measurement, and options of a file, in the order of the form."""
 
     kinds: list[_Json]
     options: list[_Json]
 
 
 class Measured(BaseModel):
-    """What a file is, and what was found in it."""
+    """The format of a file, and the results of its analysis."""
 
     stackbounce: str
     file: str

@@ -16,12 +16,12 @@ from stackbounce.web.limits import Limits
 __all__ = ["HOST", "PORT", "serve"]
 
 HOST = "127.0.0.1"
-"""Where it listens: on this machine alone."""
+"""The default address: it can be reached from this machine only."""
 
 PORT = 8050
-"""The first port that is tried, if none is asked for."""
+"""The first port that is tried by default."""
 
-_MORE = 20  # further ports that are tried
+_MORE = 20  # number of ports that are tried by default
 
 
 def serve(
@@ -46,25 +46,25 @@ def serve(
     browser : bool
         Whether to open the page.
     tell : callable
-        Is told the page's address, in a line, once it is served.
+        Called with the address of the page once the server has started.
 
     Raises
     ------
     FileError
-        If the address cannot be used, or the port is taken.
+        If the port is taken or cannot be used.
     InvalidValue
-        If it is no port.
+        If the port is not from 0 to 65535, or the host is not an address of this machine.
     """
     import uvicorn
 
     from stackbounce.web.app import create_app
-    from stackbounce.web.timeouts import patient_protocol
+    from stackbounce.web.timeouts import make_protocol
 
-    with contextlib.closing(_listening(host, port)) as listening:
-        address = f"http://{_shown(host)}:{listening.getsockname()[1]}/"
+    with contextlib.closing(_open_socket(host, port)) as listening:
+        address = f"http://{_name_host(host)}:{listening.getsockname()[1]}/"
         config = uvicorn.Config(
             create_app(limits),
-            http=patient_protocol(),
+            http=make_protocol(),
             log_level="warning",
             limit_concurrency=limits.connections,
             timeout_keep_alive=30,
@@ -73,10 +73,10 @@ def serve(
         )
         server = uvicorn.Server(config)
         waiting = threading.Thread(
-            target=_when_started, args=(server, address, browser, tell), daemon=True
+            target=_announce, args=(server, address, browser, tell), daemon=True
         )
         waiting.start()
-        before = signal.signal(signal.SIGTERM, _end)  # uvicorn passes it on once all is stopped
+        before = signal.signal(signal.SIGTERM, _exit)  # uvicorn raises it again at its end
         try:
             with contextlib.suppress(KeyboardInterrupt):
                 server.run(sockets=[listening])
@@ -84,12 +84,12 @@ def serve(
             signal.signal(signal.SIGTERM, before)
 
 
-def _end(*_: Any) -> None:
-    """End as a program does, so that what the processes share is given back."""
+def _exit(*_: Any) -> None:
+    """Exit in the ordinary way, so that shared resources of the processes are released."""
     raise SystemExit(0)
 
 
-def _listening(host: str, port: int | None) -> socket.socket:
+def _open_socket(host: str, port: int | None) -> socket.socket:
     """Return a socket that listens at a host, and at a port or the first free one."""
     tried = [whole("port", port, 0, 65535)] if port is not None else range(PORT, PORT + _MORE)
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
@@ -112,20 +112,20 @@ def _listening(host: str, port: int | None) -> socket.socket:
     raise FileError(f"{host}, port {tried[-1]} cannot be used: {problem.strerror or problem}")
 
 
-def _shown(host: str) -> str:
-    """Return a host as an address has it."""
+def _name_host(host: str) -> str:
+    """Return a host as it is written in an address."""
     if host in ("0.0.0.0", "::"):
         return socket.gethostname()
     return f"[{host}]" if ":" in host else host
 
 
-def _when_started(
+def _announce(
     server: Any,
     address: str,
     browser: bool,
     tell: Callable[[str], None],
 ) -> None:
-    """Tell the address, and open it, once the server answers."""
+    """Report the address, and open it in a browser, once the server has started."""
     while not server.started:
         if server.should_exit:
             return

@@ -1,20 +1,20 @@
-"""How long a connection may be silent, or begin a request without ending its head."""
+"""Timeouts of connections: those that send no request, or its head too slowly, are closed."""
 
 from typing import Any
 
-__all__ = ["HEAD_SECONDS", "patient_protocol"]
+__all__ = ["HEAD_SECONDS", "make_protocol"]
 
 HEAD_SECONDS = 15.0
-"""In s, for the head of a request to come in whole."""
+"""Time in s in which the whole head of a request must arrive."""
 
 
-def patient_protocol(seconds: float = HEAD_SECONDS) -> type[Any]:
-    """Return uvicorn's protocol, which closes connections that do not come to a request.
+def make_protocol(seconds: float = HEAD_SECONDS) -> type[Any]:
+    """Return uvicorn's HTTP protocol with a timeout for the head of a request.
 
     Parameters
     ----------
     seconds : float, optional
-        In s, from the opening of a connection, or from the first part of a further head.
+        Timeout in s, from the opening of a connection or from the first bytes of a further head.
 
     Returns
     -------
@@ -22,45 +22,45 @@ def patient_protocol(seconds: float = HEAD_SECONDS) -> type[Any]:
 
     Examples
     --------
-    >>> patient_protocol().__name__
-    'Patient'
+    >>> make_protocol().__name__
+    'TimeoutProtocol'
     """
     from uvicorn.protocols.http.h11_impl import H11Protocol
 
-    class Patient(H11Protocol):
-        """A connection that is closed where no request comes of it."""
+    class TimeoutProtocol(H11Protocol):
+        """A connection that is closed if no whole request head arrives in time."""
 
-        patience: Any = None
+        timer: Any = None
 
         def connection_made(self, transport: Any) -> None:
             super().connection_made(transport)
-            self.wait()
+            self.start_timer()
 
         def data_received(self, data: bytes) -> None:
             super().data_received(data)
-            if self.under_way():
-                self.let_be()
-            elif self.patience is None:
-                self.wait()
+            if self.is_answering():
+                self.cancel_timer()
+            elif self.timer is None:
+                self.start_timer()
 
         def connection_lost(self, exc: Exception | None) -> None:
-            self.let_be()
+            self.cancel_timer()
             super().connection_lost(exc)
 
-        def under_way(self) -> bool:
+        def is_answering(self) -> bool:
             return self.cycle is not None and not self.cycle.response_complete
 
-        def wait(self) -> None:
-            self.patience = self.loop.call_later(seconds, self.give_up)
+        def start_timer(self) -> None:
+            self.timer = self.loop.call_later(seconds, self.close_idle)
 
-        def let_be(self) -> None:
-            if self.patience is not None:
-                self.patience.cancel()
-                self.patience = None
+        def cancel_timer(self) -> None:
+            if self.timer is not None:
+                self.timer.cancel()
+                self.timer = None
 
-        def give_up(self) -> None:
-            self.patience = None
-            if not self.under_way():
+        def close_idle(self) -> None:
+            self.timer = None
+            if not self.is_answering():
                 self.transport.close()
 
-    return Patient
+    return TimeoutProtocol

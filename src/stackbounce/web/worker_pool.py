@@ -1,4 +1,4 @@
-"""Processes that compute: no job holds up the server, and none runs longer than it may."""
+"""A pool of worker processes: the server never computes itself, and every job has a time limit."""
 
 import asyncio
 import concurrent.futures
@@ -7,18 +7,18 @@ from collections.abc import Callable
 from typing import Any
 
 from stackbounce.errors import StackbounceError
-from stackbounce.web.answers.compile_all import begin, prepared
+from stackbounce.web.answers.kernels import check_ready, start_process
 from stackbounce.web.limits import Limits
 
 __all__ = ["Busy", "TooLong", "Workers"]
 
 
 class Busy(StackbounceError):
-    """More is asked for than can be answered now."""
+    """Too many jobs are waiting."""
 
 
 class TooLong(StackbounceError):
-    """A job that took longer than it may."""
+    """A job exceeded its time limit, or its process ended."""
 
 
 class Workers:
@@ -42,72 +42,72 @@ class Workers:
         self._context = multiprocessing.get_context("spawn")  # a fork would copy the threads
         self._limits = limits
         self._ready = self._context.Event()
-        self._under_way = 0
+        self._jobs = 0
         self._stopped = False
-        self._pool = self._processes()
+        self._pool = self._make_pool()
 
-    def _processes(self) -> Any:
+    def _make_pool(self) -> Any:
         from pebble import ProcessPool
 
         return ProcessPool(
             self._limits.workers,
-            initializer=begin,
+            initializer=start_process,
             initargs=(self._context.Lock(), self._ready),
             context=self._context,
         )
 
     @property
     def ready(self) -> bool:
-        """Whether the compiled kernels are there: the first start on a machine compiles them."""
+        """Whether some process has the compiled kernels; the first start compiles them."""
         return self._ready.is_set()
 
     def start(self) -> None:
-        """Start the processes now, which begin to load the compiled kernels."""
+        """Start the processes, which begin to load the compiled kernels."""
         for _ in range(self._limits.workers):
-            self._pool.submit(prepared, None)
+            self._pool.submit(check_ready, None)
 
     def stop(self) -> None:
-        """End the processes, whatever they do."""
+        """End the processes, also in the middle of a job."""
         self._stopped = True
         self._pool.stop()
         self._pool.join(timeout=5.0)
 
     def _submit(self, job: Callable[..., Any], seconds: float, *arguments: Any) -> Any:
-        """Hand a job to the processes; to new ones, if these have been ended from outside."""
+        """Submit a job; start new processes first if the pool was stopped from outside."""
         if not self._pool.active and not self._stopped:
             self._pool.stop()
-            self._pool = self._processes()
+            self._pool = self._make_pool()
         return self._pool.submit(job, seconds, *arguments)
 
     async def run(self, job: Callable[..., Any], *arguments: Any, seconds: float) -> Any:
-        """Return what a job returns, or raise what it raises.
+        """Run a job in a worker process; return its result, or raise its error.
 
         Parameters
         ----------
         job : callable
-            A function of a module, which goes to another process by its name.
+            A function that can be pickled.
         *arguments
-            For it.
+            Arguments of the function.
         seconds : float
-            After which its process is ended.
+            Time limit in s; the process is ended after it.
 
         Raises
         ------
         Busy
             If too many jobs are waiting.
         TooLong
-            If it was ended.
+            If the job exceeded its time limit, or its process ended.
         """
         from concurrent.futures.process import BrokenProcessPool
 
         from pebble import ProcessExpired
 
-        if self._under_way >= self._limits.waiting:
+        if self._jobs >= self._limits.waiting:
             raise Busy(
                 f"{self._limits.waiting} requests are being computed already: "
                 "wait a few seconds and try again"
             )
-        self._under_way += 1
+        self._jobs += 1
         try:
             return await asyncio.wrap_future(self._submit(job, seconds, *arguments))
         except (ProcessExpired, BrokenProcessPool):
@@ -121,4 +121,4 @@ class Workers:
                 "ask for fewer balls, points or numbers at once"
             ) from None
         finally:
-            self._under_way -= 1
+            self._jobs -= 1

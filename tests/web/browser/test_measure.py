@@ -95,7 +95,7 @@ def test_a_file_that_is_none_is_told(visit, tmp_path, content, message):
     page = opened(visit)
     file = tmp_path / "mine.csv"
     file.write_bytes(content)
-    page.locator("#measure input[type=file]").set_input_files(file)
+    page.locator(".file-drop input[type=file]").set_input_files(file)
     page.locator("#measure .field-error").filter(has_text=message).wait_for()
     visit.complaints.clear()  # Chromium logs the refusal, which is the point here
 

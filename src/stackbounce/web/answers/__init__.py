@@ -1,12 +1,12 @@
-"""What is computed for each address: plain functions, which run in the processes that compute.
+"""The answers: plain functions that run in the worker processes and return JSON or files.
 
-========= =======================================================================
-play      a drop -> where everything is at each moment, and the textbook's drop
+========= ===================================================================
+play      a drop -> its motion, and the separate collisions beside it
 maps      a drop and two of its numbers -> a number of the outcome over both
-catalogue balls, laws and the paper's cases; a law from what was measured
-records   a file -> what was found in it; a drop fitted to it
+catalogue balls, laws and the paper's cases; a law from measurements
+records   a file -> its results; a drop -> the drop fitted to it
 exports   a drop -> a file: data, picture, scenario, lines of Python
 paper     the paper's pages
-warm      the compiled kernels, before anything is asked
-========= =======================================================================
+kernels   the compiled kernels, loaded as a process starts
+========= ===================================================================
 """

@@ -1,10 +1,10 @@
-"""What there is to choose from: balls, contact laws, the paper's cases."""
+"""The balls, contact laws and paper's cases that the page offers, and laws from measurements."""
 
 import dataclasses
 import functools
 from typing import Any
 
-from stackbounce.calibration import calibrate, contact_time, restitution
+from stackbounce import calibration
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.errors import InvalidValue
 from stackbounce.json_values import as_json
@@ -13,14 +13,14 @@ from stackbounce.model.catalogue import BALLS, stack
 from stackbounce.version import __version__
 from stackbounce.web.limits import Limits
 
-__all__ = ["catalogue", "like", "measured_law", "stacked"]
+__all__ = ["calibrate_law", "convert_law", "list_choices", "stack_balls"]
 
-_DEFAULT_CONTACT_TIME = 5e-3  # s, a tennis ball's, where a rigid contact has none
+_DEFAULT_CONTACT_TIME = 5e-3  # s, a tennis ball's, as a rigid contact has none of its own
 
 
 @functools.cache
-def catalogue(limits: Limits) -> str:
-    """Return, as JSON, what there is to choose from, and the bounds of one request."""
+def list_choices(limits: Limits) -> str:
+    """List balls, contact laws, the paper's cases and the limits of a request, as JSON."""
     presets = [
         {"name": one.name, "group": one.group, "title": one.title, "says": one.says}
         | {"drop": one.drop.to_mapping()}
@@ -30,15 +30,15 @@ def catalogue(limits: Limits) -> str:
         {
             "stackbounce": __version__,
             "balls": [entry.to_mapping() for entry in BALLS],
-            "laws": [_law(kind) for kind in LAWS.values()],
+            "laws": [_describe_law(kind) for kind in LAWS.values()],
             "presets": presets,
             "limits": limits,
         }
     )
 
 
-def _law(kind: type[ContactLaw]) -> dict[str, Any]:
-    """Return what the page shows of a law, and what it has to know of it."""
+def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
+    """Return what the page shows and needs to know of a law."""
     defaults = {one.name: one.default for one in dataclasses.fields(kind)}  # type: ignore[arg-type]
     fields = []
     for name, number in kind.quantities().items():
@@ -67,43 +67,44 @@ def _law(kind: type[ContactLaw]) -> dict[str, Any]:
     }
 
 
-def stacked(names: list[str], height: float) -> str:
-    """Return, as JSON, balls of the catalogue on top of each other, and where that is from."""
-    chosen = stack(names)
+def stack_balls(balls: list[str], height: float) -> str:
+    """Stack balls of the catalogue; return the drop and the sources of its numbers, as JSON."""
+    chosen = stack(balls)
     drop = Drop(chosen.balls, chosen.contacts, chosen.gaps, height=height)
     sources = {"contact_sources": chosen.contact_sources, "gap_sources": chosen.gap_sources}
     return as_json({"drop": drop.to_mapping()} | sources)
 
 
-def measured_law(law: str, given: dict[str, float]) -> str:
-    """Return, as JSON, the law of a name that has what was measured; see `calibrate`."""
-    return _contact(calibrate(law_named(law), **given))
+def calibrate_law(law: str, **measured: float | None) -> str:
+    """Find the constants of a law from restitution and contact time; return it as JSON."""
+    given = {name: value for name, value in measured.items() if value is not None}
+    return _write_contact(calibration.calibrate(law_named(law), **given))
 
 
-def like(
+def convert_law(
     contact: ContactLaw | None,
     to: str,
     mass: float,
     impact_speed: float,
-    restitution_wanted: float | None,
-    contact_time_wanted: float | None,
+    restitution: float | None,
+    contact_time: float | None,
 ) -> str:
-    """Return, as JSON, another law with a contact's restitution and contact time."""
+    """Find another law with the restitution and contact time of a contact; return it as JSON."""
     if contact is None:
         raise InvalidValue('contact must be a law to begin with, got "none"')
-    kept, lasts = restitution_wanted, contact_time_wanted
-    if kept is None:
-        kept = restitution(contact, mass=mass, speed=impact_speed)
-    if lasts is None:
-        lasts = contact_time(contact, mass=mass, speed=impact_speed) or _DEFAULT_CONTACT_TIME
+    at = {"mass": mass, "speed": impact_speed}
+    if contact_time is None:
+        contact_time = calibration.contact_time(contact, **at) or _DEFAULT_CONTACT_TIME
     law = law_named(to)
-    given: dict[str, float] = {"contact_time": lasts, "impact_speed": impact_speed, "mass": mass}
+    given = {"contact_time": contact_time, "impact_speed": impact_speed, "mass": mass}
     if law.loss:
-        given["restitution"] = kept
+        if restitution is None:
+            restitution = calibration.restitution(contact, **at)
+        given["restitution"] = restitution
     if law.default_exponent() is None and not law.rigid:
         given["exponent"] = getattr(contact, "exponent", 1.5)
-    return _contact(calibrate(law, **given))
+    return _write_contact(calibration.calibrate(law, **given))
 
 
-def _contact(law: ContactLaw) -> str:
+def _write_contact(law: ContactLaw) -> str:
     return as_json({"contact": law.to_mapping()})

@@ -1,4 +1,4 @@
-"""A drop as files: its data, its picture, its scenario, and the lines of Python that make it."""
+"""A drop as files: its data, its picture, its scenario, and lines of Python that simulate it."""
 
 import csv
 import io
@@ -11,9 +11,9 @@ from stackbounce.model import Drop
 from stackbounce.plots import bounce
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.version import __version__
-from stackbounce.web.answers.play import ran
+from stackbounce.web.answers.play import run_drop
 
-__all__ = ["KINDS", "exported"]
+__all__ = ["KINDS", "export_drop"]
 
 KINDS = {
     "csv": "text/csv; charset=utf-8",
@@ -22,13 +22,13 @@ KINDS = {
     "svg": "image/svg+xml",
     "png": "image/png",
 }
-"""The kinds of file, and what each is called on the web."""
+"""Kinds of file, with their media types."""
 
 _SAMPLES = 1001
 _DPI = 150
 
 
-def exported(kind: str, drop: Drop, until: float | None, events: int) -> bytes:
+def export_drop(kind: str, drop: Drop, until: float | None) -> bytes:
     """Return the content of a file.
 
     Parameters
@@ -38,9 +38,7 @@ def exported(kind: str, drop: Drop, until: float | None, events: int) -> bytes:
     drop : Drop
         What is dropped.
     until : float or None
-        In s: the end of the run, if not the balls' parting.
-    events : int
-        The limit of events.
+        End of the run in s; None ends it when the balls have separated.
 
     Returns
     -------
@@ -51,15 +49,15 @@ def exported(kind: str, drop: Drop, until: float | None, events: int) -> bytes:
         case "toml":
             return drop.to_toml().encode()
         case "python":
-            return _python(drop, until).encode()
+            return _write_python(drop, until).encode()
         case "csv":
-            return _table(drop, until, events).encode()
-    return _picture(kind, drop, until, events)
+            return _write_table(drop, until).encode()
+    return _draw(kind, drop, until)
 
 
-def _python(drop: Drop, until: float | None) -> str:
+def _write_python(drop: Drop, until: float | None) -> str:
     """Return lines of Python that simulate a drop and draw it."""
-    balls = ",\n        ".join(_call("Ball", ball) for ball in drop.balls)
+    balls = ",\n        ".join(_write_call("Ball", ball) for ball in drop.balls)
     contacts = ",\n        ".join("None" if law is None else f"sb.{law!r}" for law in drop.contacts)
     plain = drop.to_mapping()
     rest = [f"{key}={plain[key]!r}" for key in plain if key not in ("balls", "contacts")]
@@ -81,15 +79,15 @@ def _python(drop: Drop, until: float | None) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _call(name: str, value: Any) -> str:
-    """Return the Python call that makes a ball, without what it leaves open."""
+def _write_call(name: str, value: Any) -> str:
+    """Return the Python call that makes a ball, without the fields that are None."""
     given = {key: one for key, one in vars(value).items() if one is not None}
     return f"sb.{name}({', '.join(f'{key}={one!r}' for key, one in given.items())})"
 
 
-def _table(drop: Drop, until: float | None, events: int) -> str:
+def _write_table(drop: Drop, until: float | None) -> str:
     """Return positions, velocities, forces, compressions and energy over time, as CSV."""
-    result = ran(drop, until, events)
+    result = run_drop(drop, until)
     begin, end = choose_window(result)
     times = np.linspace(begin, end, _SAMPLES)
     sample = sample_with_approach(result, times)
@@ -108,14 +106,14 @@ def _table(drop: Drop, until: float | None, events: int) -> str:
     return stream.getvalue()
 
 
-def _picture(kind: str, drop: Drop, until: float | None, events: int) -> bytes:
+def _draw(kind: str, drop: Drop, until: float | None) -> bytes:
     import matplotlib as mpl
 
     from stackbounce.plots.style import STYLE
 
     if kind not in ("svg", "png"):
         raise InvalidValue(f"kind must be one of {', '.join(KINDS)}, got {kind}")
-    figure = bounce(ran(drop, until, events))
+    figure = bounce(run_drop(drop, until))
     stream = io.BytesIO()
     with mpl.rc_context(STYLE):
         metadata = {"Date": None} if kind == "svg" else None

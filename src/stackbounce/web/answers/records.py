@@ -1,4 +1,4 @@
-"""What was measured: a file that came in, what is found in it, and a drop fitted to it."""
+"""Records: a file of measurements is analysed, and a drop is fitted to it."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -17,24 +17,24 @@ from stackbounce.measure.option_values import read_options
 from stackbounce.measure.options import options_for
 from stackbounce.model import Drop
 from stackbounce.version import __version__
-from stackbounce.web.answers.play import ran
+from stackbounce.web.answers.play import run_drop
 
 if TYPE_CHECKING:
     import xarray as xr
 
     from stackbounce.fitting.residuals import Record
 
-__all__ = ["fitted", "measured", "options"]
+__all__ = ["fit_record", "list_options", "measure_record"]
 
 _Array = NDArray[np.float64]
 _Series = dict[str, Any]
 
-_SHOWN = 4000  # points of a curve that a page draws, at most
-_AFTER = 1.5  # of a simulated impact that is kept of a record
+_SHOWN = 4000  # most points of a curve that a page draws
+_AFTER = 1.5  # part of a record that is kept, in durations of the simulated impact
 
 
-def options() -> str:
-    """Return, as JSON, the kinds of measurement and the options that the page's form offers."""
+def list_options() -> str:
+    """List the kinds of measurement and the options of the page's form, as JSON."""
     offered = options_for("read", "analyse").values()
     return as_json(
         {
@@ -44,22 +44,22 @@ def options() -> str:
     )
 
 
-def measured(
+def measure_record(
     name: str,
     content: bytes,
     options: Mapping[str, Any],
     alone: tuple[str, bytes] | None = None,
 ) -> str:
-    """Return, as JSON, what a file is, what is found in it, and curves to be drawn.
+    """Recognise a file of measurements and analyse it; return results and curves, as JSON.
 
     Parameters
     ----------
     name : str
         The file's name, for messages.
     content : bytes
-        What is in it.
+        The content of the file.
     options : mapping
-        What the file does not say: those of `read` and `analyse`; numbers may carry units.
+        Options of `read` and `analyse`; numbers may carry units.
     alone : (str, bytes), optional
         Name and content of a record of the lower ball alone.
 
@@ -72,41 +72,41 @@ def measured(
     Raises
     ------
     StackbounceError
-        If it cannot be read, or nothing that it should hold is there.
+        If it cannot be read, or holds nothing that can be analysed.
     """
-    one = _measured(name, content, options, alone)
+    one = _measure(name, content, options, alone)
     return as_json(
         {
             "stackbounce": __version__,
             **one.to_mapping(),
-            "series": _drawn(one.curves),
+            "series": _describe_curves(one.curves),
             "zero": one.first_touch,
             "measured": one.measured,
         }
     )
 
 
-def fitted(
+def fit_record(
     drop: Drop,
     vary: Sequence[str],
-    told: Mapping[str, str],
+    quantities: Mapping[str, str],
     name: str,
     content: bytes,
     options: Mapping[str, Any],
 ) -> str:
-    """Return, as JSON, a drop fitted to what was measured.
+    """Fit a drop to what was measured; return it as JSON.
 
     Parameters
     ----------
     drop : Drop
-        What was dropped, with all that is known.
+        The drop, with the values that are known and first guesses of those that vary.
     vary : sequence of str
-        What may change, by its path.
-    told : mapping
-        What was measured, by the names that `stackbounce.fit` takes, with errors; ``force.0`` is
+        Paths of the numbers that vary.
+    quantities : mapping
+        Measured values by the names that `stackbounce.fit` takes, with errors; ``force.0`` is
         the name of a channel of the file.
     name, content, options
-        Of the file, as in `measured`; without content there is none.
+        Of the file, as in `measure_record`; without content there is none.
 
     Returns
     -------
@@ -121,13 +121,13 @@ def fitted(
     """
     data: dict[str, Any] = {}
     record = None
-    for what, value in told.items():
+    for what, value in quantities.items():
         data[what] = value
         if what.startswith("force."):
             if not content:
                 raise InvalidValue(f"{what} needs a file with a force over time")
-            record = record or _measured(name, content, options)
-            data[what] = _channel(drop, what, value, record)
+            record = record or _measure(name, content, options)
+            data[what] = _find_channel(drop, what, value, record)
         elif re.fullmatch(r"collisions\.\d+", what) and re.fullmatch(r"\s*[0-9]{1,9}\s*", value):
             data[what] = int(value)
     done = fit(drop, data, list(vary))
@@ -135,18 +135,18 @@ def fitted(
         {
             "stackbounce": __version__,
             "drop": done.drop.to_mapping(),
-            "values": [_value(done, path) for path in done.names],
+            "values": [_describe_value(done, path) for path in done.names],
             "chi_squared": done.chi_squared,
             "degrees_of_freedom": done.degrees_of_freedom,
             "probability": done.probability,
             "notes": [*done.notes, *done.undetermined],
             "residuals": [one._asdict() for one in done.residuals],
-            "series": [_laid_on(one, done.drop) for one in done.records],
+            "series": [_align(one, done.drop) for one in done.records],
         }
     )
 
 
-def _measured(
+def _measure(
     name: str,
     content: bytes,
     options: Mapping[str, Any],
@@ -157,12 +157,12 @@ def _measured(
     return measure_file((name, content), known)
 
 
-def _drawn(curves: Sequence[Curve]) -> list[_Series]:
-    return [_curve(*one[:4]) | {"unit": one.unit, "index": i} for i, one in enumerate(curves)]
+def _describe_curves(curves: Sequence[Curve]) -> list[_Series]:
+    return [_thin(*one[:4]) | {"unit": one.unit, "index": i} for i, one in enumerate(curves)]
 
 
-def _curve(label: str, what: str, times: _Array, values: _Array) -> _Series:
-    """Return a curve with no more points than a page draws, its highest and lowest among them."""
+def _thin(label: str, what: str, times: _Array, values: _Array) -> _Series:
+    """Thin a curve to what a page draws; keep the extremes of each stretch."""
     known = np.isfinite(times) & np.isfinite(values)
     times, values = times[known], values[known]
     if len(times) > _SHOWN:
@@ -173,9 +173,9 @@ def _curve(label: str, what: str, times: _Array, values: _Array) -> _Series:
     return {"label": label.replace("_", " "), "what": what, "time": times, "values": values}
 
 
-def _channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr.DataArray":
+def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr.DataArray":
     """Return the channel of a file that is the force of a contact, cut to one impact."""
-    lasting = _AFTER * ran(drop, None, 1000).end_time
+    lasting = _AFTER * run_drop(drop, None).end_time
     own = {
         name: force
         for one in record.found
@@ -190,19 +190,19 @@ def _channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr.Data
     return own[which]
 
 
-def _value(done: Fit, path: str) -> dict[str, Any]:
+def _describe_value(done: Fit, path: str) -> dict[str, Any]:
     value = done[path]
     unit = done.units[path]
     return {"path": path, "value": value.nominal_value, "error": value.std_dev, "unit": unit}
 
 
-def _laid_on(record: "Record", drop: Drop) -> _Series:
-    """Return a force record on the fitted drop's clock and, where its scale is free, scale."""
+def _align(record: "Record", drop: Drop) -> _Series:
+    """Put a force record on the clock of the fitted drop, and on its scale if that is free."""
     index = int(record.name.partition(".")[2])
     values, unit = record.measured, record.unit
     if not unit:
-        intervals = ran(drop, None, 1000).intervals
+        intervals = run_drop(drop, None).intervals
         peak = float(np.max(intervals["peak_force"][intervals["contact"] == index], initial=0.0))
         values, unit = values * (peak / float(np.max(record.fitted))), "N"
-    curve = _curve(record.name, "force", record.times, values)
+    curve = _thin(record.name, "force", record.times, values)
     return curve | {"index": index, "unit": unit}

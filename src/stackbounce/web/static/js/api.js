@@ -1,4 +1,4 @@
-/** The server's calls: each returns what it says or throws an Error of one line. */
+/** Requests to the server: each returns its answer or throws an Error with a one-line message. */
 
 async function ask(path, options) {
   let response;

@@ -1,4 +1,4 @@
-/** Colours for numbers: viridis, which is even to the eye and to readers who do not see red or green. */
+/** Colours for numbers: viridis, which is perceptually uniform and safe for colour-blind readers. */
 
 /** Seventeen of its colours, evenly spread (S. van der Walt and N. Smith, matplotlib, CC0). */
 const VIRIDIS =

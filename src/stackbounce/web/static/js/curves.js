@@ -1,4 +1,4 @@
-/** Which curves a result has: three panels of lines in the units that people read. */
+/** The three panels of curves of a result, in convenient units. */
 
 import { format } from "./units.js";
 import { shortBall, shortContact } from "./words.js";
@@ -71,8 +71,8 @@ function energies({ drop, frames }) {
   return { what: "energy", title: "Energy", unit: factor === 1 ? "J" : "mJ", factor, lines };
 }
 
-/** Return a panel in words, for who does not see it. */
-export function described(panel) {
+/** Describe a panel in words, for screen readers. */
+export function describePanel(panel) {
   const { title, unit, lines, stems } = panel;
   const ranges = lines.map(({ label, index, values }) => {
     if (!values) {

@@ -67,7 +67,7 @@ export function numberField(spec) {
     if (document.activeElement !== input) show(value);
   };
   const commit = () => {
-    if (input.value === before) return; // what is shown may be rounded
+    if (input.value === before) return; // the shown value may be rounded
     before = input.value;
     if (spec.optional && input.value.trim() === "") spec.set(path, undefined);
     else spec.set(path, read(input.value, unit, shown));

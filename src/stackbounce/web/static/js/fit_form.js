@@ -1,8 +1,8 @@
-/** Fitting the drop to what was measured: what may vary, what is known, what came out. */
+/** The form of a fit: the measured values, the numbers that vary, and the outcome. */
 
 import { h, write } from "./dom.js";
 import { choice } from "./fields.js";
-import { told } from "./fit_words.js";
+import { describeFit } from "./fit_words.js";
 import { ballName, capital, contactName } from "./words.js";
 
 const BY_BALL = {
@@ -16,7 +16,7 @@ const BY_CONTACT = {
   last_release: "last release",
   collisions: "collisions",
 };
-const UNLIKELY = 1e-3; // chance of a true model to be as far from what was measured
+const UNLIKELY = 1e-3; // the p-value below which a fit is called poor
 const EXAMPLES = {
   rebound_ratios: "1.64 ± 0.02",
   rebound_speeds: "5.8 ± 0.1 m/s",
@@ -29,8 +29,8 @@ const EXAMPLES = {
 };
 
 /**
- * Return `{element, offer(record), follow()}`: `offer` takes what a file gave ({measured, file, options} or
- * null), `follow` the store's drop. `fitted` hears each answer and the drop before.
+ * Return `{element, offer(record), follow()}`: `offer` takes the results of a file ({measured, file, options} or
+ * null), `follow` adapts the form to the store's drop. `fitted` is called with each answer.
  */
 export function fitForm(store, api, fitted) {
   const vary = h("fieldset", { class: "fit-vary" });
@@ -111,10 +111,10 @@ export function fitForm(store, api, fitted) {
   const offer = (next) => {
     record = next;
     rows.replaceChildren();
-    const told = Object.entries(next?.measured ?? {});
-    const single = told.length === 1 && told[0][0] === "rebound_ratios.0" && store.get().drop.balls.length > 1;
+    const measured = Object.entries(next?.measured ?? {});
+    const single = measured.length === 1 && measured[0][0] === "rebound_ratios.0" && store.get().drop.balls.length > 1;
     alone.hidden = !single;
-    if (!single) for (const [name, value] of told) addRow(name, value, name.startsWith("force."));
+    if (!single) for (const [name, value] of measured) addRow(name, value, name.startsWith("force."));
     if (!rows.hasChildNodes()) addRow();
     outcome.replaceChildren();
     undo.hidden = true;
@@ -153,8 +153,8 @@ export function fitForm(store, api, fitted) {
       const answer = await api.fit(request(drop));
       before = drop;
       undo.hidden = false;
-      outcome.replaceChildren(...told(answer, { ...labels, ...Object.fromEntries([...forces(drop), ...quantities(drop)]) }));
-      write(status, verdict(answer));
+      outcome.replaceChildren(...describeFit(answer, { ...labels, ...Object.fromEntries([...forces(drop), ...quantities(drop)]) }));
+      write(status, describeVerdict(answer));
       fitted(answer);
     } catch (error) {
       write(status, "");
@@ -192,13 +192,13 @@ export function fitForm(store, api, fitted) {
   return { element, offer, follow };
 }
 
-/** Return how well the drop describes what was measured, which it has been fitted to. */
-function verdict({ probability }) {
+/** Return one sentence on how well the fitted drop describes the measurement. */
+function describeVerdict({ probability }) {
   if (probability === null || probability > UNLIKELY) return "Fitted: the drop is now the best one.";
   return "Fitted, but not well: the drop is now the nearest one, and it does not describe what was measured.";
 }
 
-/** Return a drop without the balls on top; a spring gets a damping, as a ball alone is measured for its loss. */
+/** Return a drop without the balls on top; a spring gets a damping, as one ball alone is measured for its loss of energy. */
 function lowest(drop) {
   const [{ law, stiffness }] = drop.contacts;
   const damping = Number((0.2 * Math.sqrt(stiffness * drop.balls[0].mass)).toPrecision(2));
@@ -208,7 +208,7 @@ function lowest(drop) {
   return next;
 }
 
-/** What makes the choices of a form other ones. */
+/** Return a key that changes when the form needs other choices. */
 function shapeOf({ balls, contacts }) {
   return JSON.stringify([balls.map(({ name }) => name), contacts.map(({ law }) => law)]);
 }
@@ -225,10 +225,10 @@ function quantities(drop) {
   return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", "Kinetic energy retained"]];
 }
 
-/** What tells a law's loss. */
+/** The numbers of laws that set how much energy is lost. */
 const LOSSES = ["restitution", "damping", "dissipation", "dissipative_time", "unloading_exponent"];
 
-/** Which numbers are usually unknown: losses, and with a clock stiffnesses; without one only their ratios show. */
+/** Return whether a number is usually unknown: losses are; stiffnesses are where times were measured, else only their ratio matters. */
 function isLikely(path, drop, clocks) {
   const [part, index, field] = path.split(".");
   if (part !== "contacts") return false;

@@ -1,31 +1,31 @@
 /** What a fit found, as tables and sentences. */
 
 import { h } from "./dom.js";
-import { measured } from "./quantity.js";
+import { formatMeasured } from "./quantity.js";
 import { fixed, format } from "./units.js";
 import { capital } from "./words.js";
 
-/** Return what is shown of an answer of api/fit; `labels` are what its numbers are called. */
-export function told(answer, labels) {
+/** Return tables and sentences for an answer of api/fit; `labels` has a label for each path. */
+export function describeFit(answer, labels) {
   const { values, residuals } = answer;
   const named = (note) => capital(note.replace(/[a-z_]+(\.\w+)+/g, (path) => labels[path] ?? path));
   const notes = [...new Set(answer.notes)].map(named);
-  const rows = values.map(({ path, value, error, unit }) => [labels[path] ?? capital(path), measured(value, error, unit)]);
-  const parts = [table("Found", ["Number", "Value"], rows), h("p", { text: quality(answer) })];
+  const rows = values.map(({ path, value, error, unit }) => [labels[path] ?? capital(path), formatMeasured(value, error, unit)]);
+  const parts = [table("Found", ["Number", "Value"], rows), h("p", { text: describeQuality(answer) })];
   if (residuals.length) {
     const heads = ["Quantity", "Measured", "Fitted", "Apart, in errors"];
-    parts.push(table("Measured and fitted", heads, residuals.map((one) => compared(one, labels))));
+    parts.push(table("Measured and fitted", heads, residuals.map((one) => compareRow(one, labels))));
   }
   if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((text) => h("li", { text }))));
   return parts;
 }
 
-function compared({ name, measured: value, error, fitted, pull, unit }, labels) {
+function compareRow({ name, measured: value, error, fitted, pull, unit }, labels) {
   const apart = pull === null ? "–" : fixed(pull, 1);
-  return [labels[name] ?? name, measured(value, error, unit), measured(fitted, null, unit), apart];
+  return [labels[name] ?? name, formatMeasured(value, error, unit), formatMeasured(fitted, null, unit), apart];
 }
 
-/** Return a table with a caption for who hears it. */
+/** Return a table with a caption for screen readers. */
 export function table(caption, heads, rows) {
   const body = rows.map(([first, ...others]) =>
     h("tr", {}, h("th", { scope: "row", text: first }), others.map((text) => h("td", { text }))),
@@ -39,13 +39,13 @@ export function table(caption, heads, rows) {
 }
 
 /** Return in words how well the drop describes what was measured. */
-function quality({ chi_squared: squared, degrees_of_freedom: freedom, probability }) {
-  if (freedom < 1 && squared > 1) return "The drop does not come to what was measured, whatever varies here.";
+function describeQuality({ chi_squared: squared, degrees_of_freedom: freedom, probability }) {
+  if (freedom < 1 && squared > 1) return "No values of the numbers that vary here reproduce what was measured.";
   if (freedom < 1) return "As many numbers were varied as measured: nothing is left to check the fit by.";
   const ratio = squared / freedom;
-  const told = `Chi squared is ${format(squared, 3)} for ${freedom} ${freedom === 1 ? "degree" : "degrees"} of freedom`;
+  const sentence = `Chi squared is ${format(squared, 3)} for ${freedom} ${freedom === 1 ? "degree" : "degrees"} of freedom`;
   const chance = probability === null ? (ratio < 2 ? 1 : 0) : probability;
-  if (ratio > 1 && chance < 1e-3) return `${told}: more than the errors allow. The model misses something, or the errors are larger.`;
-  if (ratio < 1 && chance > 0.999) return `${told}: less than expected. The errors are probably smaller than told.`;
-  return `${told}: as good as the errors allow.`;
+  if (ratio > 1 && chance < 1e-3) return `${sentence}: more than the errors allow. The model misses something, or the errors are larger.`;
+  if (ratio < 1 && chance > 0.999) return `${sentence}: less than expected. The errors are probably smaller than stated.`;
+  return `${sentence}: as good as the errors allow.`;
 }

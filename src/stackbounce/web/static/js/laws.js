@@ -1,10 +1,10 @@
-/** Contacts with another law, or with the law's constants for a bounce that was measured. */
+/** Changing the law of a contact, or calibrating it from a measured bounce. */
 
 import { contactMass, speedOf, withValue } from "./drops.js";
 import { clean } from "./units.js";
 
 const LOSSY = "Hysteretic"; // the paper's own way to lose energy
-const BALL = { law: "Rigid", restitution: 0.8 }; // what a contact is made like that has no law before
+const BALL = { law: "Rigid", restitution: 0.8 }; // the reference for a contact that had no law
 
 /**
  * Return `{drop, note}`: the drop with a contact's law changed, restitution and contact time kept
@@ -24,7 +24,7 @@ export async function changeLaw(api, laws, drop, contact, name) {
   return { drop: next, note: all + kept(laws, one.law, name) };
 }
 
-/** Return what a contact kept when its law was changed. */
+/** Return a sentence on what was kept when the law of a contact was changed. */
 function kept(laws, before, name) {
   if (before === "none") return "";
   if (name === "Rigid") return "Restitution kept.";
@@ -41,7 +41,7 @@ function rigid(drop, contact) {
   return drop.contacts.some((other, i) => i !== contact && other.law === "Rigid");
 }
 
-/** Return a contact with another law, as like the one before as it can be. */
+/** Return a contact with another law, of the same restitution and contact time where possible. */
 async function converted(api, name, drop, place) {
   const { law, ...numbers } = drop.contacts[place];
   const contact = law === "none" ? BALL : { law, ...numbers };
@@ -49,7 +49,7 @@ async function converted(api, name, drop, place) {
   return tidied((await api.like(request)).contact);
 }
 
-/** Return a contact without the last digits of a search, which would only lengthen the address. */
+/** Return a contact with rounded numbers, which keeps the address short. */
 function tidied(contact) {
   const entries = Object.entries(contact);
   return Object.fromEntries(entries.map(([name, value]) => [name, typeof value === "number" ? clean(value) : value]));

@@ -1,4 +1,4 @@
-/** The explorer: puts the parts of the page together. */
+/** The explorer: assembles the parts of the page. */
 
 import * as address from "./address.js";
 import * as api from "./api.js";
@@ -33,7 +33,7 @@ mountTabs(store, {
   measure: (section) => open("./measure.js", section),
 });
 place("skip").addEventListener("click", (event) => {
-  event.preventDefault(); // the fragment is the state's
+  event.preventDefault(); // the fragment holds the state
   place("stage-box").focus();
 });
 store.subscribe(({ view }) => view !== "play" && clock.pause());
@@ -62,7 +62,7 @@ async function loadCatalogue() {
 
 /** Keep the clock's window at the result's, and its cursor where the state has it. */
 function followResults() {
-  let wanted = store.get().t; // a time that a link asks for, of a result still to come
+  let wanted = store.get().t; // the time given by a link, until its result arrives
   let replay = store.get().replay;
   let shown = null; // what the cursor belongs to: the impact or the whole drop
   store.subscribe((state, before) => {
@@ -84,20 +84,20 @@ function followResults() {
   });
 }
 
-/** Give the clock the time that a result shows, and its events as stops. */
+/** Set the clock to the time window of a result, with its events as stops. */
 function setWindow({ frames, intervals }) {
   const { time } = frames;
   const events = intervals.flatMap(({ start, end }) => [start, end]).filter((event) => event !== null);
   clock.span(time[0], time.at(-1), [...new Set([0, ...events])].sort((a, b) => a - b));
 }
 
-/** Show the drop from its begin; who wants less motion starts it themselves. */
+/** Play the drop from its beginning, except where reduced motion is preferred. */
 function restart() {
   clock.seek(clock.begin);
   if (!reduced.matches && store.get().view === "play") clock.play();
 }
 
-/** Tell about a server that does not answer, and offer to try again. */
+/** Report that the server does not answer, and offer to try again. */
 function showBanner() {
   const text = place("banner-text");
   place("banner-again").addEventListener("click", () => {

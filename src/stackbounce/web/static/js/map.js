@@ -22,9 +22,9 @@ export function mount(root, store, api) {
   root.replaceChildren(parts.figure, h("div", { class: "map-side" }, form.element, parts.summary));
   let chosen = null; // {settings, paths, shows}
   let answer = null;
-  let pointed = null; // [x, y] as parts of the sides
+  let pointed = null; // [x, y] as fractions of the sides
   let timer = 0;
-  let asked = []; // the drop and the settings that were asked for
+  let asked = []; // the drop and the settings of the last request
 
   const requests = mapper(api, (news) => {
     if (news.settings) {
@@ -72,14 +72,14 @@ export function mount(root, store, api) {
     const where = inside(there) ? "The cross is the present drop." : "The present drop lies outside of this map.";
     write(parts.readout, pointed ? told(pointed) : `${where} Choose a point to play its drop.`);
   };
-  /** Where the present drop is, in parts of the sides. */
+  /** Return the place of the present drop, as fractions of the sides. */
   const present = () => {
     const { settings, paths } = answer;
     return [settings.x, settings.y].map((side) =>
       sideOf(side).part(paths.find(({ path }) => path === side.path).value),
     );
   };
-  /** What the map says at parts of the sides: values, and the outcome at the nearest point. */
+  /** Return the values and the nearest outcome at a place given as fractions of the sides. */
   const at = ([x, y]) => {
     const { settings, values } = answer;
     const nearest = (part, count) => Math.round(part * (count - 1));
@@ -122,7 +122,7 @@ export function mount(root, store, api) {
   });
   parts.board.addEventListener("click", (event) => {
     follow(event);
-    // A finger hides what it points at: it looks first, and plays by the button.
+    // A finger hides the point that it touches, so a touch only selects; the button plays.
     if (event.pointerType === "touch") parts.play.hidden = !pointed;
     else play();
   });

@@ -1,4 +1,4 @@
-/** The sides of a map: where a value lies, which ticks stand there, which ends a number begins with. */
+/** The axes of a map: scales, ticks, and the initial range of each number. */
 
 import { clean } from "./units.js";
 
@@ -73,7 +73,7 @@ function nice(value) {
   return Number(value.toPrecision(2));
 }
 
-/** Return whether a side can be drawn: two different ends, above 0 for even ratios. */
+/** Return whether an axis can be drawn: its ends differ, and are above 0 on a logarithmic scale. */
 export function isSide(side) {
   if (!side || typeof side.path !== "string") return false;
   const ends = [side.low, side.high].every((end) => typeof end === "number" && Number.isFinite(end));

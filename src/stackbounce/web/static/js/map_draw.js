@@ -43,7 +43,7 @@ export function drawMap(canvas, answer, sides, scale, colors) {
   drawKey(ctx, frame, scale, answer.unit);
 }
 
-/** What could not be finished is left open, so that these lines show through. */
+/** Draw hatching below the field; it shows through where a run did not finish. */
 function drawHatch(ctx, { left, top, width, height }, colors) {
   ctx.save();
   ctx.beginPath();
@@ -158,7 +158,7 @@ function drawLeft(ctx, { left, top, width, height }, side, axis) {
   ctx.restore();
 }
 
-/** Return a title, without what explains it where there is no room. */
+/** Return a title, shortened where there is no room. */
 function fitting(ctx, title, width) {
   return ctx.measureText(title).width <= width ? title : title.replace(/, .*?(?= \(|$)/, "");
 }

@@ -1,4 +1,4 @@
-/** Asks for a map: first a coarse one, then a fine one; the newest question wins. */
+/** Requests a map: first a coarse one, then a fine one; a newer request replaces an older one. */
 
 import { firstSide, isSide } from "./map_axes.js";
 import { depends } from "./map_words.js";
@@ -6,7 +6,7 @@ import { depends } from "./map_words.js";
 const COARSE = [24, 18];
 const FINE = [120, 90]; // springs are solved in closed form
 const SLOWER = [60, 45];
-const AGAIN = 1500; // ms until the next try, while the server prepares itself
+const AGAIN = 1500; // ms until the next try, while the server loads its kernels
 const PREPARING = /being prepared/;
 
 /** Return how many points the last map of a drop has along its sides; `laws` are the catalogue's. */
@@ -50,7 +50,7 @@ export function mapper(api, tell) {
   return { ask, drop: () => (newest += 1) };
 }
 
-/** Return the settings of a map, with what is not wanted, or does not fit the drop, chosen. */
+/** Return the settings of a map; defaults replace those that are missing or do not fit the drop. */
 function complete(wanted, paths, shows, drop) {
   const known = (side) => (isSide(side) && paths.some(({ path }) => path === side.path) ? side : null);
   const best = (other) => {

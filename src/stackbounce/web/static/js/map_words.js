@@ -4,13 +4,13 @@ import { gapsOf, withValue } from "./drops.js";
 import { clean, format, pretty, shownUnit } from "./units.js";
 import { count } from "./words.js";
 
-/** Return a number with its unit as people read it. */
+/** Return a number with a convenient unit. */
 export function quantity(value, unit) {
   const { unit: name, size } = shownUnit(unit, unit === "m" && Math.abs(value) >= 0.1);
   return `${format(clean(value / size), 3)}${name ? ` ${pretty(name)}` : ""}`;
 }
 
-/** Return a label without what explains it. */
+/** Return a label without the explanation after its comma. */
 export function brief(label) {
   return label.replace(/, .*$/, "");
 }
@@ -48,7 +48,7 @@ export function summary(answer) {
   return `${name}: smallest ${least} at ${place(answer, low.at)}; largest ${most} at ${place(answer, high.at)}.${open}`;
 }
 
-/** The numbers that follow from a ratio: which one is set, and which other one it refers to. */
+/** For each ratio: the number that it sets, and the number that it refers to. */
 const RATIOS = {
   mass_ratio: ["balls.0.mass", "balls.1.mass"],
   stiffness_ratio: ["contacts.0.stiffness", "contacts.1.stiffness"],

@@ -1,13 +1,13 @@
-/** Bring your own: a file of measurements, what is found in it, and the drop beside it. */
+/** The Measure view: a file of measurements, its results, and the record over the simulated drop. */
 
 import { h, write } from "./dom.js";
 import { fitForm } from "./fit_form.js";
 import { fileDrop } from "./file_drop.js";
-import { foundIn, recognised } from "./measure_found.js";
+import { describeFile, listFindings } from "./measure_found.js";
 import { measureForm } from "./measure_form.js";
 import { Overlay } from "./overlay.js";
 
-/** Build the view into `root`, its form of the options that the server lists. */
+/** Build the view into `root`; the server lists the options of its form. */
 export async function mount(root, store, api) {
   const { options: offered } = await api.measureOptions();
   const said = h("div", { class: "recognised", role: "status" });
@@ -36,8 +36,8 @@ export async function mount(root, store, api) {
       for (const [name, other] of Object.entries(form.files())) body.append(name, other);
       const answer = await api.measure(body);
       if (mine !== newest) return;
-      said.replaceChildren(...recognised(answer), away);
-      found.replaceChildren(...foundIn(answer, store));
+      said.replaceChildren(...describeFile(answer), away);
+      found.replaceChildren(...listFindings(answer, store));
       found.hidden = false;
       if (answer.doubt) unsaid.open = true;
       overlay.show(answer);

@@ -1,4 +1,4 @@
-/** What a file does not say: the options of a measurement, as the server lists them. */
+/** A form for the options of a measurement, as the server lists them. */
 
 import { h } from "./dom.js";
 import { choice } from "./fields.js";
@@ -14,15 +14,15 @@ export function measureForm(options, changed) {
       values[option.name] = value;
       changed();
     };
-    if (option.choices) return chosen(option, set);
-    return (FIELDS[option.form] ?? typed)(option, set);
+    if (option.choices) return chooseField(option, set);
+    return (FIELDS[option.form] ?? textField)(option, set);
   };
-  const shown = (rare) => options.filter((one) => one.rare === rare).map(field);
+  const fieldsOf = (rare) => options.filter((one) => one.rare === rare).map(field);
   const element = h(
     "form",
     { class: "measure-options", "aria-label": "What the file does not say", autocomplete: "off" },
-    shown(false),
-    h("details", {}, h("summary", { text: "More" }), h("div", { class: "measure-options" }, shown(true))),
+    fieldsOf(false),
+    h("details", {}, h("summary", { text: "More" }), h("div", { class: "measure-options" }, fieldsOf(true))),
   );
   element.addEventListener("submit", (event) => event.preventDefault());
   const given = (isFile) =>
@@ -30,26 +30,26 @@ export function measureForm(options, changed) {
   return { element, options: () => given(false), files: () => given(true) };
 }
 
-const FIELDS = { flag: checked, file: uploaded };
+const FIELDS = { flag: checkField, file: fileField };
 
-function chosen({ name, label, example, choices }, set) {
+function chooseField({ name, label, example, choices }, set) {
   const others = choices.filter((one) => one !== example).map((one) => [one, one]);
   return choice({ label, groups: [["", [["", example], ...others]]], value: "", set, key: `option-${name}` });
 }
 
-function typed(option, set) {
+function textField(option, set) {
   const text = { type: "text", placeholder: option.example, spellcheck: "false" };
-  return labelled(option, { ...text, onchange: (event) => set(event.target.value.trim()) });
+  return labelledInput(option, { ...text, onchange: (event) => set(event.target.value.trim()) });
 }
 
-function checked(option, set) {
-  return labelled(option, { type: "checkbox", onchange: (event) => set(event.target.checked) });
+function checkField(option, set) {
+  return labelledInput(option, { type: "checkbox", onchange: (event) => set(event.target.checked) });
 }
 
-function uploaded(option, set) {
-  return labelled(option, { type: "file", onchange: (event) => set(event.target.files[0] ?? "") });
+function fileField(option, set) {
+  return labelledInput(option, { type: "file", onchange: (event) => set(event.target.files[0] ?? "") });
 }
 
-function labelled({ name, label, says }, attributes) {
+function labelledInput({ name, label, says }, attributes) {
   return h("label", { class: "option", title: says }, h("span", { text: label }), h("input", { name, ...attributes }));
 }

@@ -2,11 +2,11 @@
 
 import { h } from "./dom.js";
 import { table } from "./fit_words.js";
-import { measured } from "./quantity.js";
+import { formatMeasured } from "./quantity.js";
 import { capital } from "./words.js";
 
-/** Return what is told about a file: what it holds, who wrote it, why, and what is unsure. */
-export function recognised({ file, format, why, doubt, holds }) {
+/** Return the kind and format of a file, the evidence for them, and a doubt if there is one. */
+export function describeFile({ file, format, why, doubt, holds }) {
   return [
     h("p", {}, h("b", { text: file }), ` holds a ${holds} (${format}).`),
     h("p", { class: "note", text: sentence(why) }),
@@ -14,18 +14,18 @@ export function recognised({ file, format, why, doubt, holds }) {
   ].filter(Boolean);
 }
 
-/** Return what was found, with what can be taken over into the drop. */
-export function foundIn({ found, notes }, store) {
+/** Return the results as a table and notes, with a button to use a measured impact speed. */
+export function listFindings({ found, notes }, store) {
   const speed = found.find(({ name, value }) => /(^|: )impact speed/.test(name) && value > 0);
   const take = () => {
     const { height, velocities, ...drop } = store.get().drop;
     store.set({ drop: { ...drop, impact_speed: Number(speed.value.toPrecision(4)) } });
   };
-  const rows = found.map(({ name, value, error, unit }) => [capital(name), measured(value, error, unit)]);
+  const rows = found.map(({ name, value, error, unit }) => [capital(name), formatMeasured(value, error, unit)]);
   const parts = [h("h2", { text: "Found" }), table("What was found", ["What", "Value"], rows)];
   if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((note) => h("li", { text: sentence(note) }))));
   if (speed) {
-    const text = `Drop at its impact speed, ${measured(speed.value, speed.error, "m/s")}`;
+    const text = `Drop at its impact speed, ${formatMeasured(speed.value, speed.error, "m/s")}`;
     parts.push(h("button", { type: "button", text, onclick: take }));
   }
   return parts;

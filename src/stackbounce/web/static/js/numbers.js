@@ -1,4 +1,4 @@
-/** What came out: speeds, ratios, heights, collisions and energy, beside the separate collisions. */
+/** The results: speeds, ratios, heights, collisions and energy, beside those of separate collisions. */
 
 import { h, write } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
@@ -81,7 +81,7 @@ function times(reached, fallen) {
   return reached > 0.1 * fallen ? wide(` (${format(reached / fallen, 2)}×)`) : null;
 }
 
-/** Return a text for which a phone has no room. */
+/** Return a text that is hidden on a phone. */
 function wide(text) {
   return h("span", { class: "wide-only", text });
 }

@@ -52,7 +52,7 @@ export class Overlay {
     this.draw(true);
   }
 
-  /** A force is of the impact, which the page has; a track is of the whole drop, with gravity. */
+  /** Return the simulation to compare with: the impact for a force, the whole drop with gravity for a track. */
   async simulated(curves) {
     const { drop, result, until } = this.store.get();
     if (curves[0].what === "force") {

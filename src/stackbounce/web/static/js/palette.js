@@ -1,8 +1,8 @@
-/** The colours of the page, for what is drawn on a canvas: read from style.css, so that they stand once. */
+/** The colours of the page for canvases, read from style.css, where they are defined. */
 
 const NAMES = ["text", "muted", "line", "paper", "ball-0", "ball-1", "ball-2", "ball-3", "ball-4", "ball-5"];
 
-/** Return the colours that hold now, by name. */
+/** Return the present colours by name. */
 export function palette() {
   const style = getComputedStyle(document.documentElement);
   return Object.fromEntries(NAMES.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));

@@ -2,7 +2,7 @@
 
 import uPlot from "../vendor/uplot/uPlot.esm.js";
 import { between, locate } from "./clock.js";
-import { described, panels } from "./curves.js";
+import { describePanel, panels } from "./curves.js";
 import { h, write } from "./dom.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
 import { format } from "./units.js";
@@ -40,7 +40,7 @@ export function mountPlots(root, store, clock) {
   build();
 }
 
-/** What makes a panel another one, beyond its numbers. */
+/** Return a key that changes when a panel has to be rebuilt. */
 function keyOf({ what, unit, timeUnit, lines, overlays }) {
   const named = [...lines, ...overlays].map(({ label, index, dash }) => [label, index, dash]);
   return JSON.stringify([what, unit, timeUnit, named]);
@@ -82,7 +82,7 @@ class Panel {
   }
 
   describe() {
-    this.host.setAttribute("aria-label", described(this.panel));
+    this.host.setAttribute("aria-label", describePanel(this.panel));
   }
 
   resize(clock) {

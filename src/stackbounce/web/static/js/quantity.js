@@ -1,8 +1,8 @@
-/** Measured numbers as people write them: with their error, its digits, and a unit that fits the size. */
+/** Format measured numbers with their error, rounded to its digits, in a unit of suitable size. */
 
 import { format, pretty } from "./units.js";
 
-/** For each SI unit: the units that are read, the largest first, each with its size and how it is written. */
+/** For each SI unit: the units that are shown, the largest first, with size and symbol. */
 const LADDERS = {
   s: [[1, "s"], [1e-3, "ms"], [1e-6, "µs"]],
   m: [[0.1, "m", 1], [1e-3, "mm"], [1e-6, "µm"]],
@@ -14,7 +14,7 @@ const LADDERS = {
 };
 
 /** Return a value with its error, if it has one, and its unit: "30.00 ± 0.06 ms". */
-export function measured(value, error, unit) {
+export function formatMeasured(value, error, unit) {
   if (value === null) return "–";
   if (typeof value !== "number") return String(value);
   const size = Math.abs(value) || Math.abs(error ?? 0);

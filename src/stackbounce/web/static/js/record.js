@@ -27,7 +27,7 @@ export function lines({ frames, drop }, curves) {
   });
 }
 
-/** Return how a ball got to where it comes in: a fall from rest. */
+/** Return the positions of a ball before the impact: a fall from rest. */
 function falling(end, place, velocity, gravity) {
   const lasts = Math.max(-velocity / gravity, 0);
   const steps = Array.from({ length: FALLING }, (_, i) => -lasts * (1 - i / FALLING));

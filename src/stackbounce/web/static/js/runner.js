@@ -1,4 +1,4 @@
-/** Asks for a drop's result whenever the drop has changed: one request at a time, the newest wins. */
+/** Requests the result of the drop after each change: one request at a time, and only the newest drop counts. */
 
 const REST = 30; // ms without a change
 
@@ -23,7 +23,7 @@ export function run(store, api) {
       adopted = patch.result.drop;
       patch.drop = adopted;
     }
-    if (stale) delete patch.error; // the newest state is told about, not the one before
+    if (stale) delete patch.error; // an error of an older state is not reported
     store.set({ ...patch, busy: stale });
     if (stale) start();
   };

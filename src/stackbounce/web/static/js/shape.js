@@ -1,9 +1,9 @@
 /** Where balls are drawn and how they flatten: plain geometry in pixels. */
 
 const DENSITY = 1000; // kg/m³ of a ball of unknown size, for its picture only
-const MOST_FLAT = 0.85; // of a radius that a side may give way
+const MOST_FLAT = 0.85; // most flattening of a side, as a fraction of the radius
 const MAGNIFICATIONS = [1, 1.5, 2, 3, 5, 8, 10, 15, 20, 30, 50];
-const LEAST_RADIUS = 5; // px, so that no ball is lost
+const LEAST_RADIUS = 5; // px, so that every ball can be seen
 
 /** Return each ball's radius in m, of a sphere of its mass where no diameter is given. */
 export function radii(drop) {

@@ -153,7 +153,7 @@ function note({ whole, view }) {
   return whole ? "heights to scale" : `movement shown ×${format(view.times, 2)}`;
 }
 
-/** Return what the stage shows, for who does not see it. */
+/** Describe the stage in words, for screen readers. */
 function spoken({ result, whole }, time, place) {
   const { drop, frames } = result;
   const balls = drop.balls.map((_, ball) => {

@@ -1,6 +1,6 @@
 /** One observable state for the whole page. */
 
-/** What the page shows before anybody has chosen: the paper's basketball and tennis ball (Fig. 9). */
+/** The state at the start: the paper's basketball and tennis ball (Fig. 9). */
 export const FIRST_DROP = {
   balls: [
     { mass: 0.15, diameter: 0.16, name: "basketball" },

@@ -1,4 +1,4 @@
-/** The tower as it stands: cards of balls, and between them those of the contacts. */
+/** The tower: cards of the balls, with cards of the contacts between them. */
 
 import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
 import { h } from "./dom.js";
@@ -149,7 +149,7 @@ function measuredBox(contact, law, tools) {
   );
 }
 
-/** Return what a tower is built of, beyond its numbers: two drops of the same shape share their fields. */
+/** Return the structure of a tower without its numbers: drops of the same shape share their fields. */
 export function shapeOf(drop) {
   return JSON.stringify([
     incidenceOf(drop),
