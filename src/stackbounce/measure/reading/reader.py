@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import (
     FileError,
@@ -14,6 +13,7 @@ from stackbounce.errors import (
     StackbounceError,
     shown,
 )
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import wav, zipped
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
@@ -257,7 +257,7 @@ def _flaws(table: Table) -> list[str]:
     return flaws
 
 
-def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], NDArray[np.float64]]:
+def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], Array]:
     """Return the columns that have numbers, and these."""
     there = np.isfinite(table.values).any(axis=0) & (table.strange <= len(table.values) / 2)
     if not there.any():

@@ -2,17 +2,14 @@
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.kinds.acceleration.result import Accelerometer
+from stackbounce.measure.quantities import Array
 from stackbounce.model.drop import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["accelerometer"]
 
@@ -119,7 +116,7 @@ class _Flight(NamedTuple):
     end: float
 
 
-def _sizes(data: Any, gravity: float) -> tuple[NDArray[np.float64], NDArray[np.float64], list[str]]:
+def _sizes(data: Any, gravity: float) -> tuple[Array, Array, list[str]]:
     """Return times and the size of the acceleration, gravity in it, and what is odd."""
     notes: list[str] = []
     if not hasattr(data, "data_vars"):
@@ -161,9 +158,7 @@ def _sizes(data: Any, gravity: float) -> tuple[NDArray[np.float64], NDArray[np.f
     return times[known], values[known], notes
 
 
-def _flying(
-    times: NDArray[np.float64], values: NDArray[np.float64], gravity: float
-) -> list[_Flight]:
+def _flying(times: Array, values: Array, gravity: float) -> list[_Flight]:
     """Return the stretches in which it flies; the record's first and last sample are in none."""
     low = np.concatenate([[0], (values < _HALF * gravity).astype(int), [0]])
     firsts, lasts = np.flatnonzero(np.diff(low) == 1), np.flatnonzero(np.diff(low) == -1) - 1
@@ -187,7 +182,7 @@ def _series(flights: list[_Flight]) -> list[_Flight]:
     return best if len(best) > 1 else []
 
 
-def _edge(times: NDArray[np.float64], k: int) -> Any:
+def _edge(times: Array, k: int) -> Any:
     """Return when something happened between samples k - 1 and k, anywhere between them."""
     from uncertainties import ufloat
 
@@ -195,9 +190,7 @@ def _edge(times: NDArray[np.float64], k: int) -> Any:
     return ufloat(0.5 * float(times[k] + times[k - 1]), step / math.sqrt(12.0))
 
 
-def _held(
-    times: NDArray[np.float64], values: NDArray[np.float64], first: int, gravity: float
-) -> bool:
+def _held(times: Array, values: Array, first: int, gravity: float) -> bool:
     """Tell whether it was held or lay still before a flight: long, and near gravity."""
     before = (times > times[first] - _LONGEST) & (times < times[first])
     known = times[first] - times[0] >= _LONGEST
@@ -205,7 +198,7 @@ def _held(
 
 
 def _notes(
-    times: NDArray[np.float64],
+    times: Array,
     counts: list[int],
     kept: list[Any],
     held: bool,

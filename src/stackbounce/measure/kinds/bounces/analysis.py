@@ -1,7 +1,7 @@
 """Times of successive bounces -> restitution of each, and how it falls with speed."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -9,11 +9,9 @@ from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import laws_of, straight
 from stackbounce.measure.kinds.bounces.result import Bounces
+from stackbounce.measure.quantities import Number
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
 
 __all__ = ["bounces"]
 
@@ -21,7 +19,7 @@ __all__ = ["bounces"]
 def bounces(
     times: Any,
     *,
-    drop_height: "float | UFloat | None" = None,
+    drop_height: float | Number | None = None,
     gravity: float = STANDARD_GRAVITY,
     time_error: float | None = None,
     contact_time: float = 0.0,
@@ -206,7 +204,7 @@ def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float)
     return flights
 
 
-def _height(height: "float | UFloat | None") -> Any:
+def _height(height: float | Number | None) -> Any:
     if height is None:
         return None
     positive("drop_height", getattr(height, "nominal_value", height), "metres")

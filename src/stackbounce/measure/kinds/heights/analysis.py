@@ -2,16 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.kinds.heights.result import Heights
+from stackbounce.measure.quantities import Number
 from stackbounce.measure.statistics.regression import widening
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
 
 __all__ = ["Place", "above_bottom", "fallen", "heights", "lowest_point", "places"]
 
@@ -22,10 +20,10 @@ _UP = {"bottom": 0.0, "centre": 0.5, "top": 1.0}  # diameters above the lowest p
 
 
 def heights(
-    drop_height: "float | UFloat",
-    bounce_heights: "float | UFloat | Sequence[float | UFloat]",
+    drop_height: float | Number,
+    bounce_heights: float | Number | Sequence[float | Number],
     *,
-    diameter: "float | UFloat | None" = None,
+    diameter: float | Number | None = None,
     measured_to: Place | tuple[Place, Place] = "bottom",
     height_error: float | None = None,
     repeated: bool = False,
@@ -98,7 +96,7 @@ def heights(
     return Heights(start, tuple(counted), tuple(kept), mean, bool(repeated), tuple(notes))
 
 
-def above_bottom(measured_to: str, diameter: "float | UFloat | None" = None) -> Any:
+def above_bottom(measured_to: str, diameter: float | Number | None = None) -> Any:
     """Return how far the bottom, centre or top of a ball lies above its lowest point.
 
     Parameters
@@ -127,7 +125,7 @@ def above_bottom(measured_to: str, diameter: "float | UFloat | None" = None) -> 
 
 
 def lowest_point(
-    name: str, height: Any, measured_to: str, diameter: "float | UFloat | None" = None
+    name: str, height: Any, measured_to: str, diameter: float | Number | None = None
 ) -> Any:
     """Return the height of a ball's lowest point from that of its bottom, centre or top.
 

@@ -10,6 +10,7 @@ from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
 from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding, whitened
 from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
+from stackbounce.measure.quantities import Array
 
 __all__ = ["knocks"]
 
@@ -239,7 +240,7 @@ def _echo_delay(chain: Chain, rises: Rises) -> float:
 def _note_series(
     chain: Chain,
     rises: Rises,
-    worth: NDArray[np.float64],
+    worth: Array,
     dead: float,
     origin: float,
     notes: list[str],
@@ -272,9 +273,7 @@ def _note_series(
             )
 
 
-def _loudness(
-    white: NDArray[np.float32], rate: float, times: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _loudness(white: NDArray[np.float32], rate: float, times: Array) -> Array:
     """Return the root mean square of each knock, of all channels together."""
     count = max(1, round(_LASTS * rate))
     first = np.round(times * rate).astype(np.int64)

@@ -4,7 +4,6 @@ import math
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.kinds.track.flights import Flights
@@ -19,6 +18,7 @@ from stackbounce.measure.kinds.track.paths import (
 )
 from stackbounce.measure.kinds.track.result import Track, Tracks
 from stackbounce.measure.kinds.track.time_base import check_time_base
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -124,7 +124,7 @@ def track(
     return Tracks(tuple(balls), ratios, first, base, sign + up.axis, up.tilt, tuple(notes))
 
 
-_Found = tuple[NDArray[np.float64], NDArray[np.float64], Flights, list[int]]
+_Found = tuple[Array, Array, Flights, list[int]]
 
 
 def _fitted(
@@ -176,8 +176,8 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
 
 def _track(
     name: str,
-    times: NDArray[np.float64],
-    heights: NDArray[np.float64],
+    times: Array,
+    heights: Array,
     fit: Flights,
     bounces: list[int],
     floor: float | None,
@@ -248,7 +248,7 @@ def _common_gravity(balls: list[Track]) -> Any:
     return sum(weight * ball.gravity for weight, ball in zip(weights, balls, strict=True)) / total
 
 
-def _frame_rate(times: NDArray[np.float64]) -> float:
+def _frame_rate(times: Array) -> float:
     return float(1.0 / np.median(np.diff(times)))
 
 

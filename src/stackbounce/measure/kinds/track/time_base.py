@@ -1,10 +1,9 @@
 """A track's own clock and ruler, checked against gravity."""
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
+from stackbounce.measure.quantities import Number
 
 __all__ = ["TimeBase", "check_time_base"]
 
@@ -35,15 +34,15 @@ class TimeBase(NamedTuple):
         A sentence or two for people; empty where they agree.
     """
 
-    gravity: "UFloat"
-    ratio: "UFloat"
+    gravity: Number
+    ratio: Number
     frame_rate: float
     frame_rate_factor: float | None
     agrees: bool
     note: str
 
 
-def check_time_base(gravity: "UFloat", true: float, frame_rate: float) -> TimeBase:
+def check_time_base(gravity: Number, true: float, frame_rate: float) -> TimeBase:
     """Return what the gravity of the flights says about a track's frame rate and scale.
 
     Gravity as tracked goes with the scale and with the square of the frame rate: one number cannot
