@@ -1,8 +1,14 @@
 """The style of all pictures."""
 
-from typing import Any
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
 
-__all__ = ["COLORS", "STYLE", "color_of", "written"]
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+__all__ = ["COLORS", "STYLE", "annotate", "color_of", "styled_figure", "written"]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
@@ -20,6 +26,30 @@ STYLE: Any = {
     "figure.constrained_layout.use": True,
 }
 """Matplotlib's settings."""
+
+
+@contextmanager
+def styled_figure(width: float, height: float) -> "Iterator[Figure]":
+    """Give an empty figure, in inches, and draw on it in this style.
+
+    Examples
+    --------
+    >>> with styled_figure(7.2, 4.4) as figure:
+    ...     axes = figure.subplots()
+    >>> axes.spines["top"].get_visible()
+    False
+    """
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE):
+        yield Figure(figsize=(width, height))
+
+
+def annotate(axes: "Axes", text: str, place: tuple[Any, Any], color: str, **more: Any) -> None:
+    """Write a short text beside a point, or where `xycoords` says that the place is."""
+    at = {} if "xycoords" in more else {"xytext": (7, 7), "textcoords": "offset points"}
+    axes.annotate(text, place, fontsize=9, color=color, **(at | more))
 
 
 def color_of(index: int) -> str:
