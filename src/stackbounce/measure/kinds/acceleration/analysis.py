@@ -80,9 +80,8 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     lasting = [end - start for start, end in zip(starts, ends, strict=True)]
     held = _held(times, values, series[0].first, g)
     fall, flights = (lasting[0], lasting[1:]) if held else (None, lasting)
-    speeds = [g * one / 2.0 for one in flights]
-    before = [g * fall, *speeds[:-1]] if fall is not None else speeds[:-1]
-    after = speeds if fall is not None else speeds[1:]
+    speeds = [g * lasting[0]] * held + [g * one / 2.0 for one in flights]  # at the end of each
+    before, after = speeds[:-1], speeds[1:]
     kept = [out / into for into, out in zip(before, after, strict=True)]
     pulses = list(pairwise(series))
     counts = [other.first - one.last - 1 for one, other in pulses]
@@ -165,10 +164,7 @@ def _flying(times: Array, values: Array, gravity: float) -> list[_Flight]:
     return [
         _Flight(int(a), int(b), float(times[a]), float(times[b]))
         for a, b in zip(firsts, lasts, strict=True)
-        if a > 0
-        and b < len(times) - 1
-        and b - a + 1 >= _FEWEST
-        and times[b] - times[a] >= _SHORTEST
+        if 0 < a <= b + 1 - _FEWEST and b < len(times) - 1 and times[b] - times[a] >= _SHORTEST
     ]
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.kinds.heights.result import Heights
-from stackbounce.measure.quantities import Number
+from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.statistics.regression import widening
 
 __all__ = ["Place", "above_bottom", "fallen", "heights", "lowest_point", "places"]
@@ -89,10 +89,10 @@ def heights(
         _counted(name, _number(name, one, error), points[1], size)
         for name, one in ((f"bounce_heights.{k}", one) for k, one in enumerate(listed))
     ]
-    notes = _notes(start, counted, repeated)
     before = [start] * len(counted) if repeated else [start, *counted[:-1]]
     kept = [(after / first) ** 0.5 for first, after in zip(before, counted, strict=True)]
     mean = _mean(start, counted, repeated)
+    notes = _notes(before, counted)
     return Heights(start, tuple(counted), tuple(kept), mean, bool(repeated), tuple(notes))
 
 
@@ -224,7 +224,7 @@ def _size(diameter: Any, places: tuple[str, str]) -> Any:
 def _counted(name: str, height: Any, place: str, size: Any) -> Any:
     """Return a height of the ball's lowest point."""
     counted = height - _UP[place] * size
-    least, got = (getattr(one, "nominal_value", one) for one in (_UP[place] * size, height))
+    least, got = nominal(_UP[place] * size), nominal(height)
     if got <= least:
         raise InvalidValue(
             f"{name} must be more than the height of the ball's {place} on the floor "
@@ -248,13 +248,12 @@ def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
     return (mean / start) ** 0.5
 
 
-def _notes(start: Any, counted: list[Any], repeated: bool) -> list[str]:
+def _notes(before: list[Any], counted: list[Any]) -> list[str]:
     notes = []
-    if any(math.isnan(one.std_dev) for one in [start, *counted]):
+    if any(math.isnan(one.std_dev) for one in [before[0], *counted]):
         notes.append(
             "A height has no error, so that the restitutions' are unknown: give height_error."
         )
-    before = [start] * len(counted) if repeated else [start, *counted[:-1]]
     for k, (first, after) in enumerate(zip(before, counted, strict=True)):
         if after.nominal_value > first.nominal_value:
             notes.append(

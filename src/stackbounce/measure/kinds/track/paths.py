@@ -94,18 +94,12 @@ def _from_dataset(data: Any) -> Columns:
             raise InvalidType(f"data must hold variables x and y of a track, got {held}")
     times = np.asarray(data["time"].values, dtype=np.float64)
     if "track" not in data[axes[0]].dims:
-        whole = {axis: np.asarray(data[axis].values, dtype=np.float64) for axis in axes}
-        return Columns(times, ["ball"], [whole])
+        data = data[axes].expand_dims(track=["ball"])
     count = data.sizes["track"]
-    names = [str(one) for one in data["track"].values] if "track" in data.coords else []
-    positions = [
-        {
-            axis: np.asarray(data[axis].isel(track=k).values, dtype=np.float64).ravel()
-            for axis in axes
-        }
-        for k in range(count)
-    ]
-    return Columns(times, names or [f"ball {k}" for k in range(count)], positions)
+    known = data["track"].values if "track" in data.coords else [f"ball {k}" for k in range(count)]
+    whole = {axis: data[axis].transpose("track", "time").values.astype(float) for axis in axes}
+    positions = [{axis: whole[axis][k] for axis in axes} for k in range(count)]
+    return Columns(times, [str(one) for one in known], positions)
 
 
 def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
