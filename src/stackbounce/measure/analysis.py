@@ -92,8 +92,9 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
         raise InvalidValue(
             f"there is no analysis of {holds}: tell what it holds, one of {', '.join(KINDS)}"
         )
-    own = {name: value for name, value in options.items() if name in kind.options}
-    return kind.analyse(data, **{name: value for name, value in own.items() if value is not None})
+    given = {name: value for name, value in options.items() if value is not None}
+    found = kind.analyse(data, **{name: given[name] for name in kind.options if name in given})
+    return found if isinstance(found, tuple) else (found,)
 
 
 def _signature() -> inspect.Signature:

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 from stackbounce.calibration import calibrate
 from stackbounce.errors import InvalidValue, between, fraction, positive, shown
-from stackbounce.measure.quantities import Row, measured
+from stackbounce.measure.quantities import Number, Row, measured
 from stackbounce.measure.statistics.propagation import propagate
 from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
 
 if TYPE_CHECKING:
-    from uncertainties import UFloat
+    pass
 
 __all__ = ["LawConstants", "dynamic_stiffness", "law_constants"]
 
@@ -20,7 +20,7 @@ _BOUNDS = {"restitution": (0.0, 1.0), "exponent": (1.0, math.inf)}
 _UNITS = {"mass": "kilograms", "contact_time": "seconds", "impact_speed": "m/s"}
 
 
-def dynamic_stiffness(mass: Any, contact_time: Any) -> "UFloat":
+def dynamic_stiffness(mass: Any, contact_time: Any) -> Number:
     """Return the stiffness that a ball shows in a bounce, k = m (π/τ)².
 
     Parameters
@@ -54,7 +54,7 @@ def dynamic_stiffness(mass: Any, contact_time: Any) -> "UFloat":
     (5.39+/-0.25)e+04
     """
     time = measured("contact_time", contact_time, _UNITS["contact_time"])
-    k: UFloat = _moving(mass) * (math.pi / time) ** 2
+    k: Number = _moving(mass) * (math.pi / time) ** 2
     return k
 
 
@@ -74,8 +74,8 @@ class LawConstants:
     """
 
     law: ContactLaw
-    constants: "Mapping[str, UFloat]"
-    given: "Mapping[str, UFloat]"
+    constants: Mapping[str, Number]
+    given: Mapping[str, Number]
 
     def rows(self) -> list[Row]:
         """Return the constants as rows of a table."""
@@ -160,7 +160,7 @@ def law_constants(
         "impact_speed": impact_speed,
         "exponent": exponent,
     }
-    sources: dict[str, UFloat] = {}
+    sources: dict[str, Number] = {}
     for name, value in given.items():
         if value is not None:
             sources[name] = measured(name, value, _UNITS.get(name, ""), _checks(kind, name))
@@ -179,14 +179,14 @@ def law_constants(
     return LawConstants(found, dict(zip(names, constants, strict=True)), sources)
 
 
-def _moving(mass: Any) -> "UFloat":
+def _moving(mass: Any) -> Number:
     """Return the mass that moves: one as it is, two reduced."""
     if not isinstance(mass, tuple | list):
         return measured("mass", mass, _UNITS["mass"])
     if len(mass) != 2:
         raise InvalidValue(f"mass must be a number or a pair of numbers, got {shown(mass)}")
     one, other = (measured(f"mass.{i}", mass[i], _UNITS["mass"]) for i in (0, 1))
-    both: UFloat = one / (1.0 + one / other)
+    both: Number = one / (1.0 + one / other)
     return both
 
 

@@ -3,15 +3,12 @@
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
-import numpy as np
-from numpy.typing import NDArray
-
-from stackbounce.measure.quantities import Row
+from stackbounce.measure.quantities import Array, Number, Row, nominal
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Curve", "Finding", "as_ratios", "channels", "force_channels"]
+__all__ = ["Curve", "Finding", "as_ratios", "channels", "force_channels", "rigid_contact"]
 
 
 class Curve(NamedTuple):
@@ -19,8 +16,8 @@ class Curve(NamedTuple):
 
     label: str
     what: str
-    times: NDArray[np.float64]
-    values: NDArray[np.float64]
+    times: Array
+    values: Array
     unit: str
 
 
@@ -51,14 +48,13 @@ class Finding:
         return {}
 
     def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
-        """Return what `stackbounce.fit` can use, by the names that it takes."""
-        return {}
+        """Return what `stackbounce.fit` can use, by the names that it takes.
 
-    def forces(
-        self,
-        data: "xr.Dataset",  # noqa: ARG002
-        lasting: float,  # noqa: ARG002
-    ) -> "dict[str, xr.DataArray]":
+        Where a result has `restitutions`, the first one is the ball's rebound ratio.
+        """
+        return as_ratios(getattr(self, "restitutions", ())[:1])
+
+    def forces(self, data: "xr.Dataset", lasting: float) -> "dict[str, xr.DataArray]":  # noqa: ARG002
         """Return the force channels, cut to an impact that lasts so long in s, by their names."""
         return {}
 
@@ -80,11 +76,23 @@ def as_ratios(values: Iterable[Any]) -> dict[str, str]:
     >>> as_ratios([ufloat(0.75, 0.02)])
     {'rebound_ratios.0': '0.75 ± 0.02'}
     """
-    told = {}
-    for i, value in enumerate(values):
-        error = f" ± {value.std_dev:.2g}" if value.std_dev > 0.0 else ""
-        told[f"rebound_ratios.{i}"] = f"{value.nominal_value:.6g}{error}"
-    return told
+    return {
+        f"rebound_ratios.{i}": f"{value.nominal_value:.6g}"
+        + (f" ± {value.std_dev:.2g}" if value.std_dev > 0.0 else "")
+        for i, value in enumerate(values)
+    }
+
+
+def rigid_contact(restitution: Number) -> dict[str, Any]:
+    """Return the floor's contact for `Finding.parts`; nothing where the restitution is none.
+
+    Examples
+    --------
+    >>> rigid_contact(0.75), rigid_contact(1.02)
+    ({'contact': {'law': 'Rigid', 'restitution': 0.75}}, {})
+    """
+    kept = nominal(restitution)
+    return {"contact": {"law": "Rigid", "restitution": kept}} if 0.0 <= kept <= 1.0 else {}
 
 
 def force_channels(data: "xr.Dataset") -> list[str]:

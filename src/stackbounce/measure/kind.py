@@ -24,8 +24,8 @@ class Kind:
     says : str
         What it tells, for help.
     analyse : callable or None
-        From a Dataset to the results. Its keywords are the options that it takes, each one of
-        `stackbounce.measure.options.OPTIONS`. None where only numbers tell it.
+        From a Dataset to the result, or a tuple of results. Its keywords are the options that it
+        takes, each one of `stackbounce.measure.options.OPTIONS`. None where only numbers tell it.
     columns : tuple of tuple of str
         The columns that a file of it needs: of each tuple one, by role or name. A file with these
         columns is recognised, unless `recognised` decides.
@@ -49,7 +49,7 @@ class Kind:
 
     name: str
     says: str
-    analyse: "Callable[..., tuple[Finding, ...]] | None" = None
+    analyse: "Callable[..., Finding | tuple[Finding, ...]] | None" = None
     columns: tuple[tuple[str, ...], ...] = ()
     dimension: str = "time"
     recognised: "Callable[[Sequence[Column]], bool] | None" = None

@@ -125,12 +125,7 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
         if not given or kind.of_numbers is None:
             continue
         own = {name: options[name] for name in keywords_of(kind.of_numbers) if name in options}
-        told = {
-            "format": "numbers of the command line",
-            "why": "",
-            "doubt": "",
-            "holds": kind.typed,
-        }
+        told = {"format": _TYPED, "why": "", "doubt": "", "holds": kind.typed}
         source = " ".join(known[name].on_command_line for name in given)
         done.append(Measurement(source, told, None, (kind.of_numbers(**own),)))
     return done

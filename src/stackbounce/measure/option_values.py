@@ -38,8 +38,10 @@ def read_options(
 
     Examples
     --------
-    >>> read_options({"height": "1 m", "law": "power-law exponent=1.3"}, lambda one: one.name)
-    {'height': 1.0, 'law': <class 'stackbounce.model.laws.elastic.PowerLaw'>, 'exponent': 1.3}
+    >>> given = {"height": "1 m", "law": "power-law exponent=1.3"}
+    >>> found = read_options(given, lambda option: option.name)
+    >>> found["height"], found["law"].__name__, found["exponent"]
+    (1.0, 'PowerLaw', 1.3)
     """
     known = options_for(*to)
     found: dict[str, Any] = {}
@@ -49,24 +51,33 @@ def read_options(
         if value is None or (isinstance(value, str) and not value):
             continue
         one = known[name]
-        if one.form == "law":
-            told = _law(value, face(one))
-        else:
-            told = {name: _READERS[one.form](value, one, face(one))}
-        twice = [key for key in told if key in found]
+        told = _READERS.get(one.form, _checked)(value, one, face(one))
+        values = told if one.form == "law" else {name: told}  # a law may bring its exponent
+        twice = [key for key in values if key in found]
         if twice:
             raise InvalidValue(f"{twice[0]} is given twice, by {face(one)} and on its own")
-        found |= told
+        found |= values
     return found
 
 
+_TYPES: dict[str, tuple[Any, str]] = {
+    "flag": (bool, "true or false"),
+    "text": (str | int, "a text"),
+    "file": (Path | tuple, "a file"),  # a text in a request would be a path on the server
+}
+
+
+def _checked(value: Any, option: Option, called: str) -> Any:
+    """Return a value that needs no reading, its type checked."""
+    kind, words = _TYPES[option.form]
+    if not isinstance(value, kind):
+        raise InvalidType(f"{called} must be {words}, got {shown(value)}")
+    return value
+
+
 def _number(value: Any, option: Option, called: str) -> Any:
-    return quantity(value, option.unit, called)
-
-
-def _measured(value: Any, option: Option, called: str) -> Any:
-    read = quantity_with_error if isinstance(value, str) else quantity
-    return read(value, option.unit, called)
+    with_error = option.form == "measured" and isinstance(value, str)
+    return (quantity_with_error if with_error else quantity)(value, option.unit, called)
 
 
 def _lengths(text: str, option: Option, called: str) -> list[Any]:
@@ -84,13 +95,7 @@ def _lengths(text: str, option: Option, called: str) -> list[Any]:
     ]
 
 
-def _flag(value: Any, option: Option, called: str) -> bool:  # noqa: ARG001
-    if not isinstance(value, bool):
-        raise InvalidType(f"{called} must be true or false, got {shown(value)}")
-    return value
-
-
-def _points(value: Any, option: Option, called: str) -> tuple[str, ...]:  # noqa: ARG001
+def _points(value: Any, _: Option, called: str) -> tuple[str, ...]:
     """Return the points that the drop's height and the bounces' were measured to."""
     from stackbounce.measure.kinds.heights.analysis import places
 
@@ -102,12 +107,12 @@ def _points(value: Any, option: Option, called: str) -> tuple[str, ...]:  # noqa
     return places(words * 2 if len(words) == 1 else words)
 
 
-def _law(value: Any, called: str) -> dict[str, Any]:
+def _law(value: Any, _: Option, called: str) -> dict[str, Any]:
     """Return the law's class, and the exponent that may be told with its name."""
     name, *rest = (value.split() or [""]) if isinstance(value, str) else (value,)
     told: dict[str, Any] = {}
     for word in rest:
-        key, _, number = word.partition("=")
+        key, __, number = word.partition("=")
         if key != "exponent" or not number or told:
             raise InvalidValue(
                 f"{called} must be a law, or 'LAW exponent=NUMBER', got {shown(value)}; "
@@ -121,9 +126,8 @@ def _columns(value: Any, option: Option, called: str) -> Any:
     """Return a mapping of columns from ``COLUMN=VALUE`` texts, or as it is."""
     if isinstance(value, Mapping):
         return value
-    texts = value.split(",") if isinstance(value, str) else value
     found: dict[Any, str] = {}
-    for text in texts:
+    for text in value.split(",") if isinstance(value, str) else value:
         name, _, told = (part.strip() for part in text.partition("="))
         if not (name and told):
             example = option.example.split(", ")[0]
@@ -134,26 +138,11 @@ def _columns(value: Any, option: Option, called: str) -> Any:
     return found
 
 
-def _text(value: Any, option: Option, called: str) -> str | int:  # noqa: ARG001
-    if not isinstance(value, str | int):
-        raise InvalidType(f"{called} must be a text, got {shown(value)}")
-    return value
-
-
-def _file(value: Any, option: Option, called: str) -> Any:  # noqa: ARG001
-    """Return a path, or a name and a content: no text, which in a request would be a path too."""
-    if not isinstance(value, Path | tuple):
-        raise InvalidType(f"{called} must be a file, got {shown(value)}")
-    return value
-
-
 _READERS: dict[str, Callable[[Any, Option, str], Any]] = {
     "number": _number,
-    "measured": _measured,
+    "measured": _number,
     "lengths": _lengths,
-    "flag": _flag,
     "points": _points,
+    "law": _law,
     "columns": _columns,
-    "text": _text,
-    "file": _file,
 }

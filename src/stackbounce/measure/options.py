@@ -7,6 +7,7 @@
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any, Literal, TypeAlias
 
 from stackbounce.errors import InvalidType, nearest, shown
@@ -39,15 +40,15 @@ class Option:
     ----------
     name : str
         In Python and in a request.
+    label : str
+        In the page's form and the documentation.
+    example : str
+        A value, or what the form shows where none is chosen.
+    says : str
+        What it tells, for help.
     form : str
         What its value is: a number with a unit, a number that may have an error (``measured``),
         several lengths, a flag, points of the ball, a contact law, a file, columns, a text.
-    label : str
-        In the page's form and the documentation.
-    says : str
-        What it tells, for help.
-    example : str
-        A value, or what the form shows where none is chosen.
     unit : str
         The SI unit of a number.
     metavar : str
@@ -57,7 +58,7 @@ class Option:
     default : str or bool, optional
         Where there is one.
     to : {"read", "analyse", "numbers"}
-        Whose it is: the reader's, the analyses', or that of numbers without a file.
+        Who takes it: the reader, the analyses, or the analysis of numbers without a file.
     flag : str
         On the command line, where it is not the name.
     rare : bool
@@ -67,10 +68,10 @@ class Option:
     """
 
     name: str
-    form: Form
     label: str
+    example: str
     says: str
-    example: str = ""
+    form: Form = "text"
     unit: str = ""
     metavar: str = ""
     panel: str = ""
@@ -108,200 +109,72 @@ def _typed(law: str) -> str:
     return re.sub(r"(?<=[a-z])(?=[A-Z])", "-", law).lower()
 
 
+_number, _measured = partial(Option, form="number"), partial(Option, form="measured")
+_told = partial(Option, to="read")
+
+# fmt: off
 _TABLE: dict[str, tuple[Option, ...]] = {
     _BALL: (
-        Option(
-            "mass",
-            "measured",
-            "Ball's mass",
-            "Such as 57g, or with its error '57.0 ± 0.5 g', as all numbers of ball and drop.",
-            example="57 ± 0.5 g",
-            unit="kg",
-        ),
-        Option("diameter", "measured", "Diameter", "Such as 66mm.", example="66 mm", unit="m"),
-        Option(
-            "contact_time",
-            "measured",
-            "Contact time",
-            "On the floor, where no file tells it: '5.0 ± 0.1 ms'.",
-            example="5.0 ± 0.1 ms",
-            unit="s",
-            rare=True,
-        ),
-        Option(
-            "restitution",
-            "measured",
-            "Restitution",
-            "On the floor, where no file tells it: '0.75 ± 0.02'.",
-            example="0.75 ± 0.02",
-            rare=True,
-        ),
-        Option(
-            "law",
-            "law",
-            "Contact law",
-            f"Give the constants of this contact law, and save it: {_listed(map(_typed, LAWS))}; "
-            "with an exponent as in 'power-law exponent=1.3'. A force waveform's touches and "
-            "releases are then those of this law, with smaller errors.",
-            example="none in particular",
-            choices=lambda: LAWS,
-        ),
-        Option(
-            "exponent",
-            "number",
-            "Exponent of the law",
-            "Of the law's loading curve, where the law leaves it open: 1.3.",
-            example="1.3",
-            rare=True,
-        ),
+        _measured("mass", "Ball's mass", "57 ± 0.5 g", unit="kg", says="Such as 57g, or with its "
+                  "error '57.0 ± 0.5 g', as all numbers of ball and drop."),
+        _measured("diameter", "Diameter", "66 mm", unit="m", says="Such as 66mm."),
+        _measured("contact_time", "Contact time", "5.0 ± 0.1 ms", unit="s", rare=True,
+                  says="On the floor, where no file tells it: '5.0 ± 0.1 ms'."),
+        _measured("restitution", "Restitution", "0.75 ± 0.02", rare=True,
+                  says="On the floor, where no file tells it: '0.75 ± 0.02'."),
+        Option("law", "Contact law", "none in particular", form="law", choices=lambda: LAWS,
+               says="Give the constants of this contact law, and save it: "
+               f"{_listed(map(_typed, LAWS))}; with an exponent as in 'power-law exponent=1.3'. "
+               "A force waveform's touches and releases are then those of this law, with smaller "
+               "errors."),
+        _number("exponent", "Exponent of the law", "1.3", rare=True,
+                says="Of the law's loading curve, where the law leaves it open: 1.3."),
     ),
     "": (
-        Option(
-            "height",
-            "measured",
-            "Drop height",
-            "Height fallen from rest, such as 0.63m.",
-            example="1.00 ± 0.01 m",
-            unit="m",
-        ),
-        Option(
-            "speed",
-            "measured",
-            "Impact speed",
-            "Impact speed, such as 3.53m/s.",
-            example="3.5 m/s",
-            unit="m/s",
-        ),
+        _measured("height", "Drop height", "1.00 ± 0.01 m", unit="m",
+                  says="Height fallen from rest, such as 0.63m."),
+        _measured("speed", "Impact speed", "3.5 m/s", unit="m/s",
+                  says="Impact speed, such as 3.53m/s."),
     ),
     _DROP: (
-        Option(
-            "heights",
-            "lengths",
-            "Heights",
-            "Instead of a file: the drop's and those of the bounces, '1.00, 0.62, 0.39 m'.",
-            example="1.00, 0.62, 0.39 m",
-            unit="m",
-            to="numbers",
-        ),
-        Option(
-            "height_error",
-            "number",
-            "Error of heights",
-            "Of each height of --heights or of a table, such as 5mm.",
-            example="5 mm",
-            unit="m",
-            rare=True,
-        ),
-        Option(
-            "repeated",
-            "flag",
-            "Heights of one bounce, again and again",
-            "The heights after the first are of one bounce, from drop after drop.",
-            default=False,
-            rare=True,
-        ),
-        Option(
-            "measured_to",
-            "points",
-            "Heights are those of the ball's",
-            "Point of the ball that heights are those of, or that a track follows: bottom, "
-            "centre or top; bottom,top if the drop's and the bounces' differ.",
-            example="bottom",
-            default="bottom",
-            choices=lambda: ("bottom", "centre", "top", "bottom,top", "top,bottom"),
-        ),
-        Option(
-            "floor",
-            "number",
-            "Level of the floor",
-            "Level of the floor in a track, such as 0m: for balls that stay on it for long.",
-            example="0 m",
-            unit="m",
-            rare=True,
-        ),
-        Option(
-            "alone",
-            "file",
-            "Force under the lower ball alone",
-            "The floor's force under the lower ball alone, from the same height: tells the "
-            "gap of the stack that FILE is of.",
-            rare=True,
-        ),
-        Option(
-            "time_constant",
-            "number",
-            "Sensor's time constant",
-            "Of a piezo sensor's droop, such as 0.1s: undoes it.",
-            example="0.1 s",
-            unit="s",
-            rare=True,
-        ),
-        Option(
-            "gravity",
-            "number",
-            "Gravity",
-            "Where it was measured, such as 9.81m/s^2.",
-            example="9.81 m/s^2",
-            unit="m/s**2",
-            rare=True,
-        ),
+        Option("heights", "Heights", "1.00, 0.62, 0.39 m", form="lengths", unit="m", to="numbers",
+               says="Instead of a file: the drop's and those of the bounces, "
+               "'1.00, 0.62, 0.39 m'."),
+        _number("height_error", "Error of heights", "5 mm", unit="m", rare=True,
+                says="Of each height of --heights or of a table, such as 5mm."),
+        Option("repeated", "Heights of one bounce, again and again", "", form="flag",
+               default=False, rare=True,
+               says="The heights after the first are of one bounce, from drop after drop."),
+        Option("measured_to", "Heights are those of the ball's", "bottom", form="points",
+               default="bottom",
+               choices=lambda: ("bottom", "centre", "top", "bottom,top", "top,bottom"),
+               says="Point of the ball that heights are those of, or that a track follows: bottom, "
+               "centre or top; bottom,top if the drop's and the bounces' differ."),
+        _number("floor", "Level of the floor", "0 m", unit="m", rare=True, says="Level of the "
+                "floor in a track, such as 0m: for balls that stay on it for long."),
+        Option("alone", "Force under the lower ball alone", "", form="file", rare=True,
+               says="The floor's force under the lower ball alone, from the same height: tells the "
+               "gap of the stack that FILE is of."),
+        _number("time_constant", "Sensor's time constant", "0.1 s", unit="s", rare=True,
+                says="Of a piezo sensor's droop, such as 0.1s: undoes it."),
+        _number("gravity", "Gravity", "9.81 m/s^2", unit="m/s**2", rare=True,
+                says="Where it was measured, such as 9.81m/s^2."),
     ),
     _FILE: (
-        Option(
-            "holds",
-            "text",
-            "It holds",
-            f"What it holds, where it is unsure: {_listed(KINDS)}.",
-            example="as recognised",
-            metavar="KIND",
-            to="read",
-            choices=lambda: KINDS,
-        ),
-        Option(
-            "names",
-            "columns",
-            "Columns",
-            "What a column is, by its name or its number from 1: 2=force; once per column.",
-            example="1=time, 2=force",
-            metavar="COLUMN=MEANING",
-            to="read",
-            flag="--column",
-        ),
-        Option(
-            "units",
-            "columns",
-            "Units of columns",
-            "Unit of a column: x=cm; once per column.",
-            example="x=cm, y=cm",
-            metavar="COLUMN=UNIT",
-            to="read",
-            flag="--unit",
-        ),
-        Option(
-            "table",
-            "text",
-            "Table",
-            "Which table of a zip.",
-            example="Energy",
-            metavar="NAME",
-            to="read",
-            rare=True,
-        ),
-        Option(
-            "run", "text", "Run", "Which of several runs in it.", example="2", to="read", rare=True
-        ),
-        Option(
-            "decimal",
-            "text",
-            "Decimal mark",
-            "Decimal mark, . or , where 1,234 could be either.",
-            example="as recognised",
-            to="read",
-            rare=True,
-            choices=lambda: (".", ","),
-        ),
+        _told("holds", "It holds", "as recognised", metavar="KIND", choices=lambda: KINDS,
+              says=f"What it holds, where it is unsure: {_listed(KINDS)}."),
+        _told("names", "Columns", "1=time, 2=force", form="columns", metavar="COLUMN=MEANING",
+              flag="--column",
+              says="What a column is, by its name or its number from 1: 2=force; once per column."),
+        _told("units", "Units of columns", "x=cm, y=cm", form="columns", metavar="COLUMN=UNIT",
+              flag="--unit", says="Unit of a column: x=cm; once per column."),
+        _told("table", "Table", "Energy", metavar="NAME", rare=True, says="Which table of a zip."),
+        _told("run", "Run", "2", rare=True, says="Which of several runs in it."),
+        _told("decimal", "Decimal mark", "as recognised", rare=True, choices=lambda: (".", ","),
+              says="Decimal mark, . or , where 1,234 could be either."),
     ),
 }
+# fmt: on
 
 OPTIONS: tuple[Option, ...] = tuple(
     replace(one, panel=panel) for panel, group in _TABLE.items() for one in group

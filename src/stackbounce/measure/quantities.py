@@ -1,27 +1,57 @@
 """Quantities with errors: how they come in, and how a result lists them."""
 
 import re
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, NamedTuple
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, non_negative, positive, shown
 from stackbounce.units import quantity
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
+__all__ = [
+    "Array",
+    "Number",
+    "Row",
+    "known_rows",
+    "known_to",
+    "measured",
+    "nominal",
+    "quantity_with_error",
+]
 
-__all__ = ["Row", "known_to", "measured", "quantity_with_error"]
+Array: TypeAlias = NDArray[np.float64]
+
+Number: TypeAlias = Any
+"""A number with an error: a ``UFloat`` of `uncertainties`, which ships no types."""
 
 
 class Row(NamedTuple):
     """A quantity that was found: its name, its value (with an error if it has one) and SI unit."""
 
     name: str
-    value: "UFloat | float | int | str"
+    value: Number | float | int | str
     unit: str = ""
 
 
-def known_to(value: float, error: float) -> "UFloat":
+def known_rows(rows: Iterable[tuple[str, Any, str]]) -> list[Row]:
+    """Return names, values and units as rows, those of None left out."""
+    return [Row(*row) for row in rows if row[1] is not None]
+
+
+def nominal(number: Any) -> float:
+    """Return a number without its error.
+
+    Examples
+    --------
+    >>> nominal(known_to(0.057, 0.001)), nominal(1)
+    (0.057, 1.0)
+    """
+    return float(getattr(number, "nominal_value", number))
+
+
+def known_to(value: float, error: float) -> Number:
     """Return a number with an error of its own, which may be 0.
 
     Examples
@@ -41,7 +71,7 @@ def measured(
     value: object,
     of: str = "",
     check: Callable[[str, object, str], float] = positive,
-) -> "UFloat":
+) -> Number:
     """Return a number, or a number with an error, as one with an error (0 if it has none).
 
     Parameters
@@ -85,7 +115,7 @@ def measured(
     return known
 
 
-def quantity_with_error(text: str, unit: str, name: str) -> "float | UFloat":
+def quantity_with_error(text: str, unit: str, name: str) -> float | Number:
     """Return a number with a unit and, where it is told, an error: ``"57.0 ± 0.5 g"``.
 
     Parameters

@@ -5,9 +5,10 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLORS", "FORCES", "STYLE", "color_of", "styled_figure", "written"]
+__all__ = ["COLORS", "FORCES", "STYLE", "annotate", "color_of", "styled_figure", "written"]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
@@ -46,6 +47,12 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
 
     with mpl.rc_context(STYLE | (style or {})):
         yield Figure(figsize=(width, height))
+
+
+def annotate(axes: "Axes", text: str, place: tuple[Any, Any], color: str, **more: Any) -> None:
+    """Write a short text beside a point, or where `xycoords` says that the place is."""
+    at = {} if "xycoords" in more else {"xytext": (7, 7), "textcoords": "offset points"}
+    axes.annotate(text, place, fontsize=9, color=color, **(at | more))
 
 
 def color_of(index: int) -> str:

@@ -5,9 +5,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import FileError
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import Column
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ INFERRED = (
 )
 
 
-def bounces(columns: Sequence[Column], values: NDArray[np.float64]) -> "xr.Dataset":
+def bounces(columns: Sequence[Column], values: Array) -> "xr.Dataset":
     """Return the knocks that were heard, and what phyphox derived of them.
 
     If it heard no knock k, phyphox computes height k and energy k from the time since knock k - 1;

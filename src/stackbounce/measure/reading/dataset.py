@@ -5,11 +5,11 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bounces import INFERRED, bounces
 from stackbounce.measure.reading.roles import ACCELERATIONS, Column
 from stackbounce.measure.reading.series import in_time, step_of
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 __all__ = ["assemble", "holds_of"]
 
-Values = NDArray[np.float64]
+Values = Array
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
 _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.limits import CELLS, LINE
 from stackbounce.measure.reading.text import MISSING, Text, number, split
 
@@ -43,7 +44,7 @@ class Table:
         How many rows have more cells, or fewer, than there are columns.
     """
 
-    values: NDArray[np.float64]
+    values: Array
     strange: NDArray[np.int64]
     first: str = ""
     infinite: int = 0
@@ -109,9 +110,7 @@ def _chunks(content: str, start: int) -> Iterator[str]:
         start = end + 1
 
 
-def _parsed(
-    chunk: str, text: Text, used: Sequence[int], table: Table
-) -> NDArray[np.float64] | None:
+def _parsed(chunk: str, text: Text, used: Sequence[int], table: Table) -> Array | None:
     """Return rows whose wanted cells are all plain numbers or missing, else None.
 
     The parser is that of pandas, which since 3.1 rounds every number to the nearest float, as
@@ -144,7 +143,7 @@ def _parsed(
         return None
     if any(kind.kind not in "fiu" for kind in frame.dtypes):
         return None
-    block: NDArray[np.float64] = frame[list(used)].to_numpy(dtype=np.float64)
+    block: Array = frame[list(used)].to_numpy(dtype=np.float64)
     need = max(used) + 1
     if quoted or np.isnan(block).any():
         widths = [len(split(one, text.delimiter)) for one in chunk.split("\n") if one.strip()]
@@ -154,9 +153,7 @@ def _parsed(
     return block
 
 
-def _cell_by_cell(
-    lines: list[str], text: Text, used: Sequence[int], table: Table
-) -> NDArray[np.float64]:
+def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Table) -> Array:
     """Return rows of whatever cells."""
     rows = []
     need, nan = max(used) + 1, math.nan

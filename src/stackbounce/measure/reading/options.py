@@ -1,7 +1,7 @@
 """The options of `read`, and how they change the columns of a file."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.measure.kinds import KINDS
@@ -9,66 +9,59 @@ from stackbounce.measure.reading.headings import slug
 from stackbounce.measure.reading.roles import Column
 from stackbounce.units import in_si
 
-__all__ = ["Told", "as_told", "of_run", "told_by"]
+__all__ = ["Told", "as_told", "of_run"]
 
 _Key = str | int
 
 
 @dataclass(frozen=True)
 class Told:
-    """The options of `read`, checked."""
+    """The options of `read`, checked as far as they can be without a file."""
 
     holds: str | None = None
     table: str | None = None
     run: str | int | None = None
-    names: Mapping[_Key, str] = field(default_factory=dict)
-    units: Mapping[_Key, str] = field(default_factory=dict)
+    names: Mapping[_Key, str] | None = None
+    units: Mapping[_Key, str] | None = None
     decimal: str | None = None
 
-
-def told_by(
-    holds: object, table: object, run: object, names: object, units: object, decimal: object
-) -> Told:
-    """Return the options of `read`, checked as far as they can be without a file."""
-    if holds is not None and not (isinstance(holds, str) and holds in KINDS):
-        raise InvalidValue(
-            f"holds must be what a file holds, got {shown(holds)}; {nearest(holds, KINDS)}"
-        )
-    if not isinstance(table, str | None):
-        raise InvalidType(f"table must be a name, got {shown(table)}")
-    if isinstance(run, bool) or not isinstance(run, str | int | None):
-        raise InvalidType(f"run must be a name or a number, got {shown(run)}")
-    if not isinstance(decimal, str | None):
-        raise InvalidType(f'decimal must be "." or ",", got {shown(decimal)}')
-    called, measured = _mapping("names", names), _mapping("units", units)
-    for name in called.values():
-        if not name.isidentifier():
-            raise InvalidValue(f"names: {shown(name)} is no name, such as 'force'")
-    for unit in measured.values():
-        if in_si(unit) is None:
-            raise InvalidValue(f"units: {shown(unit)} is no unit that is known, such as 'mm'")
-    return Told(holds, table, run, called, measured, decimal)
+    def __post_init__(self) -> None:
+        if self.holds is not None and not (isinstance(self.holds, str) and self.holds in KINDS):
+            raise InvalidValue(
+                f"holds must be what a file holds, got {shown(self.holds)}; "
+                f"{nearest(self.holds, KINDS)}"
+            )
+        if not isinstance(self.table, str | None):
+            raise InvalidType(f"table must be a name, got {shown(self.table)}")
+        if isinstance(self.run, bool) or not isinstance(self.run, str | int | None):
+            raise InvalidType(f"run must be a name or a number, got {shown(self.run)}")
+        if not isinstance(self.decimal, str | None):
+            raise InvalidType(f'decimal must be "." or ",", got {shown(self.decimal)}')
+        for name in _checked("names", self.names):
+            if not name.isidentifier():
+                raise InvalidValue(f"names: {shown(name)} is no name, such as 'force'")
+        for unit in _checked("units", self.units):
+            if in_si(unit) is None:
+                raise InvalidValue(f"units: {shown(unit)} is no unit that is known, such as 'mm'")
 
 
-def _mapping(option: str, given: object) -> dict[_Key, str]:
-    """Return an option that maps columns to text, checked."""
+def _checked(option: str, given: object) -> list[str]:
+    """Return the texts of an option that maps columns to text."""
     if given is None:
-        return {}
+        return []
     if not isinstance(given, Mapping):
         raise InvalidType(f"{option} must be a mapping of columns, got {shown(given)}")
-    told = {}
     for key, value in given.items():
         if not isinstance(key, str | int) or not isinstance(value, str):
             raise InvalidType(f"{option} must map columns to text, got {shown({key: value})}")
-        told[key] = value
-    return told
+    return list(given.values())
 
 
 def as_told(columns: Sequence[Column], told: Told) -> list[Column]:
     """Return columns with the names and units of the options."""
     found = list(columns)
     for option, mapping in (("units", told.units), ("names", told.names)):
-        for key, value in mapping.items():
+        for key, value in (mapping or {}).items():
             places = [k for k, one in enumerate(found) if _is(one, key)]
             if not places:
                 known = [one.heading.text or str(one.index + 1) for one in found[:50]]
@@ -76,10 +69,8 @@ def as_told(columns: Sequence[Column], told: Told) -> list[Column]:
                     f"{option}: there is no column {shown(key)}; {nearest(key, known)}"
                 )
             for k in places:
-                if option == "names":
-                    found[k] = found[k].called(value, None)
-                else:
-                    found[k] = found[k].called("", value)
+                name, unit = (value, None) if option == "names" else ("", value)
+                found[k] = found[k].called(name, unit)
     return found
 
 

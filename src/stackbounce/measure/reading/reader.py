@@ -6,21 +6,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from stackbounce.errors import (
-    FileError,
-    InvalidValue,
-    StackbounceError,
-    shown,
-)
+from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import wav, zipped
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import Layout
 from stackbounce.measure.reading.limits import content_of, refuse_others
 from stackbounce.measure.reading.numbers import Table, rows_of
-from stackbounce.measure.reading.options import Told, as_told, of_run, told_by
+from stackbounce.measure.reading.options import Told, as_told, of_run
 from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.text import decode, tabulate
 
@@ -108,9 +103,8 @@ def read(
     >>> data.force.values
     array([   0., 1500.,  100.])
     """
-    told = told_by(holds, table, run, names, units, decimal)
-    name, content = content_of(path)
-    return _named(name, content, told)
+    told = Told(holds, table, run, names, units, decimal)
+    return _named(*content_of(path), told)
 
 
 def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
@@ -142,8 +136,7 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
     >>> read_content("force.csv", content).attrs["holds"]
     'waveform'
     """
-    known = dict.fromkeys(("holds", "table", "run", "names", "units", "decimal"))
-    told = told_by(**(known | options))
+    told = Told(**options)
     if not content:
         raise FileError(f"{name} is empty")
     return _named(name, bytearray(content), told)
@@ -239,25 +232,19 @@ def _signed(
 
 def _flaws(table: Table) -> list[str]:
     rows = len(table.values)
-    strange = int(table.strange.sum())
-    flaws = []
-    if strange and table.strange.max() <= rows / 2:
-        flaws.append(
-            f"{strange} cells are no numbers, the first {shown(table.first)}: taken as missing"
-        )
-    if table.words:
-        first = shown(table.word)
-        flaws.append(f"{table.words} lines among the numbers are words, first {first}: left out")
-    if table.infinite:
-        flaws.append(f"{table.infinite} numbers are infinite, beyond the range: taken as missing")
-    if table.longer:
-        flaws.append(f"{table.longer} rows have more cells than the others")
-    if table.shorter:
-        flaws.append(f"{table.shorter} rows have fewer cells than the others")
-    return flaws
+    strange = int(table.strange.sum()) if table.strange.max() <= rows / 2 else 0
+    first, word = shown(table.first), shown(table.word)
+    flaws = (
+        (strange, f"cells are no numbers, the first {first}: taken as missing"),
+        (table.words, f"lines among the numbers are words, first {word}: left out"),
+        (table.infinite, "numbers are infinite, beyond the range: taken as missing"),
+        (table.longer, "rows have more cells than the others"),
+        (table.shorter, "rows have fewer cells than the others"),
+    )
+    return [f"{count} {words}" for count, words in flaws if count]
 
 
-def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], NDArray[np.float64]]:
+def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], Array]:
     """Return the columns that have numbers, and these."""
     there = np.isfinite(table.values).any(axis=0) & (table.strange <= len(table.values) / 2)
     if not there.any():

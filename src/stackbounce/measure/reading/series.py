@@ -4,6 +4,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
+from stackbounce.measure.quantities import Array
 
 __all__ = ["in_time", "step_of"]
 
@@ -11,9 +12,7 @@ _RUNS = 50
 """Runs below each other, at most: with more, the column does not hold times."""
 
 
-def in_time(
-    time: NDArray[np.float64], run: object, *, gaps: bool
-) -> tuple[NDArray[np.intp] | slice, list[str]]:
+def in_time(time: Array, run: object, *, gaps: bool) -> tuple[NDArray[np.intp] | slice, list[str]]:
     """Return the rows of one run, in which time never decreases, and what is unsure.
 
     Parameters
@@ -65,7 +64,7 @@ def in_time(
     return rows, doubts
 
 
-def step_of(time: NDArray[np.float64]) -> float:
+def step_of(time: Array) -> float:
     """Return the usual step of times, NaN of fewer than two."""
     return float(np.median(np.diff(time))) if time.size > 1 else float("nan")
 

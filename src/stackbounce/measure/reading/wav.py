@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import FileError
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.limits import CELLS
 
 if TYPE_CHECKING:
@@ -120,7 +121,7 @@ def _decoded(form: bytearray, samples: memoryview, order: str, frames: int) -> N
         ) from error
 
 
-def _folded(samples: NDArray[Any]) -> NDArray[np.float64]:
+def _folded(samples: NDArray[Any]) -> Array:
     """Return the mean of the channels, (frames, channels), of full scale 1."""
     sound = np.zeros(len(samples))
     with np.errstate(all="ignore"):

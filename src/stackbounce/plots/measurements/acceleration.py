@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, annotate, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -15,7 +15,7 @@ _BESIDE = 0.15  # of the series' duration, shown on each side
 
 
 def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
-    """Draw the size of the acceleration, its flights shaded, with their restitutions.
+    """Draw the magnitude of the acceleration, its flights shaded, with their restitutions.
 
     Parameters
     ----------
@@ -29,17 +29,16 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     matplotlib.figure.Figure
         Not shown and not saved. Below 20 m/s² the scale is linear, above logarithmic.
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 4.4))
+    with styled_figure(7.2, 4.4) as figure:
         axes = figure.subplots()
         start, end = found.spans[0][0], found.spans[-1][1]
         beside = _BESIDE * (end - start)
         seen = (found.times > start - beside) & (found.times < end + beside)
         times, values = found.times[seen], found.values[seen]
         axes.plot(times, values, color="#4d4d4d", linewidth=0.9, marker=".", markersize=2.5)
+        # Texts stand in the middle of a flight or a bounce, at a share of the picture's height.
+        at: Any = {"xycoords": axes.get_xaxis_transform(), "ha": "center", "va": "top"}
+        box = {"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.5}
         for k, (first, last) in enumerate(found.spans):
             falls = k == 0 and found.fall is not None
             color = COLORS[1] if falls else COLORS[0]
@@ -47,36 +46,17 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
             height = (
                 found.drop_height if falls else found.apex_heights[k - (found.fall is not None)]
             )
-            axes.annotate(
-                f"{100.0 * height:.1uS} cm",
-                (0.5 * (first + last), 0.96),
-                xycoords=axes.get_xaxis_transform(),
-                ha="center",
-                va="top",
-                fontsize=9,
-                color=color,
-            )
+            annotate(axes, f"{100.0 * height:.1uS} cm", (0.5 * (first + last), 0.96), color, **at)
         skipped = len(found.spans) - 1 - len(found.restitutions)
         for k, kept in enumerate(found.restitutions):
             place = 0.5 * (found.spans[k + skipped][1] + found.spans[k + skipped + 1][0])
-            axes.annotate(
-                f"e = {kept:.1uS}",
-                (place, 0.86),
-                xycoords=axes.get_xaxis_transform(),
-                ha="center",
-                va="top",
-                fontsize=9,
-                bbox={"facecolor": "white", "alpha": 0.8, "edgecolor": "none", "pad": 0.5},
-            )
+            annotate(axes, f"e = {kept:.1uS}", (place, 0.86), "black", bbox=box, **at)
         axes.set_yscale("symlog", linthresh=20.0, linscale=1.2)
-        ticks = [0, 9.8, 20, 50, 100, 200, 500, 1000]
         top = float(values.max())
-        axes.set_yticks(
-            [one for one in ticks if one < 3.0 * top],
-            [f"{one:g}" for one in ticks if one < 3.0 * top],
-        )
+        ticks = [one for one in (0, 9.8, 20, 50, 100, 200, 500, 1000) if one < 3.0 * top]
+        axes.set_yticks(ticks, [f"{one:g}" for one in ticks])
         axes.minorticks_off()
         axes.set_ylim(-1.0, 8.0 * np.maximum(top, 20.0))
         axes.set_xlabel("time (s)")
-        axes.set_ylabel("size of the acceleration (m/s²)")
+        axes.set_ylabel("magnitude of the acceleration (m/s²)")
     return figure

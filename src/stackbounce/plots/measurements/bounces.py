@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, annotate, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -30,11 +30,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 4.4))
+    with styled_figure(7.2, 4.4) as figure:
         axes = figure.subplots()
         speeds = np.array([getattr(one, "nominal_value", one) for one in found.impact_speeds])
         kept = np.array([one.nominal_value for one in found.restitutions])
@@ -49,30 +45,12 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
                 axes.fill_between(
                     grid, middle - wide, middle + wide, color=COLORS[1], alpha=0.15, linewidth=0
                 )
-        axes.errorbar(
-            speeds,
-            kept,
-            yerr=errors,
-            fmt="o",
-            color=COLORS[0],
-            capsize=3,
-            markersize=6,
-            elinewidth=1.3,
-            label=f"each bounce; mean {found.mean:.1uS}"
-            if found.mean.std_dev > 0
-            else "each bounce",
-        )
-        for number, speed, value in list(zip(found.numbers, speeds, kept, strict=True))[
-            :_FIRST_NUMBERS
-        ]:
-            axes.annotate(
-                f"{number}",
-                (speed, value),
-                xytext=(7, 6),
-                textcoords="offset points",
-                fontsize=9,
-                color=COLORS[0],
-            )
+        mean = f"; mean {found.mean:.1uS}" if found.mean.std_dev > 0.0 else ""
+        marks: Any = {"fmt": "o", "color": COLORS[0], "markersize": 6}
+        bars: Any = {"yerr": errors, "capsize": 3, "elinewidth": 1.3}
+        axes.errorbar(speeds, kept, label=f"each bounce{mean}", **marks, **bars)
+        for k, number in enumerate(found.numbers[:_FIRST_NUMBERS]):
+            annotate(axes, f"{number}", (speeds[k], kept[k]), COLORS[0], xytext=(7, 6))
         axes.set_xlabel("impact speed (m/s)")
         axes.set_ylabel("restitution")
         axes.set_xlim(0.0, 1.08 * float(speeds.max()))

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, annotate, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,11 +33,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     >>> draw(None, heights(1.0, [0.64, 0.41], height_error=0.005)).axes[0].get_ylabel()
     'height of the lowest point (m)'
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 4.2))
+    with styled_figure(7.2, 4.2) as figure:
         axes = figure.subplots()
         rows = [found.drop_height, *found.bounce_heights]
         at = np.arange(len(rows))
@@ -54,14 +50,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         errors = np.nan_to_num([one.std_dev for one in rows])
         axes.errorbar(at, values, yerr=errors, fmt="o", color=COLORS[0], capsize=3, label="read")
         for k, one in enumerate(found.restitutions):
-            axes.annotate(
-                f"e = {_written(one)}",
-                (at[k + 1], values[k + 1]),
-                xytext=(7, 7),
-                textcoords="offset points",
-                fontsize=9,
-                color=COLORS[0],
-            )
+            annotate(axes, f"e = {_written(one)}", (at[k + 1], values[k + 1]), COLORS[0])
         after = "bounce" if found.repeated else "after bounce"
         axes.set_xticks(at, ["drop", *(f"{after} {k}" for k in at[:-1])])
         axes.set_ylim(0.0, 1.12 * float(values.max()))

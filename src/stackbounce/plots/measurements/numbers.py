@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.plots.style import STYLE
+from stackbounce.plots.style import styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,12 +27,8 @@ def draw(data: Any, found: Any) -> "Figure":
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
     cells = [[row.name, _written(row.value), row.unit] for row in found.rows()[:_MOST]]
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 1.0 + 0.28 * len(cells)))
+    with styled_figure(7.2, 1.0 + 0.28 * len(cells)) as figure:
         axes = figure.subplots()
         axes.axis("off")
         if cells:

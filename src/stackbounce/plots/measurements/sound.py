@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -16,7 +16,7 @@ __all__ = ["draw"]
 _COLUMNS = 2400  # of the envelope
 _MARGIN = 0.06
 _WORDS = {"echo": "echoes", "second sound of one impact": "second sounds of one impact"}
-_BLUE, _RED, _GREEN = COLORS[:3]
+_BLUE, _RED = COLORS[:2]
 
 
 def draw(data: Any, found: Any) -> "Figure":
@@ -34,11 +34,7 @@ def draw(data: Any, found: Any) -> "Figure":
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 5.2))
+    with styled_figure(7.2, 5.2) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = np.array([one.nominal_value for one in found.times])
         _draw_sound(above, data, found, times)
@@ -59,33 +55,19 @@ def _draw_sound(axes: "Axes", data: Any, found: Any, times: NDArray[np.float64])
     step = max(1, len(part) // _COLUMNS)
     rows = part[: len(part) // step * step].reshape(-1, step)
     at = origin + (first + step * (np.arange(len(rows)) + 0.5)) / found.rate
-    axes.fill_between(
-        at, rows.min(axis=1), rows.max(axis=1), color="#9a9a9a", linewidth=0.4, edgecolor="#9a9a9a"
-    )
+    gray: Any = {"color": "#9a9a9a", "edgecolor": "#9a9a9a", "linewidth": 0.4}
+    axes.fill_between(at, rows.min(axis=1), rows.max(axis=1), **gray)
     top = 1.12 * float(np.abs(part).max() or 1.0)
-    axes.plot(
-        times,
-        np.full(len(times), top),
-        "v",
-        color=_BLUE,
-        markersize=6,
-        label=f"{len(times)} knock{'s' * (len(times) != 1)}",
-        clip_on=False,
-    )
+    above = np.full(len(times), top)
+    label = f"{len(times)} knock{'s' * (len(times) != 1)}"
+    axes.plot(times, above, "v", color=_BLUE, markersize=6, label=label, clip_on=False)
     axes.vlines(times, -top, top, color=_BLUE, linewidth=0.7, alpha=0.55)
     left = np.array([one.time for one in found.dropped])
     left = left[(left > times[0] - pad) & (left < times[-1] + pad)]
     if len(left):
-        axes.plot(
-            left,
-            np.full(len(left), top),
-            "x",
-            color=_RED,
-            markersize=5,
-            markeredgewidth=1.4,
-            label=f"{len(left)} left out ({_words(found)})",
-            clip_on=False,
-        )
+        label = f"{len(left)} left out ({_words(found)})"
+        cross: Any = {"color": _RED, "markersize": 5, "markeredgewidth": 1.4, "clip_on": False}
+        axes.plot(left, np.full(len(left), top), "x", label=label, **cross)
     axes.set_ylim(-top, top)
     axes.set_ylabel("sound (full scale 1)")
     axes.legend(loc="lower right", frameon=True, framealpha=0.9, edgecolor="none", ncols=2)
@@ -112,13 +94,10 @@ def _draw_flights(axes: "Axes", found: Any, times: NDArray[np.float64]) -> None:
     flights = np.diff(times)
     missed = np.array(found.missed, dtype=bool)
     middle = 0.5 * (times[1:] + times[:-1])
-    for chosen, color, label in ((~missed, _BLUE, None), (missed, _RED, "a bounce is missing")):
-        axes.hlines(
-            1e3 * flights[chosen], times[:-1][chosen], times[1:][chosen], color=color, linewidth=2.2
-        )
-        axes.plot(
-            middle[chosen], 1e3 * flights[chosen], "o", color=color, markersize=5, label=label
-        )
+    for own, color, label in ((~missed, _BLUE, None), (missed, _RED, "a bounce is missing")):
+        lengths = 1e3 * flights[own]
+        axes.hlines(lengths, times[:-1][own], times[1:][own], color=color, linewidth=2.2)
+        axes.plot(middle[own], lengths, "o", color=color, markersize=5, label=label)
     axes.set_ylabel("flight (ms)")
     axes.set_ylim(bottom=0.0)
     if missed.any():

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import STYLE, color_of
+from stackbounce.plots.style import annotate, color_of, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,11 +30,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 5.8))
+    with styled_figure(7.2, 5.8) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
         for k, ball in enumerate(found.balls):
             _draw_ball(above, ball, color_of(k), len(found.balls) > 1)
@@ -55,17 +51,10 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
 
 def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
     used = np.isfinite(ball.fit.residuals)
-    label = _label(ball, named)
-    axes.plot(ball.times[used], ball.heights[used], "o", color=color, markersize=3.4, label=label)
-    axes.plot(
-        ball.times[~used],
-        ball.heights[~used],
-        "o",
-        color=color,
-        markersize=3.4,
-        markerfacecolor="white",
-        markeredgewidth=0.9,
-    )
+    dots: Any = {"marker": "o", "linestyle": "", "color": color, "markersize": 3.4}
+    hollow: Any = dots | {"markerfacecolor": "white", "markeredgewidth": 0.9}
+    axes.plot(ball.times[used], ball.heights[used], label=_label(ball, named), **dots)
+    axes.plot(ball.times[~used], ball.heights[~used], **hollow)
     fall = ball.fit.values[0]
     impacts = dict(zip(ball.bounces, (one.nominal_value for one in ball.impact_times), strict=True))
     for j, (first, last) in enumerate(ball.fit.flights):
@@ -80,15 +69,7 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
         place = (time.nominal_value, level.nominal_value)
         axes.plot(*place, "v", color=color, markersize=7, markeredgecolor="white")
         if not named:
-            axes.annotate(
-                f"e = {kept:.1uS}",
-                place,
-                xytext=(0, -14),
-                textcoords="offset points",
-                ha="center",
-                fontsize=9,
-                color=color,
-            )
+            annotate(axes, f"e = {kept:.1uS}", place, color, xytext=(0, -14), ha="center")
 
 
 def _label(ball: Any, named: bool) -> str:

@@ -2,17 +2,14 @@
 
 import math
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.kinds.acceleration.result import Accelerometer
+from stackbounce.measure.quantities import Array
 from stackbounce.model.drop import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["accelerometer"]
 
@@ -83,9 +80,8 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     lasting = [end - start for start, end in zip(starts, ends, strict=True)]
     held = _held(times, values, series[0].first, g)
     fall, flights = (lasting[0], lasting[1:]) if held else (None, lasting)
-    speeds = [g * one / 2.0 for one in flights]
-    before = [g * fall, *speeds[:-1]] if fall is not None else speeds[:-1]
-    after = speeds if fall is not None else speeds[1:]
+    speeds = [g * lasting[0]] * held + [g * one / 2.0 for one in flights]  # at the end of each
+    before, after = speeds[:-1], speeds[1:]
     kept = [out / into for into, out in zip(before, after, strict=True)]
     pulses = list(pairwise(series))
     counts = [other.first - one.last - 1 for one, other in pulses]
@@ -119,7 +115,7 @@ class _Flight(NamedTuple):
     end: float
 
 
-def _sizes(data: Any, gravity: float) -> tuple[NDArray[np.float64], NDArray[np.float64], list[str]]:
+def _sizes(data: Any, gravity: float) -> tuple[Array, Array, list[str]]:
     """Return times and the size of the acceleration, gravity in it, and what is odd."""
     notes: list[str] = []
     if not hasattr(data, "data_vars"):
@@ -161,19 +157,14 @@ def _sizes(data: Any, gravity: float) -> tuple[NDArray[np.float64], NDArray[np.f
     return times[known], values[known], notes
 
 
-def _flying(
-    times: NDArray[np.float64], values: NDArray[np.float64], gravity: float
-) -> list[_Flight]:
+def _flying(times: Array, values: Array, gravity: float) -> list[_Flight]:
     """Return the stretches in which it flies; the record's first and last sample are in none."""
     low = np.concatenate([[0], (values < _HALF * gravity).astype(int), [0]])
     firsts, lasts = np.flatnonzero(np.diff(low) == 1), np.flatnonzero(np.diff(low) == -1) - 1
     return [
         _Flight(int(a), int(b), float(times[a]), float(times[b]))
         for a, b in zip(firsts, lasts, strict=True)
-        if a > 0
-        and b < len(times) - 1
-        and b - a + 1 >= _FEWEST
-        and times[b] - times[a] >= _SHORTEST
+        if 0 < a <= b + 1 - _FEWEST and b < len(times) - 1 and times[b] - times[a] >= _SHORTEST
     ]
 
 
@@ -187,7 +178,7 @@ def _series(flights: list[_Flight]) -> list[_Flight]:
     return best if len(best) > 1 else []
 
 
-def _edge(times: NDArray[np.float64], k: int) -> Any:
+def _edge(times: Array, k: int) -> Any:
     """Return when something happened between samples k - 1 and k, anywhere between them."""
     from uncertainties import ufloat
 
@@ -195,9 +186,7 @@ def _edge(times: NDArray[np.float64], k: int) -> Any:
     return ufloat(0.5 * float(times[k] + times[k - 1]), step / math.sqrt(12.0))
 
 
-def _held(
-    times: NDArray[np.float64], values: NDArray[np.float64], first: int, gravity: float
-) -> bool:
+def _held(times: Array, values: Array, first: int, gravity: float) -> bool:
     """Tell whether it was held or lay still before a flight: long, and near gravity."""
     before = (times > times[first] - _LONGEST) & (times < times[first])
     known = times[first] - times[0] >= _LONGEST
@@ -205,7 +194,7 @@ def _held(
 
 
 def _notes(
-    times: NDArray[np.float64],
+    times: Array,
     counts: list[int],
     kept: list[Any],
     held: bool,

@@ -1,24 +1,17 @@
 """Acceleration as a kind of measurement."""
 
-from typing import TYPE_CHECKING
+from typing import Any
 
 from stackbounce.measure.kind import Kind
 from stackbounce.model.drop import STANDARD_GRAVITY
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from stackbounce.measure.kinds.acceleration.result import Accelerometer
-
 __all__ = ["ACCELERATION"]
 
 
-def _analyse(
-    data: "xr.Dataset", *, gravity: float = STANDARD_GRAVITY
-) -> "tuple[Accelerometer, ...]":
+def _analyse(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Any:
     from stackbounce.measure.kinds.acceleration.analysis import accelerometer
 
-    return (accelerometer(data, gravity=gravity),)
+    return accelerometer(data, gravity=gravity)
 
 
 _AXES = ("acceleration", "acceleration_absolute", "acceleration_z", "acceleration_y")

@@ -1,18 +1,10 @@
 """What was found in an acceleration."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from stackbounce.measure.finding import Finding, as_ratios
-from stackbounce.measure.quantities import Row
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from uncertainties import UFloat
-
+from stackbounce.measure.finding import Finding, rigid_contact
+from stackbounce.measure.quantities import Array, Number, Row, known_rows, nominal
 
 __all__ = ["Accelerometer"]
 
@@ -53,57 +45,49 @@ class Accelerometer(Finding):
 
     picture: ClassVar[str] = "acceleration"
 
-    fall: "UFloat | None"
-    flights: "tuple[UFloat, ...]"
-    drop_height: "UFloat | None"
-    apex_heights: "tuple[UFloat, ...]"
-    impact_speeds: "tuple[UFloat, ...]"
-    restitutions: "tuple[UFloat, ...]"
-    mean: "UFloat | None"
-    contact_times: "tuple[UFloat | None, ...]"
+    fall: Number | None
+    flights: tuple[Number, ...]
+    drop_height: Number | None
+    apex_heights: tuple[Number, ...]
+    impact_speeds: tuple[Number, ...]
+    restitutions: tuple[Number, ...]
+    mean: Number | None
+    contact_times: tuple[Number | None, ...]
     peaks: tuple[float, ...]
     notes: tuple[str, ...]
-    times: NDArray[np.float64] = field(repr=False)
-    values: NDArray[np.float64] = field(repr=False)
+    times: Array = field(repr=False)
+    values: Array = field(repr=False)
     spans: tuple[tuple[float, float], ...] = field(repr=False)
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
-        rows = [] if self.mean is None else [Row("restitution, mean", self.mean)]
-        if self.drop_height is not None and self.fall is not None:
-            rows.append(Row("drop height", self.drop_height, "m"))
-            rows.append(Row("time of fall", self.fall, "s"))
-        for k, (speed, kept) in enumerate(zip(self.impact_speeds, self.restitutions, strict=True)):
-            rows.append(Row(f"impact speed of bounce {k}", speed, "m/s"))
-            rows.append(Row(f"restitution of bounce {k}", kept))
-        for k, (time, height) in enumerate(zip(self.flights, self.apex_heights, strict=True)):
-            rows.append(Row(f"time of flight {k}", time, "s"))
-            rows.append(Row(f"height of flight {k}", height, "m"))
-        for k, lasting in enumerate(self.contact_times):
-            if lasting is not None:
-                rows.append(Row(f"contact time of bounce {k}", lasting, "s"))
-        rows += [
-            Row(f"largest acceleration in bounce {k}", a, "m/s^2") for k, a in enumerate(self.peaks)
+        listed = (  # values side by side, with the names and units of each
+            ((self.impact_speeds, "impact speed of bounce", "m/s"),
+             (self.restitutions, "restitution of bounce", "")),
+            ((self.flights, "time of flight", "s"), (self.apex_heights, "height of flight", "m")),
+            ((self.contact_times, "contact time of bounce", "s"),),
+            ((self.peaks, "largest acceleration in bounce", "m/s^2"),),
+        )  # fmt: skip
+        rows: list[tuple[str, Any, str]] = [
+            ("restitution, mean", self.mean, ""),
+            ("drop height", self.drop_height, "m"),
+            ("time of fall", self.fall, "s"),
         ]
-        return rows
+        for columns in listed:
+            for k in range(len(columns[0][0])):
+                rows += [(f"{name} {k}", values[k], unit) for values, name, unit in columns]
+        return known_rows(rows)
 
     def parts(self) -> dict[str, Any]:
         """Return the floor's contact and the drop height, as in a drop's TOML."""
-        parts: dict[str, Any] = {}
-        if self.mean is not None and self.mean.nominal_value <= 1.0:
-            parts["contact"] = {"law": "Rigid", "restitution": float(self.mean.nominal_value)}
+        parts = {} if self.mean is None else rigid_contact(self.mean)
         if self.drop_height is not None:
-            parts["height"] = float(self.drop_height.nominal_value)
+            parts["height"] = nominal(self.drop_height)
         return parts
 
     def told(self) -> dict[str, Any]:
         """Return the mean restitution and, after a fall, impact speed and contact time."""
         told: dict[str, Any] = {"restitution": self.mean}
         if self.fall is not None:
-            told["impact_speed"] = self.impact_speeds[0]
-            told["contact_time"] = self.contact_times[0]
+            told |= {"impact_speed": self.impact_speeds[0], "contact_time": self.contact_times[0]}
         return told
-
-    def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
-        """Return the first bounce's restitution, which is the ball's rebound ratio."""
-        return as_ratios(self.restitutions[:1])

@@ -1,7 +1,7 @@
 """Times of successive bounces -> restitution of each, and how it falls with speed."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -9,11 +9,9 @@ from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import laws_of, straight
 from stackbounce.measure.kinds.bounces.result import Bounces
+from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
 
 __all__ = ["bounces"]
 
@@ -21,7 +19,7 @@ __all__ = ["bounces"]
 def bounces(
     times: Any,
     *,
-    drop_height: "float | UFloat | None" = None,
+    drop_height: float | Number | None = None,
     gravity: float = STANDARD_GRAVITY,
     time_error: float | None = None,
     contact_time: float = 0.0,
@@ -76,7 +74,9 @@ def bounces(
     gravity = positive("gravity", gravity, "m/s^2")
     contact_time = non_negative("contact_time", contact_time, "seconds")
     notes: list[str] = []
-    height = _height(drop_height)
+    if drop_height is not None:
+        positive("drop_height", getattr(drop_height, "nominal_value", drop_height), "metres")
+    height = drop_height
     moments, missed = _moments(times, time_error, 3 if height is None else 2, notes)
     flights = _flights(moments, missed, contact_time)
     numbers, speeds, kept = _restitutions(flights, missed, height, gravity)
@@ -137,7 +137,7 @@ def _moments(
         values, missed = _plain(times), None
     if error is not None:
         error = positive("time_error", error, "seconds")
-    plain = np.array([_nominal(one) for one in values])
+    plain = np.array([nominal(one) for one in values])
     if len(plain) < least:
         many = "three bounces" if least == 3 else "two bounces where the drop height is known"
         raise InvalidValue(f"times must hold at least {many}, got {len(plain)}")
@@ -166,14 +166,13 @@ def _moments(
 
 def _plain(times: Any) -> list[Any]:
     """Return times out of a Dataset or a sequence."""
-    column = getattr(times, "data_vars", {}).get("knock_time") if _is_dataset(times) else None
-    if _is_dataset(times):
-        if column is None:
+    if hasattr(times, "data_vars"):
+        if "knock_time" not in times.data_vars:
             raise InvalidType(
                 "times must hold a variable knock_time, got a Dataset with "
                 f"{', '.join(map(str, times.data_vars)) or 'none'}"
             )
-        known = np.asarray(column, dtype=np.float64).ravel()
+        known = np.asarray(times["knock_time"], dtype=np.float64).ravel()
         known = known[np.isfinite(known)]
         while len(known) > 1 and known[-1] == 0.0:
             known = known[:-1]  # what phyphox writes for knocks that did not come
@@ -183,38 +182,23 @@ def _plain(times: Any) -> list[Any]:
     try:
         values = list(times)
         for one in values:
-            _nominal(one)
+            nominal(one)
     except (TypeError, ValueError):
         raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}") from None
     return values
-
-
-def _is_dataset(data: Any) -> bool:
-    return hasattr(data, "data_vars")
 
 
 def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float) -> list[Any]:
     flights: list[Any] = []
     for k, lost in enumerate(missed):
         flight = moments[k + 1] - moments[k] - contact_time
-        if _nominal(flight) <= 0.0:
+        if nominal(flight) <= 0.0:
             raise InvalidValue(
                 f"contact_time must be shorter than every interval, got {contact_time:g} s and an "
-                f"interval of {_nominal(flight) + contact_time:g} s"
+                f"interval of {nominal(flight) + contact_time:g} s"
             )
         flights.append(None if lost else flight)
     return flights
-
-
-def _height(height: "float | UFloat | None") -> Any:
-    if height is None:
-        return None
-    positive("drop_height", getattr(height, "nominal_value", height), "metres")
-    return height
-
-
-def _nominal(number: Any) -> float:
-    return float(getattr(number, "nominal_value", number))
 
 
 def _restitutions(

@@ -1,14 +1,9 @@
 """Times of bounces as kinds of measurement: of knocks, and as phyphox derives them."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.measure.kind import Kind
 from stackbounce.model.drop import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from stackbounce.measure.kinds.bounces.result import Bounces
 
 __all__ = ["BOUNCES", "KNOCKS"]
 
@@ -16,17 +11,17 @@ _SAYS = "restitution of each bounce, its fall with speed"
 
 
 def _analyse(
-    data: "xr.Dataset",
+    data: Any,
     *,
     height: Any = None,
     measured_to: Any = "bottom",
     diameter: Any = None,
     gravity: float = STANDARD_GRAVITY,
-) -> "tuple[Bounces, ...]":
+) -> Any:
     from stackbounce.measure.kinds.bounces.analysis import bounces
     from stackbounce.measure.kinds.heights.analysis import fallen
 
-    return (bounces(data, drop_height=fallen(height, measured_to, diameter), gravity=gravity),)
+    return bounces(data, drop_height=fallen(height, measured_to, diameter), gravity=gravity)
 
 
 KNOCKS = Kind("knocks", _SAYS, _analyse, columns=(("knock_time",),), dimension="knock")

@@ -3,16 +3,13 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.finding import Finding
-from stackbounce.measure.quantities import Row
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
+from stackbounce.measure.quantities import Array, Number, Row
 
 __all__ = ["SHRINKS", "Dropped", "Knocks", "missed_between"]
 
@@ -50,8 +47,8 @@ class Knocks(Finding):
 
     picture: ClassVar[str] = "sound"
 
-    times: "tuple[UFloat, ...]"
-    loudness: NDArray[np.float64]
+    times: tuple[Number, ...]
+    loudness: Array
     missed: tuple[int, ...]
     dropped: tuple[Dropped, ...]
     rate: float

@@ -2,15 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from stackbounce.measure.quantities import Array, Number
 from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_with_excess_scatter
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
 
 __all__ = ["RestitutionLaw", "laws_of", "straight"]
 
@@ -37,17 +34,17 @@ class RestitutionLaw:
     """
 
     form: Literal["linear", "power law"]
-    coefficient: "UFloat"
-    slope: "UFloat"
+    coefficient: Number
+    slope: Number
     chi_squared: float
     freedom: int
 
     @property
-    def covariance(self) -> NDArray[np.float64]:
+    def covariance(self) -> Array:
         """Covariance of coefficient and slope, (2, 2)."""
         return covariance_of([self.coefficient, self.slope])
 
-    def at(self, speed: "float | UFloat") -> "UFloat":
+    def at(self, speed: float | Number) -> Number:
         """Return the restitution at an impact speed in m/s."""
         if self.form == "linear":
             return self.coefficient - self.slope * speed
@@ -80,7 +77,7 @@ def straight(
 
 def laws_of(
     speeds: Sequence[Any], kept: Sequence[Any], most: float = _MOST
-) -> "tuple[UFloat, tuple[RestitutionLaw, ...], float]":
+) -> tuple[Number, tuple[RestitutionLaw, ...], float]:
     """Return the mean restitution, its two laws, and the scatter about the linear one."""
     from uncertainties import correlated_values, umath
 

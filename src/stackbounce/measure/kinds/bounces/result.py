@@ -1,16 +1,11 @@
 """What the times of bounces tell."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
-from stackbounce.measure.finding import Finding, as_ratios
+from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.kinds.bounces.restitution_law import RestitutionLaw
-from stackbounce.measure.quantities import Row
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from uncertainties import UFloat
-
+from stackbounce.measure.quantities import Number, Row, nominal
 
 __all__ = ["Bounces"]
 
@@ -51,14 +46,14 @@ class Bounces(Finding):
 
     picture: ClassVar[str] = "bounces"
 
-    times: "tuple[UFloat, ...]"
-    flights: "tuple[UFloat | None, ...]"
+    times: tuple[Number, ...]
+    flights: tuple[Number | None, ...]
     numbers: tuple[int, ...]
-    impact_speeds: "tuple[UFloat, ...]"
-    restitutions: "tuple[UFloat, ...]"
-    mean: "UFloat"
+    impact_speeds: tuple[Number, ...]
+    restitutions: tuple[Number, ...]
+    mean: Number
     laws: tuple[RestitutionLaw, ...]
-    drop_height: "UFloat | float | None"
+    drop_height: Number | float | None
     inferred: bool
     scatter: float
     gravity: float
@@ -75,21 +70,18 @@ class Bounces(Finding):
         if self.drop_height is not None:
             how = "inferred from the mean energy kept" if self.inferred else "given"
             rows.append(Row(f"drop height, {how}", self.drop_height, "m"))
-        for number, speed, kept in zip(
-            self.numbers, self.impact_speeds, self.restitutions, strict=True
-        ):
-            rows.append(Row(f"impact speed of bounce {number}", speed, "m/s"))
-            rows.append(Row(f"restitution of bounce {number}", kept))
+        for k, speed, kept in zip(self.numbers, self.impact_speeds, self.restitutions, strict=True):
+            rows.append(Row(f"impact speed of bounce {k}", speed, "m/s"))
+            rows.append(Row(f"restitution of bounce {k}", kept))
         if self.scatter:
             rows.append(Row("scatter of restitution from bounce to bounce", self.scatter))
         return rows
 
     def parts(self) -> dict[str, Any]:
         """Return the floor's contact and, if it is known, the drop height, as in a drop's TOML."""
-        kept = min(float(self.mean.nominal_value), 1.0)
-        parts: dict[str, Any] = {"contact": {"law": "Rigid", "restitution": kept}}
+        parts = rigid_contact(min(nominal(self.mean), 1.0))
         if self.drop_height is not None:
-            parts["height"] = float(getattr(self.drop_height, "nominal_value", self.drop_height))
+            parts["height"] = nominal(self.drop_height)
         return parts
 
     def told(self) -> dict[str, Any]:
@@ -98,7 +90,3 @@ class Bounces(Finding):
         if self.drop_height is not None and not self.inferred:
             told["impact_speed"] = (2.0 * self.gravity * self.drop_height) ** 0.5
         return told
-
-    def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
-        """Return the first bounce's restitution, which is the ball's rebound ratio."""
-        return as_ratios(self.restitutions[:1])

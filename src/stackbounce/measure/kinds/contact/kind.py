@@ -1,16 +1,13 @@
-"""A contact time and a restitution that are known, as a kind of measurement without a file."""
+"""A known contact time and restitution as a kind of measurement without a file."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.measure.kind import Kind
-
-if TYPE_CHECKING:
-    from stackbounce.measure.kinds.contact.result import Known
 
 __all__ = ["CONTACT"]
 
 
-def _of_numbers(*, contact_time: Any = None, restitution: Any = None, mass: Any = None) -> "Known":
+def _of_numbers(*, contact_time: Any = None, restitution: Any = None, mass: Any = None) -> Any:
     from stackbounce.measure.kinds.contact.analysis import known_contact
 
     return known_contact(contact_time=contact_time, restitution=restitution, mass=mass)

@@ -2,16 +2,14 @@
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.kinds.heights.result import Heights
+from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.statistics.regression import widening
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
 
 __all__ = ["Place", "above_bottom", "fallen", "heights", "lowest_point", "places"]
 
@@ -22,10 +20,10 @@ _UP = {"bottom": 0.0, "centre": 0.5, "top": 1.0}  # diameters above the lowest p
 
 
 def heights(
-    drop_height: "float | UFloat",
-    bounce_heights: "float | UFloat | Sequence[float | UFloat]",
+    drop_height: float | Number,
+    bounce_heights: float | Number | Sequence[float | Number],
     *,
-    diameter: "float | UFloat | None" = None,
+    diameter: float | Number | None = None,
     measured_to: Place | tuple[Place, Place] = "bottom",
     height_error: float | None = None,
     repeated: bool = False,
@@ -91,14 +89,14 @@ def heights(
         _counted(name, _number(name, one, error), points[1], size)
         for name, one in ((f"bounce_heights.{k}", one) for k, one in enumerate(listed))
     ]
-    notes = _notes(start, counted, repeated)
     before = [start] * len(counted) if repeated else [start, *counted[:-1]]
     kept = [(after / first) ** 0.5 for first, after in zip(before, counted, strict=True)]
     mean = _mean(start, counted, repeated)
+    notes = _notes(before, counted)
     return Heights(start, tuple(counted), tuple(kept), mean, bool(repeated), tuple(notes))
 
 
-def above_bottom(measured_to: str, diameter: "float | UFloat | None" = None) -> Any:
+def above_bottom(measured_to: str, diameter: float | Number | None = None) -> Any:
     """Return how far the bottom, centre or top of a ball lies above its lowest point.
 
     Parameters
@@ -127,7 +125,7 @@ def above_bottom(measured_to: str, diameter: "float | UFloat | None" = None) -> 
 
 
 def lowest_point(
-    name: str, height: Any, measured_to: str, diameter: "float | UFloat | None" = None
+    name: str, height: Any, measured_to: str, diameter: float | Number | None = None
 ) -> Any:
     """Return the height of a ball's lowest point from that of its bottom, centre or top.
 
@@ -226,7 +224,7 @@ def _size(diameter: Any, places: tuple[str, str]) -> Any:
 def _counted(name: str, height: Any, place: str, size: Any) -> Any:
     """Return a height of the ball's lowest point."""
     counted = height - _UP[place] * size
-    least, got = (getattr(one, "nominal_value", one) for one in (_UP[place] * size, height))
+    least, got = nominal(_UP[place] * size), nominal(height)
     if got <= least:
         raise InvalidValue(
             f"{name} must be more than the height of the ball's {place} on the floor "
@@ -250,13 +248,12 @@ def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
     return (mean / start) ** 0.5
 
 
-def _notes(start: Any, counted: list[Any], repeated: bool) -> list[str]:
+def _notes(before: list[Any], counted: list[Any]) -> list[str]:
     notes = []
-    if any(math.isnan(one.std_dev) for one in [start, *counted]):
+    if any(math.isnan(one.std_dev) for one in [before[0], *counted]):
         notes.append(
             "A height has no error, so that the restitutions' are unknown: give height_error."
         )
-    before = [start] * len(counted) if repeated else [start, *counted[:-1]]
     for k, (first, after) in enumerate(zip(before, counted, strict=True)):
         if after.nominal_value > first.nominal_value:
             notes.append(

@@ -1,27 +1,15 @@
 """Heights of bounces as a kind of measurement: a table's column, or typed."""
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kind import Kind
 
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from stackbounce.measure.kinds.heights.result import Heights
-
 __all__ = ["TABLE"]
 
 
-def _analyse(
-    data: "xr.Dataset",
-    *,
-    height_error: float | None = None,
-    repeated: bool = False,
-    measured_to: Any = "bottom",
-    diameter: Any = None,
-) -> "tuple[Heights, ...]":
-    """Analyse a table with one column of heights, the drop's above the bounces'."""
+def _analyse(data: Any, **known: Any) -> Any:
+    """Analyse a table with one column of heights, the drop height above those of the bounces."""
     if "y" not in data:
         from stackbounce.measure.kinds import KINDS
 
@@ -29,14 +17,7 @@ def _analyse(
             "there is no analysis of a table without heights: tell what it holds, one of "
             f"{', '.join(KINDS)}"
         )
-    found = _of_numbers(
-        heights=data["y"].values.tolist(),
-        height_error=height_error,
-        repeated=repeated,
-        measured_to=measured_to,
-        diameter=diameter,
-    )
-    return (found,)
+    return _of_numbers(heights=data["y"].values.tolist(), **known)
 
 
 def _of_numbers(
@@ -46,18 +27,11 @@ def _of_numbers(
     repeated: bool = False,
     measured_to: Any = "bottom",
     diameter: Any = None,
-) -> "Heights":
+) -> Any:
     from stackbounce.measure.kinds.heights import analysis
 
-    dropped, *risen = heights
-    return analysis.heights(
-        dropped,
-        risen,
-        diameter=diameter,
-        measured_to=measured_to,
-        height_error=height_error,
-        repeated=repeated,
-    )
+    known = {"diameter": diameter, "measured_to": measured_to, "height_error": height_error}
+    return analysis.heights(heights[0], heights[1:], repeated=repeated, **known)
 
 
 TABLE = Kind(

@@ -5,11 +5,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown
 from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
 from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding, whitened
 from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
+from stackbounce.measure.quantities import Array
 
 __all__ = ["knocks"]
 
@@ -144,8 +145,6 @@ def _samples(data: Any, rate: float | None) -> tuple[NDArray[np.float32], float,
 def _part(
     samples: NDArray[np.float32], rate: float, origin: float, start: Any, stop: Any
 ) -> tuple[NDArray[np.float32], float]:
-    from stackbounce.errors import finite
-
     count = samples.shape[1]
     first = 0 if start is None else round((finite("start", start, "seconds") - origin) * rate)
     last = count if stop is None else round((finite("stop", stop, "seconds") - origin) * rate)
@@ -161,10 +160,9 @@ def _notes_on(samples: NDArray[np.float32]) -> list[str]:
     if peak == 0.0:
         raise InvalidValue("sound must hold more than silence, got only zeros")
     top = np.abs(samples) >= 0.999 * peak
-    run = top[:, _CLIPPED - 1 :].copy()
-    for shift in range(_CLIPPED - 1):
-        run &= top[:, shift : top.shape[1] - _CLIPPED + 1 + shift]
-    if run.any():
+    count = max(top.shape[1] - _CLIPPED + 1, 0)
+    run = [top[:, k : k + count] for k in range(_CLIPPED)]
+    if np.logical_and.reduce(run).any():
         return ["The recording is clipped: loudness is wrong there, times are hardly touched."]
     return []
 
@@ -239,7 +237,7 @@ def _echo_delay(chain: Chain, rises: Rises) -> float:
 def _note_series(
     chain: Chain,
     rises: Rises,
-    worth: NDArray[np.float64],
+    worth: Array,
     dead: float,
     origin: float,
     notes: list[str],
@@ -272,9 +270,7 @@ def _note_series(
             )
 
 
-def _loudness(
-    white: NDArray[np.float32], rate: float, times: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _loudness(white: NDArray[np.float32], rate: float, times: Array) -> Array:
     """Return the root mean square of each knock, of all channels together."""
     count = max(1, round(_LASTS * rate))
     first = np.round(times * rate).astype(np.int64)

@@ -1,28 +1,22 @@
 """Sound as a kind of measurement."""
 
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.measure.kind import Kind
 from stackbounce.model.drop import STANDARD_GRAVITY
-
-if TYPE_CHECKING:
-    import xarray as xr
-
-    from stackbounce.measure.finding import Finding
-    from stackbounce.measure.kinds.bounces.knocks import Knocks
 
 __all__ = ["SOUND"]
 
 
 def _analyse(
-    data: "xr.Dataset",
+    data: Any,
     *,
     height: Any = None,
     measured_to: Any = "bottom",
     diameter: Any = None,
     gravity: float = STANDARD_GRAVITY,
-) -> "tuple[Finding, ...]":
+) -> Any:
     from stackbounce.measure.kinds.bounces.analysis import bounces
     from stackbounce.measure.kinds.heights.analysis import fallen
     from stackbounce.measure.kinds.sound.analysis import knocks
@@ -30,15 +24,11 @@ def _analyse(
 
     height = fallen(height, measured_to, diameter)
     heard = knocks(data)
-    if _are_enough(heard, height):
+    # A restitution needs two known flights in a row; the drop is one if its height is known.
+    whole = [height is not None, *(not lost for lost in heard.missed)]
+    if any(one and other for one, other in pairwise(whole)):
         return bounces(heard, drop_height=height, gravity=gravity), heard
     return few_bounces(heard, gravity=gravity), heard
-
-
-def _are_enough(heard: "Knocks", height: Any) -> bool:
-    """Tell whether there are two flights in a row, of which the first may be the drop."""
-    whole = [height is not None, *(not lost for lost in heard.missed)]
-    return any(one and other for one, other in pairwise(whole))
 
 
 SOUND = Kind(

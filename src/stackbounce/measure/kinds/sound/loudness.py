@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.ar_noise import linear_prediction_residual
 
 __all__ = ["Rises", "find_rises", "rounding", "whitened"]
@@ -23,13 +24,13 @@ class Rises(NamedTuple):
     `ratios` are amplitudes over the least that would count as a rise.
     """
 
-    times: NDArray[np.float64]
-    errors: NDArray[np.float64]
-    amplitudes: NDArray[np.float64]
-    ratios: NDArray[np.float64]
+    times: Array
+    errors: Array
+    amplitudes: Array
+    ratios: Array
 
 
-def rounding(samples: NDArray[np.float32]) -> NDArray[np.float64]:
+def rounding(samples: NDArray[np.float32]) -> Array:
     """Return the variance of the quantisation error, (channels,).
 
     It is s²/12 for the step s, the smallest distance of two values.
@@ -48,7 +49,7 @@ def rounding(samples: NDArray[np.float32]) -> NDArray[np.float64]:
     return found
 
 
-def whitened(samples: NDArray[np.float32], rounded: NDArray[np.float64]) -> NDArray[np.float32]:
+def whitened(samples: NDArray[np.float32], rounded: Array) -> NDArray[np.float32]:
     """Return the linear-prediction residual of each channel, (channels, N).
 
     Parameters
@@ -104,7 +105,7 @@ def find_rises(
     )
 
 
-def _energy(white: NDArray[np.float32], hop: int) -> NDArray[np.float64]:
+def _energy(white: NDArray[np.float32], hop: int) -> Array:
     """Return the mean square of each hop, all channels together."""
     count = white.shape[1] // hop
     energy = np.zeros(count)
@@ -114,9 +115,7 @@ def _energy(white: NDArray[np.float32], hop: int) -> NDArray[np.float64]:
     return energy / len(white)
 
 
-def _around(
-    energy: NDArray[np.float64], rounded: float
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
     """Return the mean energy before and after the start of each hop."""
     sums = np.concatenate([[0.0], np.cumsum(energy)])
     at = np.arange(len(energy))
@@ -141,7 +140,7 @@ def _least(threshold: float | None, freedom: int, count: int) -> float:
     return max(_LEAST_RISE, 1.2 * float(chance))
 
 
-def _maxima(values: NDArray[np.float64], wide: int) -> NDArray[np.int64]:
+def _maxima(values: Array, wide: int) -> NDArray[np.int64]:
     """Return where values are largest within `wide` to both sides."""
     from scipy.ndimage import maximum_filter1d
 

@@ -1,10 +1,12 @@
 """The onset of each knock of one ball, and its error."""
 
 import math
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+from stackbounce.measure.quantities import Array
 
 __all__ = ["onsets"]
 
@@ -17,8 +19,6 @@ _LOUD = 2e-3  # s after the onset for the power of the knock
 _COLOR = 4e-3  # s after the onset for the autocorrelation
 _LEAST = 1e-3  # of the noise: the smallest power of a knock
 _ONE_SIGMA = (0.15865525, 0.84134475)  # probabilities at one sigma below and above the mean
-
-Array: TypeAlias = NDArray[np.float64]
 
 
 class _Knock(NamedTuple):

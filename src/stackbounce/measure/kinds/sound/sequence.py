@@ -4,9 +4,9 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.bounces.knocks import SHRINKS
+from stackbounce.measure.quantities import Array
 
 __all__ = ["Chain", "find_chain"]
 
@@ -28,10 +28,10 @@ class Chain(NamedTuple):
 
 
 def find_chain(
-    times: NDArray[np.float64],
-    worth: NDArray[np.float64],
-    loudness: NDArray[np.float64],
-    errors: NDArray[np.float64],
+    times: Array,
+    worth: Array,
+    loudness: Array,
+    errors: Array,
     dead_time: float,
 ) -> Chain:
     """Return the series of bounces that explains most of the knocks.

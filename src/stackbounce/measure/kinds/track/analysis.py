@@ -4,7 +4,6 @@ import math
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.kinds.track.flights import Flights
@@ -19,6 +18,7 @@ from stackbounce.measure.kinds.track.paths import (
 )
 from stackbounce.measure.kinds.track.result import Track, Tracks
 from stackbounce.measure.kinds.track.time_base import check_time_base
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -116,7 +116,8 @@ def track(
         )
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
-    base = check_time_base(_common_gravity(balls), gravity, _frame_rate(found.times))
+    rate = float(1.0 / np.median(np.diff(found.times)))
+    base = check_time_base(_common_gravity(balls), gravity, rate)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
     sign = "" if up.sign > 0.0 else "-"
@@ -124,7 +125,7 @@ def track(
     return Tracks(tuple(balls), ratios, first, base, sign + up.axis, up.tilt, tuple(notes))
 
 
-_Found = tuple[NDArray[np.float64], NDArray[np.float64], Flights, list[int]]
+_Found = tuple[Array, Array, Flights, list[int]]
 
 
 def _fitted(
@@ -136,12 +137,8 @@ def _fitted(
     if fitted and across in found.positions[0]:
         own = [(found.positions[found.names.index(name)], one) for name, one in fitted]
         sides = [p[across][np.isfinite(up.heights(p))] for p, _ in own]
-        angle, error = tilt_of(
-            [one[0] for _, one in own],
-            [one[1] for _, one in own],
-            sides,
-            [one[2].flights for _, one in own],
-        )
+        times, heights, flown = zip(*(one[:3] for _, one in own), strict=True)
+        angle, error = tilt_of(times, heights, sides, [one.flights for one in flown])
         if abs(angle) > max(_LEAST_TILT, 3.0 * error):
             tilted = up._replace(tilt=angle)
             again = _flights(found, tilted, gravity)
@@ -176,8 +173,8 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
 
 def _track(
     name: str,
-    times: NDArray[np.float64],
-    heights: NDArray[np.float64],
+    times: Array,
+    heights: Array,
     fit: Flights,
     bounces: list[int],
     floor: float | None,
@@ -199,10 +196,7 @@ def _track(
             level = low + before * since - 0.5 * fall * since**2
             rows.append((middle + since, level, fall * since - before, after - fall * since))
         else:
-            speeds = [
-                _at_level(speed, place - floor, fall)
-                for place, speed in ((low, before), (high, after))
-            ]
+            speeds = (_at_level(before, low - floor, fall), _at_level(after, high - floor, fall))
             rows.append((middle + since, low * 0.0 + floor, *speeds))
     moments, levels, impacts, rebounds = (tuple(column) for column in zip(*rows, strict=True))
     return Track(
@@ -244,12 +238,7 @@ def _at_level(speed: Any, above: Any, fall: Any) -> Any:
 
 def _common_gravity(balls: list[Track]) -> Any:
     weights = [1.0 / max(float(ball.gravity.std_dev), 1e-12) ** 2 for ball in balls]
-    total = sum(weights)
-    return sum(weight * ball.gravity for weight, ball in zip(weights, balls, strict=True)) / total
-
-
-def _frame_rate(times: NDArray[np.float64]) -> float:
-    return float(1.0 / np.median(np.diff(times)))
+    return sum(weights[k] * ball.gravity for k, ball in enumerate(balls)) / sum(weights)
 
 
 def _rebound_ratios(balls: list[Track], notes: list[str]) -> tuple[Any, ...]:

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.ar_noise import fit_with_ar_noise
 
 __all__ = ["Flight", "Flights", "find_flights", "fit_flights", "unexplained"]
@@ -48,18 +49,16 @@ class Flights(NamedTuple):
     """
 
     flights: list[Flight]
-    values: NDArray[np.float64]
-    covariance: NDArray[np.float64]
-    origins: NDArray[np.float64]
+    values: Array
+    covariance: Array
+    origins: Array
     sigma: float
     correlation: float
-    residuals: NDArray[np.float64]
+    residuals: Array
     freedom: int
 
 
-def find_flights(
-    times: NDArray[np.float64], heights: NDArray[np.float64], sigma: float, acceleration: float
-) -> list[Flight]:
+def find_flights(times: Array, heights: Array, sigma: float, acceleration: float) -> list[Flight]:
     """Return the free flights in a track.
 
     The track is cut into flights, rests and stray points at the change points that make the sum of
@@ -99,11 +98,11 @@ def find_flights(
 
 
 def unexplained(
-    times: NDArray[np.float64],
-    heights: NDArray[np.float64],
+    times: Array,
+    heights: Array,
     sigma: float,
-    accelerations: NDArray[np.float64],
-) -> NDArray[np.float64]:
+    accelerations: Array,
+) -> Array:
     """Return the cost of the best cut of a track for each acceleration; see `find_flights`.
 
     Parameters
@@ -122,11 +121,11 @@ def unexplained(
 
 
 def _cut(
-    times: NDArray[np.float64],
-    heights: NDArray[np.float64],
+    times: Array,
+    heights: Array,
     sigma: float,
-    accelerations: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.intp], NDArray[np.intp]]:
+    accelerations: Array,
+) -> tuple[Array, NDArray[np.intp], NDArray[np.intp]]:
     """Return the cost of the best cut for each acceleration, and the pieces for the first one.
 
     The pieces are given by the last one before each point: where it starts, and its kind.
@@ -164,13 +163,11 @@ def _cut(
     return best[:, -1], starts, kinds
 
 
-def _running(terms: NDArray[np.float64]) -> NDArray[np.float64]:
+def _running(terms: Array) -> Array:
     return np.concatenate([np.zeros((*terms.shape[:-1], 1)), np.cumsum(terms, axis=-1)], axis=-1)
 
 
-def fit_flights(
-    times: NDArray[np.float64], heights: NDArray[np.float64], flights: list[Flight]
-) -> Flights:
+def fit_flights(times: Array, heights: Array, flights: list[Flight]) -> Flights:
     """Return the parabolas of flights with one common acceleration, and errors from residuals.
 
     The errors are AR(1) noise within a flight, as of a mark that drifts on the ball; see

@@ -3,9 +3,9 @@
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.track.flights import Flights
+from stackbounce.measure.quantities import Array
 
 __all__ = ["notes_of", "stays_long"]
 
@@ -15,7 +15,7 @@ _NOTICED = 1.0  # error of a speed, beyond which it is said to be off
 
 def notes_of(
     name: str,
-    times: NDArray[np.float64],
+    times: Array,
     fit: Flights,
     bounces: list[int],
     impact: Any,
@@ -46,7 +46,7 @@ def notes_of(
 
 
 def stays_long(
-    name: str, times: NDArray[np.float64], fit: Flights, bounce: int, impact: Any, fall: Any
+    name: str, times: Array, fit: Flights, bounce: int, impact: Any, fall: Any
 ) -> tuple[str, ...]:
     """Return a note where a long contact biases the speeds at the touch."""
     before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first

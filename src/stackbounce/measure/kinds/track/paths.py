@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.kinds.track.flights import (
@@ -15,6 +14,7 @@ from stackbounce.measure.kinds.track.flights import (
     fit_flights,
     unexplained,
 )
+from stackbounce.measure.quantities import Array
 
 __all__ = ["Columns", "Upward", "columns", "flights_of", "tilt_of", "upward"]
 
@@ -32,9 +32,9 @@ _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
 class Columns(NamedTuple):
     """Times (N,) in s and, for each ball, its name and positions by axis, (N,) in m."""
 
-    times: NDArray[np.float64]
+    times: Array
     names: list[str]
-    positions: list[dict[str, NDArray[np.float64]]]
+    positions: list[dict[str, Array]]
 
 
 class Upward(NamedTuple):
@@ -44,7 +44,7 @@ class Upward(NamedTuple):
     sign: float
     tilt: float = 0.0
 
-    def heights(self, position: dict[str, NDArray[np.float64]]) -> NDArray[np.float64]:
+    def heights(self, position: dict[str, Array]) -> Array:
         """Return heights from positions."""
         along = self.sign * position[self.axis]
         if not self.tilt:
@@ -94,18 +94,12 @@ def _from_dataset(data: Any) -> Columns:
             raise InvalidType(f"data must hold variables x and y of a track, got {held}")
     times = np.asarray(data["time"].values, dtype=np.float64)
     if "track" not in data[axes[0]].dims:
-        whole = {axis: np.asarray(data[axis].values, dtype=np.float64) for axis in axes}
-        return Columns(times, ["ball"], [whole])
+        data = data[axes].expand_dims(track=["ball"])
     count = data.sizes["track"]
-    names = [str(one) for one in data["track"].values] if "track" in data.coords else []
-    positions = [
-        {
-            axis: np.asarray(data[axis].isel(track=k).values, dtype=np.float64).ravel()
-            for axis in axes
-        }
-        for k in range(count)
-    ]
-    return Columns(times, names or [f"ball {k}" for k in range(count)], positions)
+    known = data["track"].values if "track" in data.coords else [f"ball {k}" for k in range(count)]
+    whole = {axis: data[axis].transpose("track", "time").values.astype(float) for axis in axes}
+    positions = [{axis: whole[axis][k] for axis in axes} for k in range(count)]
+    return Columns(times, [str(one) for one in known], positions)
 
 
 def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
@@ -136,9 +130,7 @@ def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
     return Upward(*best[:2])
 
 
-def _guesses(
-    times: NDArray[np.float64], heights: NDArray[np.float64], gravity: float
-) -> NDArray[np.float64]:
+def _guesses(times: Array, heights: Array, gravity: float) -> Array:
     """Return accelerations worth trying: of windows, and gravity with a usual wrong clock."""
     guesses = [gravity, gravity / 16.0]
     for wide in _WIDTHS:
@@ -149,9 +141,7 @@ def _guesses(
     return np.array(guesses)
 
 
-def _accelerations(
-    times: NDArray[np.float64], heights: NDArray[np.float64], wide: int
-) -> NDArray[np.float64]:
+def _accelerations(times: Array, heights: Array, wide: int) -> Array:
     """Return the accelerations of parabolas through windows of points in which the ball moves."""
     if len(heights) < wide:
         return np.zeros(0)
@@ -167,9 +157,7 @@ def _accelerations(
     return np.asarray(2.0 * curve)
 
 
-def flights_of(
-    times: NDArray[np.float64], heights: NDArray[np.float64], gravity: float
-) -> tuple[Flights, list[int]] | None:
+def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, list[int]] | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
     The acceleration is the track's own, whatever its clock and ruler are.
@@ -195,7 +183,7 @@ def flights_of(
     return fit_flights(times, heights, _released(times, fitted, jumps)), jumps
 
 
-def _released(times: NDArray[np.float64], fitted: Flights, bounces: list[int]) -> list[Flight]:
+def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]:
     """Return the flights, less the first points of a fall that follows a rest.
 
     Near its release a ball has hardly moved: which points still belong to the rest cannot be seen,
@@ -215,14 +203,14 @@ def _released(times: NDArray[np.float64], fitted: Flights, bounces: list[int]) -
     return flights
 
 
-def _noise(heights: NDArray[np.float64]) -> float:
+def _noise(heights: Array) -> float:
     """Return the error of a point, from third differences, most of which lie within one flight."""
     third = np.abs(np.diff(heights, 3))
     quartile = float(np.quantile(third, 0.25)) if len(third) else 0.0
     return max(quartile / 0.3186 / math.sqrt(20.0), _noise_floor(heights))
 
 
-def _noise_floor(heights: NDArray[np.float64]) -> float:
+def _noise_floor(heights: Array) -> float:
     """Return what rounding to pixels or digits makes at least."""
     steps = np.diff(np.unique(heights))
     steps = steps[steps > 1e-9 * np.ptp(heights)]
@@ -231,7 +219,7 @@ def _noise_floor(heights: NDArray[np.float64]) -> float:
 
 
 def _joined(
-    times: NDArray[np.float64], heights: NDArray[np.float64], flights: list[Flight]
+    times: Array, heights: Array, flights: list[Flight]
 ) -> tuple[Flights | None, list[int]]:
     """Return flights fitted, those joined between which no bounce is, and the bounces."""
     while flights:
@@ -254,7 +242,7 @@ def _joined(
     return None, []
 
 
-def _jump(times: NDArray[np.float64], fitted: Flights, j: int) -> tuple[float, float, float]:
+def _jump(times: Array, fitted: Flights, j: int) -> tuple[float, float, float]:
     """Return the jump of the velocity after flight j, its error, and the velocity before it."""
     middle = 0.5 * (times[fitted.flights[j].last - 1] + times[fitted.flights[j + 1].first])
     since = middle - fitted.origins[j : j + 2]
@@ -268,9 +256,9 @@ def _jump(times: NDArray[np.float64], fitted: Flights, j: int) -> tuple[float, f
 
 
 def tilt_of(
-    times: Sequence[NDArray[np.float64]],
-    along: Sequence[NDArray[np.float64]],
-    across: Sequence[NDArray[np.float64]],
+    times: Sequence[Array],
+    along: Sequence[Array],
+    across: Sequence[Array],
     flights: Sequence[list[Flight]],
 ) -> tuple[float, float]:
     """Return the angle in radians between an axis and the vertical, and its error."""

@@ -1,20 +1,12 @@
 """What was found in a track."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from stackbounce.measure.finding import Curve, Finding, as_ratios
+from stackbounce.measure.finding import Curve, Finding, as_ratios, rigid_contact
 from stackbounce.measure.kinds.track.flights import Flights
 from stackbounce.measure.kinds.track.time_base import TimeBase
-from stackbounce.measure.quantities import Row
-
-if TYPE_CHECKING:
-    import xarray as xr
-    from uncertainties import UFloat
-
+from stackbounce.measure.quantities import Array, Number, Row, nominal
 
 __all__ = ["Track", "Tracks"]
 
@@ -52,16 +44,16 @@ class Track:
     """
 
     name: str
-    impact_times: "tuple[UFloat, ...]"
-    levels: "tuple[UFloat, ...]"
-    impact_speeds: "tuple[UFloat, ...]"
-    rebound_speeds: "tuple[UFloat, ...]"
-    drop_height: "UFloat"
-    apex_heights: "tuple[UFloat, ...]"
-    restitutions: "tuple[UFloat, ...]"
-    gravity: "UFloat"
-    times: NDArray[np.float64]
-    heights: NDArray[np.float64]
+    impact_times: tuple[Number, ...]
+    levels: tuple[Number, ...]
+    impact_speeds: tuple[Number, ...]
+    rebound_speeds: tuple[Number, ...]
+    drop_height: Number
+    apex_heights: tuple[Number, ...]
+    restitutions: tuple[Number, ...]
+    gravity: Number
+    times: Array
+    heights: Array
     fit: Flights
     bounces: tuple[int, ...]
     notes: tuple[str, ...]
@@ -93,8 +85,8 @@ class Tracks(Finding):
     picture: ClassVar[str] = "track"
 
     balls: tuple[Track, ...]
-    rebound_ratios: "tuple[UFloat, ...]"
-    first_impact: "UFloat"
+    rebound_ratios: tuple[Number, ...]
+    first_impact: Number
     time_base: TimeBase
     axis: str
     tilt: float
@@ -112,7 +104,8 @@ class Tracks(Finding):
                 bounce = f" of bounce {k}" if len(ball.impact_times) > 1 else ""
                 rows.append(Row(f"{of}impact speed{bounce}", ball.impact_speeds[k], "m/s"))
                 rows.append(Row(f"{of}rebound speed{bounce}", ball.rebound_speeds[k], "m/s"))
-                if k > 0 or not self.rebound_ratios:  # what struck another ball, too, has none
+                # The first bounce of a stack is no bounce on the floor alone: no restitution.
+                if k > 0 or not self.rebound_ratios:
                     rows.append(Row(f"{of}restitution{bounce}", ball.restitutions[k]))
                 after = bounce.replace(" of", " after")
                 rows.append(Row(f"{of}apex height{after}", ball.apex_heights[k], "m"))
@@ -122,12 +115,9 @@ class Tracks(Finding):
 
     def parts(self) -> dict[str, Any]:
         """Return impact speed and, of a single ball, the floor's contact, as in a drop's TOML."""
-        ball = self.balls[0]
-        parts: dict[str, Any] = {"impact_speed": float(ball.impact_speeds[0].nominal_value)}
-        kept = float(ball.restitutions[0].nominal_value)
-        if len(self.balls) == 1 and 0.0 <= kept <= 1.0:
-            parts["contact"] = {"law": "Rigid", "restitution": kept}
-        return parts
+        lowest = self.balls[0]
+        contact = rigid_contact(lowest.restitutions[0]) if len(self.balls) == 1 else {}
+        return {"impact_speed": nominal(lowest.impact_speeds[0]), **contact}
 
     def told(self) -> dict[str, Any]:
         """Return the first impact speed and, of a single ball, the restitution of that bounce."""
@@ -135,18 +125,17 @@ class Tracks(Finding):
         told = {"impact_speed": ball.impact_speeds[0]}
         return told | ({"restitution": ball.restitutions[0]} if len(self.balls) == 1 else {})
 
-    def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
+    def measured(self, data: Any) -> dict[str, str]:  # noqa: ARG002
         """Return the rebound ratios of a stacked drop, or that of the lowest ball alone."""
         return as_ratios(self.rebound_ratios or self.balls[0].restitutions[:1])
 
-    def curves(self, data: "xr.Dataset") -> list[Curve]:  # noqa: ARG002
+    def curves(self, data: Any) -> list[Curve]:  # noqa: ARG002
         """Return each ball's height above where it first bounces."""
         return [
-            Curve(ball.name, "position", ball.times, height, "m")
+            Curve(ball.name, "position", ball.times, ball.heights - nominal(ball.levels[0]), "m")
             for ball in self.balls
-            for height in [ball.heights - ball.levels[0].nominal_value]
         ]
 
     def first_touch(self) -> float:
         """Return when the lowest ball first bounces, in s."""
-        return float(self.first_impact.nominal_value)
+        return nominal(self.first_impact)

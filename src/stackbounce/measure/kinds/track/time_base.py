@@ -1,17 +1,18 @@
 """A track's own clock and ruler, checked against gravity."""
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
+from stackbounce.measure.quantities import Number
 
 __all__ = ["TimeBase", "check_time_base"]
 
 _AGREES = 0.03  # a difference smaller than that is the calibration's
 _NEAR = 0.06  # by how much a factor may miss a sensible one
-_FACTORS = (2, 4, 8, 16, 20, 40, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 5 / 4, 4 / 5, 6 / 5, 5 / 6, 10 / 3)
-_FACTORS_MORE = (5 / 3, 3 / 5, 3 / 2, 2 / 3, 3, 1 / 3, 10, 1 / 10, 5, 1 / 5)
+_FACTORS = (
+    *(2, 4, 8, 16, 20, 40, 1 / 2, 1 / 4, 1 / 8, 1 / 16, 5 / 4, 4 / 5, 6 / 5, 5 / 6, 10 / 3),
+    *(5 / 3, 3 / 5, 3 / 2, 2 / 3, 3, 1 / 3, 10, 1 / 10, 5, 1 / 5),
+)
 _USUAL = (24, 25, 30, 50, 60, 100, 120, 125, 240, 250, 300, 480, 500, 600, 960, 1000, 1200)
 
 
@@ -35,15 +36,15 @@ class TimeBase(NamedTuple):
         A sentence or two for people; empty where they agree.
     """
 
-    gravity: "UFloat"
-    ratio: "UFloat"
+    gravity: Number
+    ratio: Number
     frame_rate: float
     frame_rate_factor: float | None
     agrees: bool
     note: str
 
 
-def check_time_base(gravity: "UFloat", true: float, frame_rate: float) -> TimeBase:
+def check_time_base(gravity: Number, true: float, frame_rate: float) -> TimeBase:
     """Return what the gravity of the flights says about a track's frame rate and scale.
 
     Gravity as tracked goes with the scale and with the square of the frame rate: one number cannot
@@ -74,22 +75,19 @@ def check_time_base(gravity: "UFloat", true: float, frame_rate: float) -> TimeBa
     if agrees:
         return TimeBase(gravity, ratio, frame_rate, None, True, "")
     factor = math.sqrt(1.0 / value)
-    sensible = min((*_FACTORS, *_FACTORS_MORE), key=lambda one: abs(math.log(one / factor)))
+    sensible = min(_FACTORS, key=lambda one: abs(math.log(one / factor)))
     slack = max(_NEAR, 1.5 * float(ratio.std_dev) / value)
-    near = abs(math.log(sensible / factor)) < slack
+    near = abs(math.log(sensible / factor)) < slack and abs(factor - 1.0) > 0.1
     beginning = f"Gravity comes out as {gravity:.2uS} m/s^2 instead of {true:g}: "
-    if near and abs(factor - 1.0) > 0.1:
+    clock = f"the frame rate is wrong by a factor of {factor:.3g}"
+    if near:
         rates = _rates(frame_rate, sensible)
         clock = f"the video's frame rate is wrong by a factor of {sensible:.3g}{rates}"
-    else:
-        clock = f"the frame rate is wrong by a factor of {factor:.3g}"
-        sensible = math.nan
     note = (
         f"{beginning}either {clock} (correct it by frame_rate_factor), or all lengths must be "
         f"multiplied by {1.0 / value:.3g} (scale). Nothing has been corrected."
     )
-    known = None if math.isnan(sensible) else sensible
-    return TimeBase(gravity, ratio, frame_rate, known, False, note)
+    return TimeBase(gravity, ratio, frame_rate, sensible if near else None, False, note)
 
 
 def _rates(frame_rate: float, factor: float) -> str:
