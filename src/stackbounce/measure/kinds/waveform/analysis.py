@@ -159,7 +159,8 @@ def waveform(
 
 def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
     """Find baseline and contacts in turns, as each depends on the other."""
-    zero = quiet_parts(record, np.zeros(len(record.times), dtype=bool), hum=False)
+    quiet = np.zeros(len(record.times), dtype=bool)
+    zero = quiet_parts(record, quiet, hum=False)
     stretches: list[Stretch] = []
     short, own = 0, sign or 1
     for k in range(_ROUNDS):
