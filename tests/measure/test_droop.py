@@ -54,5 +54,5 @@ def test_droop_that_is_not_put_back_is_said_with_its_time_constant():
 def test_a_wrong_time_constant_is_refused():
     with pytest.raises(InvalidValue, match="time_constant must be a positive number of seconds"):
         undrooped([0.0, 1.0], [0.0, 1.0], -1.0)
-    with pytest.raises(InvalidValue, match="one for each time"):
+    with pytest.raises(InvalidValue, match="times and values of one length"):
         drooped([0.0, 1.0], [0.0], 1.0)

@@ -3,8 +3,8 @@
 import numpy as np
 from numpy.typing import ArrayLike
 
-from stackbounce.errors import InvalidValue, positive
-from stackbounce.measure.samples import Array
+from stackbounce.errors import positive
+from stackbounce.measure.samples import Array, columns
 
 __all__ = ["drooped", "undrooped"]
 
@@ -47,7 +47,7 @@ def undrooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Arra
     0.0
     """
     rc = positive("time_constant", time_constant, "seconds")
-    t, y = _pair(times, values)
+    t, y = columns((times, values), ("times", "values"))
     share = np.diff(t) / rc
     changes = (y[1:] - np.exp(-share) * y[:-1]) * share / -np.expm1(-share)
     return np.cumsum(np.concatenate([y[:1], changes]))
@@ -84,7 +84,7 @@ def drooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Array:
     [1.0, 0.367879, 0.135335]
     """
     rc = positive("time_constant", time_constant, "seconds")
-    t, x = _pair(times, values)
+    t, x = columns((times, values), ("times", "values"))
     out = np.empty_like(x)
     out[:1] = x[:1]
     share = np.diff(t) / rc
@@ -95,10 +95,3 @@ def drooped(times: ArrayLike, values: ArrayLike, time_constant: float) -> Array:
         y = keep * y + gain
         out[k] = y
     return out
-
-
-def _pair(times: ArrayLike, values: ArrayLike) -> tuple[Array, Array]:
-    t, y = np.asarray(times, dtype=float), np.asarray(values, dtype=float)
-    if t.shape != y.shape or t.ndim != 1:
-        raise InvalidValue(f"values must be one for each time, got {t.shape} and {y.shape}")
-    return t, y

@@ -145,19 +145,20 @@ class Waveform(Finding):
 
     def _rows_of(self, contact: Contact, start: str) -> list[Row]:
         force, area = self.unit, f"{self.unit} s".strip()
+        highest: Any = contact.peak_force
+        impulse: Any = contact.impulse
+        if contact.clipped:
+            highest, impulse = (f"above {one.nominal_value:.4g}" for one in (highest, impulse))
         told: list[tuple[str, Any, str]] = [
             ("contact time", contact.time, "s"),
             ("touch", contact.start, "s"),
             ("release", contact.end, "s"),
             ("peaks", len(contact.peaks), ""),
+            ("peak force", highest, force),
+            ("impulse", impulse, area),
+            ("rise", contact.rise, "s"),
+            ("fall", contact.fall, "s"),
         ]
-        if contact.clipped:
-            told.append(("peak force", f"above {contact.peak_force.nominal_value:.4g}", force))
-            told.append(("impulse", f"above {contact.impulse.nominal_value:.4g}", area))
-        else:
-            told.append(("peak force", contact.peak_force, force))
-            told.append(("impulse", contact.impulse, area))
-        told += [("rise", contact.rise, "s"), ("fall", contact.fall, "s")]
         return [Row(start + name, value, unit) for name, value, unit in told if value is not None]
 
     def parts(self) -> dict[str, Any]:

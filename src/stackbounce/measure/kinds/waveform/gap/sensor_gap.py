@@ -3,6 +3,7 @@
 from typing import Any
 
 from stackbounce.errors import InvalidValue
+from stackbounce.measure.finding import force_channels
 from stackbounce.measure.kinds.waveform.gap.delay import delay, gap_from_delay
 from stackbounce.measure.kinds.waveform.gap.result import SensorGap
 
@@ -43,7 +44,7 @@ def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None)
     >>> abs(found.gap.nominal_value - 1e-3) < 3.0 * found.gap.std_dev < 2e-4
     True
     """
-    names = [str(name) for name in data.data_vars if str(name).startswith(("force", "voltage"))]
+    names = force_channels(data)
     if len(names) < 2:
         raise InvalidValue(f"data must have two channels, got {', '.join(names) or 'none'}")
     later = delay(data[[names[0]]], data[[names[1]]])
