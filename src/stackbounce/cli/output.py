@@ -131,7 +131,7 @@ def write_scenario(text: str, path: Path | None) -> None:
 
 
 def console() -> "Console":
-    """Return what prints for people: as wide as the terminal is, 100 columns at most."""
+    """Return the console for tables: as wide as the terminal, at most 100 columns."""
     from rich.console import Console
 
     width = Console().width if sys.stdout.isatty() else 100
@@ -140,7 +140,7 @@ def console() -> "Console":
 
 @contextlib.contextmanager
 def progress_bar(what: str) -> Iterator[Any]:
-    """Show how many of something are done on stderr, if that is a terminal."""
+    """Show a progress bar on stderr, if that is a terminal."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 

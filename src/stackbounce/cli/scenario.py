@@ -26,7 +26,7 @@ __all__ = [
 ]
 
 DEFAULT_HEIGHT = 1.0
-"""The height in m from which balls of the catalogue fall if nothing is said about it."""
+"""The height in m from which balls of the catalogue fall without --height and --speed."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -179,7 +179,7 @@ def _from_file(name: str) -> Scenario:
 
 
 def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
-    """Return the stack of balls that have a file each; two balls press on each other in series."""
+    """Return the stack of balls from a file each; neighbours have both floor contacts in series."""
     drops = [Drop.from_toml(name) for name in names]
     laws: list[ContactLaw] = []
     for name, drop in zip(names, drops, strict=True):

@@ -144,9 +144,9 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
             f"got {shown(vary)}"
         )
     found = tuple(_parameter(drops, name, given) for name, given in vary.items())
-    varied = [(key, at.path) for one in found for key, at in find_numbers(drops, one.name)]
+    varied = [place for one in found for place in find_numbers(drops, one.name)]
     for one in found:
-        if any(varied.count((key, at.path)) > 1 for key, at in find_numbers(drops, one.name)):
+        if any(varied.count(place) > 1 for place in find_numbers(drops, one.name)):
             raise InvalidValue(f"{one.name} is varied twice: only once for each drop")
     return found
 

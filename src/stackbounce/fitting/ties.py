@@ -88,26 +88,24 @@ def read_ties(
         given = {}
     if not isinstance(given, Mapping):
         raise InvalidType(f"tie must map numbers to formulas, got {shown(given)}")
-    varied = {
-        (key, number.path) for one in parameters for key, number in find_numbers(drops, one.name)
-    }
+    varied = {place for one in parameters for place in find_numbers(drops, one.name)}
     places_of = {name: find_numbers(drops, name) for name in given if isinstance(name, str)}
-    follow = [(key, number.path) for at in places_of.values() for key, number in at]
+    follow = [place for places in places_of.values() for place in places]
     found: list[Tie] = []
     for name, formula in given.items():
-        at = places_of.get(name, [])
-        if not at:
+        places = places_of.get(name, [])
+        if not places:
             right = nearest(name, list_paths(drops))
             raise InvalidValue(f"tie: {shown(name)} is no number of the drop; {right}")
-        for key, number in at:
-            if (key, number.path) in varied:
+        for place in places:
+            if place in varied:
                 raise InvalidValue(f"{name} is both varied and tied: only one of the two")
-            if follow.count((key, number.path)) > 1:
+            if follow.count(place) > 1:
                 raise InvalidValue(f"{name} is tied twice: only once for each drop")
-            found.append(_tie(drops[key], key, number, parameters, formula))
-    given_here = varied.union(follow)
+            found.append(_tie(drops[place[0]], *place, parameters, formula))
     for tie in found:
-        _check_given(drops[tie.drop], tie, {path for key, path in given_here if key == tie.drop})
+        given_here = {number.path for key, number in varied.union(follow) if key == tie.drop}
+        _check_given(drops[tie.drop], tie, given_here)
     _check_used(drops, parameters, found)
     return tuple(
         tie for key in drops for tie in _in_order([one for one in found if one.drop == key])

@@ -1,4 +1,4 @@
-"""Picture of several models of the same data: how good each is, and what each gets wrong."""
+"""Picture of several models of the same data: criterion and residuals of each."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +14,7 @@ __all__ = ["compared"]
 
 _NAMES = {"aicc": "AICc", "bic": "BIC"}
 _MOST = 4.0  # errors: the strongest colour of a pull
-_WIDEST = 40  # data, of which each pull is written in its field
+_WIDEST = 40  # for more data, the pulls are not written into the cells
 
 
 def compared(comparison: Any) -> "Figure":
@@ -73,7 +73,7 @@ def _draw_scores(axes: "Axes", comparison: Any) -> None:
 
 
 def _draw_pulls(figure: "Figure", axes: "Axes", pulls: Any) -> None:
-    """Draw the pulls of all models as a field of colours with numbers in it."""
+    """Draw the pulls of all models as a colored table, with the numbers in its cells."""
     table = pulls.values
     shown = axes.imshow(table, cmap="RdBu_r", vmin=-_MOST, vmax=_MOST, aspect="auto")
     if table.shape[1] <= _WIDEST:
@@ -95,7 +95,7 @@ def _draw_pulls(figure: "Figure", axes: "Axes", pulls: Any) -> None:
 
 
 def _written(pull: float) -> str:
-    """Return a pull as short as a field is wide."""
+    """Return a pull in at most five characters."""
     if not np.isfinite(pull):
         return "–"
     written = f"{pull:+.1f}" if abs(pull) < 99.5 else f"{pull:+.0f}"

@@ -73,7 +73,7 @@ def corner(posterior: Any) -> "Figure":
 
 
 def _extents(draws: list[Any]) -> list[tuple[float, float]]:
-    """Return what is drawn of each: nearly all draws, and something where they are all one."""
+    """Return the range of each axis: 99.8 % of the draws; of equal draws a range around them."""
     found = []
     for own in draws:
         low, high = np.quantile(own, (0.001, 0.999))

@@ -202,7 +202,7 @@ def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
 
 
 def check_source(data: Any, name: str, source: str) -> None:
-    """Refuse what is no Dataset with a variable that the function `source` gives."""
+    """Refuse data that are no Dataset with the variable `name`, as from the function `source`."""
     import xarray as xr
 
     if not isinstance(data, xr.Dataset) or name not in data:
