@@ -17,32 +17,6 @@ from stackbounce.model.schema import NO_FLOOR, read_law
 from stackbounce.units import unit_of
 from stackbounce.web.limits import LIMITS
 
-__all__ = [
-    "Catalogue",
-    "CatalogueStack",
-    "Contact",
-    "Export",
-    "ExportKind",
-    "Fitted",
-    "LikeLaw",
-    "Map",
-    "MapPaths",
-    "MapRequest",
-    "Measured",
-    "MeasuredLaw",
-    "OneContact",
-    "Paths",
-    "Play",
-    "Problem",
-    "Request",
-    "Scenario",
-    "Simulation",
-    "StackRequest",
-    "State",
-    "describe_error",
-    "read_drop",
-]
-
 _Json = dict[str, Any]
 
 
@@ -173,19 +147,17 @@ class Request(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
-class Play(Request):
-    """A drop to simulate."""
-
-    drop: Scenario
-    until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
-    frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
-
-
 class Export(Request):
     """A drop to export."""
 
     drop: Scenario
     until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
+
+
+class Play(Export):
+    """A drop to simulate."""
+
+    frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
 
 
 class StackRequest(Request):

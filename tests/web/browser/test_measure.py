@@ -108,6 +108,15 @@ def test_a_fit_that_cannot_be_is_told(visit):
     visit.complaints.clear()  # Chromium logs the answer 422, which is the point here
 
 
+def test_the_form_has_a_field_for_every_option(visit, server):
+    page = opened(visit)
+    form = page.locator("form.measure-options")
+    for option in server.get("/api/measure/options").json()["options"]:
+        name = option["name"]
+        assert form.locator(f'[name="{name}"], [data-key="option-{name}"]').count() == 1
+        assert option["label"] in form.text_content()
+
+
 def test_a_dropped_file_is_read(visit):
     page = opened(visit)
     page.evaluate(
