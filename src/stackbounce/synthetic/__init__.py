@@ -1,1 +1,1 @@
-"""Records as an instrument would write them, made from the simulator: the truth is known."""
+"""Simulated records as instruments write them, whose true values are known."""

@@ -33,21 +33,21 @@ def accelerometer(
     Parameters
     ----------
     fall : Falls
-        With a law that has a contact time: a pulse is half a sine in shape, and lasts as long.
+        With a law that has a contact time; a pulse is half a sine and lasts for this time.
     rate : float, optional
-        Samples per second; the first one comes at random within a step.
+        Samples per second; the first sample is at a random time within a step.
     before : float, optional
         How long in s it is held before its release.
     noise : float, optional
         Of each axis and sample, in m/s².
     full_range : float, optional
-        Of each axis, in m/s²; beyond it is cut off. 157 is 16 g.
+        Of each axis, in m/s²; larger values are clipped. 157 is 16 g.
     smear : float, optional
-        Over which time in s the sensor averages.
+        The time in s over which the sensor averages.
     spin : float, optional
         Acceleration in m/s² that spinning adds while it flies.
     missing : float, optional
-        Fraction of samples that are not there, at random.
+        Fraction of samples that are missing, at random.
     seed : int, optional
         Of the random numbers.
 
@@ -104,7 +104,7 @@ def accelerometer(
 
 
 def _felt(fall: Falls, times: NDArray[np.float64], spin: float) -> NDArray[np.float64]:
-    """Return the size of the acceleration that is felt, gravity in it, in m/s²."""
+    """Return the magnitude of the acceleration including gravity, in m/s²."""
     felt: NDArray[np.float64] = np.where(times < 0.0, fall.gravity, spin)
     pulses = zip(fall.touches, fall.releases, fall.speeds, fall.rebounds, strict=True)
     for touch, release, into, out in pulses:

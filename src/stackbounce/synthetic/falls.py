@@ -1,4 +1,4 @@
-"""One ball that bounces again and again: when, and how fast, with its law's restitution."""
+"""Times and speeds of the successive bounces of one ball, by its law's restitution."""
 
 import math
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Press curves whose truth is known."""
+"""Simulated press curves, whose true values are known."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -35,7 +35,7 @@ def press_record(
     compliance: float = 0.0,
     seed: int = 0,
 ) -> "xr.Dataset":
-    """Return the record of a contact that is pressed slowly and let go, as a machine writes it.
+    """Return the record of slow loading and unloading of a contact, as a testing machine writes it.
 
     Parameters
     ----------
@@ -44,19 +44,19 @@ def press_record(
     peak : float
         Compression from contact to peak, in m.
     points : int, optional
-        Of a cycle, at one speed: half of them, rounded down, are the way in with the peak.
+        Of a cycle, at constant speed: half of them, rounded down, are the loading with the peak.
     cycles : int, optional
         How many.
     slack : float, optional
-        Way before the contact, and after it, in m.
+        Travel before the contact, and after it, in m.
     hold : int, optional
         Further points at the peak.
     relaxation : float, optional
-        Share of the force that is gone at the end of the hold, or at the turn, and stays away.
+        Share of the force that is lost by the end of the hold, or at the turn, and is not regained.
     noise, jitter : float, optional
         Standard deviations of force, in N, and of compression, in m.
     memory : float, optional
-        Of the force's noise, in points; 0 is white noise.
+        Correlation length of the force's AR(1) noise, in points; 0 is white noise.
     drift : float, optional
         Of the force's zero from the first point to the last, in N.
     offset : float, optional
@@ -131,7 +131,7 @@ def _force(law: Any, way: Array, inward: int, hold: int, peak: float, relaxation
 
 
 def _noise(generator: np.random.Generator, count: int, memory: float) -> Array:
-    """Return noise of unit size, each point remembering the one before."""
+    """Return AR(1) noise of unit standard deviation."""
     from scipy.signal import lfilter
 
     white = generator.standard_normal(count)

@@ -44,7 +44,7 @@ def sound(
     Parameters
     ----------
     falls : Falls
-        When, and how fast, it bounces. The recording begins `before` s before its first touch.
+        The times and speeds of its bounces. The recording begins `before` s before its first touch.
     rate : float, optional
         Samples per second.
     bits : int, optional

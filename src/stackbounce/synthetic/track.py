@@ -42,9 +42,9 @@ def track(
         What the balls do. The time of a `Result` is 0 when the lowest ball touches the floor, and
         before that all of its balls fall from rest.
     frame_rate : float, optional
-        Frames per second; the first one comes at random within a frame.
+        Frames per second; the first frame is at a random time within a step.
     read_as : float, optional
-        The frame rate that the times are made with, where it is a wrong one.
+        The frame rate from which the times are computed, to simulate a wrong one.
     until : float, optional
         The end of the track in s; by default after the third bounce, or at the end of the run.
     before : float, optional
@@ -132,7 +132,7 @@ def _heights(source: Falls | Result, times: NDArray[np.float64]) -> NDArray[np.f
 def _errors(
     random: np.random.Generator, shape: tuple[int, ...], noise: float, correlation: float
 ) -> NDArray[np.float64]:
-    """Return errors whose correlation falls by a constant factor from point to point."""
+    """Return AR(1) errors."""
     from scipy.signal import lfilter
 
     fresh = random.standard_normal(shape)

@@ -53,7 +53,7 @@ def waveform(
         Of the record in s; default until the last release and as long again as `before`.
     before : float, optional
         How long in s it begins before the first touch; default half of the impact's duration. The
-        first sample comes up to one step later, at random, as no recorder knows of the touch.
+        first sample is up to one step later, at random, as recorders are not synchronised.
     noise : float, optional
         Standard deviation of normal noise, in N, or in V with a `sensitivity`.
     hum, mains : float, optional
@@ -61,7 +61,7 @@ def waveform(
     offset, drift : float, optional
         The level without force, in the same unit, and its change over the record.
     bits : int, optional
-        Of the converter, from 1 to 32; default no steps.
+        Of the converter, from 1 to 32; default no quantisation.
     full_scale : float, optional
         The converter's range, from minus to plus this, in the same unit; default no limit, or with
         `bits` the next power of two above all values.
@@ -140,7 +140,7 @@ def _times(
     before: float | None,
     random: np.random.Generator,
 ) -> NDArray[np.float64]:
-    """Return when it is sampled, in s since the first touch."""
+    """Return the times of the samples, in s since the first touch."""
     step = 1.0 / positive("rate", rate, "samples per second")
     ends = result.intervals["end"]
     last = max([0.0, *ends[np.isfinite(ends)].tolist()])
@@ -157,7 +157,7 @@ def _times(
 def _converted(
     values: NDArray[np.float64], bits: int | None, full_scale: float | None
 ) -> NDArray[np.float64]:
-    """Return what a converter makes of the values: steps, and no value beyond its range."""
+    """Return the values quantised to the converter's steps and clipped to its range."""
     if full_scale is not None:
         limit = positive("full_scale", full_scale)
         values = np.clip(values, -limit, limit).astype(float)

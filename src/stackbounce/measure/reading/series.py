@@ -22,7 +22,7 @@ def in_time(time: Array, run: object, *, gaps: bool) -> tuple[NDArray[np.intp] |
     run : object
         The run that is wanted, counted from 1, or None: the first.
     gaps : bool
-        Whether missing rows are told.
+        Whether missing rows are reported.
 
     Raises
     ------

@@ -29,7 +29,7 @@ def is_wav(content: bytearray) -> bool:
 
 
 def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
-    """Return the sound over time, why it is one, and what is unsure.
+    """Return the sound over time, the evidence for its format, and what is unsure.
 
     Channels are averaged, and full scale is 1. If the file is cut off, the samples that are there
     are read, and the doubt says how many are missing.

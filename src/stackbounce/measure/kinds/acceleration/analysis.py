@@ -25,9 +25,9 @@ _AXES = ("acceleration_x", "acceleration_y", "acceleration_z")
 def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerometer:
     """Return what an accelerometer tells of its fall and its bounces.
 
-    In free flight an accelerometer shows nothing, in a hand or at rest gravity, and in a bounce a
-    short and high pulse. So flights are found, and their times are all it takes: ``g t`` is the
-    impact speed after a fall of t, ``g T/2`` that at both ends of a flight of T.
+    An accelerometer reads zero in free flight, g at rest, and a short high pulse in a bounce. The
+    flights are found, and the speeds follow from their durations: the impact speed is ``g t`` after
+    a fall of duration t, and ``g T/2`` at both ends of a flight of duration T.
 
     Parameters
     ----------
@@ -50,11 +50,11 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
 
     Notes
     -----
-    A flight begins and ends between two samples, anywhere between them: that is the error. Where a
-    pulse has fewer than six samples its duration, and whether its peak is true, cannot be told. A
-    sensor that averages over a time makes pulses longer, and flights shorter, by about as much. The
-    longest series of flights with short pulses between them is taken; its first flight is a
-    fall from rest if it was held or lay still before. Air and spin are left out.
+    A flight begins and ends at an unknown time between two samples, which gives its error. The
+    contact time of a pulse of fewer than six samples is not given, and its peak is uncertain. A
+    sensor that averages over a time makes pulses longer, and flights shorter, by about this time.
+    The longest series of flights with short pulses between them is used. Its first flight is a fall
+    from rest if the sensor was at rest before it. Air and spin are neglected.
 
     Examples
     --------
@@ -116,7 +116,7 @@ class _Flight(NamedTuple):
 
 
 def _sizes(data: Any, gravity: float) -> tuple[Array, Array, list[str]]:
-    """Return times and the size of the acceleration, gravity in it, and what is odd."""
+    """Return times, the magnitude of the acceleration including gravity, and notes."""
     notes: list[str] = []
     if not hasattr(data, "data_vars"):
         try:
@@ -158,7 +158,7 @@ def _sizes(data: Any, gravity: float) -> tuple[Array, Array, list[str]]:
 
 
 def _flying(times: Array, values: Array, gravity: float) -> list[_Flight]:
-    """Return the stretches in which it flies; the record's first and last sample are in none."""
+    """Return the free flights, without those that contain the first or the last sample."""
     low = np.concatenate([[0], (values < _HALF * gravity).astype(int), [0]])
     firsts, lasts = np.flatnonzero(np.diff(low) == 1), np.flatnonzero(np.diff(low) == -1) - 1
     return [
@@ -169,7 +169,7 @@ def _flying(times: Array, values: Array, gravity: float) -> list[_Flight]:
 
 
 def _series(flights: list[_Flight]) -> list[_Flight]:
-    """Return the longest series of flights that bounces part, two or more."""
+    """Return the longest series of two or more flights with only bounces between them."""
     best: list[_Flight] = []
     own: list[_Flight] = []
     for one in flights:
@@ -179,7 +179,7 @@ def _series(flights: list[_Flight]) -> list[_Flight]:
 
 
 def _edge(times: Array, k: int) -> Any:
-    """Return when something happened between samples k - 1 and k, anywhere between them."""
+    """Return a time that is uniformly distributed between samples k - 1 and k."""
     from uncertainties import ufloat
 
     step = float(times[k] - times[k - 1])
@@ -187,7 +187,7 @@ def _edge(times: Array, k: int) -> Any:
 
 
 def _held(times: Array, values: Array, first: int, gravity: float) -> bool:
-    """Tell whether it was held or lay still before a flight: long, and near gravity."""
+    """Tell whether the sensor was at rest before a flight: for long enough, near gravity."""
     before = (times > times[first] - _LONGEST) & (times < times[first])
     known = times[first] - times[0] >= _LONGEST
     return bool(known and 0.5 * gravity < np.median(values[before]) < 1.5 * gravity)

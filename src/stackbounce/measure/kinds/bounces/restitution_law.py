@@ -11,7 +11,7 @@ from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_wi
 
 __all__ = ["RestitutionLaw", "laws_of", "straight"]
 
-_MOST = 0.3  # by which restitutions may scatter from bounce to bounce
+_MOST = 0.3  # largest excess scatter of restitutions
 
 
 @dataclass(frozen=True)

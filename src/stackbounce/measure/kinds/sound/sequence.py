@@ -1,4 +1,4 @@
-"""Which of many sounds are one ball's bounces: their intervals shrink by a steady factor."""
+"""Selects the bounces of one ball among many sounds: their intervals shrink steadily."""
 
 import math
 from typing import NamedTuple
@@ -14,8 +14,8 @@ _LONGEST = 3.0  # s in the air: a bounce of 11 m
 _STEADY = 0.06  # by how much its logarithm may change from bounce to bounce
 _LIMIT = 3.0  # times that much, and no more
 _LOUDNESS = 1.0  # by how much ln(loudness) scatters about that of the speed
-_MISSED = 2.5  # what leaving out a bounce costs; a clear knock is worth 1 to 3
-_START = 1.0  # what beginning costs
+_MISSED = 2.5  # penalty of a missing bounce; a clear knock scores 1 to 3
+_START = 1.0  # penalty of a series
 _RANGES = 8  # of the ratio
 _RANGE = math.log(SHRINKS[1] / SHRINKS[0]) / _RANGES
 
@@ -45,7 +45,7 @@ def find_chain(
     times : ndarray
         (N,) of all knocks, ascending, in s.
     worth : ndarray
-        (N,) what it is worth to explain each.
+        (N,) score of including each.
     loudness : ndarray
         (N,) amplitudes, above 0.
     errors : ndarray
@@ -116,7 +116,7 @@ class _Pairs:
 
 
 def _go_on(pairs: _Pairs, j: int, k: int, step: _Step, worth: float) -> None:
-    """Write the best series that go on with the flight from j to k."""
+    """Extend the best series that end in j by the flight from j to k."""
     scores = pairs.score[:j, j]
     known = np.argwhere(np.isfinite(scores))
     if not len(known):

@@ -40,8 +40,8 @@ def track(
     """Return what a track of one ball or more tells of its drop and its bounces.
 
     The track is cut into free flights, to which parabolas of one acceleration are fitted; a bounce
-    is where the parabolas before and after it meet. The acceleration is the track's own: it is
-    compared with gravity, and what that says of the clock and the ruler is told, never corrected.
+    is where the parabolas before and after it meet. The acceleration is fitted and compared with
+    gravity. A note says what a difference means for frame rate and scale; nothing is corrected.
 
     Parameters
     ----------

@@ -170,8 +170,8 @@ def _running(terms: Array) -> Array:
 def fit_flights(times: Array, heights: Array, flights: list[Flight]) -> Flights:
     """Return the parabolas of flights with one common acceleration, and errors from residuals.
 
-    The errors are AR(1) noise within a flight, as of a mark that drifts on the ball; see
-    `fit_with_ar_noise`.
+    The errors within a flight are modelled as AR(1) noise, which a mark that drifts on the ball
+    causes; see `fit_with_ar_noise`.
     """
     rows = np.concatenate([np.arange(*flight) for flight in flights])
     owner = np.repeat(np.arange(len(flights)), [last - first for first, last in flights])

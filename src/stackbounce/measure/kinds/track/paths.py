@@ -103,7 +103,7 @@ def _from_dataset(data: Any) -> Columns:
 
 
 def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
-    """Return which way is up: along which falling at one acceleration explains most."""
+    """Return the upward direction: the one in which constant downward acceleration fits best."""
     if axis is not None:
         if axis not in _AXES:
             raise InvalidValue(f"axis must be x, y, -x or -y, got {shown(axis)}")
@@ -160,7 +160,7 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
 def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, list[int]] | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
-    The acceleration is the track's own, whatever its clock and ruler are.
+    The acceleration is fitted, as the frame rate and the scale of the track may be wrong.
     """
     sigma = _noise(heights)
     guesses = _guesses(times, heights, gravity)
@@ -186,8 +186,8 @@ def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, l
 def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]:
     """Return the flights, less the first points of a fall that follows a rest.
 
-    Near its release a ball has hardly moved: which points still belong to the rest cannot be seen,
-    and choosing those that fit best would pull the parabola.
+    Just after its release a ball has moved by less than the error of a point. Such a point may
+    belong to the rest or to the flight, and choosing by the fit would bias the parabola.
     """
     flights = list(fitted.flights)
     fall = float(fitted.values[0])
@@ -204,14 +204,14 @@ def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]
 
 
 def _noise(heights: Array) -> float:
-    """Return the error of a point, from third differences, most of which lie within one flight."""
+    """Return the error of a point from third differences, most of which lie within one flight."""
     third = np.abs(np.diff(heights, 3))
     quartile = float(np.quantile(third, 0.25)) if len(third) else 0.0
     return max(quartile / 0.3186 / math.sqrt(20.0), _noise_floor(heights))
 
 
 def _noise_floor(heights: Array) -> float:
-    """Return what rounding to pixels or digits makes at least."""
+    """Return the least error of a point, that of rounding to pixels or digits."""
     steps = np.diff(np.unique(heights))
     steps = steps[steps > 1e-9 * np.ptp(heights)]
     step = float(steps.min()) if len(steps) else 0.0
@@ -221,7 +221,7 @@ def _noise_floor(heights: Array) -> float:
 def _joined(
     times: Array, heights: Array, flights: list[Flight]
 ) -> tuple[Flights | None, list[int]]:
-    """Return flights fitted, those joined between which no bounce is, and the bounces."""
+    """Return the fit of the flights, joined where no bounce separates them, and the bounces."""
     while flights:
         fitted = fit_flights(times, heights, flights)
         if fitted.freedom < 1 or fitted.values[0] <= 0.0:

@@ -1,4 +1,4 @@
-"""A track's own clock and ruler, checked against gravity."""
+"""The frame rate and the scale of a track, checked against gravity."""
 
 import math
 from typing import NamedTuple
@@ -17,7 +17,7 @@ _USUAL = (24, 25, 30, 50, 60, 100, 120, 125, 240, 250, 300, 480, 500, 600, 960, 
 
 
 class TimeBase(NamedTuple):
-    """What gravity says about a track's clock and ruler.
+    """What gravity says about a track's frame rate and scale.
 
     Attributes
     ----------
@@ -28,10 +28,10 @@ class TimeBase(NamedTuple):
     frame_rate : float
         As the times of the track have it, in 1/s.
     frame_rate_factor : float or None
-        By which the true frame rate is higher, a sensible number near what gravity asks for; None
-        where clock and ruler agree with gravity, or no sensible one is near.
+        By which the true frame rate is higher: a usual factor near the one that gravity requires.
+        None where frame rate and scale agree with gravity, or no usual factor is near.
     agrees : bool
-        Whether clock and ruler agree with gravity.
+        Whether frame rate and scale agree with gravity.
     note : str
         A sentence or two for people; empty where they agree.
     """
@@ -47,8 +47,8 @@ class TimeBase(NamedTuple):
 def check_time_base(gravity: Number, true: float, frame_rate: float) -> TimeBase:
     """Return what the gravity of the flights says about a track's frame rate and scale.
 
-    Gravity as tracked goes with the scale and with the square of the frame rate: one number cannot
-    tell which of them is wrong.
+    Gravity as tracked is proportional to the scale and to the square of the frame rate, so that it
+    cannot tell which of the two is wrong.
 
     Parameters
     ----------
