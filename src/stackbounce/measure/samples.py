@@ -7,10 +7,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.measure.quantities import Array
 
-__all__ = ["Array", "columns", "runs", "trapezoid"]
-
-Array = NDArray[np.float64]
+__all__ = ["columns", "runs", "trapezoid"]
 
 
 def columns(data: Any, names: Sequence[str]) -> list[Array]:

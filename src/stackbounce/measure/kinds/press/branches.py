@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.samples import Array, columns
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import columns
 from stackbounce.measure.statistics.ar_noise import difference_noise
 
 if TYPE_CHECKING:

@@ -14,7 +14,8 @@ from stackbounce.measure.kinds.press.fits import (
     power_law,
     rough_contact,
 )
-from stackbounce.measure.samples import Array, trapezoid
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import trapezoid
 from stackbounce.measure.statistics.ar_noise import Noise
 
 __all__ = ["Branch", "Found", "analysed"]

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array
 
 __all__ = ["PowerFit", "fit_power_law", "power", "power_law", "rough_contact"]
 

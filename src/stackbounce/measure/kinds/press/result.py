@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Finding
-from stackbounce.measure.quantities import Row, measured
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array, Row, measured
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

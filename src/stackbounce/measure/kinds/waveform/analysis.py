@@ -21,8 +21,7 @@ from stackbounce.measure.kinds.waveform.intervals import (
 from stackbounce.measure.kinds.waveform.record import Record, read_record
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
 from stackbounce.measure.kinds.waveform.sensor import known, sensitivity_of
-from stackbounce.measure.quantities import known_to
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array, known_to
 from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.record import Record
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
 __all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter", "stuck"]

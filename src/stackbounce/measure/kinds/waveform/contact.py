@@ -14,8 +14,7 @@ from stackbounce.measure.kinds.waveform.intervals import Stretch
 from stackbounce.measure.kinds.waveform.peaks import Peak, find_peaks, flat_top, impulse_of
 from stackbounce.measure.kinds.waveform.result import Contact
 from stackbounce.measure.kinds.waveform.shapes import Shape
-from stackbounce.measure.quantities import known_to
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array, known_to
 
 __all__ = ["Seen", "measure_contact"]
 

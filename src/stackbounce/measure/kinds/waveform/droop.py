@@ -4,7 +4,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from stackbounce.errors import positive
-from stackbounce.measure.samples import Array, columns
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import columns
 
 __all__ = ["drooped", "undrooped"]
 

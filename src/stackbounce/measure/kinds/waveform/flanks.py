@@ -13,7 +13,7 @@ import numpy as np
 
 from stackbounce.measure.kinds.waveform.intervals import smoothed
 from stackbounce.measure.kinds.waveform.shapes import Shape
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array
 
 __all__ = ["Flank", "fit_flank"]
 

@@ -4,7 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from stackbounce.measure.samples import Array, runs
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import runs
 
 __all__ = ["Stretch", "find_stretches", "smoothed", "which_sign"]
 

@@ -7,7 +7,8 @@ import numpy as np
 from numpy.polynomial import polynomial
 
 from stackbounce.measure.kinds.waveform.intervals import smoothed
-from stackbounce.measure.samples import Array, runs, trapezoid
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import runs, trapezoid
 
 __all__ = ["Peak", "find_peaks", "flat_top", "impulse_of"]
 

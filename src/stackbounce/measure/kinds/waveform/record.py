@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import force_channels
-from stackbounce.measure.samples import Array, columns
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import columns
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -6,8 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from stackbounce.measure.constants import dynamic_stiffness
 from stackbounce.measure.finding import Curve, Finding, channels, force_channels
 from stackbounce.measure.kinds.waveform.flanks import Flank
-from stackbounce.measure.quantities import Row
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array, Row
 
 if TYPE_CHECKING:
     import xarray as xr

@@ -20,7 +20,7 @@ from math import log
 
 import numpy as np
 
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array
 
 __all__ = ["Shape"]
 

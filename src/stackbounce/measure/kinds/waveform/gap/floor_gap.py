@@ -9,8 +9,7 @@ from stackbounce.errors import InvalidValue, fraction
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.gap.result import FloorGap
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
-from stackbounce.measure.quantities import known_to, measured
-from stackbounce.measure.samples import Array
+from stackbounce.measure.quantities import Array, known_to, measured
 from stackbounce.measure.statistics.change_point import Kink, find_kink
 from stackbounce.model.drop import STANDARD_GRAVITY
 
