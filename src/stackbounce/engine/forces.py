@@ -244,13 +244,22 @@ def power_needed(stack: Stack, i: int) -> float:
 
 
 @kernel
-def find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> None:
+def has_squares(stack: Stack, low: int, high: int) -> bool:
+    """Tell whether the gain of one of the contacts low..high-1 has a term in c^2."""
+    largest = 0.0
+    for i in range(low, high):
+        largest = max(largest, stack.gain_square[i])
+    return largest > 0.0
+
+
+@kernel
+def find_terms(stack: Stack, low: int, high: int, order: int, root: int, squares: int) -> None:
     """Compute the series of a cluster, whose first terms are known, up to an order.
 
     With x = t^(1/root), a series of terms a_k x^k is the rate of one of terms root a_k/(k + root)
     x^(k + root). Of each power of a compression c, all terms are computed that c is known to. This
     is one function, which takes each array from the stack once: several functions took twice as
-    long.
+    long. Only if ``squares`` is 1 may a gain have a term in c^2: without it the loop is faster.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
     powers, gains, power = stack.power_series, stack.gain_series, stack.power
@@ -287,7 +296,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> None
                 gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
                 if k == 0:
                     gain[0] += gain_constant[i]
-                if gain_square[i] != 0.0:
+                if squares == 1:
                     total = 0.0
                     for j in range(k + 1):
                         total += c[j] * c[k - j]
@@ -297,14 +306,16 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> None
                 elif p > exponent[i]:  # see `power_needed`
                     pull = gain_slope[i] * u[k] + gain_rate[i] / (share * p) * u[n]
                     force = curve_force[i] * curve_unit[i] * pull
-                else:
-                    factor, size = c, slope[i]
-                    if p > 0.0:
-                        factor, size = u, curve_force[i]
+                elif p > 0.0:
                     total = 0.0
                     for j in range(1, k + 1):
-                        total += factor[j] * gain[k - j]
-                    force = size * (total + factor[0] * gain[k])
+                        total += u[j] * gain[k - j]
+                    force = curve_force[i] * (total + u[0] * gain[k])
+                else:
+                    total = 0.0
+                    for j in range(1, k + 1):
+                        total += c[j] * gain[k - j]
+                    force = slope[i] * (total + c[0] * gain[k])
             f_all[i][k] = force
             if i > 0:
                 v_all[i - 1][n] = share / mass[i - 1] * (below - force) - falling

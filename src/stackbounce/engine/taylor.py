@@ -19,6 +19,7 @@ from stackbounce.engine.compiler import Floats, kernel
 from stackbounce.engine.forces import (
     find_terms,
     force,
+    has_squares,
     is_linear,
     power_needed,
     raised,
@@ -63,10 +64,12 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         stack.velocity_series[b][1] = 0.0
         stack.order[b] = order
         stack.speed[b] = speed
-    if root == 1 and low == 0 and high == 2:
-        find_terms(stack, 0, 2, order, 1)  # as below, but compiled for constants
+    if has_squares(stack, low, high):
+        find_terms(stack, low, high, order, root, 1)
+    elif root == 1 and low == 0 and high == 2:
+        find_terms(stack, 0, 2, order, 1, 0)  # as below, but compiled for constants
     else:
-        find_terms(stack, low, high, order, root)
+        find_terms(stack, low, high, order, root, 0)
     step = 0.0
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[SPEED])
