@@ -24,6 +24,7 @@ from stackbounce.web.limits import LIMITS
 MASS, SPEED, TIME, KEPT = 0.1, 2.0, 4e-3, 0.8
 
 
+@dataclasses.dataclass(frozen=True)
 class Cone(ElasticLaw):
     """A sharp cone on a flat floor: ``F = k c**2``."""
 
@@ -42,7 +43,7 @@ def added():
 
     def add(law):
         catalogue.cache_clear()
-        return register(dataclasses.dataclass(frozen=True)(law))
+        return register(law)
 
     known = list(LAWS)
     yield add
