@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from hardening import Hardening
 from stackbounce.cli import main, tables
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
@@ -23,6 +24,7 @@ from stackbounce.web.limits import LIMITS
 MASS, SPEED, TIME, KEPT = 0.1, 2.0, 4e-3, 0.8
 
 
+@dataclasses.dataclass(frozen=True)
 class SharpCone(ElasticLaw):
     """A sharp cone on a flat floor: ``F = k c**2``."""
 
@@ -36,12 +38,17 @@ class SharpCone(ElasticLaw):
 
 
 @pytest.fixture
-def cone():
-    """Register the law for one test."""
-    law = register(dataclasses.dataclass(frozen=True)(SharpCone))
-    list_choices.cache_clear()
-    yield law
-    del LAWS["SharpCone"]
+def added():
+    """Register laws for one test."""
+
+    def add(law):
+        list_choices.cache_clear()
+        return register(law)
+
+    known = list(LAWS)
+    yield add
+    for name in set(LAWS) - set(known):
+        del LAWS[name]
     list_choices.cache_clear()
 
 
@@ -146,7 +153,8 @@ def test_the_usual_models_are_those_that_laws_offer():
     }
 
 
-def test_a_new_law_with_a_known_form_of_force_is_one_class(cone, tmp_path, capfd):
+def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capfd):
+    cone = added(SharpCone)
     law, result = goes_through_every_face(cone, tmp_path, capfd)
     fits_its_stiffness(law, result)
     is_told_by_a_force_record(law, result)
@@ -160,10 +168,18 @@ def test_a_new_law_with_a_known_form_of_force_is_one_class(cone, tmp_path, capfd
     assert models["SharpCone"].drop.contacts[1].stiffness == pytest.approx(law.stiffness)
 
 
+def test_a_new_law_with_a_form_of_its_own_is_one_class(added, tmp_path, capfd):
+    law, result = goes_through_every_face(added(Hardening), tmp_path, capfd)
+    fits_its_stiffness(law, result)
+    is_told_by_a_force_record(law, result)
+    words = f"Hardening, stiffness {law.stiffness:.6g} N/m, length 0.002 m"
+    assert tables.law_text(law) == words
+
+
 def test_a_law_without_closed_forms_is_measured_by_a_run():
     @dataclasses.dataclass(frozen=True)
     class Plain(ContactLaw):
-        form: ClassVar[int] = sb.Dashpot.form
+        form: ClassVar[str] = sb.Dashpot.form
         law_parameter: ClassVar[str] = "damping"
         exponent: ClassVar[float] = 1.0
         stiffness: float

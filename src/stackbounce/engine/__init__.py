@@ -3,7 +3,7 @@
 ============= =====================================================================
 compiler      marks kernels: plain Python for a few drops, compiled by numba for many
 structure     how compiled kernels get at a stack's arrays
-codes         integer codes of statuses, laws, phases and events
+codes         integer codes of statuses, forms of force, phases and events
 slots         names of the slots of a stack's small arrays
 stack         the arrays that hold a stack of balls
 preparation   fills a stack with a drop's numbers
@@ -16,7 +16,8 @@ series        power series: evaluation, shift, sign bounds
 modes         a linear cluster: normal modes (eqs 5, 6)
 taylor        any other cluster: the Taylor series of its motion
 motion        displacement, velocity and compression at any time
-contacts      force curves, and how events change them
+forces        the forms of force: numbers, force, energy, power series
+contacts      which force curve a contact follows, and how events change it
 next_event    the next event of a contact, found so that none is missed
 rest          when balls on finite contacts have come to rest under gravity
 simultaneous  the event loop of a stack with finite contacts

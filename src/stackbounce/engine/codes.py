@@ -1,4 +1,4 @@
-"""Integer codes of statuses, laws, phases and kinds of event, and the columns of the event log."""
+"""Integer codes of statuses, forms of force, phases and events, and the columns of the log."""
 
 # how a run ended
 RUNNING = 0  # the log is full: the caller empties it and continues
@@ -10,22 +10,17 @@ EVENT_LIMIT = 5
 INVALID = 6
 ASK = 7  # the fast engine left a drop undecided: the general one solves it
 
-# forms of the force of a contact
+# forms of the force of a contact, in the stack; `forces` has more, which it makes PRODUCT
 ABSENT = 0  # no floor
-POWER = 1  # F = k c^p, loading and unloading alike
-HYSTERETIC = 2  # F = k c^p loading, k C^p (c/C)^n unloading from the peak C
-LOSSY = 3  # as HYSTERETIC; reloading loses the same share of its work as first loading
-DAMPED = 4  # F = max(0, K c^q (a + b c + d c'))
-# further forms that a contact is told by; `prepare` makes them DAMPED, with these numbers
-DASHPOT = 5  # K = k, q = 0, a = 0, b = 1, d = damping/k
-VISCOELASTIC = 6  # K = k, q = 1/2, a = 0, b = 1, d = 3/2 dissipative time
-HUNT_CROSSLEY = 7  # K = k, q = p, a = 1, b = 0, d = dissipation
-RIGID = 8  # an instantaneous collision
+POWER = 1  # a power of the compression, loading and unloading alike
+HYSTERETIC = 2  # another power when unloading
+LOSSY = 3  # the same, with another one after each reloading
+PRODUCT = 4  # a power of the compression times a gain, which may depend on the rate
 
 # phases of a contact; from COMPRESSING on it presses and joins its balls into a cluster
 OPEN = 0
 UNLOADED = 1  # still compressed; its force would pull and is clipped to zero
-COMPRESSING = 2  # damped: in the whole interval; others: more compressed than before
+COMPRESSING = 2  # a product: in the whole interval; others: more compressed than before
 RELEASING = 3  # compressed less than before
 
 # kinds of event

@@ -1,7 +1,7 @@
 """The force curve that a contact follows in each phase, and how events change it.
 
-The force of a damped contact is a power of c times its *gain* a + b c + d c'. The contact stays in
-the phase COMPRESSING until the gain falls through 0 (CLIPPED: it is then unloaded) or c does.
+The force of a PRODUCT is a power of c times a *gain*, see `forces`. The contact stays in the phase
+COMPRESSING until the gain falls through 0 (CLIPPED: it is then unloaded) or c does.
 
 Because c^p has no power series at c = 0, a power law is *linearised*, that is replaced by its chord
 from 0, below a compression at which the work is negligible (event LINEARISED); above it the contact
@@ -15,12 +15,9 @@ import math
 
 from stackbounce.engine.codes import (
     COMPRESSING,
-    DAMPED,
     DIP,
-    HYSTERETIC,
     LINEARISED,
     LOSSY,
-    OPEN,
     PEAK,
     POWER,
     RELEASING,
@@ -29,6 +26,7 @@ from stackbounce.engine.codes import (
     UNLOADED,
 )
 from stackbounce.engine.compiler import kernel
+from stackbounce.engine.forces import force, loaded_energy, stored_energy
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
@@ -43,63 +41,6 @@ _GRAZE = 1e-30  # of a typical compression: the smallest peak
 _STEEPER = 1.0 + 1e-12  # times the exponent: a smaller increase is round-off
 
 _BEYOND = 1.0 + 1e-6  # times the old peak, where the steepest curve has 3 times the force
-
-
-@kernel
-def raised(x: float, p: float) -> float:
-    """Return x^p; for p = 1.5 (Hertz) by a square root, which is faster than a power."""
-    if p == 1.5:
-        return x * math.sqrt(x)
-    power: float = x**p
-    return power
-
-
-@kernel
-def force(stack: Stack, i: int, compression: float, rate: float) -> float:
-    """Return the force of contact i on the curve that it follows."""
-    if stack.phase[i] < COMPRESSING:
-        return 0.0
-    exponent = stack.curve_exponent[i]
-    if stack.linearised[i] == 1 or exponent == 1.0:
-        pressing = stack.rate[i] * compression
-    else:
-        ratio = max(0.0, compression / stack.curve_unit[i])
-        pressing = stack.curve_force[i] * raised(ratio, exponent)
-    if stack.law[i] == DAMPED:
-        gain = stack.gain_constant[i] + stack.gain_slope[i] * compression
-        return pressing * max(0.0, gain + stack.gain_rate[i] * rate)
-    return pressing
-
-
-@kernel
-def stored_energy(stack: Stack, i: int, compression: float) -> float:
-    """Return the energy that contact i would give back if its unloading were not damped."""
-    if stack.phase[i] == OPEN:
-        return 0.0
-    if stack.law[i] == DAMPED:
-        exponent = stack.exponent[i] + 1.0
-        power: float = max(0.0, compression) ** exponent
-        return stack.stiffness[i] * power / exponent
-    if stack.law[i] == LOSSY and stack.top[i] == math.inf:
-        return _loaded_energy(stack, i, compression)
-    exponent = stack.curve_exponent[i]
-    if stack.law[i] == HYSTERETIC and stack.top[i] == math.inf:
-        exponent = stack.unloading[i]
-    return force(stack, i, compression, 0.0) * compression / (exponent + 1.0)
-
-
-@kernel
-def _loaded_energy(stack: Stack, i: int, compression: float) -> float:
-    """Return the energy that a lossy contact on its loading curve would give back.
-
-    That is e^2 of the work done on this curve, plus what it held when it came onto the curve.
-    """
-    exponent = stack.exponent[i] + 1.0
-    kept = exponent / (stack.unloading[i] + 1.0)
-    above: float = max(0.0, compression) ** exponent
-    base: float = stack.base[i] ** exponent
-    work = stack.stiffness[i] * (above - base) / exponent
-    return stack.base_energy[i] + kept * max(0.0, work)
 
 
 @kernel
@@ -123,9 +64,7 @@ def close_contact(stack: Stack, i: int, time: float) -> None:
 def _set_loading_curve(stack: Stack, i: int) -> None:
     """Let contact i follow its loading curve: k c^p, or a power of c times a gain."""
     unit = stack.scale[i]
-    exponent = stack.exponent[i]
-    if stack.law[i] == DAMPED:
-        exponent = stack.factor_exponent[i]
+    exponent = stack.factor_exponent[i]
     _set_curve(stack, i, stack.stiffness[i] * unit**exponent, unit, exponent)
     stack.top[i] = math.inf
     if exponent == 1.0:
@@ -251,7 +190,7 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
             pressing = force(stack, i, compression, 0.0)
             exponent = stack.unloading[i]
             if stack.base[i] > 0.0:
-                held = _loaded_energy(stack, i, compression)
+                held = loaded_energy(stack, i, compression)
                 given_back = min(pressing * compression / held - 1.0, _STEEPEST * exponent)
                 exponent = max(stack.exponent[i], given_back)  # never more than the work done
             _set_curve(stack, i, pressing, compression, exponent)

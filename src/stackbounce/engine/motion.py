@@ -6,6 +6,7 @@ from stackbounce.engine.codes import COMPRESSING, EPSILON
 from stackbounce.engine.compiler import Floats, kernel
 from stackbounce.engine.contacts import correct_curve
 from stackbounce.engine.event_queue import schedule
+from stackbounce.engine.forces import is_linear, power_needed
 from stackbounce.engine.modes import (
     find_modes,
     modal_compression,
@@ -19,8 +20,6 @@ from stackbounce.engine.stack import MODES, WIDTH, Stack
 from stackbounce.engine.taylor import (
     ROOT_POWERS,
     expand_motion,
-    is_linear,
-    power_needed,
     record_series_peaks,
 )
 

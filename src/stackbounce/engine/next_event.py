@@ -31,7 +31,6 @@ from stackbounce.engine.codes import (
     CLIPPED,
     COMPRESSING,
     CURVED,
-    DAMPED,
     DIP,
     EPSILON,
     LINEARISED,
@@ -39,6 +38,7 @@ from stackbounce.engine.codes import (
     OPEN,
     PEAK,
     POWER,
+    PRODUCT,
     RELEASE,
     RELEASING,
     RELOADED,
@@ -49,6 +49,7 @@ from stackbounce.engine.codes import (
 from stackbounce.engine.compiler import Floats, kernel
 from stackbounce.engine.contacts import linearised_impulse_limit
 from stackbounce.engine.event_queue import schedule
+from stackbounce.engine.forces import is_damped
 from stackbounce.engine.motion import (
     align_anchors,
     compression_series,
@@ -117,15 +118,15 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
     if phase >= COMPRESSING and still and stack.modal[stack.first[i]] == 1:
         _schedule(stack, i, time, 0.0, True, RELEASE, horizon)
         return
-    damped = stack.law[i] == DAMPED
-    plain = stack.law[i] == POWER and stack.modal[stack.first[i]] == 0
-    if damped:
+    plain = stack.law[i] == PRODUCT
+    plain = plain or (stack.law[i] == POWER and stack.modal[stack.first[i]] == 0)
+    if is_damped(stack, i):
         noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
         speed = stack.speed[i] + rate
         rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * second
         wait, reached = _gain_wait(stack, i, order, power, tail, noise, rate_noise, root, horizon)
         kind = RESUMED if phase == UNLOADED else CLIPPED
-    if damped or plain or phase == RELEASING:
+    if plain or phase == RELEASING:
         left = min(wait, horizon)
         other, there = _safe_wait(stack, a, order, power, tail, 0.0, 1.0, 0.0, band, left)
         if other < left or (there and other <= left < horizon):
@@ -147,7 +148,7 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
         other, there = _linearised_wait(stack, i, time, order, power, tail, min(wait, horizon))
         if other < wait:
             wait, reached, kind = other, there, CURVED
-    if not (damped or plain) and (phase == COMPRESSING or stack.law[i] == LOSSY):
+    if not plain and (phase == COMPRESSING or stack.law[i] == LOSSY):
         for k in range(order - root + 1):
             a[k] = (k + root) * a[k + root] / root
         sign, left = 1.0 if phase == COMPRESSING else -1.0, min(wait, horizon)
@@ -168,13 +169,13 @@ def _keeps_curve(stack: Stack, i: int, time: float) -> bool:
     first, law = stack.first[i], stack.law[i]
     if stack.modal[first] == 1 or stack.anchor[first] != time or stack.linearised[i] == 1:
         return False
-    if law not in (POWER, DAMPED) or stack.phase[i] != COMPRESSING:
+    if law not in (POWER, PRODUCT) or stack.phase[i] != COMPRESSING:
         return False
     horizon = series_time(stack, first, stack.due[len(stack.mass) + first] - time)
     order, c = stack.order[first], stack.compression_series[i]
     begins = stack.root[first] if c[0] == 0.0 else 0  # the lowest power of the series that is not 0
     least = lower_bound(c, begins, order + stack.root[first], horizon)
-    if law == DAMPED and not lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0:
+    if law == PRODUCT and not lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0:
         return False
     return least > _linearised_level(stack, i)
 

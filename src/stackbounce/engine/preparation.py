@@ -1,13 +1,14 @@
 """From the numbers of a drop to a stack at t = 0.
 
-A contact is given by four numbers: the form of its force (`codes`), k, p, and the law parameter:
-damping b, dissipative time A, dissipation χ, unloading exponent n or restitution e.
+A contact is given by the four numbers that `forces` explains: the form of its force, the stiffness,
+the exponent and the law parameter.
 """
 
 import math
 
 from stackbounce.engine import codes
 from stackbounce.engine.compiler import Floats, Integers, kernel
+from stackbounce.engine.forces import is_nonlinear, take_law, typical_compression
 from stackbounce.engine.series import ORDER
 from stackbounce.engine.slots import (
     GRAVITY,
@@ -53,11 +54,11 @@ def prepare(
         speed = max(speed, abs(velocity[i]))
     for i in range(size):
         stack.mass[i] = mass[i]
-        _take_law(stack, i, kind[i], stiffness[i], exponent[i], law_parameter[i])
-        stack.scale[i] = _typical_compression(stack, i, speed)
+        take_law(stack, i, kind[i], stiffness[i], exponent[i], law_parameter[i])
+        stack.scale[i] = typical_compression(stack, i, speed)
         if stack.law[i] != codes.ABSENT:
             shortest = min(shortest, stack.scale[i] / speed)
-        if stack.unloading[i] != 1.0 or stack.factor_exponent[i] != 0.0:
+        if is_nonlinear(stack, i):
             stack.setting[NONLINEAR] = 1
     unit = 1.0
     if 0.0 < shortest < math.inf:
@@ -76,46 +77,6 @@ def prepare(
     order = round(1.0 - 0.7 * math.log(tolerance))
     stack.setting[SERIES_ORDER] = min(ORDER, max(_LEAST_ORDER, order))
     return unit
-
-
-@kernel
-def _take_law(stack: Stack, i: int, kind: int, k: float, p: float, law_parameter: float) -> None:
-    """Set the numbers of contact i's law; a law without loss becomes a power law."""
-    if kind == codes.ABSENT:
-        stack.law[i] = codes.ABSENT
-        stack.stiffness[i] = stack.exponent[i] = stack.unloading[i] = 1.0  # placeholders
-        return
-    stack.law[i] = codes.POWER
-    stack.stiffness[i] = k
-    stack.exponent[i] = p
-    stack.unloading[i] = p
-    if kind in (codes.HYSTERETIC, codes.LOSSY):
-        stack.law[i] = kind
-        stack.unloading[i] = law_parameter
-    elif kind != codes.POWER and law_parameter > 0.0:
-        stack.law[i] = codes.DAMPED
-        if kind == codes.DASHPOT:  # k (c + b/k c')
-            stack.gain_slope[i] = 1.0
-            stack.gain_rate[i] = law_parameter / k
-        elif kind == codes.VISCOELASTIC:  # k c^1/2 (c + 3/2 A c')
-            stack.factor_exponent[i] = 0.5
-            stack.gain_slope[i] = 1.0
-            stack.gain_rate[i] = 1.5 * law_parameter
-        else:  # k c^p (1 + χ c')
-            stack.factor_exponent[i] = p
-            stack.gain_constant[i] = 1.0
-            stack.gain_rate[i] = law_parameter
-
-
-@kernel
-def _typical_compression(stack: Stack, i: int, speed: float) -> float:
-    """Return the compression at which contact i alone would hold the energy m v^2/2."""
-    mass, p = stack.mass[i], stack.exponent[i]
-    if i > 0:
-        mass = stack.mass[i - 1] * mass / (stack.mass[i - 1] + mass)
-    power = 1.0 / (p + 1.0)
-    length: float = (0.5 * (p + 1.0) * mass / stack.stiffness[i]) ** power * speed ** (2.0 * power)
-    return length
 
 
 @kernel

@@ -14,8 +14,9 @@ left out.
 
 import math
 
-from stackbounce.engine.codes import COMPRESSING, DAMPED, POWER
+from stackbounce.engine.codes import COMPRESSING, POWER, PRODUCT
 from stackbounce.engine.compiler import kernel
+from stackbounce.engine.forces import is_damped, potential, static_compression
 from stackbounce.engine.series import TERMS
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
@@ -41,44 +42,17 @@ def is_bound(stack: Stack) -> bool:
     for i in range(size - 1, -1, -1):
         weight += stack.mass[i] * stack.number[GRAVITY]
         rest = static_compression(stack, i, weight)
-        at_rest = _potential(stack, i, rest)
+        at_rest = potential(stack, i, rest)
         c = stack.compression[i]
-        excess += max(0.0, _potential(stack, i, c) - at_rest - weight * (c - rest))
+        excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
         barrier = min(barrier, weight * rest - at_rest)
-        if stack.law[i] == DAMPED:
-            damped = True
-        elif stack.law[i] != POWER:
+        damped = damped or is_damped(stack, i)
+        if stack.law[i] not in (POWER, PRODUCT):
             if stack.top[i] == math.inf:
                 return False
             share = _HYSTERETIC if size > 1 else 1.0
     still = max(_STILL, 100.0 * stack.number[TOLERANCE])
     return excess < share * barrier and (not damped or excess <= still * still * reference)
-
-
-@kernel
-def static_compression(stack: Stack, i: int, weight: float) -> float:
-    """Return the compression of contact i at which it carries a weight."""
-    if stack.law[i] == DAMPED:
-        rest: float = (weight / stack.stiffness[i]) ** (1.0 / stack.exponent[i])
-        return rest
-    if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
-        return weight / stack.rate[i]
-    share: float = (weight / stack.curve_force[i]) ** (1.0 / stack.curve_exponent[i])
-    return stack.curve_unit[i] * share
-
-
-@kernel
-def _potential(stack: Stack, i: int, compression: float) -> float:
-    """Return the integral from 0 of contact i's elastic force on the curve that it follows."""
-    c = max(0.0, compression)
-    if stack.law[i] == DAMPED:
-        power: float = c ** (stack.exponent[i] + 1.0)
-        return stack.stiffness[i] * power / (stack.exponent[i] + 1.0)
-    if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
-        return 0.5 * stack.rate[i] * c * c
-    exponent = stack.curve_exponent[i] + 1.0
-    share: float = (c / stack.curve_unit[i]) ** exponent
-    return stack.curve_force[i] * stack.curve_unit[i] * share / exponent
 
 
 @kernel

@@ -43,12 +43,11 @@ from stackbounce.engine.contacts import (
     changes_curve,
     clip,
     close_contact,
-    force,
     record_peak,
     reduced_mass,
-    stored_energy,
 )
 from stackbounce.engine.event_queue import clear_queue, schedule
+from stackbounce.engine.forces import force, stored_energy
 from stackbounce.engine.motion import (
     advance_cluster,
     allows_root_series,

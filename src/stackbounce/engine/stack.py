@@ -28,9 +28,10 @@ class Stack(NamedTuple):
     stiffness: Floats
     exponent: Floats
     unloading: Floats  # exponent of the unloading curve
-    factor_exponent: Floats  # q of a damped contact's force k c^q (a + b c + d c')
+    factor_exponent: Floats  # q of a product k c^q (a + b c + s c^2 + d c'), see `forces`
     gain_constant: Floats  # a of that gain
     gain_slope: Floats  # b
+    gain_square: Floats  # s
     gain_rate: Floats  # d
     scale: Floats  # a typical compression of the contact
     number: Floats  # see `slots`

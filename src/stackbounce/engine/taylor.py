@@ -14,11 +14,19 @@ eigenvalues; the tolerance is then round-off, whatever the user asks for.
 
 import math
 
-from stackbounce.engine.codes import DAMPED, POWER
+from stackbounce.engine.codes import POWER, PRODUCT
 from stackbounce.engine.compiler import Floats, kernel
-from stackbounce.engine.contacts import force, raised, stored_energy
+from stackbounce.engine.forces import (
+    find_terms,
+    force,
+    has_squares,
+    is_linear,
+    power_needed,
+    raised,
+    stored_energy,
+)
 from stackbounce.engine.series import ORDER, ROOT_ORDER, evaluate
-from stackbounce.engine.slots import GRAVITY, RECORDS_PEAKS, SERIES_ORDER, SPEED, TOLERANCE
+from stackbounce.engine.slots import RECORDS_PEAKS, SERIES_ORDER, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
 _EXACT = 1e-16  # of its own speed: the error of a step of a linear cluster
@@ -29,14 +37,6 @@ _BEYOND = 1.25  # times a compression: the largest change in a step
 _CLEAR = 50.0  # times the tolerance of a step: the largest last term of a power
 _HALVINGS = 26  # of a part of a step, in the search for a peak
 _PARTS = 4  # of a step, each searched for one peak
-
-
-@kernel
-def is_linear(stack: Stack, i: int) -> bool:
-    """Tell whether the force of a pressing contact is now a constant times its compression."""
-    if stack.law[i] == DAMPED:
-        return False
-    return stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0
 
 
 @kernel
@@ -64,10 +64,12 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         stack.velocity_series[b][1] = 0.0
         stack.order[b] = order
         stack.speed[b] = speed
-    if root == 1 and low == 0 and high == 2:
-        _find_terms(stack, 0, 2, order, 1)  # as below, but compiled for constants
+    if has_squares(stack, low, high):
+        find_terms(stack, low, high, order, root, 1)
+    elif root == 1 and low == 0 and high == 2:
+        find_terms(stack, 0, 2, order, 1, 0)  # as below, but compiled for constants
     else:
-        _find_terms(stack, low, high, order, root)
+        find_terms(stack, low, high, order, root, 0)
     step = 0.0
     for i in range(low, high):
         step = max(step, 100.0 * stack.scale[i] / stack.number[SPEED])
@@ -89,85 +91,6 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         if stack.power[i] > 0.0 and stack.compression[i] > 0.0:
             step = _steep_step(stack, i, order, root, step)
     return step
-
-
-@kernel
-def power_needed(stack: Stack, i: int) -> float:
-    """Return the power p of the compression of contact i whose series is needed, 0 for none.
-
-    If the gain is b c + d c', one power serves both terms: c^q (b c + d c') = b c^p + d/p (c^p)'
-    with p = q + 1.
-    """
-    p = stack.curve_exponent[i]
-    if p == 0.0 or p == 1.0:
-        return 0.0
-    return p + 1.0 if stack.law[i] == DAMPED and stack.gain_constant[i] == 0.0 else p
-
-
-@kernel
-def _find_terms(stack: Stack, low: int, high: int, order: int, root: int) -> None:
-    """Compute the series of a cluster, whose first terms are known, up to an order.
-
-    With x = t^(1/root), a series of terms a_k x^k is the rate of one of terms root a_k/(k + root)
-    x^(k + root). Of each power of a compression c, all terms are computed that c is known to. This
-    is one function, which takes each array from the stack once: several functions took twice as
-    long.
-    """
-    c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
-    powers, gains, power = stack.power_series, stack.gain_series, stack.power
-    law, curve_force, curve_unit = stack.law, stack.curve_force, stack.curve_unit
-    slope, exponent = stack.rate, stack.curve_exponent
-    gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
-    gain_rate, mass = stack.gain_rate, stack.mass
-    for k in range(order + 1):
-        n = k + root
-        share = root / n
-        falling = share * stack.number[GRAVITY] if k == 0 else 0.0
-        below = 0.0
-        for i in range(low, high):
-            c, u, p = c_all[i], powers[i], power[i]
-            rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
-            c[n] = share * rate
-            if p > 0.0:
-                # u = (c/unit)^p, term by term, from c u' = p c' u; c begins with x^a, u with x^b
-                a = 2 if root == 2 and c[0] == 0.0 else 0
-                b = int(a * p)
-                m = n - b
-                if m > 0:
-                    part, total, weight = 1.0 / (m * c[a]), 0.0, p * m
-                    for j in range(1, m):
-                        weight -= p + 1.0
-                        total += weight * (c[a + m - j] * u[b + j])
-                    u[n] = part * total + part * (p * m * u[b]) * c[a + m]
-                else:
-                    u[n] = raised(c[a] / curve_unit[i], p) if m == 0 else 0.0
-            if law[i] != DAMPED:
-                force = curve_force[i] * u[k] if p > 0.0 else slope[i] * c[k]
-            else:
-                gain = gains[i]
-                gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
-                if k == 0:
-                    gain[0] += gain_constant[i]
-                if exponent[i] == 0.0:
-                    force = curve_force[i] * gain[k]
-                elif p > exponent[i]:  # see `power_needed`
-                    pull = gain_slope[i] * u[k] + gain_rate[i] / (share * p) * u[n]
-                    force = curve_force[i] * curve_unit[i] * pull
-                elif p > 0.0:
-                    total = 0.0
-                    for j in range(1, k + 1):
-                        total += u[j] * gain[k - j]
-                    force = curve_force[i] * (total + u[0] * gain[k])
-                else:
-                    total = 0.0
-                    for j in range(1, k + 1):
-                        total += c[j] * gain[k - j]
-                    force = slope[i] * (total + c[0] * gain[k])
-            f_all[i][k] = force
-            if i > 0:
-                v_all[i - 1][n] = share / mass[i - 1] * (below - force) - falling
-            below = force
-        v_all[high - 1][n] = share / mass[high - 1] * below - falling
 
 
 @kernel
@@ -228,12 +151,12 @@ def _fastest(stack: Stack, low: int, high: int) -> float:
 def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
     """Update the peaks of contacts with one force curve from their series up to s."""
     for i in range(low, high):
-        if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] not in (POWER, DAMPED):
+        if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] not in (POWER, PRODUCT):
             continue
         order = stack.order[i]
         crest = _largest_value(stack.compression_series[i], order + stack.root[stack.first[i]], s)
         stack.peak_compression[i] = max(stack.peak_compression[i], crest)
-        if stack.law[i] == DAMPED:
+        if stack.law[i] == PRODUCT:
             crest = _largest_value(stack.force_series[i], order, s)
         else:
             crest = force(stack, i, crest, 0.0)

@@ -18,7 +18,6 @@ import math
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
-from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.roots import root
@@ -65,7 +64,7 @@ class Dashpot(ContactLaw):
     says = "A linear spring and a dashpot side by side, which cannot pull."
     formula = "F = max(0, stiffness c + damping c')"
     source = "Bartz, arXiv 2007.15005"
-    form = codes.DASHPOT
+    form = "DASHPOT"
     law_parameter = "damping"
     loss = "damping"
     loss_depends_on = ("mass",)

@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING, Self
 
-from stackbounce.engine import codes
 from stackbounce.model.collision import elastic
 from stackbounce.model.laws.law import ContactLaw, Flank, Flanks, Given
 
@@ -17,7 +16,7 @@ _STEEPEST_FLANK = 2.5  # the largest exponent that a force record of an unknown 
 class ElasticLaw(ContactLaw):
     """A law ``F = k c**p`` without loss; a class sets `exponent` or has it as a field."""
 
-    form = codes.POWER
+    form = "POWER"
     rate_free = True
 
     def restitution_at(self, mass: float, speed: float) -> float:

@@ -22,7 +22,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Annotated, ClassVar, Self
 
-from stackbounce.engine import codes
 from stackbounce.errors import non_negative
 from stackbounce.model.collision import elastic
 from stackbounce.model.collision.quadrature import integral
@@ -85,7 +84,7 @@ class HuntCrossley(ContactLaw):
     says = "A power law with a damping that grows as the force does."
     formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
     source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
-    form = codes.HUNT_CROSSLEY
+    form = "HUNT_CROSSLEY"
     law_parameter = "dissipation"
     loss = "dissipation"
     loss_depends_on = ("speed",)

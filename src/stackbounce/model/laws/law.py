@@ -29,6 +29,7 @@ __all__ = [
     "Given",
     "Quantity",
     "contact_numbers",
+    "form_code",
     "stiffness_in",
 ]
 
@@ -101,8 +102,8 @@ class ContactLaw:
     """The force at a compression c with the rate c', as plain text."""
     source: ClassVar[str]
     """Where it was published."""
-    form: ClassVar[int]
-    """The engine's code for the form of the force."""
+    form: ClassVar[str]
+    """The name of the form of the force, see `stackbounce.engine.forces`."""
     law_parameter: ClassVar[str] = ""
     """The field that is the last of the engine's numbers of a contact."""
     rigid: ClassVar[bool] = False
@@ -204,7 +205,7 @@ class ContactLaw:
             varied.get(name, getattr(self, name, known.get(name)))
             for name in ("stiffness", "exponent", self.law_parameter)
         ]
-        return self.form, numbers[0], numbers[1], numbers[2]
+        return form_code(self.form), numbers[0], numbers[1], numbers[2]
 
     # one collision
 
@@ -306,6 +307,13 @@ def _quantities(kind: type[ContactLaw]) -> Mapping[str, Quantity]:
     hints = get_type_hints(kind, include_extras=True)
     found = {name: unit_of(hint) for name, hint in hints.items()}
     return {name: one for name, one in found.items() if isinstance(one, Quantity)}
+
+
+def form_code(name: str) -> int:
+    """Return the engine's code of a form of force."""
+    from stackbounce.engine import forces
+
+    return int(getattr(forces, name))
 
 
 def contact_numbers(

@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 from typing import Annotated, Self
 
-from stackbounce.engine import codes
 from stackbounce.errors import fraction
 from stackbounce.model.laws.law import ContactLaw, Given, Quantity
 from stackbounce.model.laws.registry import register
@@ -45,7 +44,7 @@ class Rigid(ContactLaw):
     says = "An instantaneous collision with Newton's restitution."
     formula = "v' = -restitution v"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4"
-    form = codes.RIGID
+    form = "RIGID"
     law_parameter = "restitution"
     rigid = True
     exact = True

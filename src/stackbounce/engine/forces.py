@@ -1,0 +1,323 @@
+"""The forms of a contact's force: no other file of the engine knows them.
+
+A contact is told by the code of its form and three numbers: the stiffness k, the exponent p, and z,
+the law parameter. The force depends on the compression c > 0 and its rate c'.
+
+============= =========================================================== ========================
+form          force                                                       z
+============= =========================================================== ========================
+ABSENT        none: there is no floor
+POWER         k c^p                                                       none
+HYSTERETIC    k c^p loading, k C^p (c/C)^z unloading from the peak C      unloading exponent
+LOSSY         as HYSTERETIC; reloading loses the same share of its work
+              as first loading
+DASHPOT       max(0, k c + z c')                                          damping
+VISCOELASTIC  max(0, k (c^1.5 + 3/2 z c^0.5 c'))                          dissipative time
+HUNT_CROSSLEY max(0, k c^p (1 + z c'))                                    dissipation
+HARDENING     k c^p (1 + (c/z)^2)                                         length
+RIGID         an instantaneous collision                                  restitution
+============= =========================================================== ========================
+
+Those from DASHPOT to HARDENING are one form in the stack, a PRODUCT of a power and a *gain*:
+
+    F = max(0, k c^q g),    g = a + b c + s c^2 + d c'
+
+Its leading elastic term is k c^p: either a is 1, b is 0 and p = q, or a is 0, b is 1 and p = q + 1.
+Either s or d is 0. Only a linear spring with a dashpot has q = 0. A new form that is such a product
+needs a code and its numbers in `take_law`; any other one also a force, an energy, a static
+compression, and the terms of its power series (`find_terms`).
+"""
+
+import math
+
+from stackbounce.engine.codes import (
+    ABSENT,
+    COMPRESSING,
+    HYSTERETIC,
+    LOSSY,
+    OPEN,
+    POWER,
+    PRODUCT,
+)
+from stackbounce.engine.compiler import kernel
+from stackbounce.engine.slots import GRAVITY
+from stackbounce.engine.stack import Stack
+
+DASHPOT = 5
+VISCOELASTIC = 6
+HUNT_CROSSLEY = 7
+RIGID = 8
+HARDENING = 9
+
+_NEWTON = 8  # steps from at most twice the force; the last ones change no bit
+
+
+@kernel
+def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float) -> None:
+    """Set the numbers of contact i's law; a law without loss becomes a power law."""
+    if kind == ABSENT:
+        stack.law[i] = ABSENT
+        stack.stiffness[i] = stack.exponent[i] = stack.unloading[i] = 1.0  # placeholders
+        return
+    stack.law[i] = POWER
+    stack.stiffness[i] = k
+    stack.exponent[i] = p
+    stack.unloading[i] = p
+    stack.factor_exponent[i] = p
+    if kind in (HYSTERETIC, LOSSY):
+        stack.law[i] = kind
+        stack.unloading[i] = z
+    elif kind != POWER and z > 0.0:
+        stack.law[i] = PRODUCT
+        if kind == DASHPOT:  # k (c + z/k c')
+            stack.factor_exponent[i] = 0.0
+            stack.gain_slope[i] = 1.0
+            stack.gain_rate[i] = z / k
+        elif kind == VISCOELASTIC:  # k c^1/2 (c + 3/2 z c')
+            stack.factor_exponent[i] = 0.5
+            stack.gain_slope[i] = 1.0
+            stack.gain_rate[i] = 1.5 * z
+        elif kind == HUNT_CROSSLEY:  # k c^p (1 + z c')
+            stack.gain_constant[i] = 1.0
+            stack.gain_rate[i] = z
+        else:  # k c^p (1 + c^2/z^2)
+            stack.gain_constant[i] = 1.0
+            stack.gain_square[i] = 1.0 / (z * z)
+
+
+@kernel
+def is_nonlinear(stack: Stack, i: int) -> bool:
+    """Tell whether the force of contact i can be nonlinear."""
+    if stack.law[i] == PRODUCT:
+        return stack.factor_exponent[i] != 0.0
+    return stack.unloading[i] != 1.0
+
+
+@kernel
+def is_linear(stack: Stack, i: int) -> bool:
+    """Tell whether the force of a pressing contact is now a constant times its compression."""
+    if stack.law[i] == PRODUCT:
+        return False
+    return stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0
+
+
+@kernel
+def typical_compression(stack: Stack, i: int, speed: float) -> float:
+    """Return the compression at which contact i alone would hold the energy m v^2/2."""
+    mass, k = stack.mass[i], stack.stiffness[i]
+    if i > 0:
+        mass = stack.mass[i - 1] * mass / (stack.mass[i - 1] + mass)
+    length = _length_of_energy(mass, speed, k, stack.exponent[i])
+    if stack.gain_square[i] > 0.0:
+        added = k * stack.gain_square[i]
+        length = min(length, _length_of_energy(mass, speed, added, stack.factor_exponent[i] + 2.0))
+    return length
+
+
+@kernel
+def _length_of_energy(mass: float, speed: float, k: float, p: float) -> float:
+    """Return the compression at which the force k c^p has done the work m v^2/2."""
+    power = 1.0 / (p + 1.0)
+    length: float = (0.5 * (p + 1.0) * mass / k) ** power * speed ** (2.0 * power)
+    return length
+
+
+@kernel
+def raised(x: float, p: float) -> float:
+    """Return x^p; for p = 1.5 (Hertz) by a square root, which is faster than a power."""
+    if p == 1.5:
+        return x * math.sqrt(x)
+    power: float = x**p
+    return power
+
+
+@kernel
+def force(stack: Stack, i: int, compression: float, rate: float) -> float:
+    """Return the force of contact i on the curve that it follows."""
+    if stack.phase[i] < COMPRESSING:
+        return 0.0
+    exponent = stack.curve_exponent[i]
+    if stack.linearised[i] == 1 or exponent == 1.0:
+        pressing = stack.rate[i] * compression
+    else:
+        ratio = max(0.0, compression / stack.curve_unit[i])
+        pressing = stack.curve_force[i] * raised(ratio, exponent)
+    if stack.law[i] == PRODUCT:
+        slope = stack.gain_slope[i] + stack.gain_square[i] * compression
+        gain = stack.gain_constant[i] + slope * compression
+        return pressing * max(0.0, gain + stack.gain_rate[i] * rate)
+    return pressing
+
+
+@kernel
+def stored_energy(stack: Stack, i: int, compression: float) -> float:
+    """Return the energy that contact i would give back if its unloading were not damped."""
+    if stack.phase[i] == OPEN:
+        return 0.0
+    if stack.law[i] == PRODUCT:
+        return _elastic_work(stack, i, max(0.0, compression))
+    if stack.law[i] == LOSSY and stack.top[i] == math.inf:
+        return loaded_energy(stack, i, compression)
+    exponent = stack.curve_exponent[i]
+    if stack.law[i] == HYSTERETIC and stack.top[i] == math.inf:
+        exponent = stack.unloading[i]
+    return force(stack, i, compression, 0.0) * compression / (exponent + 1.0)
+
+
+@kernel
+def _elastic_work(stack: Stack, i: int, c: float) -> float:
+    """Return the integral from 0 to c of the force of a product at rest."""
+    exponent = stack.exponent[i] + 1.0
+    power: float = c**exponent
+    work = stack.stiffness[i] * power / exponent
+    if stack.gain_square[i] > 0.0:
+        exponent = stack.factor_exponent[i] + 3.0
+        power = c**exponent
+        work += stack.stiffness[i] * stack.gain_square[i] * power / exponent
+    return work
+
+
+@kernel
+def loaded_energy(stack: Stack, i: int, compression: float) -> float:
+    """Return the energy that a lossy contact on its loading curve would give back.
+
+    That is e^2 of the work done on this curve, plus what it held when it came onto the curve.
+    """
+    exponent = stack.exponent[i] + 1.0
+    kept = exponent / (stack.unloading[i] + 1.0)
+    above: float = max(0.0, compression) ** exponent
+    base: float = stack.base[i] ** exponent
+    work = stack.stiffness[i] * (above - base) / exponent
+    return stack.base_energy[i] + kept * max(0.0, work)
+
+
+@kernel
+def potential(stack: Stack, i: int, compression: float) -> float:
+    """Return the integral from 0 of contact i's elastic force on the curve that it follows."""
+    c = max(0.0, compression)
+    if stack.law[i] == PRODUCT:
+        return _elastic_work(stack, i, c)
+    if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
+        return 0.5 * stack.rate[i] * c * c
+    exponent = stack.curve_exponent[i] + 1.0
+    share: float = (c / stack.curve_unit[i]) ** exponent
+    return stack.curve_force[i] * stack.curve_unit[i] * share / exponent
+
+
+@kernel
+def static_compression(stack: Stack, i: int, weight: float) -> float:
+    """Return the compression of contact i at which it carries a weight."""
+    if stack.law[i] == PRODUCT:
+        p, q, square = stack.exponent[i], stack.factor_exponent[i] + 2.0, stack.gain_square[i]
+        rest: float = (weight / stack.stiffness[i]) ** (1.0 / p)
+        if square > 0.0 and rest > 0.0:
+            rest = min(rest, (weight / stack.stiffness[i] / square) ** (1.0 / q))
+            for _ in range(_NEWTON):
+                one, two = rest**p, square * rest**q
+                rest -= (one + two - weight / stack.stiffness[i]) * rest / (p * one + q * two)
+        return rest
+    if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
+        return weight / stack.rate[i]
+    share: float = (weight / stack.curve_force[i]) ** (1.0 / stack.curve_exponent[i])
+    return stack.curve_unit[i] * share
+
+
+@kernel
+def is_damped(stack: Stack, i: int) -> bool:
+    """Tell whether the force of contact i depends on the rate, so that it may be clipped."""
+    return stack.gain_rate[i] > 0.0
+
+
+@kernel
+def power_needed(stack: Stack, i: int) -> float:
+    """Return the power p of the compression of contact i whose series is needed, 0 for none.
+
+    If the gain is b c + d c', one power serves both terms: c^q (b c + d c') = b c^p + d/p (c^p)'
+    with p = q + 1.
+    """
+    p = stack.curve_exponent[i]
+    if p == 0.0 or p == 1.0:
+        return 0.0
+    if stack.law[i] == PRODUCT and stack.gain_constant[i] == 0.0 and stack.gain_square[i] == 0.0:
+        return p + 1.0
+    return p
+
+
+@kernel
+def has_squares(stack: Stack, low: int, high: int) -> bool:
+    """Tell whether the gain of one of the contacts low..high-1 has a term in c^2."""
+    largest = 0.0
+    for i in range(low, high):
+        largest = max(largest, stack.gain_square[i])
+    return largest > 0.0
+
+
+@kernel
+def find_terms(stack: Stack, low: int, high: int, order: int, root: int, squares: int) -> None:
+    """Compute the series of a cluster, whose first terms are known, up to an order.
+
+    With x = t^(1/root), a series of terms a_k x^k is the rate of one of terms root a_k/(k + root)
+    x^(k + root). Of each power of a compression c, all terms are computed that c is known to. This
+    is one function, which takes each array from the stack once: several functions took twice as
+    long. Only if ``squares`` is 1 may a gain have a term in c^2: without it the loop is faster.
+    """
+    c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
+    powers, gains, power = stack.power_series, stack.gain_series, stack.power
+    law, curve_force, curve_unit = stack.law, stack.curve_force, stack.curve_unit
+    slope, exponent = stack.rate, stack.curve_exponent
+    gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
+    gain_square, gain_rate, mass = stack.gain_square, stack.gain_rate, stack.mass
+    for k in range(order + 1):
+        n = k + root
+        share = root / n
+        falling = share * stack.number[GRAVITY] if k == 0 else 0.0
+        below = 0.0
+        for i in range(low, high):
+            c, u, p = c_all[i], powers[i], power[i]
+            rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
+            c[n] = share * rate
+            if p > 0.0:
+                # u = (c/unit)^p, term by term, from c u' = p c' u; c begins with x^a, u with x^b
+                a = 2 if root == 2 and c[0] == 0.0 else 0
+                b = int(a * p)
+                m = n - b
+                if m > 0:
+                    part, total, weight = 1.0 / (m * c[a]), 0.0, p * m
+                    for j in range(1, m):
+                        weight -= p + 1.0
+                        total += weight * (c[a + m - j] * u[b + j])
+                    u[n] = part * total + part * (p * m * u[b]) * c[a + m]
+                else:
+                    u[n] = raised(c[a] / curve_unit[i], p) if m == 0 else 0.0
+            if law[i] != PRODUCT:
+                force = curve_force[i] * u[k] if p > 0.0 else slope[i] * c[k]
+            else:
+                gain = gains[i]
+                gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
+                if k == 0:
+                    gain[0] += gain_constant[i]
+                if squares == 1:
+                    total = 0.0
+                    for j in range(k + 1):
+                        total += c[j] * c[k - j]
+                    gain[k] += gain_square[i] * total
+                if exponent[i] == 0.0:
+                    force = curve_force[i] * gain[k]
+                elif p > exponent[i]:  # see `power_needed`
+                    pull = gain_slope[i] * u[k] + gain_rate[i] / (share * p) * u[n]
+                    force = curve_force[i] * curve_unit[i] * pull
+                elif p > 0.0:
+                    total = 0.0
+                    for j in range(1, k + 1):
+                        total += u[j] * gain[k - j]
+                    force = curve_force[i] * (total + u[0] * gain[k])
+                else:
+                    total = 0.0
+                    for j in range(1, k + 1):
+                        total += c[j] * gain[k - j]
+                    force = slope[i] * (total + c[0] * gain[k])
+            f_all[i][k] = force
+            if i > 0:
+                v_all[i - 1][n] = share / mass[i - 1] * (below - force) - falling
+            below = force
+        v_all[high - 1][n] = share / mass[high - 1] * below - falling
