@@ -124,7 +124,7 @@ QUIET = np.random.default_rng(1).normal(0.0, 0.5, len(TIMES))
         ),
         ((TIMES, np.where(BEFORE, 0.0, 1.0)), InvalidValue, "must begin before a contact"),
         ((TIMES, FORCE * np.nan), InvalidValue, "must"),
-        ((TIMES[1:], FORCE), InvalidValue, "must have a value for each time"),
+        ((TIMES[1:], FORCE), InvalidValue, "must hold time and force of one length"),
         (([], []), InvalidValue, "must hold at least 8 samples"),
         (([1.0], [1.0]), InvalidValue, "must hold at least 8 samples"),
         (None, InvalidType, "must be a DataArray over time, or times, forces and their error"),

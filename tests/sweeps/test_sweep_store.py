@@ -214,7 +214,7 @@ def test_a_name_that_is_no_kind_of_file(tmp_path):
 
 def test_netcdf_that_is_not_installed(tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "h5netcdf", None)
-    with pytest.raises(sb.StackbounceError, match=r"pip install stackbounce\[netcdf\]"):
+    with pytest.raises(sb.StackbounceError, match=r"pip install 'stackbounce\[netcdf\]'"):
         write(tmp_path / "map.nc", DROP, grid(DROP, OVER))
     assert not list(tmp_path.iterdir())
 

@@ -18,7 +18,6 @@ from stackbounce.cli.output import (
 )
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
-from stackbounce.measure.option_values import read_options
 from stackbounce.measure.options import OPTIONS, Option
 
 if TYPE_CHECKING:
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
 
     from stackbounce.measure.constants import LawConstants
     from stackbounce.measure.measurement import Measurement
+    from stackbounce.measure.option_values import read_options
 
 __all__ = ["EPILOG", "run"]
 
