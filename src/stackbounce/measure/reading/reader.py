@@ -1,4 +1,4 @@
-"""The one function: a file, whatever wrote it -> a Dataset that says what it holds."""
+"""`read`: the file of any program -> a Dataset with the kind of measurement that it holds."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -39,7 +39,7 @@ def read(
 
     Tables of Tracker, phyphox (also its zip archives), Vernier, Logger Pro, PASCO Capstone,
     oscilloscopes of Rigol, Pico and Tektronix, any other table of numbers with names and units in
-    its header, and WAV sound. All options are for files that are not told right without them.
+    its header, and WAV sound. Options are needed only where a file is not recognised correctly.
 
     Parameters
     ----------
@@ -210,7 +210,7 @@ def _from_text(content: bytearray, told: Told) -> "xr.Dataset":
 def _table(content: bytearray, told: Told) -> tuple[Layout, list[Column], Table, list[str], bool]:
     """Return the layout of a text, its columns, numbers and doubts, and whether it has runs.
 
-    The text itself, which may be larger than all of that, is gone then.
+    The text is freed on return, as it may be larger than all of these.
     """
     refuse_others(content)
     text = tabulate(decode(content), told.decimal)
@@ -245,7 +245,7 @@ def _flaws(table: Table) -> list[str]:
 
 
 def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], Array]:
-    """Return the columns that have numbers, and these."""
+    """Return the columns that have numbers, and their numbers."""
     there = np.isfinite(table.values).any(axis=0) & (table.strange <= len(table.values) / 2)
     if not there.any():
         raise FileError("it has no column of numbers")

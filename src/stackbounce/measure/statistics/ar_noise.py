@@ -101,10 +101,10 @@ class Noise:
 def _mean(
     found: list[tuple[float, float, float, float]], count: int
 ) -> tuple[float, list[tuple[float, float]]]:
-    """Return the mean over (time, share, log-likelihood, variance), white noise being first."""
+    """Average noise models (time, share, log-likelihood, variance); the first is white noise."""
     best = max(row[2] for row in found)
     weights = np.array([np.exp(row[2] - best) for row in found])
-    # all AR(1) models together count as the best of them, less Schwarz's penalty
+    # all AR(1) models together get the weight of the best one, less Schwarz's penalty
     weights[1:] *= weights[1:].max() / max(weights[1:].sum(), 1e-300) / count
     weights /= weights.sum()
     white = 0.0

@@ -241,7 +241,7 @@ def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
         return (counted[-1] / start) ** (0.5 / len(counted))
     mean = sum(counted) / len(counted)
     if len(counted) > 1:
-        # What single heights scatter by holds all of their own reading errors already.
+        # The scatter of the heights includes their reading errors.
         values = np.array([one.nominal_value for one in counted])
         error = float(values.std(ddof=1)) / math.sqrt(len(values)) * widening(len(values) - 1)
         mean = ufloat(values.mean(), error) if error else mean

@@ -33,7 +33,7 @@ class Curve:
     noise : float
         Root mean square of the other part, in N.
     fits : bool
-        Whether the smooth part is small (below 1 % of the peak force) or lost in the noise.
+        Whether the smooth part is below 1 % of the peak force, or not significant in the noise.
     """
 
     compression: Array
@@ -77,8 +77,8 @@ class Press(Finding):
     contact : UFloat
         Compression at which the contact begins, on the record's scale, in m.
     zero : UFloat
-        Force in the record with nothing pressed, in N; exactly 0 where the record has no such part:
-        then the force is taken as recorded.
+        Zero of the force: its value in the slack, in N; exactly 0 without slack, as the force is
+        then taken as recorded.
     relaxed : UFloat or None
         By how much the force dropped at the turn, in N.
     loading, unloading : Curve or None

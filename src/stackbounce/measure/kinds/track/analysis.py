@@ -131,7 +131,7 @@ _Found = tuple[Array, Array, Flights, list[int]]
 def _fitted(
     found: Columns, up: Upward, gravity: float, notes: list[str]
 ) -> tuple[Upward, list[tuple[str, _Found]]]:
-    """Return the vertical, tilted as the flights have it, and each ball's flights."""
+    """Return the vertical, with the tilt that the flights show, and the flights of each ball."""
     fitted = _flights(found, up, gravity)
     across = "x" if up.axis == "y" else "y"
     if fitted and across in found.positions[0]:

@@ -157,7 +157,7 @@ def waveform(
 
 
 def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
-    """Find baseline and contacts in turns, as each depends on the other."""
+    """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
     stretches: list[Stretch] = []
