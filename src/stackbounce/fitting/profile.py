@@ -68,7 +68,7 @@ class Profile:
     def at(self, x: float, start: Array) -> Minimum:
         """Return the minimum at one coordinate of the parameter.
 
-        The others start from a trial (parameters,), moved as if chi squared were a parabola.
+        The others start from a trial (parameters,), moved as if chi squared were quadratic.
         """
         slopes = self.objective.value_slopes(self.best.x)
         along = self.covariance[self.k] / slopes
