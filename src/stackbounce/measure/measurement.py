@@ -63,7 +63,7 @@ class Measurement:
 
     @property
     def curves(self) -> list[Curve]:
-        """The curves over time, to be laid over a simulated drop."""
+        """The curves over time, to draw over a simulated drop."""
         own = (one.curves(self.data) for one in self.found)
         return next((curves for curves in own if curves is not None), None) or channels(self.data)
 
@@ -93,7 +93,7 @@ def measure_file(file: File, options: Mapping[str, Any]) -> Measurement:
     Raises
     ------
     StackbounceError
-        If the file cannot be read, or nothing that it should hold is there.
+        If the file cannot be read, or the analysis finds nothing in it.
     """
     of_reader = options_for("read")
     reading = {name: value for name, value in options.items() if name in of_reader}

@@ -79,7 +79,7 @@ def measured(
     name : str
         What it is called; messages begin with it.
     value : float or UFloat
-        What came in. One with an error stays the same variable, so that correlations live on.
+        The value. A UFloat is returned as the same variable, which keeps its correlations.
     of : str, optional
         The unit in words, for the message.
     check : callable, optional

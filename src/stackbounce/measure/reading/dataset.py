@@ -25,7 +25,7 @@ _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS
 
 
 def holds_of(columns: Sequence[Column]) -> str:
-    """Return what columns hold, by their roles."""
+    """Return the kind of measurement that the roles of columns make."""
     return next((kind.name for kind in KINDS.values() if _fits(kind, columns)), "table")
 
 
@@ -77,7 +77,7 @@ def assemble(
 
 
 def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
-    """Return columns with every role that the kind needs: a missing one goes to a fitting unit."""
+    """Assign each missing role that the kind needs to a column with the right unit or none."""
     found = list(columns)
     taken: set[int] = set()
     missing = []

@@ -38,7 +38,7 @@ class Layout:
     clock : tuple of float, optional
         Start and step in s, where the column of times counts samples.
     holds : str, optional
-        What the table holds, where its columns alone do not tell.
+        The kind of measurement, if it does not follow from the columns.
     """
 
     format: str

@@ -76,13 +76,13 @@ def read(
         - press curve: `compression`, `force` (point)
         - table: whatever there is (row)
 
-        Its attributes are `format`, the program; `why`, what in the content told; `holds`;
-        `doubt`, what is unsure and how to tell it, or empty; `source`, the name of the file.
+        Its attributes are `format`, the program; `why`, the evidence for it; `holds`; `doubt`, what
+        is uncertain and which option settles it, or empty; `source`, the name of the file.
 
     Raises
     ------
     FileError
-        If the file cannot be read, or is nothing that can be told; if it is larger than 256 MiB
+        If the file cannot be read or its kind is not recognised; if it is larger than 256 MiB
         (a zip archive: unpacked), or has more than 1000 columns or 67 million numbers.
     InvalidValue, InvalidType
         If an option makes no sense for this file.
@@ -90,7 +90,7 @@ def read(
     Notes
     -----
     Cells without a number are NaN, also those beyond an instrument's range (∞); rows without a
-    time are left out. Of a sound that is cut off, what is there is read. Both is said in `doubt`.
+    time are left out. A truncated sound is read as far as it goes. `doubt` mentions both.
 
     Examples
     --------
@@ -108,7 +108,7 @@ def read(
 
 
 def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
-    r"""Return what the content of a file holds, wherever it comes from.
+    r"""Read the content of a file that is in memory; see `read`.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
     Raises
     ------
     FileError
-        If it is empty, or nothing that can be told.
+        If it is empty, or its kind is not recognised.
     InvalidValue, InvalidType
         If an option makes no sense for it.
 

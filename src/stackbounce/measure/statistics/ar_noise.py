@@ -181,7 +181,7 @@ def linear_prediction_residual(
 ) -> NDArray[np.float32]:
     """Return the linear-prediction residual of a signal, learned from its quiet half.
 
-    The prediction removes hum and stationary noise of any spectrum; what comes suddenly remains.
+    The prediction removes hum and stationary noise of any spectrum; sudden changes remain.
 
     Parameters
     ----------
@@ -257,7 +257,7 @@ def difference_noise(values: Array, order: int = 2) -> float:
     values : ndarray
         (N,).
     order : int, optional
-        Of the differences: 1 for a constant series, 2 for one that changes evenly.
+        Of the differences: 1 for a constant series, 2 for a linear one.
 
     Examples
     --------

@@ -42,8 +42,8 @@ def bounces(
         The error in s of each time, where they have none. Without any the errors follow the scatter
         of the restitutions about a straight line.
     contact_time : float, optional
-        Of one bounce in s, taken off each interval to get the flight; the time of a bounce is the
-        beginning of its contact.
+        Of one bounce in s, subtracted from each interval to get the flight; the time of a bounce is
+        the beginning of its contact.
 
     Returns
     -------

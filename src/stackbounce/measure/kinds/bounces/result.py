@@ -1,4 +1,4 @@
-"""What the times of bounces tell."""
+"""The result of the analysis of bounce times."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar

@@ -59,8 +59,7 @@ def heights(
     Raises
     ------
     InvalidValue
-        If a height is not above 0 once it is counted from where the ball touches, or the diameter
-        is missing.
+        If the height of the lowest point is not above 0, or the diameter is missing.
     InvalidType
         If something has the wrong type.
 

@@ -46,9 +46,9 @@ def press(
     Raises
     ------
     InvalidType
-        If `data` is neither.
+        If `data` is neither of these.
     InvalidValue
-        If there are fewer than 6 points, nothing changes, the force does not rise beyond its noise,
+        If there are fewer than 6 points, values are constant, the force does not exceed its noise,
         or there is no such cycle.
 
     Notes

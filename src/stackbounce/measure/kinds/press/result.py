@@ -24,7 +24,7 @@ class Curve:
     compression : ndarray
         (N,) from the contact on, in m; negative in the slack.
     force : ndarray
-        (N,) in N, its zero taken off.
+        (N,) in N, less its zero.
     fit : ndarray
         (N,) in N, the power law.
     misfit : float

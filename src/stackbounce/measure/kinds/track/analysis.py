@@ -37,7 +37,7 @@ def track(
     frame_rate_factor: float = 1.0,
     scale: float = 1.0,
 ) -> Tracks:
-    """Return what a track of one ball or more tells of its drop and its bounces.
+    """Analyse the drop and the bounces in a track of one ball or more.
 
     The track is cut into free flights, to which parabolas of one acceleration are fitted; a bounce
     is where the parabolas before and after it meet. The acceleration is fitted and compared with

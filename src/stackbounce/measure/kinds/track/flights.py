@@ -103,7 +103,7 @@ def unexplained(
     sigma: float,
     accelerations: Array,
 ) -> Array:
-    """Return the cost of the best cut of a track for each acceleration; see `find_flights`.
+    """Return the cost of the best segmentation for each acceleration; see `find_flights`.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What was found in a track."""
+"""The result of the analysis of a track."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar

@@ -74,7 +74,7 @@ def waveform(
     Returns
     -------
     Waveform
-        Without contacts if nothing stands out of the noise; its notes say so.
+        Without contacts if nothing exceeds the noise; a note says so.
 
     Raises
     ------
