@@ -1,4 +1,4 @@
-"""The profile of chi squared over one parameter, all others fitted anew, and its intervals."""
+"""The profile of chi squared over one parameter, with all others refitted, and its intervals."""
 
 import math
 from dataclasses import dataclass
@@ -41,7 +41,7 @@ class Interval(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Profile:
-    """Chi squared as a function of one parameter, all others fitted anew.
+    """Chi squared as a function of one parameter, with all others refitted.
 
     Parameters
     ----------

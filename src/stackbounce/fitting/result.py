@@ -222,7 +222,7 @@ class Fit:
         return {name: self._profile(k).interval(reach) for k, name in enumerate(self.names)}
 
     def profile(self, name: str, values: Any) -> Array:
-        """Return chi squared at values of one parameter, all others fitted anew at each.
+        """Return chi squared at values of one parameter, with all others refitted at each.
 
         Parameters
         ----------
