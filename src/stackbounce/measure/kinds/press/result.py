@@ -127,7 +127,7 @@ class Press(Finding):
 
     @property
     def lossless(self) -> bool | None:
-        """Whether the loss is below two standard errors, not significant. None without unloading."""
+        """Whether the loss is not significant (two standard errors). None without unloading."""
         loss: Any = self.loss
         return None if loss is None else bool(loss.nominal_value <= _AGREES * loss.std_dev)
 
@@ -175,9 +175,9 @@ class Press(Finding):
         """Return the contact, as a drop's TOML has it.
 
         The exponent is 1 where it is 1 within two standard errors or below 1, which no law has; the
-        stiffness then is that of the straight line. Without a significant loss (less than two standard
-        errors, or no unloading at all) the law is `Spring`, or `PowerLaw` for another
-        exponent; else it is `Hysteretic`, with the restitution that the works give.
+        stiffness then is that of the straight line. Without a significant loss (two standard
+        errors), or without unloading, the law is `Spring`, or `PowerLaw` for another exponent.
+        Otherwise it is `Hysteretic`, with the restitution that the works give.
 
         Returns
         -------
