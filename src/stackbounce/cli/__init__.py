@@ -68,8 +68,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        0; 2 after an error of the user's and 1 after any other, in one line on stderr; 130 after an
-        interruption.
+        The exit status: 0; 2 after an error of the user, 1 after any other error, 130 after an
+        interruption. An error is printed in one line on stderr.
 
     Examples
     --------
@@ -106,7 +106,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _command(arguments: Sequence[str] | None) -> str:
-    """Return the command that was asked for, as it is typed; without its name, the program."""
+    """Return the given command as typed, ``stackbounce fit``; only the program if it is unknown."""
     first = [*(sys.argv[1:] if arguments is None else arguments), ""][0]
     names = [command.name for command in app.registered_commands]
     return f"stackbounce {first}" if first in names else "stackbounce"

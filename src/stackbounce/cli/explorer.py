@@ -42,7 +42,7 @@ def run(
     ] = None,
     as_json: AsJson = False,
 ) -> None:
-    """Open the explorer in the browser: see it happen, slowly."""
+    """Open the explorer in the browser: the bounce in slow motion."""
     import dataclasses
 
     from stackbounce.errors import whole

@@ -123,7 +123,7 @@ def run(
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
-    """Find the numbers of a drop that describe best what was measured, with errors."""
+    """Fit parameters of a drop to measured values, with errors."""
     need("fit", "stackbounce fit")
     from stackbounce.cli import fit_results
 

@@ -106,7 +106,7 @@ def read_problem(
 
 
 def _read_parts(what: Sequence[str], changes: dict[str, Any]) -> Parts:
-    """Return the parts of a data set or a file, or a drop alone."""
+    """Return the parts of a fit problem: from a data set, from a file, or a drop without data."""
     if len(what) == 1 and what[0].startswith(PREFIX) and not Path(what[0]).exists():
         drop, data, vary, _ = load_dataset(what[0])
         return Parts({"": scenario.change(drop, **changes)}, {"": data}, vary, {})
@@ -133,7 +133,7 @@ def _pairs(
 
 
 def _own_name(parts: Parts, name: str) -> tuple[str, str]:
-    """Return the drop of a measured number and its name there."""
+    """Split a measured number's name into its drop's name (empty for a single one) and the rest."""
     if "" in parts.drops:
         return "", name
     key, _, own = name.partition(".")
@@ -350,7 +350,7 @@ def print_comparison(console: "Console", done: Comparison) -> None:
 
 
 def _print_pulls(console: "Console", done: Comparison) -> None:
-    """Print the residuals of each model in errors, unless there are many data."""
+    """Print the residuals of each model in standard errors, unless there are many data."""
     data = done.pulls.datum.values.tolist()
     if len(data) > _MANY:
         return

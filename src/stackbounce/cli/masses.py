@@ -54,7 +54,7 @@ def run(
 
 
 def limits(text: str) -> tuple[float, float]:
-    """Return the masses that ``--within`` names.
+    """Return the lowest and the highest mass in kg of ``--within``.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""``stackbounce measure``: files in, what was found in them out, and a ball for ``simulate``."""
+"""The command ``stackbounce measure``: files -> their results, and a ball for ``simulate``."""
 
 import inspect
 from collections.abc import Mapping, Sequence
@@ -132,7 +132,7 @@ run.__signature__ = _signature()  # type: ignore[attr-defined]
 
 
 def _law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawConstants":
-    """Return the law that ``--law`` asks for, of all that was found and is known."""
+    """Return the law of ``--law``, calibrated to the results and the known numbers."""
     from stackbounce.measure import one_law
     from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -212,7 +212,7 @@ def _table(console: "Console", rows: Sequence[Any]) -> None:
 
 
 def _written(value: Any) -> tuple[str, str]:
-    """Return a value and its error as people write them: the error with two digits that count."""
+    """Return a value and its error as text, the error with two significant digits."""
     from stackbounce.cli.tables import number
 
     if isinstance(value, str):

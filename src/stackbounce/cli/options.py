@@ -22,13 +22,13 @@ def option(
     Parameters
     ----------
     kind : type
-        As typer takes it.
+        The type annotation that typer reads.
     metavar, says : str
-        What its value is called, and its help.
+        The name of its value in the help, and the help text.
     *names : str
-        What it is called on the command line, where that is not ``--`` and its key.
+        Its names on the command line; by default ``--`` and its key.
     default : optional
-        Its value where it is not given.
+        The value if the option is not given.
     **more
         Other arguments of `typer.Option`.
     """

@@ -36,7 +36,7 @@ _UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
 
 
 def check_picture(path: Path | None, option: str = "--plot") -> None:
-    """Refuse a picture of another kind, or in a folder that does not exist.
+    """Refuse a picture's path with another suffix, or in a folder that does not exist.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def check_picture(path: Path | None, option: str = "--plot") -> None:
 
 
 def check_scenario(path: Path | None) -> None:
-    """Refuse a scenario file of another suffix, or in a folder that does not exist.
+    """Refuse a scenario's path with another suffix, or in a folder that does not exist.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def print_json(value: object) -> None:
 
 
 def print_files(*pictures: Path | None, best: Path | None = None) -> None:
-    """Print where the best stack and the pictures are, if they were asked for."""
+    """Print the paths of the best stack and of the pictures that were written."""
     if best is not None:
         typer.echo(f"Best stack: {best}; now: stackbounce simulate {best}")
     for picture in filter(None, pictures):

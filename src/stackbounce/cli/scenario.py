@@ -73,7 +73,7 @@ def read(what: Sequence[str], **options: Any) -> Scenario:
 
 
 def change(drop: Drop, **options: Any) -> Drop:
-    """Return a drop with the options of `read` in place."""
+    """Return a drop changed by the options of `read`."""
     return _with(Scenario(drop, (), (), ""), _changes(**options)).drop
 
 
@@ -179,7 +179,7 @@ def _from_file(name: str) -> Scenario:
 
 
 def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
-    """Return the stack of balls from a file each; neighbours have both floor contacts in series."""
+    """Stack one ball per file; two balls touch by their two floor contacts in series."""
     drops = [Drop.from_toml(name) for name in names]
     laws: list[ContactLaw] = []
     for name, drop in zip(names, drops, strict=True):

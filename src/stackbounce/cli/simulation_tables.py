@@ -28,7 +28,7 @@ _APEXES = 4  # highest points shown for each ball
 def print_simulation(
     console: Console, scenario: Scenario, result: Result, textbook: Result | None
 ) -> None:
-    """Print what happened to a drop, next to its separate collisions."""
+    """Print the result of a drop, beside the result of separate collisions if there is one."""
     drop = scenario.drop
     console.print(incidence(scenario), style="bold")
     for i, source in enumerate(scenario.contact_sources):

@@ -187,7 +187,7 @@ def _range(low: float, high: float) -> str:
 
 
 def _ranges(own: Sequence[Any], low: Any, high: Any) -> dict[str, tuple[float, float]]:
-    """Return the smallest and the largest number, of each ball or contact where it has one."""
+    """Return smallest and largest values by ball or contact; `own` is that dimension, if any."""
     import numpy as np
 
     pairs = zip(np.atleast_1d(low).tolist(), np.atleast_1d(high).tolist(), strict=True)

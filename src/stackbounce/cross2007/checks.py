@@ -289,7 +289,7 @@ def _lambda(function: Any) -> ast.Lambda:
 
 
 class _Filled(ast.NodeTransformer):
-    """Replaces names by their values: a function by its own name, anything else by a constant."""
+    """Replaces a name that stands for a function by its name, any other by its value."""
 
     def __init__(self, values: Mapping[str, Any]) -> None:
         self.values = values

@@ -156,7 +156,7 @@ _ENDS = (
 
 
 def _add_ends(fit: Callable[[Bench], Drop]) -> None:
-    """Add the readings of an impact's end as the moment when little of the floor force is left."""
+    """Add readings with the impact's end where the floor force falls to 5 % or 10 % of its peak."""
     BASKETBALL.other(
         "end of the floor force at a twentieth of its peak",
         lambda b: force_above(b.simulate(fit(b)), 0, 0.05)[1],

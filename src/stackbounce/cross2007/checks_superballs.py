@@ -66,7 +66,7 @@ def _(b: Bench) -> Number:
 
 
 def _apart(b: Bench, masses: Two, restitution: str) -> Result:
-    """Separate collisions of two superballs that come in at 1 m/s, with one restitution."""
+    """Separate collisions of two superballs with impact speed 1 m/s and one restitution."""
     return b.simulate(rigid_pair(masses, b(restitution)))
 
 

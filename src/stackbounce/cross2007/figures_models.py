@@ -40,7 +40,7 @@ _POINTS = 241
 
 
 def draw_figure_2a(bench: Bench) -> Picture:
-    """Velocities after the first ball-ball collision against the mass ratio."""
+    """Draw the velocities after the first ball-ball collision against the mass ratio."""
     figure, (ax,) = make_axes()
     ratios = np.linspace(0.02, 10.0, _POINTS)
     lossless = after_collision(bench, ratios, bench("models.lossless"), 1)
@@ -67,7 +67,7 @@ def draw_figure_2a(bench: Bench) -> Picture:
 
 
 def draw_figure_2b(bench: Bench) -> Picture:
-    """Velocities after the second ball-ball collision against the mass ratio."""
+    """Draw the velocities after the second ball-ball collision against the mass ratio."""
     figure, (ax,) = make_axes()
     ratios = np.linspace(0.02, 0.9999, _POINTS)  # at 1 the second collision ends for e = 1
     lossless = after_collision(bench, ratios, bench("models.lossless"), 2)
@@ -93,17 +93,17 @@ def draw_figure_2b(bench: Bench) -> Picture:
 
 
 def draw_figure_4a(bench: Bench) -> Picture:
-    """Rebound ratios on equal springs against the mass ratio."""
+    """Draw the rebound ratios on equal springs against the mass ratio."""
     return _rebound(bench, "4a", bench("models.stiffness_ratio"), 4.0)
 
 
 def draw_figure_4b(bench: Bench) -> Picture:
-    """Rebound ratios on a stiff lower spring against the mass ratio."""
+    """Draw the rebound ratios on a stiff lower spring against the mass ratio."""
     return _rebound(bench, "4b", bench("fig5.floor_stiffness") / bench("fig5.ball_stiffness"), 7.0)
 
 
 def draw_figure_5(bench: Bench) -> Picture:
-    """The motion of two masses whose collisions nearly separate."""
+    """Draw displacements and forces of two masses whose collisions are nearly separate."""
     figure, (motion, force) = make_axes(4.2, 2)
     masses = bench("fig5.lower_mass"), bench("fig5.upper_mass")
     stiffnesses = bench("fig5.floor_stiffness"), bench("fig5.ball_stiffness")
@@ -147,7 +147,7 @@ def draw_figure_5(bench: Bench) -> Picture:
 
 
 def draw_figure_6(bench: Bench) -> Picture:
-    """Rebound ratios against the stiffness ratio for three mass ratios."""
+    """Draw the rebound ratios against the stiffness ratio for three mass ratios."""
     figure, (ax,) = make_axes(3.3, right=0.4)
     ratios = np.geomspace(0.1, 100.0, _POINTS)
     cases = (

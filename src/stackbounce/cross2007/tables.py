@@ -1,4 +1,4 @@
-"""Tables I and II recomputed, with the paper's errors carried through by `uncertainties`."""
+"""Tables I and II recomputed, with the paper's errors propagated by `uncertainties`."""
 
 from dataclasses import dataclass
 from typing import TYPE_CHECKING

@@ -158,7 +158,7 @@ class Comparison:
 
 
 def compare(models: Mapping[str, FitProblem], data: Any, **options: Any) -> Comparison:
-    """Fit several models to the same data and lay them side by side.
+    """Fit several models to the same data and compare them.
 
     Parameters
     ----------
@@ -234,7 +234,7 @@ def _predictions(found: Fit) -> list[Prediction]:
 
 
 def _draws(found: Fit) -> Array:
-    """Return (n, parameters) trials drawn as if chi squared were a parabola at the best trial.
+    """Return (n, parameters) trials drawn from the normal distribution around the best trial.
 
     An undetermined direction is drawn from a uniform distribution between the bounds.
     """

@@ -235,7 +235,7 @@ def _table(given: object, path: str) -> Mapping[str, Any]:
 
 
 def _flat(table: Mapping[str, Any], leaf: Any = lambda _: False, path: str = "") -> dict[str, Any]:
-    """Return a table by full names: TOML reads ``gaps.0`` without quotes as a table in a table."""
+    """Flatten nested tables to full names; TOML nests tables where ``gaps.0`` has no quotes."""
     found: dict[str, Any] = {}
     for key, value in table.items():
         if isinstance(value, Mapping) and not leaf(value):

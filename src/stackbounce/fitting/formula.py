@@ -94,7 +94,7 @@ def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formu
 
 
 def _function(node: ast.AST, names: Mapping[str, str]) -> Formula:
-    """Return a part of a formula as a function; all numbers are floats, so that none can grow."""
+    """Return a part of a formula as a function; numbers become floats, which limits their size."""
     match node:
         case ast.Constant(int() | float() as value):
             number = float(value)

@@ -92,7 +92,7 @@ def _chi_squared(one: Minimum) -> float:
 
 
 def _worth(objective: Objective, near: list[Minimum]) -> list[Minimum]:
-    """Return those of some rough ends, sorted by chi squared, that may lead to other minima."""
+    """Return the rough ends, sorted by chi squared, that are low and far enough apart to follow."""
     widths = objective.widths
     limit = near[0].chi_squared + max(_HOPE, near[0].chi_squared)
     found: list[Minimum] = []
@@ -115,8 +115,8 @@ def descend(objective: Objective, x: Array, fixed: int | None = None) -> Minimum
 def spread_trials(objective: Objective, count: int | None, seed: int) -> Array:
     """Return (n, parameters) trials spread evenly between the bounds by a Sobol sequence.
 
-    A parameter of one of several drops, such as its gap, is screened with that drop's data only:
-    each trial of the shared parameters gets the best of many values.
+    A parameter that only one of several drops has, such as its gap, is screened with the data of
+    this drop: each trial of the shared parameters gets the value with the smallest chi squared.
     """
     spans = objective.spans
     own = {key: objective.own(key) for key in objective.measured if objective.own(key)}
@@ -168,7 +168,7 @@ def _distinct(objective: Objective, ends: list[Minimum]) -> list[Minimum]:
 def _is_same(objective: Objective, end: Minimum, better: Minimum) -> bool:
     """Tell whether two ends of descents are the same minimum: near, or without a barrier between.
 
-    With an undetermined direction the valley may be bent, so that all equally good ends are one.
+    With an undetermined direction the valley may be bent: all equally good ends count as one.
     """
     widths = objective.widths
     if np.max(np.abs(end.x - better.x) / widths) < _SAME:

@@ -49,7 +49,7 @@ class Datum:
 
 @dataclass(frozen=True)
 class Count:
-    """The number of contact intervals that were seen: compared with the fit, not fitted.
+    """The number of contact intervals that were observed: compared with the fit, not fitted.
 
     Examples
     --------

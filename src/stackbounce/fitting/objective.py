@@ -1,4 +1,4 @@
-"""Trial values of what is varied -> residuals, for many trials at once."""
+"""Trial values of the varied numbers -> residuals, for many trials at once."""
 
 import math
 from collections import Counter

@@ -23,7 +23,7 @@ _RTOL = 1e-9
 
 
 class TooFewData(InvalidValue):
-    """There is more to vary than was measured."""
+    """A fit has more free numbers than data."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +126,7 @@ class FitProblem:
         }
 
     def fit(self, *, starts: int | None = None, seed: int = 0, rtol: float | None = None) -> Fit:
-        """Return the best values of what is varied.
+        """Fit what is varied to the data, by least squares.
 
         Parameters
         ----------
@@ -185,7 +185,7 @@ def fit(
     seed: int = 0,
     rtol: float = _RTOL,
 ) -> Fit:
-    """Return the numbers of one or several drops that describe best what was measured.
+    """Fit parameters of one or several drops to measured values, by least squares.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The profile of chi squared over one parameter, all others fitted anew, and its intervals."""
+"""The profile of chi squared over one parameter, with all others refitted, and its intervals."""
 
 import math
 from dataclasses import dataclass
@@ -41,7 +41,7 @@ class Interval(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Profile:
-    """Chi squared as a function of one parameter, all others fitted anew.
+    """Chi squared as a function of one parameter, with all others refitted.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ class Profile:
     def at(self, x: float, start: Array) -> Minimum:
         """Return the minimum at one coordinate of the parameter.
 
-        The others start from a trial (parameters,), moved as if chi squared were a parabola.
+        The others start from a trial (parameters,), moved as if chi squared were quadratic.
         """
         slopes = self.objective.value_slopes(self.best.x)
         along = self.covariance[self.k] / slopes

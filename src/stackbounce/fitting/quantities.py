@@ -139,7 +139,7 @@ def read_with_error(given: object, unit: str, name: str, right: str) -> tuple[fl
     unit : str
         The SI unit.
     name, right : str
-        The number in messages, and what would be right.
+        The number, and the form that is expected, in error messages.
 
     Raises
     ------

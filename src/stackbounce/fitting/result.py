@@ -200,8 +200,8 @@ class Fit:
         """Return the confidence interval of each parameter from the profile of chi squared.
 
         At a limit chi squared, minimised over all other parameters, is `sigma` squared above its
-        minimum. An interval of one standard deviation holds the truth with 68.3 %. Unlike `values`
-        it does not assume that chi squared is a parabola.
+        minimum. An interval of one standard deviation contains the true value with a probability of
+        68.3 %. Unlike `values` it does not assume that chi squared is quadratic.
 
         Parameters
         ----------
@@ -222,7 +222,7 @@ class Fit:
         return {name: self._profile(k).interval(reach) for k, name in enumerate(self.names)}
 
     def profile(self, name: str, values: Any) -> Array:
-        """Return chi squared at values of one parameter, all others fitted anew at each.
+        """Return chi squared at values of one parameter, with all others refitted at each.
 
         Parameters
         ----------

@@ -12,9 +12,9 @@ from stackbounce.model import LAWS, ContactLaw, Drop, Rigid
 __all__ = ["standard_models"]
 
 _LOSSY = 0.8  # the restitution that a search begins with
-_FACTOR = 30.0  # up to which a stiffness may be more or less than at first
+_FACTOR = 30.0  # by which a stiffness may differ from its start value
 _FLIGHTS = 4.0  # contact times at the impact speed: the widest gap that is looked at
-_WEAK, _STRONG = 0.05, 0.999  # between which restitutions
+_WEAK, _STRONG = 0.05, 0.999  # bounds of a restitution
 
 
 def standard_models(
@@ -25,19 +25,19 @@ def standard_models(
     Parameters
     ----------
     drop : Drop, or mapping of str to Drop
-        With finite contacts that last about as long as the true ones. Several are drops of the same
-        stack, and share all that varies.
+        With contacts of finite duration, about as long as the true ones. Several are drops of the
+        same stack; they share all varied numbers.
     times : bool, optional
-        Whether times were measured: without them only ratios of stiffnesses show, and the floor's
-        is kept.
+        Whether times were measured. Without them the data determine only ratios of stiffnesses, so
+        the floor's stiffness is not varied.
 
     Returns
     -------
     dict of str to FitProblem
         `Rigid` with one restitution and with one for each contact, then the `usual_models` of all
-        laws: those without loss first, then those whose loss does not depend on the rate.
-        Those with finite contacts vary their stiffnesses and gaps, lossy ones one loss that all
-        contacts share.
+        laws: first those without loss, then those with a rate-independent loss, then the others.
+        Models of finite contacts vary stiffnesses and gaps. Lossy ones also vary one loss parameter
+        that all contacts share.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def _rigid(drops: Mapping[str, Drop], times: bool, *, shared: bool) -> FitProble
     paths = [f"contacts.{i}.restitution" for i in range(len(first.contacts))]
     names, tie = (["restitution"], dict.fromkeys(paths, "restitution")) if shared else (paths, None)
     vary: dict[str, Any] = dict.fromkeys(names, (_WEAK, 1.0))
-    if times:  # a gap changes nothing but when the balls meet
+    if times:  # in rigid collisions a gap changes only the times
         vary |= _gaps(first)
     return Model(changed, vary, tie)
 
@@ -104,7 +104,7 @@ def _gaps(drop: Drop) -> dict[str, Any]:
 
 
 def _finite(drop: Drop, times: bool, loss: str) -> tuple[dict[str, Any], Any]:
-    """Return what varies in a stack of one finite law, and what follows."""
+    """Return the varied numbers and the ties of a stack with one finite law."""
     laws: list[Any] = list(drop.contacts)
     own = {
         f"contacts.{i}.stiffness": laws[i].stiffness for i in range(0 if times else 1, len(laws))

@@ -1,14 +1,14 @@
-"""From the files that people have to parameters with uncertainties.
+"""Measurement files -> parameters with uncertainties.
 
 ============= ================================================================
 reading/      files -> Dataset
 kinds/        a folder for each kind of measurement: analysis, result, notes
 kind          the record of a kind; `kinds.KINDS` lists all
 finding       the shape that all results share
-options       the table of options, for all faces
-option_values texts that a face gives -> values that the analyses take
+options       the table of options, for all user interfaces
+option_values texts from a user interface -> values that the analyses take
 analysis      the right analysis for what a file holds
-measurement   a file or typed numbers, and what was found, for all faces
+measurement   a file or typed numbers, with the results, for all user interfaces
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
 quantities    numbers with errors; a row of a table

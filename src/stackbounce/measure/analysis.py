@@ -64,9 +64,9 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
     Raises
     ------
     InvalidType
-        If `data` is none of `read`, or an option is unknown or one of `read`.
+        If `data` is not from `read`, or an option is unknown or belongs to `read`.
     InvalidValue
-        If there is no analysis for what it holds, or nothing that it looks for is there.
+        If there is no analysis for what `data` holds, or the analysis finds nothing.
 
     Notes
     -----

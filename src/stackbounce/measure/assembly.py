@@ -79,7 +79,7 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
     Returns
     -------
     LawConstants
-        Only what the class needs is used, and stands in its ``given``.
+        Its ``given`` has the values that were used: those that the class needs.
 
     Raises
     ------
@@ -114,12 +114,12 @@ def one_law(law: type[ContactLaw] | str, found: Sequence[Any], **given: Any) -> 
 
 
 def _usable(value: Any) -> Any:
-    """Return a number without its error where that is unknown (NaN)."""
+    """Return a number; drop its error if that is NaN, which means unknown."""
     return value.nominal_value if math.isnan(getattr(value, "std_dev", 0.0)) else value
 
 
 def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Return the one contact that measured contacts make."""
+    """Combine measured contacts into one: a stiffness and a restitution make a `Hysteretic` one."""
     if not contacts:
         raise InvalidValue(
             "no contact was found, which needs a sound of three bounces, a track, a force waveform "

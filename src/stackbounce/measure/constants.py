@@ -70,7 +70,7 @@ class LawConstants:
         Its constants by their names, in SI units; correlated with each other and with what was
         measured.
     given : mapping of str to UFloat
-        What it was made of, by the names of the arguments of `law_constants`.
+        The measured numbers that they follow from, by the arguments of `law_constants`.
     """
 
     law: ContactLaw
@@ -84,7 +84,7 @@ class LawConstants:
         return [head, *(Row(n.replace("_", " "), v, units[n]) for n, v in self.constants.items())]
 
     def all_rows(self) -> list[Row]:
-        """Return the constants and, after them, what they were made of."""
+        """Return the constants and, after them, the measured numbers that they follow from."""
         units = {"mass": "kg", "contact_time": "s", "impact_speed": "m/s"}
         made_of = self.given.items()
         return [
@@ -106,7 +106,7 @@ def law_constants(
     impact_speed: Any = None,
     exponent: Any = None,
 ) -> LawConstants:
-    """Return the law of a class that has a measured contact time and restitution, with errors.
+    """Calibrate a law to measured contact time and restitution; return constants with errors.
 
     Parameters
     ----------
@@ -134,8 +134,8 @@ def law_constants(
 
     Notes
     -----
-    To first order in the errors, with central differences of `calibrate` in each number that has
-    one; one-sided where the range of a number ends.
+    Errors are propagated to first order. The derivatives of `calibrate` are central differences,
+    or one-sided ones at the end of a number's range.
 
     Examples
     --------
@@ -166,12 +166,12 @@ def law_constants(
             sources[name] = measured(name, value, _UNITS.get(name, ""), _checks(kind, name))
     at = {name: value.nominal_value for name, value in sources.items()}
     found: Any = calibrate(kind, **at)
-    names = list(found.quantities())  # both of a pair that follow from each other
+    names = list(found.quantities())  # includes constants that follow from each other
 
     def constants_of(**numbers: float) -> list[float]:
         try:
             law: Any = calibrate(kind, **numbers)
-        except InvalidValue:  # a class without losses, which is told only restitution = 1
+        except InvalidValue:  # a class without losses accepts only restitution = 1
             law = found
         return [getattr(law, name) for name in names]
 
@@ -180,7 +180,7 @@ def law_constants(
 
 
 def _moving(mass: Any) -> Number:
-    """Return the mass that moves: one as it is, two reduced."""
+    """Return the mass of one ball, or the reduced mass of two."""
     if not isinstance(mass, tuple | list):
         return measured("mass", mass, _UNITS["mass"])
     if len(mass) != 2:
@@ -191,7 +191,7 @@ def _moving(mass: Any) -> Number:
 
 
 def _checks(kind: object, name: str) -> Callable[[str, object, str], float]:
-    """Return what a number must pass before `calibrate` looks at it."""
+    """Return the function that checks the range of a number before `calibrate` is called."""
     if name == "restitution":
         zero = getattr(kind, "rigid", False)
         return lambda name, value, _: fraction(name, value, zero=zero)

@@ -48,18 +48,18 @@ class Finding:
         return {}
 
     def measured(self, data: "xr.Dataset") -> dict[str, str]:  # noqa: ARG002
-        """Return what `stackbounce.fit` can use, by the names that it takes.
+        """Return the measured values that a fit can use, by the names that `stackbounce.fit` takes.
 
         Where a result has `restitutions`, the first one is the ball's rebound ratio.
         """
         return as_ratios(getattr(self, "restitutions", ())[:1])
 
     def forces(self, data: "xr.Dataset", lasting: float) -> "dict[str, xr.DataArray]":  # noqa: ARG002
-        """Return the force channels, cut to an impact that lasts so long in s, by their names."""
+        """Return force channels by name, without later impacts; one lasts `lasting` s."""
         return {}
 
     def curves(self, data: "xr.Dataset") -> list[Curve] | None:  # noqa: ARG002
-        """Return the curves to lay over a simulated drop; None for the channels as recorded."""
+        """Return the curves to draw over a simulated drop; None means the recorded channels."""
         return None
 
     def first_touch(self) -> float | None:
@@ -84,7 +84,7 @@ def as_ratios(values: Iterable[Any]) -> dict[str, str]:
 
 
 def rigid_contact(restitution: Number) -> dict[str, Any]:
-    """Return the floor's contact for `Finding.parts`; nothing where the restitution is none.
+    """Return the floor's contact for `Finding.parts`; nothing for a restitution outside 0 to 1.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def force_channels(data: "xr.Dataset") -> list[str]:
 
 
 def channels(data: "xr.Dataset", force: Curve | None = None) -> list[Curve]:
-    """Return a record's channels over time; `force` takes the place of the first if that is one."""
+    """Return a record's channels over time; `force` replaces the first one if that is a force."""
     curves: list[Curve] = []
     for key, channel in data.data_vars.items():
         name = str(key)

@@ -22,12 +22,12 @@ class Kind:
     name : str
         As users write it: ``holds="track"``.
     says : str
-        What it tells, for help.
+        The help text.
     analyse : callable or None
         From a Dataset to the result, or a tuple of results. Its keywords are the options that it
-        takes, each one of `stackbounce.measure.options.OPTIONS`. None where only numbers tell it.
+        takes, each one of `stackbounce.measure.options.OPTIONS`. None for a kind without files.
     columns : tuple of tuple of str
-        The columns that a file of it needs: of each tuple one, by role or name. A file with these
+        The columns that its file needs: one of each tuple, given by role or name. A file with these
         columns is recognised, unless `recognised` decides.
     dimension : str
         Of the Dataset: ``"time"``, ``"track"`` for (time, track), or a name for plain rows.

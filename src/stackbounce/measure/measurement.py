@@ -1,4 +1,4 @@
-"""A measurement: a file or typed numbers, and what was found there, for every face."""
+"""A measurement: a file or typed numbers, with the results, for all user interfaces."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -46,24 +46,24 @@ class Measurement:
 
     @property
     def rows(self) -> list[Row]:
-        """All quantities."""
+        """The quantities of all results."""
         return [row for one in self.found for row in one.rows()]
 
     @property
     def notes(self) -> list[str]:
-        """All sentences, each once."""
+        """The notes of all results, each once."""
         return list(dict.fromkeys(note for one in self.found for note in one.notes))
 
     @property
     def measured(self) -> dict[str, str]:
-        """What a fit can use, by the names that it takes."""
+        """The measured values that a fit can use, by the names that `stackbounce.fit` takes."""
         return {
             name: value for one in self.found for name, value in one.measured(self.data).items()
         }
 
     @property
     def curves(self) -> list[Curve]:
-        """The curves over time, to be laid over a simulated drop."""
+        """The curves over time, to draw over a simulated drop."""
         own = (one.curves(self.data) for one in self.found)
         return next((curves for curves in own if curves is not None), None) or channels(self.data)
 
@@ -93,7 +93,7 @@ def measure_file(file: File, options: Mapping[str, Any]) -> Measurement:
     Raises
     ------
     StackbounceError
-        If the file cannot be read, or nothing that it should hold is there.
+        If the file cannot be read, or the analysis finds nothing in it.
     """
     of_reader = options_for("read")
     reading = {name: value for name, value in options.items() if name in of_reader}
@@ -117,7 +117,7 @@ def _read(file: File, reading: Mapping[str, Any]) -> Any:
 
 
 def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
-    """Return what numbers tell without a file, for each kind that they are enough for."""
+    """Analyse typed numbers; return a measurement of each kind for which they suffice."""
     known = {one.name: one for one in OPTIONS}
     done = []
     for kind in TYPED:

@@ -1,4 +1,4 @@
-"""Values of options as a face gives them -> values as `read` and `analyse` take them."""
+"""Option values from a user interface -> values as `read` and `analyse` take them."""
 
 import re
 from collections.abc import Callable, Mapping, Sequence
@@ -19,7 +19,7 @@ def read_options(
     face: Callable[[Option], str],
     to: Sequence[str] = ("read", "analyse", "numbers"),
 ) -> dict[str, Any]:
-    """Return options with values as `read` and `analyse` take them, those that are given.
+    """Return the given options with values as `read` and `analyse` take them.
 
     Parameters
     ----------
@@ -27,9 +27,9 @@ def read_options(
         Values by the options' names: texts with units, or the values that they stand for. None and
         the empty text count as not given.
     face : callable
-        From an option to what messages call it.
+        Takes an option; returns its name in error messages of the user interface.
     to : sequence of str, optional
-        Whose options are offered.
+        The functions whose options are accepted: see `Option.to`.
 
     Raises
     ------
@@ -108,7 +108,7 @@ def _points(value: Any, _: Option, called: str) -> tuple[str, ...]:
 
 
 def _law(value: Any, _: Option, called: str) -> dict[str, Any]:
-    """Return the law's class, and the exponent that may be told with its name."""
+    """Return the law's class and, if the text has it, the exponent."""
     name, *rest = (value.split() or [""]) if isinstance(value, str) else (value,)
     told: dict[str, Any] = {}
     for word in rest:

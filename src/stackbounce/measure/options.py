@@ -1,4 +1,4 @@
-"""The options of a measurement, each one once, for every face.
+"""The options of a measurement, defined once for all user interfaces.
 
 `OPTIONS` feeds the signature of `analyse`, the command line, the page's form, and the table in
 `docs/measure.md`. An option is in effect where the analysis of a kind has a keyword of its name.
@@ -45,7 +45,7 @@ class Option:
     example : str
         A value, or what the form shows where none is chosen.
     says : str
-        What it tells, for help.
+        The help text.
     form : str
         What its value is: a number with a unit, a number that may have an error (``measured``),
         several lengths, a flag, points of the ball, a contact law, a file, columns, a text.
@@ -58,7 +58,7 @@ class Option:
     default : str or bool, optional
         Where there is one.
     to : {"read", "analyse", "numbers"}
-        Who takes it: the reader, the analyses, or the analysis of numbers without a file.
+        Which function takes it: the reader, the analyses, or the analysis of typed numbers.
     flag : str
         On the command line, where it is not the name.
     rare : bool

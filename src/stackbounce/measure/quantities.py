@@ -1,4 +1,4 @@
-"""Quantities with errors: how they come in, and how a result lists them."""
+"""Quantities with errors: reading them, and the rows in which a result lists them."""
 
 import re
 from collections.abc import Callable, Iterable
@@ -52,7 +52,7 @@ def nominal(number: Any) -> float:
 
 
 def known_to(value: float, error: float) -> Number:
-    """Return a number with an error of its own, which may be 0.
+    """Return a UFloat with an independent error, which may be 0.
 
     Examples
     --------
@@ -79,7 +79,7 @@ def measured(
     name : str
         What it is called; messages begin with it.
     value : float or UFloat
-        What came in. One with an error stays the same variable, so that correlations live on.
+        The value. A UFloat is returned as the same variable, which keeps its correlations.
     of : str, optional
         The unit in words, for the message.
     check : callable, optional
@@ -116,13 +116,13 @@ def measured(
 
 
 def quantity_with_error(text: str, unit: str, name: str) -> float | Number:
-    """Return a number with a unit and, where it is told, an error: ``"57.0 ± 0.5 g"``.
+    """Read a number with a unit and, if the text has one, an error: ``"57.0 ± 0.5 g"``.
 
     Parameters
     ----------
     text : str
-        A number, with ``±`` or ``+/-`` and its error after it or not, and a unit or none, which is
-        that of both.
+        A number; after it, if known, ``±`` or ``+/-`` and its error; at the end, if there is one,
+        the unit of both.
     unit : str
         The SI unit that is wanted.
     name : str
@@ -131,7 +131,7 @@ def quantity_with_error(text: str, unit: str, name: str) -> float | Number:
     Returns
     -------
     float or UFloat
-        In `unit`; a float where no error is told.
+        In `unit`; a float if the text has no error.
 
     Raises
     ------

@@ -48,7 +48,7 @@ def waveform(
     rate : float
         Samples per second, above 0.
     contacts : int or sequence of int, optional
-        Under which ball each sensor lies, a channel each; default one sensor, on the floor.
+        The contact that each sensor measures, a channel each; default one sensor, at the floor.
     duration : float, optional
         Of the record in s; default until the last release and as long again as `before`.
     before : float, optional

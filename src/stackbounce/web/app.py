@@ -140,7 +140,7 @@ def _add_route(app: FastAPI, workers: Workers, route: Route) -> None:
 
 
 def _add_queries(app: FastAPI, workers: Workers, limits: Limits) -> None:
-    """Add the addresses that take nothing."""
+    """Add the addresses that take no arguments."""
 
     @app.get("/api/status", response_model=schema.State)
     async def read_status() -> dict[str, Any]:

@@ -115,7 +115,10 @@ class Guard:
             raise _Refused(403, "pages of other sites cannot use this server")
 
     def _is_here(self, host: str) -> bool:
-        """Return whether a host names this machine; another name may be one of DNS rebinding."""
+        """Return whether a host is a name of this machine or an IP address.
+
+        Any other name is refused, as its owner may have pointed it at this machine: DNS rebinding.
+        """
         found = _HOST.fullmatch(host)
         if found is None:
             return False

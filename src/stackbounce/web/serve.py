@@ -42,7 +42,7 @@ def serve(
     port : int or None
         The port, or None for the first free one from `PORT`; 0 for any.
     limits : Limits
-        How much one request may ask for.
+        Limits of requests and workers.
     browser : bool
         Whether to open the page.
     tell : callable

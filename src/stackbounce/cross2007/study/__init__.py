@@ -1,1 +1,1 @@
-"""All of Table II by one model: how far it goes, where energy is lost, what would decide."""
+"""One model fitted to all of Table II: its quality, the losses, and measurements to decide."""

@@ -1,4 +1,4 @@
-"""The study's figures of the energy bound and of the measurements that would decide."""
+"""The study's figures of the energy bound and of measurements that discriminate between models."""
 
 from typing import TYPE_CHECKING
 

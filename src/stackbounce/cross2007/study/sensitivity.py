@@ -78,7 +78,7 @@ def _changed(compared: FittedModels, name: str, change: Callable[[Theory], Theor
 
 
 def _other(ball: str, sign: float) -> Callable[[Theory], Theory]:
-    """Return the change of Table I's COR of a ball, or of both small ones, by its error."""
+    """Return a function that shifts Table I's COR of B1, or of B2 and B3, by `sign` errors."""
     balls = ("B1",) if ball == "B1" else ("B2", "B3")
     step = sign * PAPER["B1.restitution"].spread
 

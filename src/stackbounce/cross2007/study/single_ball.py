@@ -78,7 +78,7 @@ def calibrate_numbers(
 
 
 def loss_unit(law: type[ContactLaw]) -> str:
-    """Return the SI unit of the number that tells a law's loss.
+    """Return the SI unit of a law's loss parameter.
 
     Examples
     --------

@@ -1,7 +1,7 @@
 """Files of measurements -> xarray, recognised by their content.
 
 ======== ======================================================================
-reader   the one function: a path -> a Dataset
+reader   `read`: a path -> a Dataset
 options  the options of `read`, and their effect on columns
 limits   limits on what is read: size, folders, other kinds of file
 text     bytes -> text -> delimiter, decimal mark, the cells of the first lines

@@ -25,7 +25,7 @@ _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS
 
 
 def holds_of(columns: Sequence[Column]) -> str:
-    """Return what columns hold, by their roles."""
+    """Return the kind of measurement that the roles of columns make."""
     return next((kind.name for kind in KINDS.values() if _fits(kind, columns)), "table")
 
 
@@ -77,7 +77,7 @@ def assemble(
 
 
 def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
-    """Return columns, those in the roles that are needed which can be in them."""
+    """Assign each missing role that the kind needs to a column with the right unit or none."""
     found = list(columns)
     taken: set[int] = set()
     missing = []
@@ -106,7 +106,7 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
 
 
 def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
-    """Return columns, those without a unit in SI where only that can be meant."""
+    """Return columns; those in a role of `_ASSUMED` without a unit are assumed to be in SI."""
     without = [one for one in columns if one.role in _ASSUMED and not one.unit]
     told = [one for one in without if not one.heading.unit]
     if told:
@@ -163,7 +163,7 @@ def _series(columns: Sequence[Column], values: Values, run: object) -> _Built:
 
 
 def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
-    """Return x and y of each track, and what else there is of it."""
+    """Return the Dataset of tracks: x, y and further columns of each, and doubts."""
     import xarray as xr
 
     at = _at(columns, "time")
@@ -195,7 +195,7 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
 
 
 def _rows(dimension: str, *roles: str) -> Callable[[Sequence[Column], Values, object], _Built]:
-    """Return a builder of rows in which the columns of some roles are numbers."""
+    """Return a function that builds a Dataset of rows, without those that lack a needed number."""
 
     def build(columns: Sequence[Column], values: Values, run: object) -> _Built:
         import xarray as xr
@@ -213,7 +213,7 @@ def _rows(dimension: str, *roles: str) -> Callable[[Sequence[Column], Values, ob
 
 
 def _builder(kind: Kind) -> Callable[[Sequence[Column], Values, object], _Built]:
-    """Return what makes the Dataset of a kind from its columns."""
+    """Return the function that builds the Dataset of a kind from its columns."""
     if kind.dimension == "time":
         return _series
     if kind.dimension == "track":

@@ -27,7 +27,7 @@ class Heading:
     unit : str
         As it is written; empty where there is none.
     run : str
-        Which run it belongs to; empty where it is not told.
+        The run that it belongs to; empty if the header names none.
     """
 
     text: str

@@ -38,7 +38,7 @@ class Layout:
     clock : tuple of float, optional
         Start and step in s, where the column of times counts samples.
     holds : str, optional
-        What the table holds, where its columns alone do not tell.
+        The kind of measurement, if it does not follow from the columns.
     """
 
     format: str
@@ -63,7 +63,7 @@ def layout(recognise: _Recognise) -> _Recognise:
 
 
 def first_row(text: Text, start: int = 0) -> int:
-    """Return the first of the first lines that has nothing but numbers, from one on.
+    """Return the index of the first row of numbers, among the first lines from `start` on.
 
     Raises
     ------
@@ -131,7 +131,7 @@ def general(text: Text) -> Layout:
 
 
 def _body(text: Text) -> int:
-    """Return the first of rows of numbers as wide as most of them are."""
+    """Return the index of the first row of numbers that has the most frequent width."""
     rows: list[int] = []
     start = 0
     while start < len(text.head):
@@ -148,13 +148,13 @@ def _body(text: Text) -> int:
 
 
 def _width(text: Text, first: int) -> int:
-    """Return how many cells rows have, without those that are blank in all of the first ones."""
+    """Return the number of columns, without trailing ones that are blank in the first rows."""
     rows = text.head[first:]
     return max((k + 1 for row in rows for k in range(len(row) - 1, -1, -1) if row[k]), default=1)
 
 
 def _named(text: Text, index: int, width: int) -> list[str]:
-    """Return the cells of a header; between blanks, names can have blanks themselves."""
+    """Return the names in a header; if blanks delimit them, they are split into `width` names."""
     cells = text.head[index]
     if text.delimiter != " ":
         while cells and not cells[-1]:

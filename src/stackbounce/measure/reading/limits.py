@@ -61,7 +61,7 @@ def content_of(path: object) -> tuple[str, bytearray]:
             raise FileError(f"{name} is a folder: give one of its files")
         if not stat.S_ISREG(mode):  # a pipe or a device may never end
             raise FileError(f"{name} is no ordinary file: copy what it gives into one")
-        with Path(name).open("rb") as file:  # which has room made for all that is asked for
+        with Path(name).open("rb") as file:  # its read() would allocate the size that is asked for
             content = bytearray(min(os.fstat(file.fileno()).st_size, BYTES) + 1)
             del content[file.readinto(content) :]
     except OSError as error:

@@ -19,7 +19,7 @@ __all__ = ["Table", "rows_of"]
 _CHUNK = LINE  # characters that are parsed at once, so that no line in them is too long
 _ODD = 2**23  # characters that are parsed cell by cell in Python, at most: some seconds
 _BLANKS = sorted({word for one in MISSING for word in (one, one.upper(), one.title(), "NaN")})
-_TRUTH = "uUsS"  # of the letters of "true" and "false" those that no number has
+_TRUTH = "uUsS"  # letters of "true" and "false" that occur in no number
 
 
 @dataclass
@@ -154,7 +154,7 @@ def _parsed(chunk: str, text: Text, used: Sequence[int], table: Table) -> Array 
 
 
 def _cell_by_cell(lines: list[str], text: Text, used: Sequence[int], table: Table) -> Array:
-    """Return rows of whatever cells."""
+    """Parse lines cell by cell; count in `table` the cells that are not numbers."""
     rows = []
     need, nan = max(used) + 1, math.nan
     for line in lines:

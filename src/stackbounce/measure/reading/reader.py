@@ -1,4 +1,4 @@
-"""The one function: a file, whatever wrote it -> a Dataset that says what it holds."""
+"""`read`: the file of any program -> a Dataset with the kind of measurement that it holds."""
 
 import os
 from collections.abc import Mapping, Sequence
@@ -39,7 +39,7 @@ def read(
 
     Tables of Tracker, phyphox (also its zip archives), Vernier, Logger Pro, PASCO Capstone,
     oscilloscopes of Rigol, Pico and Tektronix, any other table of numbers with names and units in
-    its header, and WAV sound. All options are for files that are not told right without them.
+    its header, and WAV sound. Options are needed only where a file is not recognised correctly.
 
     Parameters
     ----------
@@ -76,13 +76,13 @@ def read(
         - press curve: `compression`, `force` (point)
         - table: whatever there is (row)
 
-        Its attributes are `format`, the program; `why`, what in the content told; `holds`;
-        `doubt`, what is unsure and how to tell it, or empty; `source`, the name of the file.
+        Its attributes are `format`, the program; `why`, the evidence for it; `holds`; `doubt`, what
+        is uncertain and which option settles it, or empty; `source`, the name of the file.
 
     Raises
     ------
     FileError
-        If the file cannot be read, or is nothing that can be told; if it is larger than 256 MiB
+        If the file cannot be read or its kind is not recognised; if it is larger than 256 MiB
         (a zip archive: unpacked), or has more than 1000 columns or 67 million numbers.
     InvalidValue, InvalidType
         If an option makes no sense for this file.
@@ -90,7 +90,7 @@ def read(
     Notes
     -----
     Cells without a number are NaN, also those beyond an instrument's range (∞); rows without a
-    time are left out. Of a sound that is cut off, what is there is read. Both is said in `doubt`.
+    time are left out. A truncated sound is read as far as it goes. `doubt` mentions both.
 
     Examples
     --------
@@ -108,7 +108,7 @@ def read(
 
 
 def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
-    r"""Return what the content of a file holds, wherever it comes from.
+    r"""Read the content of a file that is in memory; see `read`.
 
     Parameters
     ----------
@@ -126,7 +126,7 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
     Raises
     ------
     FileError
-        If it is empty, or nothing that can be told.
+        If it is empty, or its kind is not recognised.
     InvalidValue, InvalidType
         If an option makes no sense for it.
 
@@ -210,7 +210,7 @@ def _from_text(content: bytearray, told: Told) -> "xr.Dataset":
 def _table(content: bytearray, told: Told) -> tuple[Layout, list[Column], Table, list[str], bool]:
     """Return the layout of a text, its columns, numbers and doubts, and whether it has runs.
 
-    The text itself, which may be larger than all of that, is gone then.
+    The text is freed on return, as it may be larger than all of these.
     """
     refuse_others(content)
     text = tabulate(decode(content), told.decimal)
@@ -245,7 +245,7 @@ def _flaws(table: Table) -> list[str]:
 
 
 def _numeric(columns: Sequence[Column], table: Table) -> tuple[list[Column], Array]:
-    """Return the columns that have numbers, and these."""
+    """Return the columns that have numbers, and their numbers."""
     there = np.isfinite(table.values).any(axis=0) & (table.strange <= len(table.values) / 2)
     if not there.any():
         raise FileError("it has no column of numbers")

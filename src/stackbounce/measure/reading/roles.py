@@ -49,13 +49,13 @@ class Column:
     role : str
         ``time``, ``force``, ``x`` …; empty for anything else.
     factor : float
-        From what the file has to SI.
+        Factor from the unit in the file to SI.
     unit : str
         The SI unit; empty where it is unknown.
     track : str
-        Whose it is, where a table has several tracks.
+        The name of its track, if a table has several.
     named : str
-        What it is to be called, where the caller says so.
+        The name that the option `names` gives it.
     doubt : str
         What is unsure about it.
     """
@@ -85,7 +85,7 @@ class Column:
 
 
 def column(index: int, said: Heading, role: str = "", track: str = "") -> Column:
-    """Return a column by what its header says, its role told or found.
+    """Return a column by its header; without a given role it is found from name and unit.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def column(index: int, said: Heading, role: str = "", track: str = "") -> Column
 
 
 def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
-    """Return role, factor to SI, SI unit and a doubt."""
+    """Return role, factor to SI, SI unit and a doubt; `told` is a role that is already known."""
     word = " ".join(name.casefold().replace("_", " ").split())
     factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
     doubt = ""

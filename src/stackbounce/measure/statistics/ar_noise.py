@@ -101,10 +101,10 @@ class Noise:
 def _mean(
     found: list[tuple[float, float, float, float]], count: int
 ) -> tuple[float, list[tuple[float, float]]]:
-    """Return the mean over (time, share, log-likelihood, variance), white noise being first."""
+    """Average noise models (time, share, log-likelihood, variance); the first is white noise."""
     best = max(row[2] for row in found)
     weights = np.array([np.exp(row[2] - best) for row in found])
-    # all AR(1) models together count as the best of them, less Schwarz's penalty
+    # all AR(1) models together get the weight of the best one, less Schwarz's penalty
     weights[1:] *= weights[1:].max() / max(weights[1:].sum(), 1e-300) / count
     weights /= weights.sum()
     white = 0.0
@@ -181,7 +181,7 @@ def linear_prediction_residual(
 ) -> NDArray[np.float32]:
     """Return the linear-prediction residual of a signal, learned from its quiet half.
 
-    The prediction removes hum and stationary noise of any spectrum; what comes suddenly remains.
+    The prediction removes hum and stationary noise of any spectrum; sudden changes remain.
 
     Parameters
     ----------
@@ -257,7 +257,7 @@ def difference_noise(values: Array, order: int = 2) -> float:
     values : ndarray
         (N,).
     order : int, optional
-        Of the differences: 1 for a constant series, 2 for one that changes evenly.
+        Of the differences: 1 for a constant series, 2 for a linear one.
 
     Examples
     --------

@@ -76,8 +76,9 @@ def find_kink(
     Until the second ball touches, both forces are the same up to a shift in time and a gain. Then
     its force grows like ``u**p`` with the time u since its touch. Integrated twice, the
     displacement of the lower ball, and with it the floor's force, departs like ``u**(p + 2)`` at
-    first and less steeply later. All change points, exponents and bends of a grid are tried; gain,
-    shift and size are linear. The change point is the posterior mean over the grid.
+    first and less steeply later. Change point, exponent and bend run over a grid. Gain, shift and
+    size of the departure are fitted by linear regression at each grid point. The change point is
+    the posterior mean over the grid.
     """
     from scipy.signal import savgol_filter
 
@@ -118,7 +119,7 @@ def _until(times: Array, departure: Array, lasting: float) -> float:
 def _search(
     times: Array, force: Array, known: Array, noise: float, ends: tuple[float, float]
 ) -> tuple[float, float, float, float]:
-    """Return the change point and its error, the gain, and shift times gain, of the whole grid."""
+    """Search the grid; return the change point, its error, the gain, and shift times gain."""
     rows = np.concatenate([known / noise, [[1.0 / _SAME, 0.0]]])
     base, _ = np.linalg.qr(rows)
     right = np.append(force / noise, 1.0 / _SAME)

@@ -169,7 +169,7 @@ def average_fits(
     Returns
     -------
     values, covariance : ndarray
-        (P,) and (P, P): the mean covariance and that of the parameters between the fits.
+        (P,) and (P, P): the mean covariance plus the covariance of the parameters over the fits.
 
     Examples
     --------

@@ -41,7 +41,7 @@ _ENERGY = ("kinetic energy retained", "")
 
 
 def _spread(side: "Axis") -> NDArray[np.float64]:
-    """Return the values along a side, spaced evenly or in even ratios."""
+    """Return the values along a side, with linear or logarithmic spacing."""
     for name, value in (("low", side.low), ("high", side.high)):
         if side.log and value <= 0.0:
             raise InvalidValue(f"{name} must be above 0 for even ratios, got {value:g}")
@@ -223,7 +223,7 @@ def _select_outcome(data: "xr.Dataset", show: str, drop: Drop) -> Any:
 
 
 def _find_reference_speeds(data: "xr.Dataset", drop: Drop) -> Any:
-    """Return the reference speed, which may vary itself, at each point of a map."""
+    """Return the reference speed at each point of a map, which may vary the speed or the height."""
     import xarray as xr
 
     def now(path: str, own: Any) -> Any:

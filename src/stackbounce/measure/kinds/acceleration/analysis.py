@@ -23,7 +23,7 @@ _AXES = ("acceleration_x", "acceleration_y", "acceleration_z")
 
 
 def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerometer:
-    """Return what an accelerometer tells of its fall and its bounces.
+    """Analyse the fall and the bounces of an accelerometer.
 
     An accelerometer reads zero in free flight, g at rest, and a short high pulse in a bounce. The
     flights are found, and the speeds follow from their durations: the impact speed is ``g t`` after
@@ -44,7 +44,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     Raises
     ------
     InvalidValue
-        If nothing flies and bounces in it, or a number is out of its range.
+        If no flights with bounces are found, or a number is out of its range.
     InvalidType
         If `data` holds no acceleration.
 

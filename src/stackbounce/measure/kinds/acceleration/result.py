@@ -1,4 +1,4 @@
-"""What was found in an acceleration."""
+"""The result of the analysis of an acceleration."""
 
 from dataclasses import dataclass, field
 from typing import Any, ClassVar

@@ -42,8 +42,8 @@ def bounces(
         The error in s of each time, where they have none. Without any the errors follow the scatter
         of the restitutions about a straight line.
     contact_time : float, optional
-        Of one bounce in s, taken off each interval to get the flight; the time of a bounce is the
-        beginning of its contact.
+        Of one bounce in s, subtracted from each interval to get the flight; the time of a bounce is
+        the beginning of its contact.
 
     Returns
     -------
@@ -93,7 +93,7 @@ def bounces(
         notes.append(
             "A restitution above 1: a bounce was missed before it, or it was not left to itself."
         )
-    # Errors that follow from the scatter hold it already.
+    # Errors that are estimated from the scatter include an excess scatter already.
     mean, laws, scatter = laws_of(speeds, kept) if known else laws_of(speeds, kept, most=0.0)
     if scatter:
         notes.append(
@@ -228,7 +228,11 @@ def _with_errors_from_scatter(
     gravity: float,
     notes: list[str],
 ) -> tuple[list[Any], list[Any], list[int], list[Any], list[Any]]:
-    """Return everything anew with the one error of all times that the restitutions scatter by."""
+    """Return times, flights, numbers, speeds and restitutions with errors from the scatter.
+
+    All times have the same error. It follows from chi squared of a straight line, or of a constant
+    for two restitutions, fitted to the restitutions over the impact speed.
+    """
     from uncertainties import ufloat
 
     def again(error: float) -> tuple[list[Any], list[Any], list[int], list[Any], list[Any]]:
@@ -251,7 +255,7 @@ def _with_errors_from_scatter(
 
 
 def _energy_kept(kept: Sequence[Any]) -> Any:
-    """Return the mean of e² with what single bounces differ by as a part of its error."""
+    """Return the mean of e²; its error includes the standard deviation from bounce to bounce."""
     from uncertainties import ufloat
 
     squares = [one**2 for one in kept]

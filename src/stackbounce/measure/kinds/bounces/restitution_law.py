@@ -54,8 +54,9 @@ class RestitutionLaw:
 def straight(
     speeds: Sequence[Any], kept: Sequence[Any], degree: int, most: float, power: bool = False
 ) -> tuple[Fit, float]:
-    """Return the fit of a polynomial in the speed, or of logarithms, and the scatter about it.
+    """Fit a straight line to restitution over speed; return it and the excess scatter about it.
 
+    With `degree` 0 it is a constant; with `power` the line is fitted to the logarithms of both.
     The speeds have errors too, correlated with those of the restitutions: the covariance is that of
     the residuals. `most` is the largest excess scatter of single bounces, 0 for none.
     """

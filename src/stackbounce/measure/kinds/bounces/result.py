@@ -1,4 +1,4 @@
-"""What the times of bounces tell."""
+"""The result of the analysis of bounce times."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -34,7 +34,7 @@ class Bounces(Finding):
     drop_height : ufloat or float or None
         In m, as given or inferred.
     inferred : bool
-        Whether the drop height is inferred from the mean energy kept, as phyphox does.
+        Whether the drop height is inferred from the mean energy retained, as phyphox does.
     scatter : float
         Excess scatter of the restitutions: standard deviation from bounce to bounce beyond the
         errors of the times.
@@ -85,7 +85,7 @@ class Bounces(Finding):
         return parts
 
     def told(self) -> dict[str, Any]:
-        """Return the mean restitution, and the impact speed that a given drop height tells."""
+        """Return the mean restitution and, if a drop height was given, the impact speed."""
         told: dict[str, Any] = {"restitution": self.mean}
         if self.drop_height is not None and not self.inferred:
             told["impact_speed"] = (2.0 * self.gravity * self.drop_height) ** 0.5

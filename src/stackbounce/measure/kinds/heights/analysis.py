@@ -59,8 +59,7 @@ def heights(
     Raises
     ------
     InvalidValue
-        If a height is not above 0 once it is counted from where the ball touches, or the diameter
-        is missing.
+        If the height of the lowest point is not above 0, or the diameter is missing.
     InvalidType
         If something has the wrong type.
 
@@ -241,7 +240,7 @@ def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
         return (counted[-1] / start) ** (0.5 / len(counted))
     mean = sum(counted) / len(counted)
     if len(counted) > 1:
-        # What single heights scatter by holds all of their own reading errors already.
+        # The scatter of the heights includes their reading errors.
         values = np.array([one.nominal_value for one in counted])
         error = float(values.std(ddof=1)) / math.sqrt(len(values)) * widening(len(values) - 1)
         mean = ufloat(values.mean(), error) if error else mean

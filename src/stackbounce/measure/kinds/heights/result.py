@@ -1,4 +1,4 @@
-"""What heights of bounces tell."""
+"""The result of the analysis of bounce heights."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar

@@ -28,11 +28,11 @@ def press(
     Parameters
     ----------
     data : xarray.Dataset or (compression, force)
-        `compression` in m and `force` in N, in the order in which they were recorded: slack or not,
-        loading, a hold or not, unloading or not, once or several times. Points without a number are
-        left out.
+        `compression` in m and `force` in N, in the order of recording. A record has one or more
+        cycles of loading and, if recorded, unloading; slack before the contact and a hold at the
+        peak may occur. Points without a number are left out.
     compliance : float or UFloat, optional
-        Of the machine itself, in m/N; its own compression is taken off.
+        Of the machine, in m/N; the compression of the machine is subtracted.
     sign : {1, -1}, optional
         Of the force in the record while the ball is pressed. By default that of the larger forces.
     cycle : int, optional
@@ -46,9 +46,9 @@ def press(
     Raises
     ------
     InvalidType
-        If `data` is neither.
+        If `data` is neither of these.
     InvalidValue
-        If there are fewer than 6 points, nothing changes, the force does not rise beyond its noise,
+        If there are fewer than 6 points, values are constant, the force does not exceed its noise,
         or there is no such cycle.
 
     Notes

@@ -147,7 +147,7 @@ def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array
 
 
 def _digit(values: Array) -> float:
-    """Return the step of a converter: between neighbouring values if these repeat; else 0."""
+    """Return the quantisation step: the distance of neighbouring values; 0 if few values repeat."""
     some = values[:4096]
     unique = np.unique(some)
     if len(unique) < 2 or len(unique) > 0.8 * len(some):
@@ -183,7 +183,8 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
 def _turn(record: Record, start: int, peak: int, end: int) -> tuple[float, float]:
     """Return the compression at the turning point, and its standard error.
 
-    It is the point itself or, where the noise exceeds the steps, the crossing of two lines.
+    It is the peak point. If the noise exceeds half of the travel per point, it is the intersection
+    of two straight lines, fitted to the loading and the unloading near the peak.
     """
     path = record.compression
     sides = [(start, peak), (peak, end)]
@@ -197,7 +198,7 @@ def _turn(record: Record, start: int, peak: int, end: int) -> tuple[float, float
         a, b = max(low, peak - reach), min(high, peak + reach)
         if b - a >= 3:
             lines.append(np.polyfit(np.arange(a, b + 1) - peak, path[a : b + 1], 1))
-    error = record.jitter / np.sqrt(max(1.0, reach / 4.0))  # of a line at its end
+    error = record.jitter / np.sqrt(max(1.0, reach / 4.0))  # standard error of a line at its end
     if len(lines) == 2 and lines[0][0] > lines[1][0]:
         at = (lines[1][1] - lines[0][1]) / (lines[0][0] - lines[1][0])
         if abs(at) <= reach:

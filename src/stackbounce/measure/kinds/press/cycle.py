@@ -53,9 +53,9 @@ class Found(NamedTuple):
     covariance : ndarray
         In the order of `values`.
     level : ndarray
-        (N,) the force with nothing pressed, at each point of the record.
+        (N,) the zero of the force at each point of the record.
     loading, unloading : Branch
-        The points; the force's zero is taken off.
+        The points; the zero of the force is subtracted.
     """
 
     values: dict[str, float]
@@ -126,7 +126,7 @@ def _branch(record: Record, places: NDArray[np.intp], first: int) -> Branch:
 
 @dataclass(frozen=True)
 class _Zero:
-    """The force with nothing pressed: unknown, a constant, or a straight line in time.
+    """The zero of the force, in the slack: unknown, a constant, or a straight line in time.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ class _Zero:
         Parameters
         ----------
         weights : ndarray
-            (..., n) of each force, its zero taken off, in the sums.
+            (..., n) weight of each force, less the zero, in the sums.
         branch : Branch
             With n points.
         """
@@ -171,7 +171,7 @@ class _Zero:
 
 
 def _zero(up: Branch, down: Branch, contact: float, peak: float, record: Record) -> _Zero:
-    """Return the zero of the force from the slack before the contact, and after it."""
+    """Fit the zero of the force: unknown without slack, a line if there is slack on both sides."""
     edge = contact - max(_MARGIN * (peak - contact), 3.0 * record.jitter)
     before = np.flatnonzero(up.x < edge)
     after = np.flatnonzero(down.x < edge) + len(up.x)
@@ -188,7 +188,7 @@ def _zero(up: Branch, down: Branch, contact: float, peak: float, record: Record)
 
 
 def _top(y: Array) -> float:
-    """Return about the force at the peak, from forces whose first one is nearest to it."""
+    """Return a rough force at the peak; `y` starts with the point nearest to the peak."""
     return max(float(y[0]), 0.1 * float(np.ptp(y)))
 
 
@@ -204,7 +204,7 @@ def _fit(
 
 
 def _scale(record: Record, branch: Branch, peak: float, fit: PowerFit) -> Array:
-    """Return the relative noise of the points: of force, and of compression by the slope."""
+    """Return the relative force noise of each point, with compression noise times the slope."""
     top, p, c = _plain(fit.values)
     ratio = 1.0 - (peak - branch.x) / c
     slope = top * p / c * power(ratio, max(p - 1.0, 0.0))
@@ -218,7 +218,7 @@ def _scale(record: Record, branch: Branch, peak: float, fit: PowerFit) -> Array:
 def _loading(
     up: Branch, fit: PowerFit, peak: float, zero: _Zero
 ) -> tuple[dict[str, _Number], Array]:
-    """Return what follows from the loading, and the rows (3, N) of P, ln p and ln C."""
+    """Return the loading's numbers, and derivatives (3, N) of P, ln p and ln C by the noise."""
     theta = zero.row(fit.weights, up)
     top, p, c = _plain(fit.values)
     inside = np.flatnonzero(1.0 - (peak - up.x) / c > 0.0)
@@ -253,7 +253,7 @@ def _loading(
 def _unloading(
     down: Branch, fit: PowerFit, peak: float, zero: _Zero, theta: Array
 ) -> dict[str, _Number]:
-    """Return what follows from the unloading, whose contact is the loading's."""
+    """Return the unloading's numbers; the contact and its derivatives `theta` are the loading's."""
     by_length = power_law(down.x, peak, fit.values)[1][:, 2]
     own = zero.row(fit.weights, down) - np.outer(fit.weights @ by_length, theta[2])
     top, n, c = _plain(fit.values)
@@ -271,7 +271,9 @@ def _unloading(
 def _work(
     branch: Branch, places: NDArray[np.intp], values: Array, rows: Array, peak: float, zero: _Zero
 ) -> _Number:
-    """Return the work between contact and peak: trapezoids, and the fit before the first of them.
+    """Return the work between contact and peak, by the trapezoidal rule.
+
+    From the contact to the first point the fit is integrated.
 
     Parameters
     ----------
@@ -335,7 +337,7 @@ def _turning_point_covariance(values: dict[str, float], last: Array, cycle: Cycl
     slope = values["top"] * values["exponent"] / values["length"]
     moves: dict[str, float] = {
         "length": 1.0,
-        "top": slope,  # so that top/length**p, which is the stiffness, stays what it is
+        "top": slope,  # keeps the stiffness top/length**p constant
         "peak_force": slope,
         "work_in": values["top"],
     }
@@ -344,7 +346,7 @@ def _turning_point_covariance(values: dict[str, float], last: Array, cycle: Cycl
         moves["top_out"] = values["top_out"] * values["unloading"] / values["length"]
     row = np.array([moves.get(name, 0.0) for name in values])
     result = np.outer(row, row)
-    if cycle.sampled:  # whose force is then too small by the slope times the same error
+    if cycle.sampled:  # the last force then has minus the slope times the same error
         shared = -slope * np.outer(row, last)
         result += shared + shared.T
     return np.asarray(result * cycle.peak_error**2)

@@ -120,7 +120,7 @@ def fit_power_law(
     Parameters
     ----------
     x, y : ndarray
-        (N,) compression and force, its zero taken off.
+        (N,) compression, and force less its zero.
     peak : float
         Where the force is P.
     first : ndarray

@@ -21,7 +21,7 @@ def _analyse(data: "xr.Dataset") -> "tuple[Press, ...]":
 
 
 def _recognised(columns: "Sequence[Column]") -> bool:
-    """Tell whether there is a force and a compression, or without times one length for it."""
+    """Tell whether the columns have a force and a compression, or one length and no time."""
     roles = {one.role for one in columns}
     lengths = [one for one in columns if one.unit == "m" and one.role != "force"]
     one_length = "time" not in roles and len(lengths) == 1

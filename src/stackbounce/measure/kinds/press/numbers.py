@@ -85,7 +85,7 @@ def _curve(branch: Branch, contact: float, peak: float) -> Curve:
 
 
 def unloading_only(record: Record, cycle: Cycle) -> Press:
-    """Return the peak, the work given back and the exponent n of an unloading without a loading."""
+    """Return the peak, the returned work and the exponent n of an unloading without a loading."""
     # Read backwards it is a loading, whose exponent is n.
     back = Cycle(
         cycle.unloading[::-1], np.empty(0, np.intp), cycle.held, cycle.peak, cycle.peak_error

@@ -24,7 +24,7 @@ class Curve:
     compression : ndarray
         (N,) from the contact on, in m; negative in the slack.
     force : ndarray
-        (N,) in N, its zero taken off.
+        (N,) in N, less its zero.
     fit : ndarray
         (N,) in N, the power law.
     misfit : float
@@ -33,7 +33,7 @@ class Curve:
     noise : float
         Root mean square of the other part, in N.
     fits : bool
-        Whether the smooth part is small (below 1 % of the peak force) or lost in the noise.
+        Whether the smooth part is below 1 % of the peak force, or not significant in the noise.
     """
 
     compression: Array
@@ -77,8 +77,8 @@ class Press(Finding):
     contact : UFloat
         Compression at which the contact begins, on the record's scale, in m.
     zero : UFloat
-        Force in the record with nothing pressed, in N; exactly 0 where the record has no such part:
-        then the force is taken as recorded.
+        Zero of the force: its value in the slack, in N; exactly 0 without slack, as the force is
+        then taken as recorded.
     relaxed : UFloat or None
         By how much the force dropped at the turn, in N.
     loading, unloading : Curve or None
@@ -127,7 +127,7 @@ class Press(Finding):
 
     @property
     def lossless(self) -> bool | None:
-        """Whether no loss is seen: less than two standard errors of it. None without unloading."""
+        """Whether the loss is not significant (two standard errors). None without unloading."""
         loss: Any = self.loss
         return None if loss is None else bool(loss.nominal_value <= _AGREES * loss.std_dev)
 
@@ -175,9 +175,9 @@ class Press(Finding):
         """Return the contact, as a drop's TOML has it.
 
         The exponent is 1 where it is 1 within two standard errors or below 1, which no law has; the
-        stiffness then is that of the straight line. Where no loss is seen (less than two standard
-        errors of it, or no unloading at all) the law is `Spring`, or `PowerLaw` for another
-        exponent; else it is `Hysteretic`, with the restitution that the works give.
+        stiffness then is that of the straight line. Without a significant loss (two standard
+        errors), or without unloading, the law is `Spring`, or `PowerLaw` for another exponent.
+        Otherwise it is `Hysteretic`, with the restitution that the works give.
 
         Returns
         -------

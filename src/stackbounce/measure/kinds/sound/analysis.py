@@ -32,8 +32,8 @@ def knocks(
 ) -> Knocks:
     """Return the times of a bouncing ball's knocks in a recording.
 
-    A knock is where the sound rises far above what preceded it, once hum and steady noise have been
-    taken out. Of all such rises those are kept that one bouncing ball can have made: each flight
+    A knock is a sudden large rise of the linear-prediction residual, which contains no hum and no
+    stationary noise. The rises that one bouncing ball can have made are kept: each flight is
     shorter than the one before by a factor that changes slowly. Echoes, second sounds of one
     impact, speech and other noises are left out and listed.
 
@@ -42,8 +42,8 @@ def knocks(
     data : Dataset or array_like
         A Dataset with `sound` (as `stackbounce.read` gives it), or samples, (N,) or (channels, N).
     threshold : float, optional
-        By which factor the amplitude must rise within 2 ms, above 1; by default what steady noise
-        does not do by chance, and at least 1.7.
+        By which factor the amplitude must rise within 2 ms, above 1. By default stationary noise
+        exceeds it in one recording of a hundred, and it is at least 1.7.
     dead_time : float, optional
         Sounds that follow a knock within this time in s belong to it; by default 8 ms.
     rate : float, optional
@@ -242,7 +242,7 @@ def _note_series(
     origin: float,
     notes: list[str],
 ) -> None:
-    """Say where a bounce is missing, where there is too little, and where there is more."""
+    """Add notes on missing bounces, on too few knocks, and on further series of knocks."""
     times = origin + rises.times[list(chain.indices)]
     notes.extend(
         f"A bounce seems to be missing between {times[k]:.4g} s and {times[k + 1]:.4g} s."

@@ -125,13 +125,13 @@ def _around(energy: Array, rounded: float) -> tuple[Array, Array]:
     start = np.maximum(stop - _BEFORE, 0)
     filled = stop > start
     before = np.where(filled, (sums[stop] - sums[start]) / np.maximum(stop - start, 1), np.inf)
-    # The first hops have nothing before them; digital silence is given a little noise.
+    # Too few hops precede the first ones; digital silence is given a little noise.
     before[: _BEFORE + _GUARD] = np.maximum(before[: _BEFORE + _GUARD], np.median(energy))
     return np.maximum(before, max(rounded, 1e-9 * float(energy.max()), 1e-30)), after
 
 
 def _least(threshold: float | None, freedom: int, count: int) -> float:
-    """Return the least ratio of energies of a knock."""
+    """Return the smallest ratio of the energies after and before that counts as a rise."""
     if threshold is not None:
         return threshold**2
     from scipy.stats import f

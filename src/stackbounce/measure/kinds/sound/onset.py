@@ -134,7 +134,7 @@ def _part(values: NDArray[np.float32], start: int, stop: int, thin: int) -> Arra
 
 
 def _improved(knocks: list[_Knock], rate: float) -> tuple[Array, Array]:
-    """Return times and errors of knocks, in s."""
+    """Return the posterior mean of each onset and its error, in s, with one common rise time."""
     common = np.mean([one.color for one in knocks], axis=0)
     logs = np.array([_logs(one, 0.5 * (one.color + common), rate) for one in knocks])
     chances = np.exp(logs - logs.max(axis=(1, 2), keepdims=True))  # (knock, rise, onset)

@@ -37,8 +37,8 @@ def find_chain(
     """Return the series of bounces that explains most of the knocks.
 
     Each flight is shorter than the one before by a factor that changes slowly, and loudness falls
-    with speed. One bounce in a row may be missing. Found by dynamic programming over pairs of
-    neighbouring bounces, each with the best series that ends in it.
+    with speed. Single bounces may be missing. The series is found by dynamic programming over pairs
+    of neighbouring bounces, each with the best series that ends in it.
 
     Parameters
     ----------

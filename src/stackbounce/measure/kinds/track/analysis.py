@@ -37,7 +37,7 @@ def track(
     frame_rate_factor: float = 1.0,
     scale: float = 1.0,
 ) -> Tracks:
-    """Return what a track of one ball or more tells of its drop and its bounces.
+    """Analyse the drop and the bounces in a track of one ball or more.
 
     The track is cut into free flights, to which parabolas of one acceleration are fitted; a bounce
     is where the parabolas before and after it meet. The acceleration is fitted and compared with
@@ -131,7 +131,7 @@ _Found = tuple[Array, Array, Flights, list[int]]
 def _fitted(
     found: Columns, up: Upward, gravity: float, notes: list[str]
 ) -> tuple[Upward, list[tuple[str, _Found]]]:
-    """Return the vertical, tilted as the flights have it, and each ball's flights."""
+    """Return the vertical, with the tilt that the flights show, and the flights of each ball."""
     fitted = _flights(found, up, gravity)
     across = "x" if up.axis == "y" else "y"
     if fitted and across in found.positions[0]:

@@ -103,7 +103,7 @@ def unexplained(
     sigma: float,
     accelerations: Array,
 ) -> Array:
-    """Return the cost of the best cut of a track for each acceleration; see `find_flights`.
+    """Return the cost of the best segmentation for each acceleration; see `find_flights`.
 
     Parameters
     ----------
@@ -126,9 +126,9 @@ def _cut(
     sigma: float,
     accelerations: Array,
 ) -> tuple[Array, NDArray[np.intp], NDArray[np.intp]]:
-    """Return the cost of the best cut for each acceleration, and the pieces for the first one.
+    """Return the cost of the best segmentation for each acceleration, and that for the first one.
 
-    The pieces are given by the last one before each point: where it starts, and its kind.
+    The segmentation is given as the start and the kind of the last segment before each point.
     """
     count = len(times)
     x = times - times.mean()

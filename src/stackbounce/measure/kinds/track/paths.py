@@ -20,10 +20,10 @@ __all__ = ["Columns", "Upward", "columns", "flights_of", "tilt_of", "upward"]
 
 _MOVES = 0.03  # of the range of a track, within a window
 _JUMP = 5.0  # errors that make a velocity's jump a bounce
-_LEAST_JUMP = 0.1  # of the largest one; smaller ones are a hand's
+_LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand
 _ROUNDS = 4
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
-_UNSEEN = 4.0  # errors by which a released ball has fallen before it is seen to
+_UNSEEN = 4.0  # errors by which a ball must have fallen for its fall to be significant
 _SURE = 5  # points that a fall keeps
 _ALIKE = 0.05
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
@@ -131,7 +131,7 @@ def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
 
 
 def _guesses(times: Array, heights: Array, gravity: float) -> Array:
-    """Return accelerations worth trying: of windows, and gravity with a usual wrong clock."""
+    """Return accelerations to try: gravity, gravity/16 (fourfold slow motion), those of windows."""
     guesses = [gravity, gravity / 16.0]
     for wide in _WIDTHS:
         falls = -_accelerations(times, heights, wide)

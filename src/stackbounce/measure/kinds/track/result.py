@@ -1,4 +1,4 @@
-"""What was found in a track."""
+"""The result of the analysis of a track."""
 
 from dataclasses import dataclass
 from typing import Any, ClassVar
@@ -22,7 +22,7 @@ class Track:
     impact_times : tuple of ufloat
         When the parabolas before and after each bounce meet, in s.
     levels : tuple of ufloat
-        How high that is, in m, as tracked.
+        Height at these times, in m, as tracked.
     impact_speeds, rebound_speeds : tuple of ufloat
         Before and after each bounce, in m/s; a rebound speed is up-positive.
     drop_height : ufloat
@@ -73,7 +73,7 @@ class Tracks(Finding):
     first_impact : ufloat
         When the lowest ball first bounces, in s.
     time_base : TimeBase
-        The track's clock and ruler, checked against gravity.
+        The track's frame rate and scale, checked against gravity.
     axis : str
         The one that is up: x, y, -x or -y.
     tilt : float

@@ -24,7 +24,7 @@ class TimeBase(NamedTuple):
     gravity : ufloat
         Of the flights as tracked, in m/s².
     ratio : ufloat
-        Of that over the true one.
+        Ratio of `gravity` to the true gravity.
     frame_rate : float
         As the times of the track have it, in 1/s.
     frame_rate_factor : float or None

@@ -74,7 +74,7 @@ def waveform(
     Returns
     -------
     Waveform
-        Without contacts if nothing stands out of the noise; its notes say so.
+        Without contacts if nothing exceeds the noise; a note says so.
 
     Raises
     ------
@@ -157,7 +157,7 @@ def waveform(
 
 
 def _see(record: Record, raw: Array, threshold: float | None, sign: int | None) -> Seen:
-    """Find baseline and contacts in turns, as each depends on the other."""
+    """Find baseline and contacts by iteration, as each depends on the other."""
     quiet = np.zeros(len(record.times), dtype=bool)
     zero = quiet_parts(record, quiet, hum=False)
     stretches: list[Stretch] = []

@@ -13,7 +13,7 @@ from stackbounce.measure.statistics.ar_noise import correlation_factor, differen
 __all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter", "stuck"]
 
 _SHARE = 0.25  # of a record, at least, is quiet
-_FAR = 0.2  # of a record's range, by which its ends are off a level that is a limit
+_FAR = 0.2  # of a record's range: a clipped level that differs more from the ends is no baseline
 _FIFTH = (0.2, 0.2533)  # this share of normal deviates is within so many standard deviations
 _MAINS = (50.0, 60.0)  # Hz
 _BLOCK = 1e-3  # s, over which a hum hardly changes
@@ -65,7 +65,7 @@ def first_guess(record: Record) -> tuple[float, float]:
     limits = (values == values.max()) | (values == values.min())
     at_limit = level in (values.max(), values.min())
     if at_limit and not limits.all() and abs(np.median(ends) - level) > _FAR * np.ptp(values):
-        level = _densest(values[~limits])  # the recorder's limit is as even as a baseline
+        level = _densest(values[~limits])  # clipped samples are as constant as a baseline
     fast = difference_noise(values, 1)
     slow = float(np.quantile(np.abs(values - level), _FIFTH[0])) / _FIFTH[1]
     return level, max(fast, slow, _floor(record))
@@ -172,7 +172,7 @@ def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
 
 
 def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
-    """Tell whether a fit to the quiet samples is well determined at all samples."""
+    """Tell whether the leverage of each sample is low, so that the fit is well determined there."""
     normal = columns[quiet].T @ columns[quiet] / quiet.sum()
     some = columns[:: max(1, len(columns) // 500)]
     errors = np.sum(some * (some @ np.linalg.pinv(normal, hermitian=True)), axis=1)

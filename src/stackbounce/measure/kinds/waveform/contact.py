@@ -27,7 +27,7 @@ _TAIL = 0.25  # of a contact's length that its end may still reach
 
 
 class Seen(NamedTuple):
-    """A record with its contacts upward and its baseline taken off.
+    """A record with its contacts upward and its baseline subtracted.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ class Seen(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """The samples around a contact, with the local baseline taken off.
+    """The samples around a contact, with the local baseline subtracted.
 
     `offset` is the baseline's standard error. The noise is that beside the contact, where there are
     enough samples.
@@ -130,7 +130,7 @@ def measure_contact(
 
 
 def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | None) -> _Part:
-    """Return a contact and the quiet samples beside it, without the line through these."""
+    """Return a contact with the quiet samples around it, less a baseline fitted to these."""
     reach = max(_BESIDE * len(one), _LEAST)
     low, high = max(0, one.first - reach), min(len(seen.times) - 1, one.last + reach)
     if before is not None:

@@ -138,9 +138,9 @@ def fit_flank(
 
 
 def _cut(times: Array, even: Array, calm: float, level: float) -> tuple[int, int, int]:
-    """Return the places of a rise: well before its foot, its foot, and the end above a level.
+    """Return three indices of a rise: well before its foot, its foot, and its end above a level.
 
-    The end is 0 where no rise is seen.
+    The end is 0 if there is no significant rise.
     """
     over = even >= level
     above = np.flatnonzero(over[:-1] & over[1:])  # one may be noise

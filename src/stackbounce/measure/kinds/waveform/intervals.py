@@ -1,4 +1,4 @@
-"""The stretches of a record that stand out of the noise: its contacts."""
+"""The intervals of a record in which the signal exceeds the noise: its contacts."""
 
 from dataclasses import dataclass
 

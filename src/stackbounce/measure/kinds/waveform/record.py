@@ -118,7 +118,7 @@ def _channel(data: Any) -> tuple[Array, Array, str, list[str]]:
 
 
 def _spikes(values: Array) -> NDArray[np.bool_]:
-    """Tell which samples stand alone: far off both neighbours, which agree with their own.
+    """Return which samples are spikes: far from both neighbours, which agree with theirs.
 
     A spike makes second differences of 1, -2 and 1 times its height, and nothing else does.
     """

@@ -78,7 +78,7 @@ class Waveform(Finding):
     drift : float
         By how much it changes over the record.
     hum : float
-        Amplitude of the mains' hum that was taken off, in `unit`; 0 where there is none.
+        Amplitude of the mains' hum that was subtracted, in `unit`; 0 where there is none.
     sign : int
         -1 where contacts went down in the record.
     step : float
@@ -91,7 +91,7 @@ class Waveform(Finding):
         As they were given, in kg and m/s.
     times, force, zero : ndarray
         (n,) the record's times in s, its values contacts upward without baseline, droop corrected,
-        and the baseline that was taken off, all for a picture.
+        and the baseline that was subtracted, all for a picture.
     """
 
     picture: ClassVar[str] = "waveform"

@@ -104,10 +104,10 @@ class Shape:
         return -forward, _slowing(bulk, level) + forward
 
     def rows(self, u: Array, unknown: Array, *, averaged: bool) -> Array:
-        """Return lead, corrections and 1, where u is at most 0 before the touch.
+        """Return the columns of the linear model: the lead, both corrections and 1.
 
-        They are taken at each u, or averaged between each and the next; `unknown` is p, or a in
-        the unit of u.
+        All but the last are 0 before the touch, where u is below 0. They are evaluated at each u,
+        or averaged between each u and the next. `unknown` is p, or a in the unit of u.
         """
         wide = np.diff(u, axis=-1) if averaged else None
         touched = u > 0.0
@@ -141,12 +141,12 @@ def _lead(kind: str, u: Array, a: Array) -> tuple[Array, Array]:
 
 
 def _slowing(p: Array, level: float) -> Array:
-    """Return by how much a ball's slowing down lowers the force, as a share of what it then is.
+    """Return the relative change of the force that is due to the ball's deceleration.
 
-    At a level, a share of the peak force, the compression is x = level**(1/p) of the largest, and
-    the time since the touch that in which the impact speed would make it ξ, the integral of
-    ``(1 - y**(p + 1))**-0.5`` from 0 to x. Without slowing the force would be ``(ξ / x)**p`` times
-    as large.
+    `level` is the force over its peak. There the compression is x C, with the largest compression C
+    and ``x = level**(1/p)``. The time since the touch is ξ C/v0, where v0 is the impact speed and ξ
+    the integral of ``(1 - y**(p + 1))**-0.5`` from 0 to x. At constant speed the force would be
+    ``(ξ / x)**p`` times as large.
 
     Examples
     --------

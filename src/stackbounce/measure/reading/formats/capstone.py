@@ -8,7 +8,7 @@ from stackbounce.measure.reading.text import Text
 
 @layout
 def capstone(text: Text) -> Layout | None:
-    """PASCO Capstone: each column's name has ``Run #1`` after it; lines above that are skipped."""
+    """Recognise PASCO Capstone: column names end in ``Run #1``; lines above them are skipped."""
     for k, row in enumerate(text.head):
         cells = [cell for cell in row if cell]
         if len(cells) > 1 and all(

@@ -9,7 +9,7 @@ from stackbounce.measure.reading.text import Text
 
 @layout
 def logger_pro(text: Text) -> Layout | None:
-    """Logger Pro's text: names, short names and units on lines of their own."""
+    """Recognise Logger Pro: names, short names and units stand on separate lines."""
     if not text.line(0).startswith("Vernier Format"):
         return None
     first = first_row(text, 3)

@@ -15,7 +15,7 @@ _EXPERIMENTS: dict[tuple[str, ...], str] = {
 
 @layout
 def phyphox(text: Text) -> Layout | None:
-    """The experiments of phyphox, by the names of their columns."""
+    """Recognise the experiments of phyphox by the names of their columns."""
     header = text.head[0]
     names = [heading(cell).name.casefold() for cell in header if cell]
     collision = {"bounce 0", "bounce 1"} <= set(names)

@@ -10,7 +10,7 @@ from stackbounce.measure.reading.text import Text
 
 @layout
 def picoscope(text: Text) -> Layout | None:
-    """PicoScope: ``Time,Channel A`` over ``(ms),(V)`` and a blank line."""
+    """Recognise PicoScope: ``Time,Channel A`` over ``(ms),(V)`` and a blank line."""
     head = text.head
     if len(head) < 3 or head[0][:1] != ["Time"] or len(head[0]) < 2 or len(head[1]) < 2:
         return None

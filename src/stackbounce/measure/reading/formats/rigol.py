@@ -9,7 +9,7 @@ from stackbounce.measure.reading.text import Text, number
 
 @layout
 def rigol(text: Text) -> Layout | None:
-    """Rigol: ``X,CH1,…,Start,Increment`` over units and two numbers, then counted samples."""
+    """Recognise Rigol: ``X,CH1,…,Start,Increment``, units, two numbers, then counted samples."""
     head = text.head
     if len(head) < 2 or head[0][:1] != ["X"] or "Increment" not in head[0]:
         return None

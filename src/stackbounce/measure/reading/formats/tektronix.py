@@ -8,7 +8,7 @@ from stackbounce.measure.reading.text import Text, number
 
 @layout
 def tektronix_mdo(text: Text) -> Layout | None:
-    """Tektronix MDO: lines of keys and values, then ``TIME,CH2``."""
+    """Recognise Tektronix MDO: lines of keys and values, then ``TIME,CH2``."""
     for k, row in enumerate(text.head):
         if k and row[:1] == ["TIME"] and len(row) > 1:
             break
@@ -34,7 +34,7 @@ def tektronix_mdo(text: Text) -> Layout | None:
 
 @layout
 def tektronix_tds(text: Text) -> Layout | None:
-    """Tektronix TDS2000: keys and values in columns A and B, seconds and volts in D and E."""
+    """Recognise Tektronix TDS2000: keys and values in columns A and B, s and V in D and E."""
     keys = {row[0]: row[1] for row in text.head if len(row) > 4 and row[0]}
     if not {"Record Length", "Sample Interval"} <= set(keys):
         return None

@@ -8,7 +8,7 @@ from stackbounce.measure.reading.text import Text
 
 @layout
 def tracker(text: Text) -> Layout | None:
-    """Tracker: ``#multi:`` over the tracks' names, or one track's name over ``t``, ``x``, ``y``."""
+    """Recognise Tracker: ``#multi:`` over track names, or one name over ``t``, ``x``, ``y``."""
     head = text.head
     multi = bool(head[0]) and head[0][0].startswith("#multi:")
     at = 2 if multi else 1

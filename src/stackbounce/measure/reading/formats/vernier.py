@@ -7,7 +7,7 @@ from stackbounce.measure.reading.text import Text
 
 @layout
 def vernier(text: Text) -> Layout | None:
-    """Vernier's CSV: each column's name with its run before it."""
+    """Recognise Vernier: each column's name begins with its run."""
     header = text.head[0]
     headings = [heading(cell) for cell in header if cell]
     runs = [one.run for one in headings]

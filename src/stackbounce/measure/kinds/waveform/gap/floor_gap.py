@@ -33,10 +33,10 @@ def floor_gap(
 ) -> FloorGap:
     """Return delay and gap of two balls from the floor's force under both and under one.
 
-    One sensor on the floor, two drops from the same height: the lower ball alone, and both. Until
-    the balls touch both forces are the same; they part when the second ball touches. One record
-    alone is not enough: the force of a single ball differs so much from ball to ball that a dent
-    in it need not come from a second ball.
+    One sensor on the floor records two drops from the same height: the lower ball alone, and both.
+    Until the balls touch both forces are the same; the touch is the change point after which they
+    differ. One record is not enough: the force of a single ball differs so much from ball to ball
+    that a dip in it need not come from a second ball.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ class _Fall(NamedTuple):
         return float(np.interp(time, self.times, self.once))
 
     def of(self, time: float) -> float:
-        """Return the force integrated twice, up to a time in s since the touch."""
+        """Return the force integrated twice up to a time in s, which may be after the release."""
         if time <= 0.0 or math.isinf(time):
             return time
         flown = max(time - self.lasting, 0.0)
