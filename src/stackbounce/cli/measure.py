@@ -25,7 +25,6 @@ if TYPE_CHECKING:
 
     from stackbounce.measure.constants import LawConstants
     from stackbounce.measure.measurement import Measurement
-    from stackbounce.measure.option_values import read_options
 
 __all__ = ["EPILOG", "run"]
 
@@ -67,6 +66,7 @@ def run(
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
     need("measure", "stackbounce measure")
     from stackbounce.measure.measurement import measure_file, measure_numbers
+    from stackbounce.measure.option_values import read_options
 
     files = files or []
     if plot is not None:
