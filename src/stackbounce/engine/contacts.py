@@ -1,14 +1,16 @@
 """The force curve that a contact follows in each phase, and how events change it.
 
-The force of a damped contact is a power of c times its *gain* a + b c + d c'. The contact stays in
-the phase COMPRESSING until the gain falls through 0 (CLIPPED: it is then unloaded) or c does.
+The force of a damped contact is c^q times the factor a + b c + d c', called its *gain* here. Its
+phase is COMPRESSING until c falls through 0 (RELEASE), or until the gain does (CLIPPED): the formula
+would then give a pulling force, so the force is 0 and the phase is UNLOADED.
 
-Because c^p has no power series at c = 0, a power law is *linearised*, that is replaced by its chord
-from 0, below a compression at which the work is negligible (event LINEARISED); above it the contact
-follows the power law again (event CURVED). The chord may change no ball's velocity by more than the
-error of one step: two balls that are pressed together slowly get a shorter chord than two that
-collide. No chord is needed for two balls alone whose c^p has a series in the root of time, see
-`motion`, nor for a contact that opens before its present series ends.
+Because c^p has no power series at c = 0, a power law is *linearised* at small compressions: its
+chord from 0 replaces it, where the work is negligible (event LINEARISED). Above that compression the
+contact follows the power law again (event CURVED). The impulse along the chord must change no ball's
+velocity by more than the error of one step. The chord is therefore shorter if two balls are pressed
+together slowly than if they collide. No chord is needed in two cases: for two balls alone whose c^p
+has a series in the square root of time (see `motion`), and for a contact that opens before its
+present series ends.
 """
 
 import math
@@ -47,7 +49,7 @@ _BEYOND = 1.0 + 1e-6  # times the old peak, where the steepest curve has 3 times
 
 @kernel
 def raised(x: float, p: float) -> float:
-    """Return x^p; for p = 1.5 (Hertz) by a square root, which is faster than a power."""
+    """Return x^p; p = 1.5 (Hertz) uses a square root, which is faster than a power."""
     if p == 1.5:
         return x * math.sqrt(x)
     power: float = x**p
@@ -73,7 +75,7 @@ def force(stack: Stack, i: int, compression: float, rate: float) -> float:
 
 @kernel
 def stored_energy(stack: Stack, i: int, compression: float) -> float:
-    """Return the energy that contact i would give back if its unloading were not damped."""
+    """Return the elastic energy of contact i: the work of its unloading without damping forces."""
     if stack.phase[i] == OPEN:
         return 0.0
     if stack.law[i] == DAMPED:
@@ -92,7 +94,8 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
 def _loaded_energy(stack: Stack, i: int, compression: float) -> float:
     """Return the energy that a lossy contact on its loading curve would give back.
 
-    That is e^2 of the work done on this curve, plus what it held when it came onto the curve.
+    It is e^2 times the work done on this curve, plus the energy stored when the contact came onto
+    the curve.
     """
     exponent = stack.exponent[i] + 1.0
     kept = exponent / (stack.unloading[i] + 1.0)
@@ -104,7 +107,11 @@ def _loaded_energy(stack: Stack, i: int, compression: float) -> float:
 
 @kernel
 def close_contact(stack: Stack, i: int, time: float) -> None:
-    """Close contact i at a time, or at the time since which it has been touching."""
+    """Begin a contact interval of contact i on its loading curve.
+
+    The interval starts at ``time`` or, if the contact already touched without a force, when that
+    touch began.
+    """
     stack.start[i] = time if math.isnan(stack.touching[i]) else stack.touching[i]
     stack.touching[i] = math.nan
     stack.phase[i] = COMPRESSING
@@ -121,7 +128,7 @@ def close_contact(stack: Stack, i: int, time: float) -> None:
 
 @kernel
 def _set_loading_curve(stack: Stack, i: int) -> None:
-    """Let contact i follow its loading curve: k c^p, or a power of c times a gain."""
+    """Set the force of contact i to its loading curve: k c^p, or k c^q times the gain."""
     unit = stack.scale[i]
     exponent = stack.exponent[i]
     if stack.law[i] == DAMPED:
@@ -134,12 +141,12 @@ def _set_loading_curve(stack: Stack, i: int) -> None:
 
 @kernel
 def _set_curve(stack: Stack, i: int, force_at_unit: float, unit: float, exponent: float) -> None:
-    """Let contact i follow the curve force_at_unit (c/unit)^exponent."""
+    """Set the force of contact i to the curve force_at_unit (c/unit)^exponent."""
     stack.curve_force[i] = force_at_unit
     stack.curve_unit[i] = unit
     stack.curve_exponent[i] = exponent
     stack.linearised[i] = 0
-    # for a power times a gain that grows from 0, the exponent of the whole force counts
+    # if the gain grows from 0 as well, the whole force has a larger exponent than the power alone
     steepest = max(exponent, stack.exponent[i])
     ratio = stack.number[LINEARISED_WORK] ** (1.0 / (steepest + 1.0))
     stack.linearised_below[i] = ratio * unit
@@ -147,7 +154,7 @@ def _set_curve(stack: Stack, i: int, force_at_unit: float, unit: float, exponent
 
 @kernel
 def _linearise(stack: Stack, i: int) -> None:
-    """Let contact i follow the chord of its curve up to ``linearised_below``."""
+    """Replace the curve of contact i by its chord from 0 to ``linearised_below``."""
     ratio = stack.linearised_below[i] / stack.curve_unit[i]
     stack.linearised[i] = 1
     stack.linearised_impulse[i] = 0.0
@@ -157,7 +164,7 @@ def _linearise(stack: Stack, i: int) -> None:
 
 @kernel
 def linearised_impulse_limit(stack: Stack, i: int) -> float:
-    """Return the largest impulse that contact i may exert along its chord."""
+    """Return the impulse along the chord of contact i that gives the error of one step."""
     return stack.number[TOLERANCE] * reduced_mass(stack, i) * stack.number[SPEED]
 
 
@@ -171,7 +178,10 @@ def reduced_mass(stack: Stack, i: int) -> float:
 
 @kernel
 def _linearise_if_slow(stack: Stack, i: int) -> None:
-    """Linearise releasing contact i, anchored now, or put it off if this is too early."""
+    """Linearise opening contact i, anchored now, if the work left under its chord is small enough.
+
+    Otherwise ``linearised_below`` is reduced, so that the next trial comes at a smaller compression.
+    """
     compression = stack.compression[i]
     rate = stack.velocity[i]
     if i > 0:
@@ -193,9 +203,10 @@ def _linearise_if_slow(stack: Stack, i: int) -> None:
 
 @kernel
 def _steepen(stack: Stack, i: int, compression: float) -> None:
-    """Let contact i, turning back below its old peak, return e^2 of the reloading work.
+    """Give lossy contact i, which turns back below its old peak, a steeper unloading curve.
 
-    The exponent has an upper limit, as it may grow without bound in infinitely many cycles.
+    Along that curve it returns e^2 of the work of reloading. The exponent has an upper limit,
+    because it could grow without bound in infinitely many cycles.
     """
     pressing = force(stack, i, compression, 0.0)
     exponent = stack.exponent[i]
@@ -243,7 +254,7 @@ def change_phase(stack: Stack, i: int, kind: int, compression: float) -> None:
 
 @kernel
 def change_curve(stack: Stack, i: int, kind: int) -> None:
-    """Let contact i, anchored now, follow the curve to which an event inside its interval leads."""
+    """Switch contact i, anchored now, to the curve that follows an event inside its interval."""
     compression = max(stack.compression[i], _GRAZE * stack.scale[i])
     if kind == PEAK:
         stack.phase[i] = RELEASING
@@ -277,7 +288,10 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
 
 @kernel
 def clip(stack: Stack, i: int, time: float) -> None:
-    """Let damped contact i, anchored at this time, exert no force while it would pull."""
+    """Set the force of damped contact i to 0, because its formula now gives a pulling force.
+
+    The contact must be anchored at ``time``, which is logged as the end of its interval.
+    """
     stack.phase[i] = UNLOADED
     stack.clip_time[i] = time
     stack.clip_lower[i] = stack.velocity[i - 1] if i > 0 else 0.0
@@ -286,10 +300,10 @@ def clip(stack: Stack, i: int, time: float) -> None:
 
 @kernel
 def correct_curve(stack: Stack, i: int) -> None:
-    """Put contact i, anchored now, onto the curve that belongs to its compression.
+    """Switch contact i, anchored now, to the curve that is valid at its compression.
 
-    Event times have the resolution of float64 times, in which a fast ball may move past the end of
-    a steep curve or of the range of a power law.
+    An event time is rounded to float64. Within that rounding, a fast ball may pass the end of a
+    steep unloading curve, or the compression at which a power law is linearised.
     """
     compression = stack.compression[i]
     exponent = stack.curve_exponent[i]
