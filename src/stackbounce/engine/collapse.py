@@ -183,7 +183,7 @@ def _mark_involved(stack: RigidStack, low: int, high: int) -> None:
 
 @kernel
 def mass_share(stack: RigidStack, i: int, ball: int) -> float:
-    """Return the mass of the partner of ``ball`` at contact i over the mass of both; 1 at the floor.
+    """Return the mass of ball's partner at contact i over the mass of both; 1 at the floor.
 
     It is the share of a change of the closing rate that ``ball`` takes.
     """

@@ -1,16 +1,16 @@
 """The force curve that a contact follows in each phase, and how events change it.
 
 The force of a damped contact is c^q times the factor a + b c + d c', called its *gain* here. Its
-phase is COMPRESSING until c falls through 0 (RELEASE), or until the gain does (CLIPPED): the formula
-would then give a pulling force, so the force is 0 and the phase is UNLOADED.
+phase is COMPRESSING until c falls through 0 (RELEASE), or until the gain does (CLIPPED). After
+CLIPPED the formula would give a pulling force: the force is 0 and the phase is UNLOADED.
 
 Because c^p has no power series at c = 0, a power law is *linearised* at small compressions: its
-chord from 0 replaces it, where the work is negligible (event LINEARISED). Above that compression the
-contact follows the power law again (event CURVED). The impulse along the chord must change no ball's
-velocity by more than the error of one step. The chord is therefore shorter if two balls are pressed
-together slowly than if they collide. No chord is needed in two cases: for two balls alone whose c^p
-has a series in the square root of time (see `motion`), and for a contact that opens before its
-present series ends.
+chord from 0 replaces it, where the work is negligible (event LINEARISED). Above that compression
+the contact follows the power law again (event CURVED). The impulse along the chord must change no
+ball's velocity by more than the error of one step. The chord is therefore shorter if two balls are
+pressed together slowly than if they collide. No chord is needed in two cases: for two balls alone
+whose c^p has a series in the square root of time (see `motion`), and for a contact that opens
+before its present series ends.
 """
 
 import math
@@ -180,7 +180,7 @@ def reduced_mass(stack: Stack, i: int) -> float:
 def _linearise_if_slow(stack: Stack, i: int) -> None:
     """Linearise opening contact i, anchored now, if the work left under its chord is small enough.
 
-    Otherwise ``linearised_below`` is reduced, so that the next trial comes at a smaller compression.
+    Otherwise ``linearised_below`` is reduced: the next trial comes at a smaller compression.
     """
     compression = stack.compression[i]
     rate = stack.velocity[i]

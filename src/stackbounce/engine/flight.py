@@ -9,9 +9,9 @@ rest (or the floor) and the lowest ball in flight. Its gap g follows
 
 with the closing rate r at the start and sqrt(r^2 + 2 a g) at the end.
 
-The arrays hold each ball's velocity, and each contact's rate and compression, at a local time of its
-own, the *anchor*. A collision therefore updates its neighbours only. If the next event follows so
-soon that the sum of local times would lose digits, the origin of local time is shifted.
+The arrays hold each ball's velocity, and each contact's rate and compression, at a local time of
+its own, the *anchor*. A collision therefore updates its neighbours only. If the wait for the next
+event would lose digits when it is added to the local time, the origin of local time is shifted.
 """
 
 import math

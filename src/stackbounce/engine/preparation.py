@@ -1,4 +1,4 @@
-"""From the numbers of a drop to a stack at t = 0.
+"""Fill a stack with the parameters of a drop, at t = 0.
 
 A contact is given by four numbers: the form of its force (`codes`), k, p, and the law parameter:
 damping b, dissipative time A, dissipation χ, unloading exponent n or restitution e.
@@ -80,7 +80,7 @@ def prepare(
 
 @kernel
 def _take_law(stack: Stack, i: int, kind: int, k: float, p: float, law_parameter: float) -> None:
-    """Set the numbers of contact i's law; a law without loss becomes a power law."""
+    """Set the parameters of contact i's law; a law with zero loss becomes a lossless power law."""
     if kind == codes.ABSENT:
         stack.law[i] = codes.ABSENT
         stack.stiffness[i] = stack.exponent[i] = stack.unloading[i] = 1.0  # placeholders

@@ -200,9 +200,9 @@ def as_arrays(record: Any) -> Any:
 
 
 def in_one_room(record: Any) -> tuple[Any, tuple[Any, Any]]:
-    """Return a stack of views of one array of floats and one of integers, and these two.
+    """Return a stack whose arrays are views of two arrays, and these two: floats and integers.
 
-    Such a stack is cleared by filling two arrays.
+    Such a stack is cleared by filling the two arrays.
     """
     import numpy as np
 

@@ -1,4 +1,4 @@
-"""A contact that takes no time."""
+"""The rigid contact: instantaneous collisions."""
 
 from dataclasses import dataclass
 from typing import Annotated, Self
@@ -14,9 +14,9 @@ __all__ = ["Rigid"]
 @register
 @dataclass(frozen=True)
 class Rigid(ContactLaw):
-    """An instantaneous collision with Newton's restitution.
+    """An instantaneous collision with Newton's coefficient of restitution.
 
-    The two balls part at the restitution times the speed at which they met,
+    The relative speed after the collision is e times that before it,
     ``v_upper' - v_lower' = -e (v_upper - v_lower)``, and momentum is conserved; at the floor
     ``v' = -e v``.
 
@@ -55,7 +55,7 @@ class Rigid(ContactLaw):
 
     @property
     def contact_time_depends_on(self) -> tuple[str, ...]:
-        """Nothing."""
+        """Nothing: the contact time is always 0."""
         return ()
 
     def restitution_at(self, mass: float, speed: float) -> float:
@@ -68,7 +68,7 @@ class Rigid(ContactLaw):
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
-        """Return the one number that is needed."""
+        """Return the name of the only argument that `calibrate` needs."""
         return ["restitution"]
 
     @classmethod
