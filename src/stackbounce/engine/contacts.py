@@ -36,9 +36,9 @@ from stackbounce.engine.stack import Stack
 
 _STEEPEST = 10.0  # times the first unloading exponent: the limit after many reloadings
 
-_SHORTER = 0.125  # of the work under a chord that was too long: under the next trial
-_AT_ITS_END = 1e-6  # of a chord's length: below this the contact stays on it to its release
-_NO_WORK = 1e-50  # of the reference energy: the work under the shortest chord
+_SHORTER = 0.125  # work under the next trial chord, over that under one that was too long
+_AT_ITS_END = 1e-6  # over a chord's length: below this the contact stays on it until release
+_NO_WORK = 1e-50  # the work under the shortest chord, over the reference energy
 
 _SOFTEST = 1e-60  # times the slope at the curve's unit: the smallest slope of a chord
 _GRAZE = 1e-30  # of a typical compression: the smallest peak

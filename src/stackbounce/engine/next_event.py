@@ -60,9 +60,9 @@ from stackbounce.engine.series import lower_bound, parabola_root, safe_step, shi
 from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
-# relative to typical motion: round-off below this is that of a motion which itself is round-off
+# round-off below this fraction of a typical motion: the motion itself is only round-off
 _NOTHING = 1000.0 * EPSILON**2
-_LOOSE = 10.0  # times the tolerance of a step: a touch must exceed it
+_LOOSE = 10.0  # a touch must exceed this times the tolerance of a step
 _LINEARISED_EXIT = 0.9  # of ``linearised_below``: the chord is left above 1 and taken below this
 
 

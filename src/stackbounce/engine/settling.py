@@ -26,8 +26,8 @@ from stackbounce.engine.flight import (
 from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY, LAST_EVENT, LOWEST_LOSSY
 from stackbounce.engine.stack import RigidStack
 
-NEGLIGIBLE_TIME = 1e-12  # of the time so far: the longest series of collisions that is left out
-_NEGLIGIBLE_FLIGHT = 1e-13  # of the time so far and the share lost in a collision: the same
+NEGLIGIBLE_TIME = 1e-12  # longest duration of collisions left out, over the time elapsed
+_NEGLIGIBLE_FLIGHT = 1e-13  # longest flight left out, over the time elapsed times (1 - e)
 
 
 @kernel

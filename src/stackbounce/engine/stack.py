@@ -29,7 +29,7 @@ class Stack(NamedTuple):
     exponent: Floats
     unloading: Floats  # exponent of the unloading curve
     factor_exponent: Floats  # q of a damped contact's force k c^q (a + b c + d c')
-    gain_constant: Floats  # a of that gain
+    gain_constant: Floats  # a of that formula
     gain_slope: Floats  # b
     gain_rate: Floats  # d
     scale: Floats  # a typical compression of the contact
@@ -44,7 +44,7 @@ class Stack(NamedTuple):
     curve_unit: Floats
     curve_exponent: Floats
     dip_energy: Floats  # energy stored at the last DIP
-    base: Floats  # compression at which a lossy contact came onto its loading curve, and energy
+    base: Floats  # compression and energy of a lossy contact when it came onto its loading curve
     base_energy: Floats
     top: Floats  # compression at which unloading and loading curve meet; inf on the latter
     linearised_below: Floats
@@ -119,7 +119,7 @@ class RigidStack(NamedTuple):
     due: Floats
     heap: Integers
     place: Integers
-    # the search for collapse: the state kept, and the contacts that have collided since
+    # the search for collapse: the reference state, and the contacts that have collided since
     kept_rate: Floats
     kept_gap: Floats
     involved: Integers

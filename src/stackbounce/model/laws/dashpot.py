@@ -32,8 +32,9 @@ __all__ = ["Dashpot", "damping_ratio", "duration", "restitution"]
 @register
 @dataclass(frozen=True)
 class Dashpot(ContactLaw):
-    """A linear spring and a dashpot in parallel (Kelvin-Voigt model), which cannot pull.
+    """A linear spring and a dashpot side by side, which cannot pull.
 
+    This is the Kelvin-Voigt model, spring and dashpot in parallel, without tension:
     ``F = max(0, k c + b ċ)`` while the compression c is above 0, else 0. The contact begins with
     the force b times the closing speed. It ends when the force returns to zero, which is before the
     compression does. Until then ``k c**2/2`` counts as stored energy.

@@ -49,8 +49,9 @@ _FACTORS = tuple(1.0 / math.factorial(n) for n in range(2, 22))
 @register
 @dataclass(frozen=True)
 class HuntCrossley(ContactLaw):
-    """A power law with a damping force proportional to the elastic force.
+    """A power law with a damping that grows as the force does.
 
+    The damping force is proportional to the elastic force:
     ``F = max(0, k c**p (1 + χ ċ))`` while the compression c is above 0, else 0. A contact of two
     bodies ends when force and compression are both back at zero, because they separate more slowly
     than 1/χ. ``k c**(p + 1)/(p + 1)`` counts as stored energy.

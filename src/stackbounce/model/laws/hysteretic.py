@@ -29,8 +29,9 @@ _SOFTEST, _STEEPEST_FLANK = 6.0, 100.0  # exponents of a release that is not kno
 @register
 @dataclass(frozen=True)
 class Hysteretic(ContactLaw):
-    """A lossy spring with hysteresis: it unloads along another curve than it loads.
+    """A spring that gives back less than it took: a softer curve on the way out.
 
+    This is a spring with hysteresis: it unloads along another curve than it loads.
     Loading follows ``F = k c**p``; from the peak compression C it unloads along
     ``F = k C**p (c/C)**n``. If the contact is compressed again before it has opened, and
     `reloading` is free, it follows its unloading curve back to the old peak C, and then the loading

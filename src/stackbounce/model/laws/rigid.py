@@ -14,7 +14,7 @@ __all__ = ["Rigid"]
 @register
 @dataclass(frozen=True)
 class Rigid(ContactLaw):
-    """An instantaneous collision with Newton's coefficient of restitution.
+    """An instantaneous collision with Newton's restitution.
 
     The relative speed after the collision is e times that before it,
     ``v_upper' - v_lower' = -e (v_upper - v_lower)``, and momentum is conserved; at the floor
