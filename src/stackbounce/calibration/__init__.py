@@ -1,4 +1,4 @@
-"""From laws to what is measured of them and back, and from a drop to its separate collisions."""
+"""Restitution and contact time of a contact law, the inverse, and separate collisions."""
 
 from stackbounce.calibration.collision import contact_time, restitution
 from stackbounce.calibration.inverse import calibrate

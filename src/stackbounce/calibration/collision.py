@@ -1,4 +1,4 @@
-"""From a law to what is measured of it: the restitution and the contact time of one ball."""
+"""The restitution and the contact time of a contact law, for one collision."""
 
 import math
 from collections.abc import Mapping, Sequence, Set
@@ -10,11 +10,11 @@ from stackbounce.model.laws import ContactLaw
 __all__ = ["Mass", "contact_time", "reduced", "restitution"]
 
 Mass: TypeAlias = float | Sequence[float]
-"""In kg: of a ball on a floor, or reduced; or those of two balls, which are reduced."""
+"""In kg: the mass of a ball on a floor, or the reduced mass or both masses of a pair."""
 
 
 def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None = None) -> float:
-    """Return the restitution of one contact: its relative speed after over that before.
+    """Return the restitution of a contact: the ratio of its relative speeds after and before.
 
     Parameters
     ----------
@@ -40,11 +40,11 @@ def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None =
 
     Notes
     -----
-    Springs and power laws give back all that they took. `Hysteretic`: R. Cross, Am. J. Phys. 75,
+    Springs and power laws are lossless. `Hysteretic`: R. Cross, Am. J. Phys. 75,
     1009 (2007), section V. `Dashpot`, with ``ζ = b/(2 sqrt(k m))``:
     ``e = exp(-2 ζ acos(ζ)/sqrt(1 - ζ**2))`` (T. Schwager and T. Pöschel, Granular Matter 9, 465,
     2007). `HuntCrossley`, with ``d = χ v``: ``d (1 + e) = ln((1 + d)/(1 - d e))``. `Viscoelastic`:
-    a function of ``1.5 A (k/m)**0.4 v**0.2`` alone, computed by a run.
+    a function of ``1.5 A (k/m)**0.4 v**0.2`` alone, computed by a simulation.
 
     Examples
     --------
@@ -66,10 +66,10 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
         Any contact law.
     mass : float or (float, float), optional
         The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
-        ``m1 m2/(m1 + m2)``); needed but for `Rigid`.
+        ``m1 m2/(m1 + m2)``); not needed for `Rigid`.
     speed : float, optional
-        The speed in m/s at which the two meet; needed but for `Rigid`, `Spring`, `Dashpot`, and
-        exponents of 1 without `HuntCrossley`'s dissipation.
+        The relative speed in m/s at the touch. Not needed for `Rigid`, `Spring` and `Dashpot`, nor
+        for `PowerLaw` and `Hysteretic` with the exponent 1.
 
     Returns
     -------
@@ -85,12 +85,12 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
 
     Notes
     -----
-    With the compression C at which the contact would hold all the energy,
-    ``k C**(p+1)/(p+1) = m v**2/2``, a power law takes
-    ``C/v 2 sqrt(π) Γ(1 + 1/(p+1))/Γ(1/2 + 1/(p+1))``. `Hysteretic` takes half of that on the way
-    in, and on the way out half of that of its unloading curve at the speed e v. `Dashpot` takes
-    ``sqrt(m/k) 2 acos(ζ)/sqrt(1 - ζ**2)``, see `restitution`. `HuntCrossley` is an integral, and
-    `Viscoelastic` a run.
+    Let C be the compression at which the contact stores the whole kinetic energy,
+    ``k C**(p+1)/(p+1) = m v**2/2``. The contact time of a power law is
+    ``C/v 2 sqrt(π) Γ(1 + 1/(p+1))/Γ(1/2 + 1/(p+1))``. For `Hysteretic`, loading takes half of that
+    time; unloading takes half of the same expression for the unloading curve at the speed e v. For
+    `Dashpot` it is ``sqrt(m/k) 2 acos(ζ)/sqrt(1 - ζ**2)``, see `restitution`. For `HuntCrossley` it
+    is computed by numerical integration, for `Viscoelastic` by a simulation.
 
     Examples
     --------
@@ -104,12 +104,12 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
 
 
 def reduced(mass: object) -> float:
-    """Return the mass in kg that moves: one as it is, two reduced to ``m1 m2/(m1 + m2)``.
+    """Return the mass in kg in one collision: one mass as it is, two as ``m1 m2/(m1 + m2)``.
 
     Raises
     ------
     InvalidValue
-        If a mass is not positive and finite, or there are not one or two.
+        If a mass is not positive and finite, or there are more than two or none.
     InvalidType
         If one has the wrong type.
 
@@ -132,7 +132,7 @@ def reduced(mass: object) -> float:
 
 
 def _measured(what: str, law: object, mass: object, speed: object) -> float:
-    """Return the restitution or the contact time; mass and speed are 1 where they do not count."""
+    """Return the restitution or the contact time; mass and speed may be None if not needed."""
     if not isinstance(law, ContactLaw):
         raise InvalidType(f"law must be a contact law, got {shown(law)}")
     if what == "restitution":

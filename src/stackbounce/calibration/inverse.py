@@ -1,4 +1,4 @@
-"""From what was measured of a contact to the numbers of its law."""
+"""Calibration: the law of a contact from its measured contact time and restitution."""
 
 from typing import TypeVar
 
@@ -34,7 +34,7 @@ def calibrate(
     restitution : float, optional
         The ratio of the relative speeds after and before, above 0 and at most 1; 0 for `Rigid` too.
     impact_speed : float, optional
-        The relative speed in m/s, above 0, at which it was measured.
+        The relative speed in m/s, above 0, at which both were measured.
     exponent : float, optional
         p of the law, where the class leaves it open: needed for `PowerLaw`; by default 1.5 for
         `HuntCrossley` and 1 for `Hysteretic`.
@@ -42,23 +42,23 @@ def calibrate(
     Returns
     -------
     law_class
-        `stackbounce.restitution` and `stackbounce.contact_time` of it are what was asked for.
+        A law whose `stackbounce.restitution` and `stackbounce.contact_time` are the given values.
 
     Raises
     ------
     InvalidValue
-        If something needed is missing or out of its range, or if the class cannot have what is
-        asked for, as `Spring` cannot have a restitution below 1.
+        If a needed argument is missing or out of its range, or if no law of the class has the given
+        values: a `Spring` has no restitution below 1.
     InvalidType
         If `law_class` is no contact law's class, or a number has the wrong type.
 
     Notes
     -----
-    Needed are, for `Rigid`, `restitution`; for all others `mass` and `contact_time`; in addition
-    `restitution` for those with losses (`Dashpot`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`),
-    and `impact_speed` for `Viscoelastic`, `HuntCrossley` and any exponent other than 1. More than
-    that may be given, so that the same measurement can be put to several classes. A `Rigid` contact
-    has no contact time, whatever is given.
+    `Rigid` needs `restitution` only. All other laws need `mass` and `contact_time`. The lossy laws
+    (`Dashpot`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`) need `restitution` as well.
+    `Viscoelastic`, `HuntCrossley` and any exponent other than 1 need `impact_speed` as well.
+    Arguments that are not needed may be given, so that one measurement serves several classes. The
+    contact time of a `Rigid` contact is 0, whatever is given.
 
     Examples
     --------
@@ -105,7 +105,7 @@ def _checked(
     impact_speed: object,
     exponent: object,
 ) -> dict[str, float]:
-    """Return what is given, and the exponent that the class has or takes by default."""
+    """Validate the given arguments; return them with the fixed or default exponent of the class."""
     given = {}
     if mass is not None:
         given["mass"] = reduced(mass)

@@ -1,4 +1,4 @@
-"""The contact of two balls, from the contacts that each of them has with a hard floor."""
+"""The contact between two balls, from the contact of each with a hard floor."""
 
 from stackbounce.errors import InvalidValue
 from stackbounce.model.laws import ContactLaw, series
@@ -7,25 +7,26 @@ __all__ = ["between"]
 
 
 def between(law_a: ContactLaw, law_b: ContactLaw) -> ContactLaw:
-    """Return the law by which two balls press on each other: both of theirs in series.
+    """Return the contact law between two balls: the floor contacts of both in series.
 
     Parameters
     ----------
     law_a, law_b : ContactLaw
-        Those of each ball on a hard floor.
+        The law of each ball on a hard floor.
 
     Returns
     -------
     ContactLaw
-        As `series` where this is exact. `Hysteretic` contacts with different restitutions (a power
-        law's is 1) are no law of the table in series: the `Hysteretic` one returned has their
-        loading curve, and gives back as much energy as both, ``e**2 = f e_a**2 + (1 - f) e_b**2``
-        with a's share f of the compression and so, at one exponent, of the work.
+        That of `series`, if the two in series are exactly one law. `Hysteretic` contacts with
+        different restitutions are not (a lossless law counts as one with restitution 1). For them
+        the result is an approximation: the `Hysteretic` law with the loading curve and the energy
+        loss of both. Its restitution is ``e**2 = f e_a**2 + (1 - f) e_b**2``, where f is the
+        fraction of the compression, and of the work, that `law_a` takes.
 
     Raises
     ------
     InvalidValue
-        If there is no such law.
+        If there is no such law: the classes, exponents or other parameters do not match.
     InvalidType
         If one of them is no contact law.
 

@@ -1,4 +1,4 @@
-"""From a drop to its separate collisions."""
+"""The separate collisions of a drop: the same stack with rigid contacts."""
 
 import sys
 from dataclasses import replace
@@ -12,7 +12,7 @@ __all__ = ["separate"]
 
 
 def separate(drop: Drop) -> Drop:
-    """Return the textbook's version of a drop: one instantaneous collision after the other.
+    """Return a drop with rigid contacts: the textbook model of separate collisions.
 
     Parameters
     ----------
@@ -22,25 +22,25 @@ def separate(drop: Drop) -> Drop:
     Returns
     -------
     Drop
-        The same drop with every contact `Rigid`, with the restitution of the law that it had, and
-        without gravity, which does nothing in a collision that takes no time.
+        The same drop, in which each contact is `Rigid` with the restitution of its former law.
+        Gravity is 0, because it has no effect during an instantaneous collision.
 
     Raises
     ------
     InvalidType
         If `drop` is no Drop.
     InvalidValue
-        If the restitution of a contact is out of the range of numbers.
+        If the restitution of a contact cannot be computed in floating point.
 
     Notes
     -----
     Source: R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4.
 
-    Where the restitution depends on the speed, it is that at which the contact closes first if the
-    collisions go through the stack from the bottom up: ball 0 meets the floor as it comes down,
-    and ball i meets ball i - 1 as that comes from contact i - 1. A contact that would not close
-    in this way has the restitution at the drop's `reference_speed`. All later collisions of the
-    same contact have the same restitution.
+    If the restitution depends on the speed, the closing speed of the first collision is used. For
+    this speed the contacts collide once each, from the bottom up: ball 0 hits the floor at its
+    start velocity, and ball i meets ball i - 1 after the collision at contact i - 1. A contact that
+    would not close in this order gets the restitution at the drop's `reference_speed`. All later
+    collisions of a contact have the same restitution.
 
     Examples
     --------
@@ -60,7 +60,7 @@ def separate(drop: Drop) -> Drop:
 
 
 def _collisions(drop: Drop) -> list[Rigid | None]:
-    """Return each contact's restitution, at the speed at which it closes from the bottom up."""
+    """Return each contact as `Rigid`, with its restitution in collisions from the bottom up."""
     contacts: list[Rigid | None] = []
     below = 0.0  # velocity of what lies below: the floor, then the ball after its own collision
     for i, law in enumerate(drop.contacts):

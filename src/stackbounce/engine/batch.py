@@ -36,7 +36,8 @@ class Drops(NamedTuple):
 class Outcomes(NamedTuple):
     """The results of drops: (rows, balls) arrays, and (rows,) energy and status.
 
-    The kernels that run drops fill in all fields but the ratios and energies, `find_ratios` these.
+    `run_batch` and `run_rigid_batch` fill in all fields except the rebound ratios and the retained
+    energies, which `find_ratios` computes.
     """
 
     velocity: Table  # after, m/s
@@ -60,7 +61,10 @@ def run_batch(
     log: Floats,
     out: Outcomes,
 ) -> None:
-    """Run drops with finite contacts in one stack, whose arrays are views of ``room``."""
+    """Run drops with finite contacts one after the other and write their results to ``out``.
+
+    The same stack is used for all drops. Its arrays are views of the two arrays in ``room``.
+    """
     size = len(stack.mass)
     for row in range(len(out.status)):
         clear_arrays(room)
@@ -108,7 +112,7 @@ def run_rigid_batch(
     log: Floats,
     out: Outcomes,
 ) -> None:
-    """Run drops of rigid balls in one stack, whose arrays are views of ``room``."""
+    """Run drops of rigid balls and write their results to ``out``; see `run_batch`."""
     size = len(stack.mass)
     for row in range(len(out.status)):
         clear_arrays(room)
@@ -154,7 +158,7 @@ def find_ratios(drops: Drops, out: Outcomes) -> None:
 
 @kernel
 def energy_kept(mass: Floats, before: Floats, after: Floats) -> float:
-    """Return the kinetic energy after over that before; velocities are in m/s."""
+    """Return the ratio of the kinetic energies after and before the impact; nan if it was 0."""
     heaviest, speed = 0.0, _largest_speed(before)
     for m in mass:
         heaviest = max(heaviest, m)
@@ -168,7 +172,7 @@ def energy_kept(mass: Floats, before: Floats, after: Floats) -> float:
 
 @kernel
 def _largest_speed(velocity: Floats) -> float:
-    """Return the largest speed, v0."""
+    """Return the largest absolute velocity: the impact speed v0, the unit of rebound ratios."""
     speed = 0.0
     for v in velocity:
         speed = max(speed, abs(v))
@@ -177,7 +181,7 @@ def _largest_speed(velocity: Floats) -> float:
 
 @kernel
 def clear_arrays(room: tuple[Floats, Integers]) -> None:
-    """Set all numbers of a stack to zero."""
+    """Set all numbers of a stack to zero; ``room`` holds its floats and its integers."""
     floats, integers = room
     for k in range(len(floats)):
         floats[k] = 0.0
@@ -195,7 +199,7 @@ def _reset(out: Outcomes, row: int, size: int) -> None:
 
 @kernel
 def _read_log(log: Floats, lines: int, unit: float, out: Outcomes, row: int) -> None:
-    """Count the contact intervals in a part of a log, and keep the first and last times in s."""
+    """Add the contact intervals in a part of a log to the counts and times of one drop."""
     for line in range(lines):
         at = line * LOG_COLUMNS
         kind = int(log[at + codes.KIND])

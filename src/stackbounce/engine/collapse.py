@@ -66,15 +66,16 @@ from stackbounce.engine.stack import RigidStack
 
 _SAME = 1e-12  # rates are proportional if their ratios agree to this
 _SAME_GAPS = 1e-9
-_BUSY = 200  # a contact belongs to a group if it collided at most so many collisions per ball ago
+_BUSY = 200  # times the number of balls: the most recent collisions that define a group
 _VANISHED = 1e-250  # of the impact speed: rates below this are close to underflow
 
 
 @kernel
 def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) -> None:
-    """Replace an infinite sequence of collisions by its limit, if theory finds that one has begun.
+    """Jump to the end of an inelastic collapse if one has begun and its rest is negligibly short.
 
-    As long as the rest of the sequence has a duration that matters, its next collision is computed.
+    The criteria are those of the module's docstring. While the remaining duration is not
+    negligible, nothing is replaced and the collisions are computed one by one.
     """
     soon = min(NEGLIGIBLE_TIME * stack.clock[LAST_EVENT], until - stack.clock[LAST_EVENT])
     for other in (contact - 1, contact + 1):
@@ -101,10 +102,11 @@ def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) ->
 
 @kernel
 def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats) -> None:
-    """Bring the balls at contacts low..high together, unless another ball meets them before.
+    """Let the balls at contacts low..high collapse: they touch and have one common velocity.
 
-    The outer balls of the group move between their present velocities and the common one; if the
-    floor is not among them, their centre of mass moves on and all of them end there.
+    Nothing changes if another ball could reach the group before the collapse ends. This check
+    assumes that the velocities of the outer balls stay between their present values and the common
+    velocity. Without the floor, all balls of the group end at its centre of mass.
     """
     anchor_contacts(stack, low - 1, high + 1)
     anchor_balls(stack, low - 2, high + 1)
@@ -158,7 +160,7 @@ def _merge(stack: RigidStack, low: int, high: int, duration: float, log: Floats)
 
 @kernel
 def _log_joined(stack: RigidStack, low: int, high: int, log: Floats) -> None:
-    """Log that the balls at contacts low..high have come together."""
+    """Append the collapse of contacts low..high to the log."""
     at = stack.counter[LOG_ROWS] * LOG_COLUMNS
     for column in range(LOG_COLUMNS):
         log[at + column] = 0.0
@@ -172,7 +174,7 @@ def _log_joined(stack: RigidStack, low: int, high: int, log: Floats) -> None:
 
 @kernel
 def _mark_involved(stack: RigidStack, low: int, high: int) -> None:
-    """Mark contacts low..high as having collided since the state was kept."""
+    """Mark contacts low..high as having collided since the reference state; see `keep_state`."""
     for i in range(low, high + 1):
         stack.involved[i] = 1
     stack.memory[LOWEST_INVOLVED] = min(stack.memory[LOWEST_INVOLVED], low)
@@ -181,7 +183,10 @@ def _mark_involved(stack: RigidStack, low: int, high: int) -> None:
 
 @kernel
 def mass_share(stack: RigidStack, i: int, ball: int) -> float:
-    """Return the other ball's share of the two masses at contact i; 1 at the floor."""
+    """Return the mass of ball's partner at contact i over the mass of both; 1 at the floor.
+
+    It is the share of a change of the closing rate that ``ball`` takes.
+    """
     if i == 0:
         return 1.0
     total = stack.mass[i - 1] + stack.mass[i]
@@ -190,7 +195,7 @@ def mass_share(stack: RigidStack, i: int, ball: int) -> float:
 
 @kernel
 def pair_duration(stack: RigidStack, hit: int, other: int) -> float:
-    """Return the duration of the infinite rounds of two neighbouring contacts, inf if they end.
+    """Return the time until the collapse of two neighbouring contacts ends; inf if there is none.
 
     Contact ``hit`` has just collided, and ``other`` beside it is closing.
     """
@@ -217,10 +222,12 @@ def pair_duration(stack: RigidStack, hit: int, other: int) -> float:
 
 @kernel
 def common_velocity(stack: RigidStack, low: int, high: int) -> tuple[float, float, float]:
-    """Return the final velocity of the balls of contacts low..high, and the outer balls' gains.
+    """Return the common velocity of the balls at contacts low..high after their collapse.
 
-    All are anchored now. Differences are taken from the closing rates, which are more exact than
-    the velocities, and relative to the heaviest ball, whose velocity changes least.
+    Also returns the changes of velocity of the lowest and of the uppermost of these balls. All
+    balls must be anchored now. Velocity differences are sums of closing rates, which have less
+    round-off than the velocities. They are relative to the heaviest ball, whose velocity changes
+    least.
     """
     if low == 0:
         relative = 0.0
@@ -247,7 +254,7 @@ def common_velocity(stack: RigidStack, low: int, high: int) -> tuple[float, floa
 
 @kernel
 def keep_state(stack: RigidStack, contact: int, time: float) -> None:
-    """Keep the present state to compare later ones with."""
+    """Store the present rates and gaps as the reference state of the cycle detection."""
     for i in range(len(stack.mass)):
         stack.kept_rate[i] = rate_after(stack, i, 0.0)
         stack.kept_gap[i] = compression_after(stack, i, 0.0)
@@ -262,10 +269,11 @@ def keep_state(stack: RigidStack, contact: int, time: float) -> None:
 
 @kernel
 def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]:
-    """Return the (lowest, highest) contact involved since the kept state, and the ratio of scales.
+    """Return the lowest and highest contact of a repeated state, and the ratio of round durations.
 
-    The ratio is 0 if the present state is not the kept one on a smaller scale, and -1 if its rounds
-    take no time.
+    A state repeats the reference state (`keep_state`) if its rates and gaps have the same ratios on
+    a smaller scale. Each following round then lasts ``ratio`` times as long as the one before. The
+    ratio is 0 if the state is not repeated, and -1 if the rounds take no time.
     """
     low, high = stack.memory[LOWEST_INVOLVED], stack.memory[HIGHEST_INVOLVED]
     if contact != stack.memory[KEPT_CONTACT] or high < low + 2:
@@ -292,9 +300,11 @@ def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]
 
 @kernel
 def vanished_group(stack: RigidStack, contact: int) -> tuple[int, int]:
-    """Return the (lowest, highest) contact of the busy group around one whose rates have vanished.
+    """Return the lowest and highest contact of the group around ``contact`` if its rates vanish.
 
-    Otherwise, and for a group of two contacts, which theory decides, return that contact twice.
+    The group consists of neighbouring contacts that have all collided recently. If a rate has not
+    vanished, or the group has fewer than three contacts, ``contact`` is returned twice: two
+    contacts are decided by `pair_duration`.
     """
     limit = _VANISHED * stack.number[SPEED] / stack.number[UNIT]
     size = len(stack.mass)

@@ -42,7 +42,7 @@ def kernel(function: Function) -> Function:
 def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return the numba-compiled form of a kernel; its marked callees are compiled with it.
 
-    Threads take turns: `caching` changes a setting of numba's that all of them share.
+    A lock admits one thread at a time, because `caching` changes a global setting of numba.
     """
     with _lock:
         return _compiled(function)
@@ -50,7 +50,7 @@ def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 
 @functools.cache
 def _compiled(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the numba-compiled form of a kernel, for one thread at a time."""
+    """Return the numba-compiled form of a kernel; the caller must hold the lock."""
     from numba import njit
 
     namespace = dict(function.__globals__)

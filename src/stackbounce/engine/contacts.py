@@ -1,14 +1,16 @@
 """The force curve that a contact follows in each phase, and how events change it.
 
-The force of a PRODUCT is a power of c times a *gain*, see `forces`. The contact stays in the phase
-COMPRESSING until the gain falls through 0 (CLIPPED: it is then unloaded) or c does.
+The force of a PRODUCT is c^q times a *gain*, see `forces`. Its phase is COMPRESSING until c falls
+through 0 (RELEASE), or until the gain does (CLIPPED). After CLIPPED the formula would give a
+pulling force: the force is 0 and the phase is UNLOADED.
 
-Because c^p has no power series at c = 0, a power law is *linearised*, that is replaced by its chord
-from 0, below a compression at which the work is negligible (event LINEARISED); above it the contact
-follows the power law again (event CURVED). The chord may change no ball's velocity by more than the
-error of one step: two balls that are pressed together slowly get a shorter chord than two that
-collide. No chord is needed for two balls alone whose c^p has a series in the root of time, see
-`motion`, nor for a contact that opens before its present series ends.
+Because c^p has no power series at c = 0, a power law is *linearised* at small compressions: its
+chord from 0 replaces it, where the work is negligible (event LINEARISED). Above that compression
+the contact follows the power law again (event CURVED). The impulse along the chord must change no
+ball's velocity by more than the error of one step. The chord is therefore shorter if two balls are
+pressed together slowly than if they collide. No chord is needed in two cases: for two balls alone
+whose c^p has a series in the square root of time (see `motion`), and for a contact that opens
+before its present series ends.
 """
 
 import math
@@ -32,9 +34,9 @@ from stackbounce.engine.stack import Stack
 
 _STEEPEST = 10.0  # times the first unloading exponent: the limit after many reloadings
 
-_SHORTER = 0.125  # of the work under a chord that was too long: under the next trial
-_AT_ITS_END = 1e-6  # of a chord's length: below this the contact stays on it to its release
-_NO_WORK = 1e-50  # of the reference energy: the work under the shortest chord
+_SHORTER = 0.125  # work under the next trial chord, over that under one that was too long
+_AT_ITS_END = 1e-6  # over a chord's length: below this the contact stays on it until release
+_NO_WORK = 1e-50  # the work under the shortest chord, over the reference energy
 
 _SOFTEST = 1e-60  # times the slope at the curve's unit: the smallest slope of a chord
 _GRAZE = 1e-30  # of a typical compression: the smallest peak
@@ -45,7 +47,11 @@ _BEYOND = 1.0 + 1e-6  # times the old peak, where the steepest curve has 3 times
 
 @kernel
 def close_contact(stack: Stack, i: int, time: float) -> None:
-    """Close contact i at a time, or at the time since which it has been touching."""
+    """Begin a contact interval of contact i on its loading curve.
+
+    The interval starts at ``time`` or, if the contact already touched without a force, when that
+    touch began.
+    """
     stack.start[i] = time if math.isnan(stack.touching[i]) else stack.touching[i]
     stack.touching[i] = math.nan
     stack.phase[i] = COMPRESSING
@@ -62,7 +68,7 @@ def close_contact(stack: Stack, i: int, time: float) -> None:
 
 @kernel
 def _set_loading_curve(stack: Stack, i: int) -> None:
-    """Let contact i follow its loading curve: k c^p, or a power of c times a gain."""
+    """Set the force of contact i to its loading curve: k c^p, or k c^q times the gain."""
     unit = stack.scale[i]
     exponent = stack.factor_exponent[i]
     _set_curve(stack, i, stack.stiffness[i] * unit**exponent, unit, exponent)
@@ -73,12 +79,12 @@ def _set_loading_curve(stack: Stack, i: int) -> None:
 
 @kernel
 def _set_curve(stack: Stack, i: int, force_at_unit: float, unit: float, exponent: float) -> None:
-    """Let contact i follow the curve force_at_unit (c/unit)^exponent."""
+    """Set the force of contact i to the curve force_at_unit (c/unit)^exponent."""
     stack.curve_force[i] = force_at_unit
     stack.curve_unit[i] = unit
     stack.curve_exponent[i] = exponent
     stack.linearised[i] = 0
-    # for a power times a gain that grows from 0, the exponent of the whole force counts
+    # if the gain grows from 0 as well, the whole force has a larger exponent than the power alone
     steepest = max(exponent, stack.exponent[i])
     ratio = stack.number[LINEARISED_WORK] ** (1.0 / (steepest + 1.0))
     stack.linearised_below[i] = ratio * unit
@@ -86,7 +92,7 @@ def _set_curve(stack: Stack, i: int, force_at_unit: float, unit: float, exponent
 
 @kernel
 def _linearise(stack: Stack, i: int) -> None:
-    """Let contact i follow the chord of its curve up to ``linearised_below``."""
+    """Replace the curve of contact i by its chord from 0 to ``linearised_below``."""
     ratio = stack.linearised_below[i] / stack.curve_unit[i]
     stack.linearised[i] = 1
     stack.linearised_impulse[i] = 0.0
@@ -96,7 +102,7 @@ def _linearise(stack: Stack, i: int) -> None:
 
 @kernel
 def linearised_impulse_limit(stack: Stack, i: int) -> float:
-    """Return the largest impulse that contact i may exert along its chord."""
+    """Return the impulse along the chord of contact i that gives the error of one step."""
     return stack.number[TOLERANCE] * reduced_mass(stack, i) * stack.number[SPEED]
 
 
@@ -110,7 +116,10 @@ def reduced_mass(stack: Stack, i: int) -> float:
 
 @kernel
 def _linearise_if_slow(stack: Stack, i: int) -> None:
-    """Linearise releasing contact i, anchored now, or put it off if this is too early."""
+    """Linearise opening contact i, anchored now, if the work left under its chord is small enough.
+
+    Otherwise ``linearised_below`` is reduced: the next trial comes at a smaller compression.
+    """
     compression = stack.compression[i]
     rate = stack.velocity[i]
     if i > 0:
@@ -132,9 +141,10 @@ def _linearise_if_slow(stack: Stack, i: int) -> None:
 
 @kernel
 def _steepen(stack: Stack, i: int, compression: float) -> None:
-    """Let contact i, turning back below its old peak, return e^2 of the reloading work.
+    """Give lossy contact i, which turns back below its old peak, a steeper unloading curve.
 
-    The exponent has an upper limit, as it may grow without bound in infinitely many cycles.
+    Along that curve it returns e^2 of the work of reloading. The exponent has an upper limit,
+    because it could grow without bound in infinitely many cycles.
     """
     pressing = force(stack, i, compression, 0.0)
     exponent = stack.exponent[i]
@@ -182,7 +192,7 @@ def change_phase(stack: Stack, i: int, kind: int, compression: float) -> None:
 
 @kernel
 def change_curve(stack: Stack, i: int, kind: int) -> None:
-    """Let contact i, anchored now, follow the curve to which an event inside its interval leads."""
+    """Switch contact i, anchored now, to the curve that follows an event inside its interval."""
     compression = max(stack.compression[i], _GRAZE * stack.scale[i])
     if kind == PEAK:
         stack.phase[i] = RELEASING
@@ -216,7 +226,10 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
 
 @kernel
 def clip(stack: Stack, i: int, time: float) -> None:
-    """Let damped contact i, anchored at this time, exert no force while it would pull."""
+    """Set the force of damped contact i to 0, because its formula now gives a pulling force.
+
+    The contact must be anchored at ``time``, which is logged as the end of its interval.
+    """
     stack.phase[i] = UNLOADED
     stack.clip_time[i] = time
     stack.clip_lower[i] = stack.velocity[i - 1] if i > 0 else 0.0
@@ -225,10 +238,10 @@ def clip(stack: Stack, i: int, time: float) -> None:
 
 @kernel
 def correct_curve(stack: Stack, i: int) -> None:
-    """Put contact i, anchored now, onto the curve that belongs to its compression.
+    """Switch contact i, anchored now, to the curve that is valid at its compression.
 
-    Event times have the resolution of float64 times, in which a fast ball may move past the end of
-    a steep curve or of the range of a power law.
+    An event time is rounded to float64. Within that rounding, a fast ball may pass the end of a
+    steep unloading curve, or the compression at which a power law is linearised.
     """
     compression = stack.compression[i]
     exponent = stack.curve_exponent[i]

@@ -1,4 +1,4 @@
-"""A priority queue of times: a binary heap with the place of each slot, ties by the lowest slot.
+"""A priority queue of times: an indexed binary heap; of equal times the lowest slot comes first.
 
 ``due[slot]`` is a slot's time, ``heap`` lists the slots in heap order, and ``place[slot]`` is the
 index of a slot in it. The earliest slot is always ``heap[0]``.
@@ -11,7 +11,7 @@ from stackbounce.engine.compiler import Floats, Integers, kernel
 
 @kernel
 def clear_queue(due: Floats, heap: Integers, place: Integers) -> None:
-    """Set all slots to never."""
+    """Set the times of all slots to infinity: nothing is due."""
     for slot in range(len(due)):
         due[slot] = math.inf
         heap[slot] = slot

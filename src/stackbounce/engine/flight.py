@@ -9,9 +9,9 @@ rest (or the floor) and the lowest ball in flight. Its gap g follows
 
 with the closing rate r at the start and sqrt(r^2 + 2 a g) at the end.
 
-Each contact (rate and compression) and each ball (velocity) is anchored at a local time of its own,
-so that a collision changes its neighbours only. The origin of local time moves forward if a wait is
-so short compared with local time that digits of it would be lost.
+The arrays hold each ball's velocity, and each contact's rate and compression, at a local time of
+its own, the *anchor*. A collision therefore updates its neighbours only. If the wait for the next
+event would lose digits when it is added to the local time, the origin of local time is shifted.
 """
 
 import math
@@ -112,7 +112,7 @@ def schedule_collision(stack: RigidStack, i: int) -> None:
 
 @kernel
 def _move_origin(stack: RigidStack) -> None:
-    """Make now the origin of local time."""
+    """Shift the origin of local time to the present, which does not change the queue's order."""
     now = stack.now[0]
     for i in range(len(stack.mass)):
         stack.anchor[i] -= now
@@ -123,10 +123,11 @@ def _move_origin(stack: RigidStack) -> None:
 
 @kernel
 def change_rate(stack: RigidStack, i: int, change: float) -> None:
-    """Change the closing rate of contact i, after the velocities of its balls have changed.
+    """Update the closing rate of contact i after a change of the velocities of its balls.
 
-    The difference of these velocities is the more exact rate, unless both are much larger than it
-    is. Contact and balls are anchored now.
+    The rate becomes the difference of the velocities. If these are much larger than the rate,
+    cancellation would lose digits, and ``change`` is added to the old rate instead. Contact and
+    balls must be anchored now.
     """
     largest = max(abs(stack.rate[i]), abs(change))
     below = stack.velocity[i - 1] if i > 0 else 0.0
@@ -140,7 +141,7 @@ def change_rate(stack: RigidStack, i: int, change: float) -> None:
 
 @kernel
 def wake(stack: RigidStack, b: int) -> None:
-    """End the rest of ball b and those above it; the caller schedules contact b."""
+    """Set ball b and all resting balls above it in motion again; the caller schedules contact b."""
     top = stack.resting[BALLS_AT_REST]
     if b >= top:
         return

@@ -21,9 +21,9 @@ none         open      open      both balls in flight
 
 A mode y'' = -a^2 y moves as y cos(a t) + y' t sinc(a t); in flight a is 0.
 
-A step ends where no contact can have changed its phase yet, or exactly at the first change. If a
-change cannot be told from round-off the lane ends with the status ASK: the general engine, which
-has a rule for every case, solves that drop.
+A step ends either before any contact can have changed its phase, or exactly at the first change.
+If round-off hides whether a contact changes its phase, the lane ends with the status ASK, and the
+general engine solves that drop.
 """
 
 import math
@@ -101,10 +101,10 @@ def advance_lanes(x: Floats, event_limit: float) -> None:
 
 @kernel
 def _find_modes(x: Floats) -> None:
-    """Find the modes of each lane (eqs 5 and 6), and their contributions to each contact.
+    """Compute each lane's modes (eqs 5 and 6), and each contact's distance from its next event.
 
-    A slot of a contact holds its distance from the next event: the compression of a pressed
-    contact, the gap of an open one.
+    The distance is the compression of a pressed contact and the gap of an open one. It is 0 at the
+    event.
     """
     for i in range(LANES):
         floor, balls = x[FLOOR + i], x[BALLS + i]
@@ -143,10 +143,11 @@ def _find_modes(x: Floats) -> None:
 
 @kernel
 def _differentiate(x: Floats, half: int) -> None:
-    """Find the power series of a contact's distance from its event, and a bound on the remainder.
+    """Expand each contact's distance from its event in time, with a bound on the remainder.
 
-    The distance is at least the contribution of mode b minus the amplitude of mode a, the faster
-    one. If this lower bound is sure to stay positive for long, it is used in place of the distance.
+    A lower bound on the distance is the contribution of the slow mode b minus the amplitude of the
+    fast mode a. If this bound stays positive for a long time, its series replaces that of the
+    distance, because it is valid for longer.
     """
     for n in range(LANES):
         i = half + n
@@ -232,7 +233,7 @@ def _evaluate_series(x: Floats) -> None:
 
 @kernel
 def _choose_steps(x: Floats) -> None:
-    """Choose each lane's step: to its first expected event, or to the end of the safe time."""
+    """Choose each lane's step: to the predicted event, or else to the end of the safe time."""
     for i in range(LANES):
         f, g, h = x[F + i], x[G + i], x[H + i]
         safe, limit, p0, reach = x[D + i], x[SPARE + i], x[P0 + i], x[VALID + i]
@@ -250,7 +251,10 @@ def _choose_steps(x: Floats) -> None:
 
 @kernel
 def _halley(f: float, g: float, h: float) -> float:
-    """Return Halley's step, to second order, to the zero of f + g d + h d^2 where it falls."""
+    """Return Halley's step d, to second order, to the zero of a falling f + g d + h d^2.
+
+    If the slope g is not negative enough, the step is meaningless; the caller ignores it.
+    """
     inverse = 1.0 / (g if g < -_SLOW else -1.0)
     d = -f * inverse
     return d * (1.0 - d * h * inverse)
@@ -274,7 +278,10 @@ def _move_modes(x: Floats) -> None:
 
 @kernel
 def _find_landing(x: Floats) -> None:
-    """Find a first short step from the present time to the event, where that can be reached."""
+    """Compute a Newton correction from the predicted to the exact time of the event.
+
+    A lane whose correction is not small is marked as not landing.
+    """
     for i in range(LANES):
         a, ya, za = x[OMEGA + i], x[Y + i], x[Z + i]
         b, yb, zb = x[OMEGA + OTHER + i], x[Y + OTHER + i], x[Z + OTHER + i]
@@ -298,11 +305,12 @@ def _find_landing(x: Floats) -> None:
 
 @kernel
 def _land(x: Floats) -> None:
-    """Move each lane that expects an event exactly to it, and return to the balls' coordinates.
+    """Move each lane with a predicted event to its exact time; compute the balls' coordinates.
 
-    The root is the first event if the distance falls all the way to it from the safe time, which
-    its derivatives at the root show, and if the other contact is safe until then. Otherwise the
-    step was in vain: the lane stays where it was, and its next step ends with the safe time.
+    The root is accepted as the first event under two conditions. The distance decreases
+    monotonically from the end of the safe time to the root, as its derivatives at the root show,
+    and the other contact is safe until then. Otherwise the step is rejected: the lane keeps its old
+    state, and its next step goes to the end of the safe time.
     """
     for i in range(LANES):
         f, g, h, d = x[F + i], x[G + i], x[H + i], x[D + i]

@@ -46,7 +46,10 @@ def find_modes(stack: Stack, low: int, high: int) -> None:
 
 @kernel
 def _orthogonalise(stack: Stack, i: int, j: int, low: int, high: int) -> bool:
-    """Rotate rows i and j of B until they are orthogonal; tell whether they were not."""
+    """Apply a Jacobi rotation that makes rows i and j of B orthogonal.
+
+    Returns whether a rotation was needed.
+    """
     balls = high - max(low - 1, 0)
     one, other = i * WIDTH, j * WIDTH
     ii, jj, ij = 0.0, 0.0, 0.0
@@ -97,10 +100,11 @@ def start_modes(stack: Stack, low: int, high: int) -> None:
 
 @kernel
 def modal_position(stack: Stack, j: int, s: float) -> float:
-    """Return the coordinate of mode j at s after the anchor.
+    """Return the coordinate of mode j at the time s after the anchor.
 
-    The mode begins at ``cosine`` with the speed ``sine`` and oscillates about ``static``. As
-    ``static`` may be large, nothing is subtracted from it.
+    The initial coordinate is ``cosine``, the initial velocity ``sine``, and the equilibrium
+    ``static``. The formula avoids the difference of coordinate and equilibrium, which would cancel
+    digits if the equilibrium is far away.
     """
     angle = stack.omega[j] * s
     half = math.sin(0.5 * angle)
@@ -112,10 +116,10 @@ def modal_position(stack: Stack, j: int, s: float) -> float:
 def modal_compression(
     stack: Stack, i: int, low: int, high: int, s: float, out: Floats
 ) -> tuple[float, float, float]:
-    """Expand the compression of closed contact i about s after the anchor, in eight terms.
+    """Write the Taylor series of the compression of closed contact i to ``out``, up to order 7.
 
-    Returns the bound on the remainder (of order s^8), the round-off of the compression, and that of
-    its rate.
+    It is expanded about the time s after the anchor. Returns a bound on the coefficient of the
+    remainder (order 8), and the round-off of the compression and of its rate.
     """
     for k in range(8):
         out[k] = 0.0

@@ -30,7 +30,7 @@ _SLOWEST = 1e-9  # of the reference speed: the largest error that the tolerance 
 
 @kernel
 def pressing_range(stack: Stack, ball: int) -> tuple[int, int]:
-    """Return a cluster's pressing contacts as (low, high); low = high for a ball in flight."""
+    """Return low and high of a cluster's pressing contacts low..high-1; none in flight."""
     first = stack.first[ball]
     low = first if stack.phase[first] >= COMPRESSING else first + 1
     return low, stack.last[ball] + 1
@@ -38,7 +38,7 @@ def pressing_range(stack: Stack, ball: int) -> tuple[int, int]:
 
 @kernel
 def series_time(stack: Stack, first: int, s: float) -> float:
-    """Return the argument of a cluster's power series at s after its anchor: s or its root."""
+    """Return the argument of a cluster's power series at the time s: s, or its square root."""
     return s if stack.root[first] == 1 else math.sqrt(s)
 
 
@@ -101,10 +101,10 @@ def is_free(stack: Stack, ball: int) -> bool:
 
 @kernel
 def have_common_anchor(stack: Stack, i: int) -> bool:
-    """Tell whether both balls at a contact are in flight and anchored at the same time.
+    """Return whether both balls at a contact are in flight and anchored at the same time.
 
-    Their distance then follows from their relative velocity, without the round-off of their
-    travels.
+    Their distance can then be computed from their relative velocity, without the round-off of their
+    displacements.
     """
     if i == 0 or not (is_free(stack, i - 1) and is_free(stack, i)):
         return False
@@ -113,7 +113,7 @@ def have_common_anchor(stack: Stack, i: int) -> bool:
 
 @kernel
 def align_anchors(stack: Stack, i: int) -> None:
-    """Anchor the two balls at a contact at the same time if both are in flight."""
+    """Move the earlier anchor of two balls in flight at a contact to the later one."""
     if i == 0 or not (is_free(stack, i - 1) and is_free(stack, i)):
         return
     if stack.anchor[i - 1] < stack.anchor[i]:
@@ -156,11 +156,11 @@ def rate_at(stack: Stack, i: int, time: float) -> float:
 def add_ball_series(
     stack: Stack, b: int, sign: float, time: float, root: int, out: Floats
 ) -> tuple[int, float, float]:
-    """Add sign times a ball's displacement since its anchor, expanded about a time, to ``out``.
+    """Add sign times the power series of a ball's displacement since its anchor to ``out``.
 
-    Returns the order of the series, the bound on its remainder (of order 10) and its round-off. A
-    series in the root of time is possible only for the cluster of the ball itself, anchored at that
-    time.
+    The series is expanded about ``time``. Returns its order, a bound on its remainder (order 10)
+    and its round-off. With root = 2 it is a series in the square root of the time since then, which
+    exists only if the ball's own cluster is anchored at ``time``.
     """
     first = stack.first[b]
     s = time - stack.anchor[first]
@@ -199,10 +199,11 @@ def root_at(stack: Stack, i: int) -> int:
 def compression_series(
     stack: Stack, i: int, time: float, root: int, out: Floats
 ) -> tuple[int, int, float, float, float]:
-    """Expand the compression of contact i about a time, in a root of the time since then.
+    """Write the power series of the compression of contact i about ``time`` to ``out``.
 
-    Returns the order of the series, the order of the remainder and its bound, the round-off of the
-    compression, and that of its rate.
+    Its variable is the time since then (root = 1) or the square root of that (root = 2). Returns
+    the order of the series, the order of its remainder, a bound on the remainder, and the round-off
+    of the compression and of its rate.
     """
     first = stack.first[i]
     if stack.phase[i] < COMPRESSING:
@@ -291,10 +292,10 @@ def allows_root_series(stack: Stack) -> bool:
 
 @kernel
 def _choose_root(stack: Stack, low: int, high: int) -> int:
-    """Return the root of time (1 or 2) in which a cluster's motion has a power series.
+    """Return 2 if a cluster's motion needs a series in the square root of time, else 1.
 
-    It is 2 if a contact begins at a speed and its power is a multiple of 1/2; that contact then
-    needs no chord.
+    It is 2 if a contact closes at a nonzero speed and the exponent of its force is a multiple of
+    1/2. Such a contact needs no linearisation.
     """
     for i in range(low, high):
         twice = 2.0 * power_needed(stack, i)

@@ -16,8 +16,8 @@ unloaded    the gain rises through 0     RESUMED: compressing
 ..          c falls through 0            RELEASE: open since the force was clipped
 =========== ============================ =====================================================
 
-A contact whose force follows one power law both ways has no PEAK event if its cluster moves by a
-power series: `record_series_peaks` finds the peak from the series.
+A lossless power-law contact in a cluster that is solved by Taylor series has no PEAK event:
+`record_series_peaks` finds the peak from the series.
 
 A change of sign counts only if it exceeds round-off: an open contact that grazes within its
 round-off has not touched, and balls whose speeds are equal within theirs do not approach.
@@ -61,15 +61,15 @@ from stackbounce.engine.series import lower_bound, parabola_root, safe_step, shi
 from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
-# relative to typical motion: round-off below this is that of a motion which itself is round-off
+# round-off below this fraction of a typical motion: the motion itself is only round-off
 _NOTHING = 1000.0 * EPSILON**2
-_LOOSE = 10.0  # times the tolerance of a step: a touch must exceed it
+_LOOSE = 10.0  # a touch must exceed this times the tolerance of a step
 _LINEARISED_EXIT = 0.9  # of ``linearised_below``: the chord is left above 1 and taken below this
 
 
 @kernel
 def schedule_next_event(stack: Stack, i: int, time: float) -> None:
-    """Set when contact i is due for its next event or check, and which."""
+    """Schedule the next event of contact i, or a check if no event is certain yet."""
     size = len(stack.mass)
     phase = stack.phase[i]
     if stack.law[i] == ABSENT:
@@ -162,9 +162,10 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
 
 @kernel
 def _keeps_curve(stack: Stack, i: int, time: float) -> bool:
-    """Tell from a bound whether contact i keeps its curve while its cluster's series is valid.
+    """Return whether contact i surely has no event while its cluster's series is valid.
 
-    This is so during most of an interval; near its end the caller searches for the event.
+    A lower bound of the compression, and of the gain of a damped contact, decides. It is true
+    during most of an interval, which saves the search for the event.
     """
     first, law = stack.first[i], stack.law[i]
     if stack.modal[first] == 1 or stack.anchor[first] != time or stack.linearised[i] == 1:
@@ -182,7 +183,7 @@ def _keeps_curve(stack: Stack, i: int, time: float) -> bool:
 
 @kernel
 def _linearised_level(stack: Stack, i: int) -> float:
-    """Return the compression below which contact i is linearised, 0 if it is not to be."""
+    """Return the compression below which contact i must be linearised; 0 if it need not be."""
     smooth = stack.curve_exponent[i] == 0.0 or stack.curve_exponent[i] == 1.0
     if smooth or stack.linearised[i] == 1 or stack.phase[i] == UNLOADED:
         return 0.0
@@ -193,7 +194,7 @@ def _linearised_level(stack: Stack, i: int) -> float:
 
 @kernel
 def _upper_level(stack: Stack, i: int, plain: bool) -> tuple[float, int]:
-    """Return the compression above which contact i changes its curve, and by which event."""
+    """Return the compression above which contact i changes its curve, and the kind of event."""
     level, kind = math.inf, CHECK
     phase = stack.phase[i]
     if phase == UNLOADED:
@@ -209,7 +210,10 @@ def _upper_level(stack: Stack, i: int, plain: bool) -> tuple[float, int]:
 def _linearised_wait(
     stack: Stack, i: int, time: float, order: int, power: int, tail: float, horizon: float
 ) -> tuple[float, bool]:
-    """Return how long contact i may surely follow its chord; see `_safe_wait`."""
+    """Return how long the impulse along the chord of contact i surely stays below its limit.
+
+    The results are those of `_safe_wait`.
+    """
     spent = stack.changed
     first = stack.first[i]
     s = time - stack.anchor[first]
@@ -284,7 +288,10 @@ def _gain_wait(
 def _schedule(
     stack: Stack, i: int, time: float, wait: float, reached: bool, kind: int, horizon: float
 ) -> None:
-    """Schedule the next event or check of contact i, unless its cluster's series ends before it."""
+    """Schedule an event (``reached``) or a check of contact i after ``wait``.
+
+    Nothing is scheduled if the cluster's series ends before: its renewal schedules the contact.
+    """
     if root_at(stack, i) == 2:
         wait, horizon = wait * wait, horizon * horizon
     if time + wait <= time:
@@ -296,7 +303,7 @@ def _schedule(
 
 @kernel
 def _is_pressed_together(stack: Stack, i: int, a: Floats, order: int) -> bool:
-    """Tell whether two balls that touch at equal speeds are being pressed together."""
+    """Return whether neighbouring forces begin to compress a contact that touches without force."""
     if math.isnan(stack.touching[i]):
         return False
     for k in range(order + 1):
@@ -307,7 +314,10 @@ def _is_pressed_together(stack: Stack, i: int, a: Floats, order: int) -> bool:
 
 @kernel
 def _never_meets(stack: Stack, i: int, a: Floats, order: int) -> bool:
-    """Tell whether two balls in flight (or one and the floor) separate or keep their distance."""
+    """Return whether two balls in flight without relative acceleration do not approach each other.
+
+    The lower one may be the floor.
+    """
     if order > 2 or a[2] != 0.0:
         return False
     noise = stack.velocity_noise[i]
@@ -329,9 +339,11 @@ def _safe_wait(
     band: float,
     horizon: float,
 ) -> tuple[float, bool]:
-    """Return how long sign (f - level) surely stays above -band/2, and whether it ends there then.
+    """Return a time s during which sign (f - level) surely stays above -band/2.
 
-    The function f differs from its series by at most ``tail s^power + more s^(power+1)``.
+    The second result is True if it reaches -band/2 at s, and False if s is only a lower bound of
+    that time. The function f differs from its power series ``a`` by at most
+    ``tail s^power + more s^(power+1)``.
     """
     if tail == 0.0 and order > 2 and horizon < math.inf:
         wait, reached = time_to_level(a, order, sign, level, band, horizon)

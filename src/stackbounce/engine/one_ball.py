@@ -1,4 +1,4 @@
-"""One ball that meets a contact once: restitution and contact time by a run."""
+"""One collision of one ball with the floor: restitution and contact time by simulation."""
 
 import math
 
@@ -17,12 +17,12 @@ _ROWS = 64  # of the log
 def bounce(
     numbers: tuple[int, float, float, float], mass: float, speed: float
 ) -> tuple[float, float]:
-    """Return the restitution and the contact time in s of a ball on a floor without gravity.
+    """Return the restitution and the contact time in s of a ball on a floor, without gravity.
 
     Parameters
     ----------
     numbers : tuple
-        What `prepare` takes of a contact: form, stiffness, exponent and one more number.
+        A contact as in `prepare`: form of the force, stiffness, exponent and law parameter.
     mass, speed : float
         In kg and m/s.
 

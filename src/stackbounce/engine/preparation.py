@@ -1,4 +1,4 @@
-"""From the numbers of a drop to a stack at t = 0.
+"""Fill a stack with the parameters of a drop, at t = 0.
 
 A contact is given by the four numbers that `forces` explains: the form of its force, the stiffness,
 the exponent and the law parameter.
@@ -21,10 +21,10 @@ from stackbounce.engine.slots import (
 )
 from stackbounce.engine.stack import RigidStack, Stack
 
-_STEP = 0.02  # of rtol: the error of one step of a nonlinear cluster
+_STEP = 0.02  # the error of one step of a nonlinear cluster, over rtol
 _ROUND_OFF = 1e-16
 _LEAST_ORDER = 6
-_LINEARISED_SHARE = 1e-2  # of that again, see LINEARISED_WORK
+_LINEARISED_SHARE = 1e-2  # LINEARISED_WORK over the error of one step
 _LEAST_LINEARISED_WORK = 1e-18
 _LARGEST_EXPONENT = 600  # of 2 in the unit of speed
 _LONGEST_EXPONENT = 200  # of 2 in the unit of time

@@ -7,9 +7,9 @@ contact i carries the weight W_i of all balls above it:
 
 a sum of terms none of which is negative, and which no law increases. Opening contact i takes
 W_i s_i - U_i(s_i); with less than that for every contact none can open again, and the stack is
-bound. A vibration about the static state remains. A damped one is followed until its speeds are
-1e-9 of the reference speed, or the error they may have; one without damping would never end and is
-left out.
+bound. A vibration about the static state remains. If it is damped, it is followed until its speeds
+are 1e-9 of the reference speed, or as small as their error. If it is undamped, it would never end:
+the stack is set to its static state at once.
 """
 
 import math
@@ -27,7 +27,10 @@ _HYSTERETIC = 0.5  # of that energy: the limit where a higher peak can still cha
 
 @kernel
 def is_bound(stack: Stack) -> bool:
-    """Tell whether a stack, all of whose balls are anchored now, can never open a contact again."""
+    """Return whether a stack is at rest for good: its energy is too low to open any contact again.
+
+    A damped vibration must have decayed as well. All balls must be anchored now.
+    """
     size = len(stack.mass)
     if stack.first[size - 1] != 0 or stack.phase[0] < COMPRESSING:
         return False

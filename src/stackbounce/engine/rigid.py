@@ -122,7 +122,10 @@ def rigid_velocity(stack: RigidStack, b: int, time: float) -> float:
 
 @kernel
 def _is_over(stack: RigidStack, until: float) -> bool:
-    """Tell, with gravity, whether all balls rest or, if no end time is given, none approaches."""
+    """Return whether a run under gravity is over.
+
+    It is over if all balls rest or, without an end time, if no contact closes any more.
+    """
     if stack.resting[BALLS_AT_REST] == len(stack.mass):
         return True
     if stack.number[GRAVITY] == 0.0 or until < math.inf:
@@ -150,7 +153,10 @@ def _final_status(stack: RigidStack) -> int:
 
 @kernel
 def _anchor_colliding(stack: RigidStack, i: int) -> float:
-    """Anchor what a collision of contact i changes; return its closing rate."""
+    """Anchor now the balls and contacts that a collision of contact i affects.
+
+    Returns the closing rate of contact i.
+    """
     if acceleration(stack, i) > 0.0:
         stack.rate[i] = closing_rate(stack, i)
         stack.velocity[i] = -stack.rate[i]
@@ -212,7 +218,10 @@ def _collide(stack: RigidStack, i: int, log: Floats) -> None:
 
 @kernel
 def _keep_in_range(stack: RigidStack) -> None:
-    """Scale up speeds and gaps together, which changes no time, once all balls are very slow."""
+    """Multiply all speeds and gaps by one factor if all balls are very slow, to avoid underflow.
+
+    Times do not change. Under gravity nothing is scaled.
+    """
     if stack.number[GRAVITY] > 0.0:
         return
     for velocity in stack.velocity:

@@ -52,12 +52,17 @@ def lower_bound(a: Floats, low: int, n: int, limit: float) -> float:
 def time_to_level(
     a: Floats, n: int, sign: float, level: float, band: float, limit: float
 ) -> tuple[float, bool]:
-    """Return when ``sign (a - level) + band`` of a polynomial falls into [0, band/2].
+    """Return the first time at which f = ``sign (a(s) - level) + band`` falls into [0, band/2].
 
-    The bound of `safe_step` mostly shows that this is later than a limit. If not, a bound on the
-    curvature nearby gives a parabola that stays below; the roots of such parabolas approach the
-    time sought from the safe side, as Newton's. Returns the limit and False if it is later, and an
-    earlier time and False, before which it has not happened, if the search takes too long.
+    Here a(s) is the polynomial with the coefficients ``a[0]`` to ``a[n]``. There are three results:
+
+    - (time, True): f falls into the band at that time.
+    - (limit, False): f stays above the band up to the limit.
+    - (earlier time, False): the search was given up; f stays above the band up to that time.
+
+    Mostly the bound of `safe_step` shows at once that f stays above the band. Otherwise a bound on
+    the curvature gives a parabola below f. The roots of such parabolas converge to the time sought
+    as in Newton's method, and never pass it.
     """
     slope = 0.0
     for k in range(n, 0, -1):
@@ -121,7 +126,10 @@ def evaluate(a: Floats, n: int, s: float) -> float:
 
 @kernel
 def integrate(a: Floats, n: int, s: float, root: int) -> float:
-    """Return the integral over time from 0 to s^root of that polynomial in s."""
+    """Return the integral of the polynomial of `evaluate` over time, from 0 to s^root.
+
+    Its variable is the time itself (root = 1) or the square root of the time (root = 2).
+    """
     total = a[n] / (n + root)
     for k in range(n - 1, -1, -1):
         total = a[k] / (k + root) + s * total
@@ -130,7 +138,7 @@ def integrate(a: Floats, n: int, s: float, root: int) -> float:
 
 @kernel
 def shift(a: Floats, n: int, s: float, out: Floats) -> None:
-    """Expand that polynomial about s: out[0] + out[1] u + ... + out[n] u^n at s + u."""
+    """Expand the polynomial of `evaluate` about s: at s + u it is out[0] + ... + out[n] u^n."""
     for k in range(n + 1):
         out[k] = a[k]
     if s == 0.0:

@@ -6,9 +6,9 @@ ball leaves with the speed u is
 
     2 u/g (1 + e + e^2 + ...) = 2 u / (g (1 - e)),
 
-and they are followed until this is negligible. No law is known for several balls that bounce on
-each other on their way to rest: they are taken to rest once the fall even of the highest takes a
-negligible time, if a contact among them or below them loses energy.
+and the bounces are computed until this duration is negligible. No formula is known for several
+balls that bounce on each other while they come to rest. They count as resting as soon as none of
+them would fly for more than a negligible time, if a contact among or below them loses energy.
 """
 
 import math
@@ -26,13 +26,13 @@ from stackbounce.engine.flight import (
 from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY, LAST_EVENT, LOWEST_LOSSY
 from stackbounce.engine.stack import RigidStack
 
-NEGLIGIBLE_TIME = 1e-12  # of the time so far: the longest series of collisions that is left out
-_NEGLIGIBLE_FLIGHT = 1e-13  # of the time so far and the share lost in a collision: the same
+NEGLIGIBLE_TIME = 1e-12  # longest duration of collisions left out, over the time elapsed
+_NEGLIGIBLE_FLIGHT = 1e-13  # longest flight left out, over the time elapsed times (1 - e)
 
 
 @kernel
 def settle(stack: RigidStack, until: float) -> None:
-    """Set the balls at rest that rest from now on, the lowest first."""
+    """Find the balls that have come to rest, the lowest first, and set them at rest."""
     if stack.number[GRAVITY] == 0.0 or stack.law[0] == ABSENT:
         return
     while stack.resting[BALLS_AT_REST] < len(stack.mass):
@@ -63,7 +63,7 @@ def earliest_other(stack: RigidStack, i: int) -> float:
 
 @kernel
 def _set_at_rest(stack: RigidStack, low: int, high: int) -> None:
-    """Set the balls low..high at rest from now on, on the balls at rest or on the floor."""
+    """Set the balls low..high at rest now, each on the ball below it or on the floor."""
     anchor_contacts(stack, low, high + 1)
     anchor_balls(stack, high, high + 1)
     faster = -stack.velocity[high]
@@ -88,9 +88,9 @@ def _set_at_rest(stack: RigidStack, low: int, high: int) -> None:
 
 @kernel
 def _finish_bouncing(stack: RigidStack, until: float) -> bool:
-    """Let ball 0, leaving the floor, finish all its bounces if they end before another event.
+    """Advance ball 0 to the end of its bounces on the floor, if they end before any other event.
 
-    Tells whether it did.
+    This is done only if their duration is negligible. Returns whether it was done.
     """
     gravity, e, speed = stack.number[GRAVITY], stack.restitution[0], -stack.rate[0]
     if e == 1.0 or speed < 0.0:
@@ -134,11 +134,12 @@ def _finish_bouncing(stack: RigidStack, until: float) -> bool:
 
 @kernel
 def _highest_settling(stack: RigidStack, low: int) -> int:
-    """Return the highest of the balls from ``low`` up that rest after a negligible time.
+    """Return the highest ball from ``low`` up that comes to rest within a negligible time.
 
-    The time is compared with the time so far; if the next ball meets them soon, with the time until
-    then, or in speed with that ball. The result is less than ``low`` if there is no such ball, or
-    if no contact loses energy. Ball 0 alone on a lossy floor is left to its exact limit.
+    Negligible means short compared with the time elapsed. If the next ball above arrives soon, the
+    time must also be short compared with the time until then, or the speeds small compared with the
+    speed of that ball. The result is less than ``low`` if there is no such ball, or if no contact
+    loses energy. Ball 0 alone on a lossy floor is left to `_finish_bouncing`, which is exact.
     """
     lossy = stack.resting[LOWEST_LOSSY]
     if lossy == len(stack.mass):

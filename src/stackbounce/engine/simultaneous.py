@@ -198,7 +198,10 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
 
 @kernel
 def _open_unloaded(stack: Stack, i: int, compression: float, log: Floats) -> None:
-    """Open unloaded contact i, whose interval ended when it was clipped: no motion changes."""
+    """Open unloaded contact i and log its release at the time when its force was clipped.
+
+    No motion changes, because the force has been 0 since then.
+    """
     stack.phase[i] = OPEN
     stack.released[i] = stack.clip_time[i]
     stack.counter[CLOSED] -= 1
@@ -211,10 +214,10 @@ def _open_unloaded(stack: Stack, i: int, compression: float, log: Floats) -> Non
 
 @kernel
 def _is_unresolved(stack: Stack, i: int, time: float) -> bool:
-    """Tell whether the interval of contact i, just touching, is shorter than float64 time resolves.
+    """Return whether contact i closes too fast for the resolution of float64 times.
 
-    Balls that touch gently need no exact time: their error is less than the distance they approach
-    by.
+    This is so if the balls approach by a considerable part of a typical compression within the
+    round-off of the time.
     """
     rate = stack.velocity[i]
     if i > 0:
@@ -224,11 +227,11 @@ def _is_unresolved(stack: Stack, i: int, time: float) -> bool:
 
 @kernel
 def _first_compression(stack: Stack, i: int, compression: float, time: float) -> float:
-    """Return the compression, almost 0, with which contact i, anchored now, begins.
+    """Return the initial compression of contact i, anchored now: a rounding error, or 0.
 
-    It is set to 0 if two balls overlap because their approach was lost in the error of their
-    speeds, or if they touch so slowly that this compression would store more energy than they
-    bring.
+    It is 0 if the overlap exceeds the error of the motion, because an approach was missed within
+    the error of the speeds. It is also 0 if the balls touch so slowly that the compression would
+    store more energy than their approach has.
     """
     rate = stack.velocity[i]
     if i > 0:
@@ -243,10 +246,10 @@ def _first_compression(stack: Stack, i: int, compression: float, time: float) ->
 
 @kernel
 def _track_touching(stack: Stack, i: int, time: float) -> None:
-    """Update the time since which open contact i, if touching, may be pressed by neighbours.
+    """Update the time since which open contact i may have been touching under a neighbour's force.
 
-    That is the time at which the first of them pressed: a later event finds the contact pressed
-    already, though by less than its round-off.
+    It is the time at which the first neighbouring contact began to press. The compression since
+    then may be below round-off, so that the touch is detected only at a later event.
     """
     idle = is_free(stack, i) and (i == 0 or is_free(stack, i - 1))
     if stack.pushed[i] == 0 or idle or math.isnan(stack.touching[i]):
@@ -256,7 +259,7 @@ def _track_touching(stack: Stack, i: int, time: float) -> None:
 
 @kernel
 def _zero_crossing(stack: Stack, i: int, time: float) -> float:
-    """Return when the compression of contact i, just past zero at a time, was zero."""
+    """Return when the compression of contact i was zero, shortly before ``time``."""
     earliest = stack.clock[LAST_EVENT]
     if root_at(stack, i) == 2:  # the series has no root before its anchor
         earliest = max(earliest, stack.anchor[stack.first[i]])
@@ -276,7 +279,10 @@ def _zero_crossing(stack: Stack, i: int, time: float) -> float:
 
 @kernel
 def _reschedule(stack: Stack, i: int, time: float) -> None:
-    """Schedule the next event of contact i, with a new series if it has one in the root of time."""
+    """Schedule the next event of contact i.
+
+    A series in the square root of time is first renewed: it can be expanded about its anchor only.
+    """
     if root_at(stack, i) == 1:
         schedule_next_event(stack, i, time)
     elif stack.root[stack.first[i]] == 2:
@@ -313,7 +319,7 @@ def _log_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> Non
 
 @kernel
 def log_unfinished(stack: Stack, time: float, log: Floats) -> None:
-    """Append the intervals that have not ended at a time, as releases at infinity."""
+    """Log the contact intervals that have not ended at a time as releases at time infinity."""
     for i in range(len(stack.mass)):
         if stack.phase[i] == OPEN:
             continue

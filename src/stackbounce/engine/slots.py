@@ -18,16 +18,16 @@ array      `Stack`       `RigidStack`  slots
 # `number`: floats that hold for the whole stack, in its own units
 GRAVITY = 0
 SPEED = 1  # the reference speed: the largest speed at the start
-TOLERANCE = 2  # finite contacts: the error of a velocity that one step may make, over SPEED
-LINEARISED_WORK = 3  # finite: the work, over a typical contact's, up to which a chord replaces c^p
+TOLERANCE = 2  # finite contacts: the velocity error allowed in one step, over SPEED
+LINEARISED_WORK = 3  # finite: work below which a chord replaces c^p, over that of a contact
 UNIT = 4  # rigid balls: the factor from velocities and gaps in the arrays to SI units
-KEPT_TIME = 5  # rigid: when the state was kept that later ones are compared with
+KEPT_TIME = 5  # rigid: time of the reference state, see `collapse.keep_state`
 NUMBERS = 6
 
 # `setting`: integers that a run does not change, finite contacts only
 SERIES_ORDER = 0  # of the power series of nonlinear clusters
 NONLINEAR = 1  # 1 where some contact can be nonlinear
-RECORDS_PEAKS = 2  # 1 where peak forces, peak compressions and impulses are asked for
+RECORDS_PEAKS = 2  # 1 if peak forces, peak compressions and impulses are recorded
 SETTINGS = 3
 
 # `counter`: integers that a run changes
@@ -50,9 +50,9 @@ LOWEST_LOSSY = 1  # the lowest contact that loses energy; the number of balls if
 RESTINGS = 2
 
 # `memory`: integers of the search for repeated states (`collapse`), rigid balls only
-KEPT_CONTACT = 0  # the contact that had just collided in the state kept
-KEEP_AFTER = 1  # collisions after which another state is kept
-SINCE_KEPT = 2  # collisions since
-LOWEST_INVOLVED = 3  # contacts that have collided since
+KEPT_CONTACT = 0  # the contact that had just collided in the reference state
+KEEP_AFTER = 1  # number of collisions after which the reference state is replaced
+SINCE_KEPT = 2  # number of collisions since the reference state
+LOWEST_INVOLVED = 3  # lowest and highest contact that have collided since then
 HIGHEST_INVOLVED = 4
 MEMORIES = 5

@@ -45,7 +45,7 @@ class Stack(NamedTuple):
     curve_unit: Floats
     curve_exponent: Floats
     dip_energy: Floats  # energy stored at the last DIP
-    base: Floats  # compression at which a lossy contact came onto its loading curve, and energy
+    base: Floats  # compression and energy of a lossy contact when it came onto its loading curve
     base_energy: Floats
     top: Floats  # compression at which unloading and loading curve meet; inf on the latter
     linearised_below: Floats
@@ -120,7 +120,7 @@ class RigidStack(NamedTuple):
     due: Floats
     heap: Integers
     place: Integers
-    # the search for collapse: the state kept, and the contacts that have collided since
+    # the search for collapse: the reference state, and the contacts that have collided since
     kept_rate: Floats
     kept_gap: Floats
     involved: Integers
@@ -201,9 +201,9 @@ def as_arrays(record: Any) -> Any:
 
 
 def in_one_room(record: Any) -> tuple[Any, tuple[Any, Any]]:
-    """Return a stack of views of one array of floats and one of integers, and these two.
+    """Return a stack whose arrays are views of two arrays, and these two: floats and integers.
 
-    Such a stack is cleared by filling two arrays.
+    Such a stack is cleared by filling the two arrays.
     """
     import numpy as np
 

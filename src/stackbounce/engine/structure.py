@@ -1,9 +1,9 @@
 """A stack of numpy arrays as a numba type of its own: kernels pass one pointer.
 
 The pointer leads to a table with the address and the shape of each array. An array that a kernel
-takes from it owns no memory: numba's own structures count a reference each time an array is taken
-from them, which took longer than the arithmetic. Nor are negative indices of such an array counted
-from its end, as no kernel has any: the test for them took a tenth of the time.
+takes from it owns no memory. numba's own structures count a reference each time an array is taken
+from them, which took longer than the arithmetic. Negative indices are not supported, because no
+kernel uses them and the test for them took a tenth of the time.
 """
 
 import functools
@@ -65,7 +65,7 @@ class Numbers(types.Array):
         super().__init__(dtype, ndim, "C", name=name)
 
     def copy(self, ndim: int, **_: Any) -> "Numbers":  # type: ignore[override]
-        """Return the type of a row."""
+        """Return the type of an array with another number of dimensions, such as a row."""
         return Numbers(self.dtype, ndim)
 
 

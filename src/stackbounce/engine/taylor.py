@@ -95,11 +95,11 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
 
 @kernel
 def _steep_step(stack: Stack, i: int, order: int, root: int, step: float) -> float:
-    """Shorten a step to the time in which a power of a compression may change by e^(order/2).
+    """Return the step, shortened so that the power of a compression changes by at most e^(order/2).
 
-    A steeper force grows beyond what the series represents. Nor may the compression change by much
-    more than itself, as the power has no series where it is 0. A rising compression may go further,
-    as long as the last term of its power is small.
+    The series cannot represent a larger change. Moreover, the compression may change by little more
+    than its own value, because its power has no series at 0. A rising compression may change by
+    more, as long as the last term of the series of its power is small.
     """
     compression, c = stack.compression[i], stack.compression_series[i]
     furthest = 0.5 * order / root / stack.curve_exponent[i] * compression
@@ -116,7 +116,7 @@ def _steep_step(stack: Stack, i: int, order: int, root: int, step: float) -> flo
 
 @kernel
 def _time_to_rise(first: float, second: float, reach: float) -> float:
-    """Return when first t + second t^2 rises to a level above 0; infinity if it does not."""
+    """Return the time at which first t + second t^2 reaches ``reach`` > 0; infinity if never."""
     discriminant = first * first + 4.0 * second * reach
     if discriminant < 0.0 or (first <= 0.0 and second <= 0.0):
         return math.inf
@@ -126,9 +126,11 @@ def _time_to_rise(first: float, second: float, reach: float) -> float:
 
 @kernel
 def _own_speed(stack: Stack, low: int, high: int) -> float:
-    """Return the largest speed of a cluster's balls now, or the one its stored energy could give.
+    """Return the speed to which the error of a linear cluster's step is relative.
 
-    An overdamped contact ends at a far smaller speed than it began with: the present speed counts.
+    It is the larger of two: the largest present speed of its balls, and the speed that its stored
+    energy could give them. The speed at the start does not count, because an overdamped contact
+    ends with a far smaller one.
     """
     mass, stored = 0.0, 0.0
     for b in range(max(low - 1, 0), high):

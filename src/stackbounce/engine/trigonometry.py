@@ -56,7 +56,7 @@ def sinc(z: float) -> float:
 
 @kernel
 def nudge_mode(omega: float, d: float, y: float, z: float) -> tuple[float, float]:
-    """Return position and velocity of a mode after a time d (up to 0.01 rad), from those before."""
+    """Return position and velocity of a mode at a time d later, omega d being at most 0.01 rad."""
     square = -omega * omega
     angle = square * d * d
     cos = 1.0 + angle * (1.0 / 2.0 + angle * (1.0 / 24.0 + angle * (1.0 / 720.0)))

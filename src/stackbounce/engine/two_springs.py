@@ -62,7 +62,7 @@ _OMEGA = 1e100  # largest frequency in 1/s; its inverse is the smallest
 def new_scratch() -> Any:
     """Return scratch space for `run_two_springs`.
 
-    It begins on a cache line: a vector that spans two of them takes longer.
+    It begins at a cache line: loading a vector that spans two lines takes longer.
     """
     import numpy as np
 
@@ -85,7 +85,7 @@ def run_two_springs(
     status: Any,
     x: Floats,
 ) -> None:
-    """Find what becomes of many drops of two balls on springs, without gravity.
+    """Compute the outcomes of many drops of two balls on springs, without gravity.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def run_two_springs(
     gap, speed : arrays (n,)
         Gap between the balls in m, impact speed of both in m/s.
     event_limit : int
-        After how many touches and releases to give a drop up.
+        The number of touches and releases after which a drop ends with EVENT_LIMIT.
     velocity : array (n, 2)
         Gets the rebound speeds in m/s, up-positive.
     collisions : integer array (n, 2)
@@ -103,9 +103,9 @@ def run_two_springs(
         Get times in s for each contact, nan for never.
     status : integer array (n,)
         Gets FINISHED; EVENT_LIMIT; INVALID for input that is out of range; or ASK where the general
-        engine must be asked, and what else is said of that drop is not to be used.
+        engine must solve the drop. The other results of such a drop are meaningless.
     x : array (SCRATCH,)
-        Scratch space, from `scratch`.
+        Scratch space, from `new_scratch`.
     """
     rows = len(gap)
     left, waiting, row = rows, 0, 0
@@ -135,7 +135,7 @@ def run_two_springs(
 
 @kernel
 def _begin(x: Floats, i: int, waiting: int) -> None:
-    """Start a waiting drop in lane i, at t = 0."""
+    """Start one of the fetched drops in lane i, at t = 0."""
     i, waiting = i & (LANES - 1), waiting & (LANES - 1)  # no change: it shows a compiler the range
     for k in range(OWN):
         x[k * LANES + i] = x[NEXT + k * LANES + waiting]
@@ -148,7 +148,7 @@ def _begin(x: Floats, i: int, waiting: int) -> None:
 def _fetch(
     mass: Any, stiffness: Any, gap: Any, speed: Any, row: int, count: int, x: Floats
 ) -> None:
-    """Copy the numbers of drops from a row on."""
+    """Copy the parameters of the next ``count`` drops, from a row on, to the waiting slots."""
     for i in range(count):
         x[NEXT + ROW + i] = row + i
         x[MASS1 + i], x[MASS2 + i] = float(mass[row + i, 0]), float(mass[row + i, 1])

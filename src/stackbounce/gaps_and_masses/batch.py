@@ -67,7 +67,7 @@ def join_sweeps(parts: "Sequence[xr.Dataset]", dim: str) -> "xr.Dataset":
 
 
 def _kind(drop: Drop) -> tuple[Any, ...]:
-    """Return the contact laws of a drop; one sweep can solve only drops with the same laws."""
+    """Return a key of a drop's contact laws: one sweep solves only drops with equal keys."""
     return tuple((type(law), contact_numbers(law)[0]) for law in drop.contacts)
 
 

@@ -159,7 +159,7 @@ def _swept(drop: Drop, only: int | None, gaps: NDArray[np.float64], rtol: float)
 
 
 def _between(ds: "xr.Dataset") -> NDArray[np.float64]:
-    """Return the gaps at which the sweep must be refined."""
+    """Return the gaps to add: midpoints where a curve bends or a count or status changes."""
     gap = ds.gap.values
     low, high = gap[:-1], gap[1:]
     width = high - low
@@ -172,7 +172,7 @@ def _between(ds: "xr.Dataset") -> NDArray[np.float64]:
 
 
 def _bent(gap: NDArray[np.float64], ratios: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Tell in which intervals a ratio is curved: one of its ends is off its neighbours' chord."""
+    """Return which intervals have an end where a ratio is off the chord of its neighbours."""
     share = (gap[1:-1] - gap[:-2]) / (gap[2:] - gap[:-2])
     line = ratios[:-2] + share[:, None] * (ratios[2:] - ratios[:-2])
     off = (np.abs(ratios[1:-1] - line) > _STRAIGHT).any(axis=1)

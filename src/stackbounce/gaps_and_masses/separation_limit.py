@@ -90,7 +90,10 @@ def find_separation_limit(drop: Drop, only: int | None, length: float, rtol: flo
 
 
 def _intervals(drop: Drop, rtol: float) -> NDArray[Any] | None:
-    """Return the contact intervals that count, contact by contact; None if there is no end."""
+    """Return the contact intervals sorted by contact; None if the run does not finish.
+
+    Intervals with a negligible impulse are left out.
+    """
     result = simulate(drop, rtol=rtol)
     if result.status is not Status.FINISHED:
         return None
@@ -101,7 +104,7 @@ def _intervals(drop: Drop, rtol: float) -> NDArray[Any] | None:
 
 
 def _alike(one: NDArray[Any], other: NDArray[Any]) -> bool:
-    """Tell whether two runs have the same collisions, each of the same duration."""
+    """Return whether two runs have the same collisions with the same durations."""
     if not np.array_equal(one["contact"], other["contact"]):
         return False
     last, again = (rows["end"] - rows["start"] for rows in (one, other))
@@ -109,7 +112,10 @@ def _alike(one: NDArray[Any], other: NDArray[Any]) -> bool:
 
 
 def _latest_end(drop: Drop, narrow: NDArray[Any], wide: NDArray[Any], gap: float) -> float:
-    """Return the largest gap at which an event begins when another at the same ball ends."""
+    """Return the largest gap at which one contact interval begins when another ends.
+
+    Only intervals at the same contact or at neighbouring contacts are compared.
+    """
     linger = np.array([0.0 if law is None else law.linger for law in drop.contacts])
     contact, start = narrow["contact"], narrow["start"]
     end = narrow["end"] + linger[contact]

@@ -1,6 +1,7 @@
-"""What is dropped: balls, contact laws, drops, and the catalogue of the paper's balls.
+"""The model: balls, contact laws, drops, and the catalogue of the paper's balls.
 
-Frozen values, validated once, without numerics. All names of `stackbounce.model.laws` are here too.
+All are frozen dataclasses that are validated when they are made. All names of
+`stackbounce.model.laws` are here too.
 """
 
 from stackbounce.model import laws

@@ -1,4 +1,4 @@
-"""A ball: a mass, and where they are needed its size, its material and a name."""
+"""A ball: its mass and, where needed, its diameter, elastic constants and name."""
 
 from dataclasses import dataclass
 from typing import Annotated
@@ -18,14 +18,14 @@ class Ball:
     mass : float
         In kg, above 0.
     diameter : float, optional
-        In m, above 0; for pictures and for `Hertz.between`, no run depends on it.
+        In m, above 0; used by plots and `Hertz.between`. No run depends on it.
     name : str, optional
-        What tables and pictures call it.
+        The label in tables and plots.
     young_modulus : float, optional
-        E of its material, in Pa, above 0; for `Hertz.between` only.
+        Young's modulus E of the material, in Pa, above 0; used by `Hertz.between` only.
     poisson_ratio : float, optional
-        ν of its material, above -1 and at most 0.5, as thermodynamics has it; for `Hertz.between`
-        only.
+        Poisson's ratio ν of the material, above -1 and at most 0.5, the range of stable isotropic
+        materials; used by `Hertz.between` only.
 
     Raises
     ------

@@ -1,9 +1,9 @@
-"""The catalogue: the balls of Cross (2007), each figure with its source.
+"""The catalogue: the balls of Cross (2007), each number with its source.
 
-A ball's own spring is that of its bounce on a hard floor (its dynamic stiffness). Two balls for
-which the paper fitted a spring between them have that one, in either order; where they are the
-lowest two in the order of the fit, they have the fitted floor spring and gap as well. Any other two
-balls have their own springs in series.
+The spring of a single ball has its dynamic stiffness, from its bounce on a hard floor. For some
+pairs of balls the paper fitted the spring between them: these pairs have that spring, in either
+order. If such a pair is the lowest two balls in the order of the fit, it also has the fitted floor
+spring and gap. Between any other two balls, their two springs act in series.
 """
 
 import itertools
@@ -25,22 +25,22 @@ _SECTION_III = "Cross 2007, section III"
 
 @dataclass(frozen=True)
 class CatalogueBall:
-    """A ball of the catalogue: what the paper says about it, and where.
+    """A ball of the catalogue with the numbers that the paper gives, and their sources.
 
     Parameters
     ----------
     ball : Ball
-        Its mass, diameter and name.
+        With its mass, diameter and name.
     restitution : float
-        Of its bounce on a hard floor.
+        The coefficient of restitution on a hard floor.
     stiffness : float
         The dynamic stiffness in N/m of its bounce on a hard floor.
     static_stiffness : float
         The stiffness in N/m of the whole ball, pressed slowly between two plates.
     contact_time : float, optional
-        Of its bounce on a hard floor, in s.
+        The contact time on a hard floor, in s.
     sources : tuple of (str, str)
-        For each of these figures its name and where it comes from.
+        The name and the source of each of these numbers.
 
     Examples
     --------
@@ -56,7 +56,7 @@ class CatalogueBall:
     sources: tuple[tuple[str, str], ...]
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return all figures of the ball, and the ball's own fields, as plain values.
+        """Return all numbers of the entry, including the fields of its `Ball`, as a flat dict.
 
         Examples
         --------
@@ -69,7 +69,7 @@ class CatalogueBall:
 
 @dataclass(frozen=True)
 class Pair:
-    """Springs and gap that the paper fitted to a drop of two balls.
+    """The springs and the gap that the paper fitted to a drop of two balls.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ class Pair:
 
 @dataclass(frozen=True)
 class Stack:
-    """Balls of the catalogue on top of each other: what a `Drop` needs, and where it comes from.
+    """A stack of balls of the catalogue: the arguments of a `Drop`, and their sources.
 
     Parameters
     ----------
@@ -233,7 +233,7 @@ PAIRS: tuple[Pair, ...] = (
 
 
 def catalogue_ball(name: str) -> CatalogueBall:
-    """Return the ball of a name; case does not matter.
+    """Return the catalogue's entry for a ball's name; case does not matter.
 
     Parameters
     ----------
@@ -264,7 +264,7 @@ def catalogue_ball(name: str) -> CatalogueBall:
 
 
 def stack(names: Sequence[str]) -> Stack:
-    """Return balls of the catalogue on top of each other, with the springs that they have there.
+    """Return a stack of balls of the catalogue, with the springs and gaps that the paper gives.
 
     Parameters
     ----------
@@ -274,7 +274,7 @@ def stack(names: Sequence[str]) -> Stack:
     Returns
     -------
     Stack
-        The rule for its springs and gaps stands at the head of this module.
+        Its springs and gaps follow the rules in the docstring of this module.
 
     Raises
     ------

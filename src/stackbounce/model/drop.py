@@ -1,4 +1,4 @@
-"""A drop: balls, the contacts below them, the gaps between them, and how fast they come in."""
+"""A drop: balls, the contacts below them, the gaps between them, and the impact speed."""
 
 import math
 from collections.abc import Mapping, Sequence
@@ -14,31 +14,32 @@ from stackbounce.units import Unit
 __all__ = ["STANDARD_GRAVITY", "Drop"]
 
 STANDARD_GRAVITY = 9.80665
-"""Standard gravity in m/s**2, for a `height` where a run has no gravity of its own."""
+"""Standard gravity in m/s**2, for the fall from `height` if `gravity` is 0."""
 
 _INCIDENCE = ("impact_speed", "height", "velocities")
 
 
 @dataclass(frozen=True)
 class Drop:
-    """A stack of balls on its way down, at the moment when the lowest one touches the floor.
+    """A falling stack of balls at t = 0, when the lowest ball touches the floor.
 
     Parameters
     ----------
     balls : sequence of Ball
         N balls, the lowest first.
     contacts : sequence of ContactLaw
-        N laws, each of the contact below its ball; the first one is the floor's and may be None
-        for no floor. Either all are `Rigid` or none is.
+        N laws; each is that of the contact below the ball with the same index. The first one is the
+        contact with the floor; None means that there is no floor. Either all are `Rigid` or none.
     gaps : sequence of float, optional
         N - 1 distances in m, 0 or above, each between a ball and the next one up; default all 0.
     impact_speed : float, optional
         In m/s, above 0, downward, the same for every ball.
     height : float, optional
-        The height in m, above 0, fallen from rest instead, at `gravity`, or at 9.80665 m/s**2
-        where `gravity` is 0.
+        In m, above 0: the height of the fall from rest, which gives the impact speed. The fall has
+        the acceleration `gravity`, or 9.80665 m/s**2 if `gravity` is 0.
     velocities : sequence of float, optional
-        N velocities in m/s, up-positive, instead; not all 0. Exactly one of these three is given.
+        The N velocities in m/s at t = 0, up-positive, not all 0. Exactly one of `impact_speed`,
+        `height` and `velocities` must be given.
     gravity : float, optional
         In m/s**2, 0 or above, during the run; 0 is the paper's assumption.
 
@@ -122,7 +123,7 @@ class Drop:
 
     @property
     def reference_speed(self) -> float:
-        """The speed v0 in m/s that rebound ratios refer to; the largest of given velocities."""
+        """The impact speed v0 in m/s, the unit of rebound ratios; or the largest start speed."""
         if self.impact_speed is not None:
             return self.impact_speed
         if self.height is not None:
@@ -144,7 +145,7 @@ class Drop:
 
     @classmethod
     def from_mapping(cls, mapping: Mapping[str, Any]) -> "Drop":
-        """Return the drop that a mapping describes, with the keys and values of a scenario file.
+        """Make a drop from a mapping with the keys and values of a scenario file.
 
         Parameters
         ----------
@@ -178,7 +179,7 @@ class Drop:
 
     @classmethod
     def from_toml(cls, path: str | PathLike[str]) -> "Drop":
-        """Return the drop of a scenario file in TOML; see `from_mapping` for its keys.
+        """Read a drop from a scenario file in TOML; see `from_mapping` for its keys.
 
         Parameters
         ----------

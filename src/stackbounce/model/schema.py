@@ -1,7 +1,7 @@
-"""A drop from and to plain mappings: the one schema behind TOML files, JSON and the web.
+"""Converts a drop from and to plain mappings: the one schema of TOML files, JSON and the web.
 
-The keys are the fields of the dataclasses, the units are those of their ``Unit`` annotations, and
-what a value may be is checked where it always is, in the dataclasses. Reading only adds the path.
+The keys are the fields of the dataclasses, and the units are those of their ``Unit`` annotations.
+The dataclasses validate the values. Reading only adds the path to their error messages.
 """
 
 import functools

@@ -25,7 +25,7 @@ def read_toml(kind: type[_T], path: str | os.PathLike[str]) -> _T:
 
 
 def load_toml(path: object) -> tuple[str, dict[str, Any]]:
-    """Return the name of a TOML file, and what is in it.
+    """Read a TOML file; return its name and its contents as a mapping.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Pictures of bounces, sweeps, stacks, measurements, fits and model comparisons."""
+"""Plots of impacts, sweeps, stacks, measurements, fits and model comparisons."""
 
 from stackbounce.extras import need
 from stackbounce.plots.fit_result import fitted

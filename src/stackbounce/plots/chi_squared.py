@@ -25,7 +25,10 @@ _CURVE, _BEST, _OTHER, _KINK = COLORS[0], COLORS[1], "white", "#202020"
 
 
 def draw_profile(axes: "Axes", fit: Any) -> None:
-    """Draw chi squared against the only parameter, with its error and the kinks."""
+    """Draw chi squared against the only fitted parameter, its error, and the kinks.
+
+    A kink is a value at which the number of contact intervals changes.
+    """
     x = np.linspace(*_extent(fit, 0), _FINE)
     parameter = fit.objective.parameters[0]
     values = parameter.value(x)
@@ -94,7 +97,7 @@ def _scale(fit: Any, k: int, values: Array) -> Scale:
 
 
 def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
-    """Return the numbers of contact intervals in trials, of each contact in which they differ."""
+    """Return the number of contact intervals per trial, for each contact where it varies."""
     found = []
     for key in fit.objective.measured:
         counts = fit.objective.outcomes(key, trials)[0].collisions
@@ -103,7 +106,7 @@ def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
 
 
 def _draw_curve(axes: "Axes", values: Array, above: Array, *, turned: bool = False) -> None:
-    """Draw a profile, with lines at one and at two standard deviations."""
+    """Draw a profile, with lines at one and two standard deviations; ``turned`` swaps the axes."""
     line, plot = (axes.axvline, (above, values)) if turned else (axes.axhline, (values, above))
     for rise, text in ((1.0, "1 σ"), (4.0, "2 σ")):
         line(rise, color="#404040", linestyle="--", linewidth=0.8)
@@ -115,7 +118,10 @@ def _draw_curve(axes: "Axes", values: Array, above: Array, *, turned: bool = Fal
 
 
 def _draw_bands(axes: "Axes", x: Array, y: Array, above: Array) -> None:
-    """Color chi squared, with contours whose edges are one, two and three standard deviations."""
+    """Draw chi squared as colors, with contours at one, two and three standard deviations.
+
+    The extents of each contour along the axes are the standard deviations of the parameters.
+    """
     from matplotlib import colormaps
 
     colors = colormaps["Blues_r"](np.linspace(0.15, 1.0, len(_BANDS)))

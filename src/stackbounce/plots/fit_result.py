@@ -1,4 +1,4 @@
-"""Pictures of a fit: pulls, force records, and chi squared around its minimum."""
+"""Plots of a fit: pulls, force records, and chi squared around its minimum."""
 
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
@@ -24,7 +24,7 @@ _HELD = 5.0  # larger pulls are arrows at the edge
 
 
 def fitted(fit: Any) -> "Figure":
-    """Draw how well a fit describes what was measured, and how well its parameters are known.
+    """Draw the pulls of a fit, its force records, and chi squared around the minimum.
 
     Parameters
     ----------
@@ -34,11 +34,10 @@ def fitted(fit: Any) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved. Differences between fitted and measured numbers in standard errors;
-        force records with the fitted curve; below, for one parameter chi squared against it, for
-        two its map with the profile of each. Dotted lines are kinks, where the number of contact
-        intervals changes. With force records, of which each trial takes long, chi squared is not
-        drawn.
+        Not shown and not saved. The pulls: fitted minus measured numbers in standard errors. Force
+        records with the fitted curves. Below, chi squared: a curve for one parameter, a map with
+        the profile of each for two. Dotted lines are kinks, where the number of contact intervals
+        changes. With force records chi squared is not drawn, because each trial takes long.
 
     Examples
     --------
@@ -75,7 +74,7 @@ def _title(fit: Any) -> str:
 
 
 def _draw_pulls(axes: "Axes", residuals: Sequence[Any], count: int) -> None:
-    """Draw a dot for each measured number, the first on top."""
+    """Draw the pull of each measured number as a dot, the first one on top."""
     places = np.arange(len(residuals))
     pulls = np.array([one.pull for one in residuals])
     wide = min(max(3.0, 1.15 * float(np.abs(pulls).max())), _HELD)
@@ -103,7 +102,7 @@ def _draw_pulls(axes: "Axes", residuals: Sequence[Any], count: int) -> None:
 
 
 def _both(one: Any) -> str:
-    """Return a measured number with its error and the fitted one, with the same decimals."""
+    """Return the label ``measured ± error, fitted value``, all with the same decimals."""
     unit, factor = handy(max(abs(one.measured), one.error), one.unit)
     numbers = [factor * value for value in (one.measured, one.error, one.fitted)]
     text = "{} ± {}, fitted {} ".format(*rounded(numbers, factor * one.error)) + unit

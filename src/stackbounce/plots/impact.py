@@ -1,4 +1,4 @@
-"""Pictures of a result: the balls' positions, and the contacts' forces or impulses."""
+"""The plot of one run: the balls' positions, and the contacts' forces or impulses."""
 
 import math
 from typing import TYPE_CHECKING
@@ -70,7 +70,7 @@ def bounce(result: Result) -> "Figure":
 def _draw_positions(
     axes: "Axes", result: Result, times: NDArray[np.float64], paths: NDArray[np.float64]
 ) -> None:
-    """Draw the path of each ball, straight before the first touch."""
+    """Draw the position of each ball against time, extended to times before the first touch."""
     drop = result.drop
     ends = []
     for b, (ball, path) in enumerate(zip(drop.balls, paths, strict=True)):

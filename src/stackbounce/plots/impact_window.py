@@ -1,4 +1,4 @@
-"""The time window of a picture of an impact, and the motion in it."""
+"""The time window of the plot of an impact, and the motion in this window."""
 
 from typing import TYPE_CHECKING
 
@@ -17,7 +17,7 @@ _INSTANT = 0.010  # s: used as the duration of an instantaneous impact
 
 
 def choose_window(result: Result) -> tuple[float, float]:
-    """Return the start and the end of the window in s; the first touch is at 0.
+    """Return the start and the end of the plot's time window in s; the first touch is at 0.
 
     Examples
     --------

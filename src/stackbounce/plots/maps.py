@@ -22,14 +22,14 @@ _INFINITE = (0.75, 0.75, 0.75, 1.0)
 
 
 def hatch(axes: "Axes") -> None:
-    """Hatch the cells without a value."""
+    """Hatch the background of the axes, which shows through where cells have no value."""
     axes.patch.set(facecolor="white", edgecolor="#b0b0b0", hatch="////", linewidth=0.0)
 
 
 def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: str) -> str:
     """Draw numbers as colors with contours, and return the unit of the color bar.
 
-    The colors go from dark to light, or from blue through white to red if the sign changes.
+    The colors go from dark to light, or from blue over white to red if the values change sign.
     """
     from matplotlib.colors import Normalize
 
@@ -91,7 +91,7 @@ def _name_contours(axes: "Axes", drawn: "ContourSet", color: str, factor: float)
 
 
 def group_counts(low: int, high: int) -> list[tuple[int, int]]:
-    """Return the first and the last count of each color; the ranges of high counts double.
+    """Return the smallest and largest count of each color; high counts share a color.
 
     Examples
     --------

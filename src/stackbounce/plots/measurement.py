@@ -1,4 +1,4 @@
-"""The picture of a result, drawn by the module that the result names."""
+"""The plot of the result of any measurement analysis, drawn by the module that it names."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
@@ -12,14 +12,14 @@ __all__ = ["measured"]
 
 
 def measured(data: Any, found: Any) -> "Figure":
-    """Draw what an analysis found on what was measured.
+    """Draw the result of a measurement analysis together with the data.
 
     Parameters
     ----------
     data : xarray.Dataset
-        What was measured, as `read` gives it.
+        The measured data, as from `read`.
     found : object
-        What `stackbounce.measure.analyse`, or one of the analyses, found.
+        The result of `stackbounce.measure.analyse`, or of one of the analyses.
 
     Returns
     -------
@@ -28,7 +28,7 @@ def measured(data: Any, found: Any) -> "Figure":
     Raises
     ------
     InvalidType
-        If `found` is nothing that has a picture.
+        If `found` is not the result of an analysis.
 
     Examples
     --------

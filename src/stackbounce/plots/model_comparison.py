@@ -1,4 +1,4 @@
-"""Picture of several models of the same data: criterion and residuals of each."""
+"""The plot of a model comparison: information criterion and pulls of each model."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -18,7 +18,7 @@ _WIDEST = 40  # for more data, the pulls are not written into the cells
 
 
 def compared(comparison: Any) -> "Figure":
-    """Draw each model's criterion beside its pulls, the best model on top.
+    """Draw the information criterion and the pulls of each model, the best model on top.
 
     Parameters
     ----------
@@ -28,8 +28,8 @@ def compared(comparison: Any) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        On the left how much worse each model is than the best, by AICc or BIC; on the right fitted
-        less measured value of each datum, in errors. Not shown and not saved.
+        Not shown and not saved. On the left the AICc or BIC of each model minus that of the best
+        one. On the right the pulls: fitted minus measured value of each datum, in standard errors.
 
     Examples
     --------
@@ -52,7 +52,7 @@ def compared(comparison: Any) -> "Figure":
 
 
 def _draw_scores(axes: "Axes", comparison: Any) -> None:
-    """Draw how much worse each model is than the best."""
+    """Draw the criterion of each model minus that of the best model."""
     values = np.array([getattr(score, comparison.criterion) for score in comparison.scores])
     more = values - values[0]
     axes.barh(np.arange(len(more)), more, color=COLORS[0], height=0.6)
@@ -95,7 +95,7 @@ def _draw_pulls(figure: "Figure", axes: "Axes", pulls: Any) -> None:
 
 
 def _written(pull: float) -> str:
-    """Return a pull in at most five characters."""
+    """Return a pull as text of at most five characters."""
     if not np.isfinite(pull):
         return "–"
     written = f"{pull:+.1f}" if abs(pull) < 99.5 else f"{pull:+.0f}"

@@ -1,4 +1,4 @@
-"""The picture of a posterior: draws of each parameter, and of each pair."""
+"""The corner plot of a posterior: the distribution of each parameter and of each pair."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -29,10 +29,13 @@ def corner(posterior: Any) -> "Figure":
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved. Above each column stand the median of its draws and the limits of
-        68 % of them. The contours contain 39 % and 86 % of the draws, as those of one and two
-        standard deviations of a Gaussian do.
-        By the package ``corner`` (D. Foreman-Mackey, J. Open Source Softw. 1, 24, 2016).
+        Not shown and not saved. The title of each column gives the median and the limits of the
+        central 68 % of the draws. The contours contain 39 % and 86 % of the draws, as the contours
+        of one and two standard deviations of a two-dimensional Gaussian do.
+
+    Notes
+    -----
+    Drawn by the package ``corner`` (D. Foreman-Mackey, J. Open Source Softw. 1, 24, 2016).
 
     Examples
     --------
@@ -73,7 +76,10 @@ def corner(posterior: Any) -> "Figure":
 
 
 def _extents(draws: list[Any]) -> list[tuple[float, float]]:
-    """Return the range of each axis: 99.8 % of the draws; of equal draws a range around them."""
+    """Return the range of each axis: the central 99.8 % of the draws and a margin.
+
+    If all draws are equal, the range is centred on their value.
+    """
     found = []
     for own in draws:
         low, high = np.quantile(own, (0.001, 0.999))

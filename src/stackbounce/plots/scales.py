@@ -1,4 +1,4 @@
-"""The axes of a sweep's pictures: positions, cell edges, units, ticks."""
+"""The axes of the plots of sweeps: positions, cell edges, units and ticks."""
 
 import math
 import re
@@ -20,7 +20,7 @@ _ROUND_OFF = 1e-9  # relative; smaller differences are none
 
 
 class Scale(NamedTuple):
-    """Where the values of a dimension lie on an axis.
+    """The positions of a dimension's values on an axis.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Scale(NamedTuple):
 
 
 def read_scale(data: "xr.Dataset", dim: Any) -> Scale:
-    """Return the scale of a dimension; `data` is sorted by it."""
+    """Return the scale of a dimension, by which `data` must be sorted."""
     size = data.sizes[dim]
     if dim not in data.coords:
         return Scale(np.arange(size), False, [], "")
@@ -85,7 +85,7 @@ def label(axes: "Axes", which: str, name: str, scale: Scale) -> None:
 def show_in_handy_unit(
     axis: "Axis", values: NDArray[Any], unit: str, log: bool = False
 ) -> tuple[str, float]:
-    """Show the ticks of an axis in a handy unit; return the unit and its factor."""
+    """Label the ticks of an axis in a suitably prefixed unit; return the unit and its factor."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
     finite = np.abs(values[np.isfinite(values)])
@@ -102,7 +102,7 @@ def show_in_handy_unit(
 
 
 def is_flat(values: NDArray[Any]) -> bool:
-    """Return whether values differ by no more than round-off; those not finite do not count.
+    """Return whether all finite values are equal within round-off.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Pictures of stacks: one stack over its gaps, and the ranking of many."""
+"""Plots of stacks: the outcome of one stack against its gaps, and the ranking of many."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -125,7 +125,10 @@ def highest(data: "xr.Dataset") -> "Figure":
 
 
 def _draw_collisions(axes: "Axes", data: "xr.Dataset") -> None:
-    """Draw the counts as steps; the lower the contact, the wider, so that none is hidden."""
+    """Draw the number of collisions of each contact as steps, with wider lines for lower contacts.
+
+    Lines with equal counts therefore stay visible.
+    """
     from matplotlib.ticker import MaxNLocator
 
     count = data.sizes["contact"]

@@ -1,4 +1,4 @@
-"""The style of all pictures."""
+"""The style of all plots."""
 
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,7 +14,7 @@ COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
 
 FORCES = {"N": "force (N)", "V": "signal (V)"}
-"""The name of an axis of forces, by the record's unit."""
+"""The label of a force axis, by the unit of the record."""
 
 STYLE: Any = {
     "axes.spines.top": False,
@@ -33,7 +33,9 @@ STYLE: Any = {
 
 @contextmanager
 def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[Figure]":
-    """Give an empty figure, in inches, and draw on it in this style, with other settings if given.
+    """Yield an empty figure of a size in inches, within the style of this package.
+
+    ``style`` are further settings of matplotlib, which override this style.
 
     Examples
     --------
@@ -50,7 +52,7 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
 
 
 def annotate(axes: "Axes", text: str, place: tuple[Any, Any], color: str, **more: Any) -> None:
-    """Write a short text beside a point, or where `xycoords` says that the place is."""
+    """Write a short text beside a point in data coordinates, or at a place given by `xycoords`."""
     at = {} if "xycoords" in more else {"xytext": (7, 7), "textcoords": "offset points"}
     axes.annotate(text, place, fontsize=9, color=color, **(at | more))
 
@@ -67,7 +69,7 @@ def color_of(index: int) -> str:
 
 
 def written(name: str) -> str:
-    r"""Return a name as plain text for matplotlib: no formula, no unprintable character.
+    r"""Return a name escaped for matplotlib: no mathtext, no unprintable character.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Pictures of a sweep: lines for one varied number, maps for two."""
+"""Plots of a sweep: lines for one parameter that varies, maps for two."""
 
 import tomllib
 from typing import TYPE_CHECKING, Any
@@ -28,14 +28,14 @@ TITLES = {
 """The variables that can be drawn, with their titles."""
 
 IN_A_ROW = 4
-"""Names in a horizontal legend."""
+"""The largest number of entries in a horizontal legend."""
 
 _STROKES = ("-", "--", ":", "-.")
 _FEW = 25  # up to so many values are marked with dots
 
 
 def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = None) -> "Figure":
-    """Draw a sweep of one number: a line for each ball or each contact.
+    """Draw a sweep of one parameter: a line for each ball or each contact.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
 
 
 def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) -> "Figure":
-    """Draw a sweep of two numbers as a map, with contours or with a color for each count.
+    """Draw a sweep of two parameters as a map: contours, or discrete colors for counts.
 
     Parameters
     ----------
@@ -108,7 +108,7 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     -------
     matplotlib.figure.Figure
         Not shown and not saved. Cells without a value are hatched: unfinished drops, whose number
-        the title has, and times of contacts that never close.
+        is in the title, and times of contacts that never close.
 
     Raises
     ------
@@ -150,7 +150,11 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
 
 
 def _look(show: str, k: int, chosen: range, row: NDArray[Any]) -> dict[str, Any]:
-    """Return the style of a line: strokes repeat the colors, widths keep equal counts visible."""
+    """Return the style of a line.
+
+    If there are more lines than colors, the dash pattern changes. Lines of counts have different
+    widths, so that equal counts do not hide each other.
+    """
     stroke = _STROKES[k // len(COLORS) % len(_STROKES)]
     look: dict[str, Any] = {"color": color_of(k), "linestyle": stroke}
     above = chosen.stop - 1 - k
@@ -172,7 +176,7 @@ def draw_legend(axes: "Axes", count: int) -> None:
 
 
 def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[Any]) -> None:
-    """Label the vertical axis; its range is not narrowed to differences of round-off."""
+    """Label the vertical axis; widen its range if the values differ by round-off only."""
     unit = own.attrs.get("units", "1").removeprefix("1")
     if show != "collisions":
         unit, _ = show_in_handy_unit(axes.yaxis, rows, unit)
@@ -184,7 +188,10 @@ def _label_values(axes: "Axes", show: str, own: "xr.DataArray", rows: NDArray[An
 
 
 def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
-    """Return counts as they are drawn, with infinity at a labelled tick above all others."""
+    """Return the heights at which counts are drawn, and set the ticks of the axis.
+
+    Infinite counts (-1) are drawn at a tick ∞ above all others.
+    """
     from matplotlib.ticker import MaxNLocator
 
     finite = rows[rows >= 0]
@@ -202,7 +209,7 @@ def _counts_on(axes: "Axes", rows: NDArray[Any]) -> list[NDArray[Any]]:
 
 
 def check_source(data: Any, name: str, source: str) -> None:
-    """Refuse data that are no Dataset with the variable `name`, as from the function `source`."""
+    """Raise `InvalidType` unless data are a Dataset with the variable `name`, as from `source`."""
     import xarray as xr
 
     if not isinstance(data, xr.Dataset) or name not in data:
@@ -210,7 +217,7 @@ def check_source(data: Any, name: str, source: str) -> None:
 
 
 def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, ...]]:
-    """Return a sweep in ascending order and its dimensions; there must be `count` of them."""
+    """Return a sweep sorted by its numeric dimensions, and its dimensions; raise if not `count`."""
     check_source(data, "status", "sweep")
     if show not in TITLES:
         raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, TITLES)}")
@@ -224,7 +231,11 @@ def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, 
 
 
 def _finished(data: "xr.Dataset", show: str) -> tuple[str, "xr.DataArray", str]:
-    """Return "ball" or "contact", the values (nan: unfinished), and a note on unfinished drops."""
+    """Return the values to draw, with nan for unfinished drops.
+
+    The first result is their dimension besides those of the sweep: "ball", "contact" or "". The
+    last one is a note with the number of unfinished drops, or "".
+    """
     from stackbounce.run.result import Status
 
     wrong = data["status"].isin([int(Status.EVENT_LIMIT), int(Status.INVALID)])

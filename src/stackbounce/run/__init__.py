@@ -1,13 +1,13 @@
-"""From drops to results: one choice of engine and mode for one drop and for many.
+"""Run drops: one module chooses the engine, and interpreted or compiled code, for all of them.
 
 ======== ============================================================================
-options  until when to run, to which tolerance, for how many events
-columns  a drop's numbers, and those of many drops, as the engine takes them
+options  the end time, the tolerance and the event limit of a run
+columns  the parameters of one drop, and of many drops, as arrays for the engine
 engines  chooses the engine, and plain Python or compiled code
 driver   one drop: `simulate`
 batch    many drops in blocks and threads
 result   the `Result` of one drop
-paths    the numbers of a drop by their paths
+paths    the parameters of a drop by their paths, such as ``balls.0.mass``
 blocks   a grid of drops cut into blocks
 ======== ============================================================================
 """

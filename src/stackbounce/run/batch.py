@@ -1,8 +1,8 @@
 """Many drops at once: block by block, in threads.
 
-The way of a batch: a grid of drops is cut into blocks; in each thread the base's numbers, repeated,
-get those that vary (`columns.fill`); the batch kernel of the engine runs the rows of a block one
-after the other in one stack's arrays and fills their rows of the `Outcomes`.
+A grid of drops is cut into blocks, which several threads work on. For each block, the parameters of
+the base drop are repeated, and those that vary are replaced (`columns.fill`). The engine's batch
+kernel then runs the drops of the block one after the other and writes their rows of `Outcomes`.
 """
 
 import functools
@@ -45,7 +45,7 @@ _NO_ROOM: Any = ([], [])  # a new stack needs no clearing
 _local = threading.local()
 
 _Runner: TypeAlias = Callable[[Drops, Outcomes, Options, Mode], None]
-"""Runs drops and fills in their outcomes, all but the ratios."""
+"""Runs drops and writes their outcomes, except rebound ratios and retained energies."""
 
 
 def solve(
@@ -56,25 +56,26 @@ def solve(
     *,
     compiled: bool | None = None,
 ) -> Outcomes:
-    """Return the outcomes of a drop with other numbers.
+    """Run all drops of a grid, which differ from a base drop in some parameters.
 
     Parameters
     ----------
     drop : Drop
-        The base.
+        The base drop, with all parameters that do not vary.
     rows : mapping
-        The numbers that vary: they broadcast to `shape`.
+        The values of the parameters that vary, by `Number`. They broadcast to `shape`.
     shape : sequence of int
-        How many drops, by dimension.
+        The shape of the grid; its size is `count`.
     options : Options
-        How to run them.
+        The end time, tolerance and event limit of each run.
     compiled : bool, optional
-        Whether to run compiled code; by default where the drops are many. The bits are the same.
+        Whether to run compiled code; by default if there are many drops. The results are the same
+        bit for bit.
 
     Returns
     -------
     Outcomes
-        Arrays (count, balls), and (count,) energy and status.
+        Arrays (count, balls), and (count,) energy and status, in row-major order of the grid.
     """
     count, balls = math.prod(shape), len(drop.balls)
     mode = choose_mode(compiled, count, balls)
@@ -122,7 +123,7 @@ def _new_outcomes(count: int, balls: int) -> Outcomes:
 
 
 def _run_two_springs(drops: Drops, out: Outcomes, options: Options, mode: Mode) -> None:
-    """Run drops by the engine for two springs, and those it leaves undecided by the general one."""
+    """Run drops by the engine for two springs, and those with the status ASK by the general one."""
     run, scratch = compile_kernel(run_two_springs), new_scratch
     if mode is not Mode.COMPILED:
         run, scratch = run_two_springs, functools.partial(_zeros, SCRATCH)
@@ -140,14 +141,18 @@ def _run_two_springs(drops: Drops, out: Outcomes, options: Options, mode: Mode) 
 
 
 def _run_rows(engine: Engine, drops: Drops, out: Outcomes, options: Options, mode: Mode) -> None:
-    """Run drops by an engine; those that plain Python cannot end soon start again compiled."""
+    """Run drops by one engine.
+
+    If plain Python reaches its limit of events, or a number out of range, all drops start again in
+    compiled code.
+    """
     if mode is Mode.COMPILED or not _run_plainly(engine, drops, out, options, mode):
         stack, room, samples, log = _arrays(engine, drops.mass.shape[1])
         compile_kernel(engine.run_batch)(stack, room, drops, *options, samples, log, out)
 
 
 def _run_plainly(engine: Engine, drops: Drops, out: Outcomes, options: Options, mode: Mode) -> bool:
-    """Run drops as plain Python; tell whether all stayed in range and within the mode's limit."""
+    """Run drops as plain Python; return False if compiled code must run all of them again."""
     balls = drops.mass.shape[1]
     limit = mode.event_limit(options.event_limit)
     samples, log = new_samples([], balls), _zeros(_log_size(balls))
@@ -165,7 +170,7 @@ def _run_plainly(engine: Engine, drops: Drops, out: Outcomes, options: Options, 
 
 
 def _arrays(engine: Engine, balls: int) -> tuple[Any, ...]:
-    """Return this thread's stack, the two arrays that its own lie in, no samples, and a log."""
+    """Return this thread's stack, its two underlying arrays, empty samples and a log."""
     if not hasattr(_local, "made"):
         _local.made = functools.cache(_new_arrays)
     made: tuple[Any, ...] = _local.made(engine, balls)

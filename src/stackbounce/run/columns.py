@@ -1,4 +1,4 @@
-"""The numbers of one drop, or of many that vary, as the engine takes them; checked."""
+"""The parameters of one drop, or of many drops, as arrays for the engine, and their validation."""
 
 import itertools
 import math
@@ -21,7 +21,7 @@ Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
 
 
 def drop_numbers(drop: Drop) -> Drops:
-    """Return a drop's numbers as the engine takes them, in lists."""
+    """Return the parameters of a drop in the form that `prepare` takes, as lists."""
     rows = zip(*map(contact_numbers, drop.contacts), strict=True)
     kind, stiffness, exponent, law_parameter = map(list, rows)
     return Drops(
@@ -37,21 +37,21 @@ def drop_numbers(drop: Drop) -> Drops:
 
 
 def base_rows(drop: Drop, count: int) -> Drops:
-    """Return a drop's numbers so many times over, in arrays (count, balls) and (count,)."""
+    """Return the parameters of ``count`` equal drops, as arrays (count, balls) and (count,)."""
     return Drops._make(np.full((count, *np.shape(one)), one) for one in drop_numbers(drop))
 
 
 def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
-    """Set the numbers that vary in drops that have all others.
+    """Replace the parameters that vary, in drops that are copies of a base drop.
 
     Parameters
     ----------
     drops : Drops
-        Arrays (..., balls), and (...,) gravity, with the base's numbers.
+        Arrays (..., balls), and (...,) gravity, with the parameters of the base drop; changed.
     drop : Drop
-        The base.
+        The base drop.
     rows : mapping
-        The numbers that vary: they broadcast to (...,).
+        The values of the parameters that vary, by `Number`. They broadcast to (...,).
     """
     laws: dict[int, dict[str, Any]] = {}
     for number, values in rows.items():
@@ -78,24 +78,25 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
 
 
 def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> None:
-    """Raise for the first row of numbers that makes no drop.
+    """Raise an error for the first row of parameters with which the drop is not valid.
 
-    The valid values of a number are an interval, one end of which may depend on another number of
-    the same part. So if all combinations of smallest and largest values are valid, all rows are.
+    The valid values of a parameter are an interval. One end of it may depend on another parameter
+    of the same ball or contact. All rows are therefore valid if all combinations of the smallest
+    and the largest values are valid, which is tested first.
 
     Parameters
     ----------
     drop : Drop
-        The base.
+        The base drop.
     rows : mapping
-        The numbers that vary.
+        The values of the parameters that vary, by `Number`.
     where : callable
-        Returns the words of a message for the row with an index.
+        From the index of a row to the words that locate it in the error message.
 
     Raises
     ------
     InvalidValue, InvalidType
-        As `Drop` does, with the words for the row.
+        As `Drop` does; the message ends with the words from `where`.
     """
     shape = np.broadcast_shapes(*(values.shape for values in rows.values()))
     if 0 in shape or (_corners_hold(drop, rows) and _all_move(drop, rows)):
@@ -109,7 +110,7 @@ def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> No
 
 
 def _corners_hold(drop: Drop, rows: Rows) -> bool:
-    """Tell whether all combinations of smallest and largest values are valid, part by part."""
+    """Return whether all combinations of smallest and largest values are valid for each part."""
     parts: dict[tuple[str, int], dict[Number, tuple[float, float]]] = {}
     for number, values in rows.items():
         ends = float(np.min(values)), float(np.max(values))

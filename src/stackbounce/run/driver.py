@@ -1,8 +1,8 @@
 """One drop: from a `Drop` to a `Result`.
 
-The way of a drop: its numbers (`columns.drop_numbers`) fill an empty stack (`Engine.prepare`), the
-first events are scheduled (`Engine.begin`), the engine goes from event to event and logs them
-(`Engine.advance`), and the log, in SI units, becomes a `Result`.
+The parameters of the drop (`columns.drop_numbers`) are written to an empty stack
+(`Engine.prepare`), and its first events are scheduled (`Engine.begin`). The engine then goes from
+event to event and logs them (`Engine.advance`). The log, in SI units, becomes a `Result`.
 """
 
 import functools
@@ -94,7 +94,7 @@ def simulate(
 def forces_at(
     drop: Drop, times: "NDArray[np.float64]", rtol: float
 ) -> tuple[Status, "NDArray[np.float64]"]:
-    """Return how a run ends, and the forces (contacts, times) in N at ascending times in s."""
+    """Return a run's status, and its forces in N, (contacts, times), at ascending times in s."""
     import numpy as np
 
     run = _run(drop, run_options(drop, None, rtol, 1_000_000), True, times.tolist())
@@ -108,7 +108,7 @@ def _sample(drop: Drop, options: Options, compiled: bool | None, times: Sequence
 
 
 class _Run(NamedTuple):
-    """What an engine has found, in SI units: the parts of a `Result`, and samples."""
+    """The raw results of one run in SI units: the contents of a `Result`, and the samples."""
 
     status: int
     time: float  # of the end, s
@@ -119,7 +119,7 @@ class _Run(NamedTuple):
 
 
 class _Workspace:
-    """A stack with its log and samples: lists for plain Python, arrays once it is compiled."""
+    """A stack with its log and samples: lists in plain Python, arrays in compiled code."""
 
     def __init__(self, engine: Engine, drop: Drop, rtol: float, times: Sequence[float]) -> None:
         size = len(drop.balls)
@@ -133,7 +133,7 @@ class _Workspace:
         self._handle = self.stack
 
     def compile(self) -> None:
-        """Go on with arrays and compiled kernels."""
+        """Convert the lists to arrays; `call` uses compiled kernels from now on."""
         import numpy as np
 
         from stackbounce.engine.structure import Structure
@@ -193,7 +193,7 @@ _UNITS = ("s", "", "", "m/s", "m/s", "s", "N", "", "m/s")
 
 
 def _in_si(run: _Run, unit: float) -> _Run:
-    """Return a run, measured with a unit of time in s, in SI units."""
+    """Convert a run from the engine's unit of time, given in s, to SI units."""
     factors = {"s": unit, "m/s": 1.0 / unit, "N": 1.0 / unit**2, "": 1.0}
 
     def converted(values: Iterable[float], *units: str) -> list[float]:

@@ -121,12 +121,15 @@ class Mode(enum.Enum):
     COMPILED = "compiled"
 
     def event_limit(self, limit: int) -> int:
-        """Return the event limit of a run in this mode that is to end at a limit."""
+        """Return the event limit of a first run, if ``limit`` is the limit that the user set.
+
+        It is lower for TRIAL, where compiled code takes over at PLAIN_EVENTS.
+        """
         return min(PLAIN_EVENTS, limit) if self is Mode.TRIAL else limit
 
 
 def choose_mode(compiled: bool | None, drops: int, balls: int) -> Mode:
-    """Return how to run a number of drops of a number of balls.
+    """Choose between plain Python and compiled code for a batch of drops.
 
     Parameters
     ----------
@@ -151,9 +154,10 @@ def choose_engine(drop: Drop) -> Engine:
 
 
 def suits_two_springs(drop: Drop, numbers: Iterable[Number], options: Options) -> bool:
-    """Tell whether a batch of drops that differ in some numbers is two balls on springs.
+    """Return whether the engine for two springs can solve a batch of drops.
 
-    The values of these numbers do not count: a drop's result must not depend on other drops.
+    ``numbers`` are the parameters that differ between the drops. Their values are not considered,
+    because the result of a drop must not depend on the other drops of the batch.
     """
     linear = all(contact_numbers(law)[::2] == (POWER, 1.0) for law in drop.contacts)
     together = len(set(drop.start_velocities)) == 1 and drop.start_velocities[0] < 0.0

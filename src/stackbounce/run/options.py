@@ -1,4 +1,4 @@
-"""How to run a drop, checked."""
+"""The options of a run, validated."""
 
 import math
 from typing import NamedTuple
@@ -13,7 +13,7 @@ _MOST_EVENTS = 10**18  # the range of a 64-bit counter
 
 
 class Options(NamedTuple):
-    """How to run a drop: until when (s), to which relative tolerance, for how many events."""
+    """The options of a run: end time in s, relative tolerance and event limit."""
 
     until: float
     rtol: float
@@ -21,7 +21,7 @@ class Options(NamedTuple):
 
 
 def run_options(drop: object, until: object, rtol: object, event_limit: object) -> Options:
-    """Return the options of a run of a drop, checked; see `simulate`."""
+    """Validate the options of a run and return them; see `simulate`."""
     if not isinstance(drop, Drop):
         raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
     if len(drop.balls) > _MOST_BALLS:

@@ -1,4 +1,4 @@
-"""The numbers of a drop by their paths: ``balls.0.mass``, ``contacts.1.stiffness``, ``gaps.0``."""
+"""The parameters of a drop by their paths: ``contacts.1.stiffness``, ``gaps.0``."""
 
 import functools
 from collections.abc import Mapping
@@ -15,7 +15,7 @@ __all__ = ["Number", "drop_at", "number_at", "numbers_of"]
 
 @dataclass(frozen=True)
 class Number:
-    """A number of a drop.
+    """A single numerical parameter of a drop: where it is, and its unit.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ class Number:
 
 
 def numbers_of(drop: Drop) -> dict[str, Number]:
-    """Return all numbers of a drop that can vary, by their paths.
+    """Return all parameters of a drop that can vary, by their paths.
 
     Examples
     --------
@@ -75,7 +75,7 @@ def numbers_of(drop: Drop) -> dict[str, Number]:
 
 
 def number_at(drop: Drop, path: object) -> Number:
-    """Return the number of a drop at a path.
+    """Return the parameter of a drop at a path: its description, not its value.
 
     Raises
     ------
@@ -99,7 +99,7 @@ def number_at(drop: Drop, path: object) -> Number:
 
 
 def drop_at(drop: Drop, values: Mapping[Number, float]) -> Drop:
-    """Return the drop with other numbers in place.
+    """Return a copy of a drop in which some parameters have other values.
 
     Raises
     ------
@@ -140,14 +140,14 @@ def _changed(part: Any, chosen: Mapping[str, float], path: str) -> Any:
 
 @functools.cache
 def _units(kind: Any) -> dict[str, str]:
-    """Return the fields of a class that are single numbers, with their units."""
+    """Return the SI units of those fields of a class that are single numbers, by field."""
     hints = get_type_hints(kind, include_extras=True)
     found = {one.name: _unit(hints[one.name]) for one in fields(kind)}
     return {name: unit.symbol for name, unit in found.items() if unit is not None}
 
 
 def _unit(hint: Any) -> Unit | None:
-    """Return the unit of a number or of an optional one; None for anything else."""
+    """Return the unit in the type hint of a float or an optional float; None for other types."""
     optional = get_origin(hint) in (Union, UnionType)
     for choice in get_args(hint) if optional else (hint,):
         if get_origin(choice) is Annotated and get_args(choice)[0] is float:

@@ -122,7 +122,7 @@ class Result:
     rerun: Callable[[Sequence[float]], Any] = dataclasses.field(repr=False)
 
     def __getstate__(self) -> dict[str, Any]:
-        """Leave out what is derived: arrays would come back writeable."""
+        """Return the fields only. Cached arrays are left out: unpickled ones would be writeable."""
         return {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
 
     @functools.cached_property
@@ -357,7 +357,7 @@ class Result:
 
 
 def _numbers(times: object) -> NDArray[np.float64]:
-    """Return times as an array, if all are real numbers."""
+    """Return times as an array of floats; raise if one is not a real number."""
     if np.ma.isMaskedArray(times):
         raise InvalidType(f"times must be a list of numbers, got a masked array: {shown(times)}")
     try:

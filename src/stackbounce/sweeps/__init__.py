@@ -1,10 +1,12 @@
-"""A Drop and the numbers that vary -> an xarray Dataset; lazily, in chunks, for dask arrays.
+"""Sweeps: one drop for all combinations of other parameter values, as an xarray Dataset.
+
+If the values are dask arrays, the Dataset is lazy and computed in chunks.
 
 ======= ==========================================================================
-dataset the numbers that vary as named dimensions, and the resulting Dataset
+dataset in memory: the parameters that vary become the dimensions of a Dataset
 store   a sweep larger than memory, written block by block to a file; resumable
 files   the file formats: Zarr, NetCDF
-axes    texts such as those of ``--over`` -> numbers and their values
+axes    reads texts such as those of ``--over``: a parameter and its values
 ======= ==========================================================================
 
 The drops of a sweep are run by `stackbounce.run.batch`.

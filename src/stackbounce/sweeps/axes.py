@@ -1,4 +1,4 @@
-"""Texts such as ``contacts.0.stiffness=1e3:1e6:400:log`` -> a number of a drop and its values."""
+"""Reads texts such as ``contacts.0.stiffness=1e3:1e6:400:log``: a parameter and its values."""
 
 from collections.abc import Sequence
 
@@ -17,7 +17,7 @@ _RIGHT = "PATH=START:STOP:COUNT, with :log for even ratios, or PATH=VALUE,VALUE,
 
 
 def grid(drop: Drop, texts: Sequence[str]) -> dict[str, NDArray[np.float64]]:
-    """Return the values of each number that some texts name.
+    """Return the values of each parameter that the texts describe, by its path.
 
     Raises
     ------
@@ -41,14 +41,14 @@ def grid(drop: Drop, texts: Sequence[str]) -> dict[str, NDArray[np.float64]]:
 
 
 def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
-    """Return the path and the values, in SI units, that a text names.
+    """Return the path of the parameter that a text describes, and its values in SI units.
 
     Parameters
     ----------
     drop : Drop
-        Whose number it is.
+        The drop that has the parameter.
     text : str
-        ``PATH=START:STOP:COUNT`` for even steps, the same with ``:log`` for even ratios, or
+        ``PATH=START:STOP:COUNT`` for equal steps, the same with ``:log`` for equal ratios, or
         ``PATH=VALUE,VALUE,…``; values with or without units.
 
     Returns
@@ -96,7 +96,7 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
 
 
 def _number(drop: Drop, path: str) -> Number:
-    """Return the number at a path; for one that other drops have, say why it is not there."""
+    """Return the parameter at a path; if only other drops have it, raise with the reason."""
     try:
         return number_at(drop, path)
     except InvalidValue as error:

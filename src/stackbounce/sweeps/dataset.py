@@ -1,4 +1,4 @@
-"""The numbers that vary as named dimensions, and the resulting Dataset."""
+"""Sweeps in memory: the parameters that vary become the named dimensions of a Dataset."""
 
 import json
 from collections.abc import Mapping, Sequence
@@ -40,7 +40,7 @@ def sweep(
     rtol: float = 1e-12,
     event_limit: int = 1_000_000,
 ) -> "xr.Dataset":
-    """Run a drop for all combinations of other numbers in it; return the results.
+    """Run a drop for all combinations of other parameter values; return the results.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def sweep(
 
 
 def _check_together(numbers: Sequence[Number]) -> None:
-    """Refuse two numbers that determine each other."""
+    """Raise if two parameters vary that determine each other: e and n of a `Hysteretic` contact."""
     for number in numbers:
         if number.field == "restitution":
             other = f"{number.part}.{number.index}.unloading_exponent"
@@ -109,7 +109,7 @@ def _check_together(numbers: Sequence[Number]) -> None:
 
 
 def _named(number: Number, value: Any) -> "xr.DataArray":
-    """Return values of a number as a DataArray of floats in SI units."""
+    """Return the values of a parameter as a DataArray of floats in SI units."""
     import xarray as xr
 
     if isinstance(value, xr.DataArray):
@@ -176,7 +176,7 @@ def _dataset(
 
 
 def check_axis(drop: Drop, path: str, values: NDArray[np.float64]) -> None:
-    """Raise for the first value that is not valid for a number, all others as in the drop."""
+    """Raise for the first value that is not valid for the parameter at a path of the drop."""
     check(drop, {number_at(drop, path): values}, lambda index: f"(at {path} {index[0]})")
 
 
@@ -187,7 +187,10 @@ def run_block(
     options: Options,
     blocks: Sequence[NDArray[np.float64]],
 ) -> tuple[NDArray[Any], ...]:
-    """Return the outputs for values that broadcast with each other, checked."""
+    """Validate and run one block of a sweep; return an array for each output variable.
+
+    ``blocks`` are the values of ``numbers``; they broadcast with each other.
+    """
     rows = dict(zip(numbers, blocks, strict=True))
     shape = np.broadcast_shapes(*(block.shape for block in blocks))
 
@@ -206,7 +209,10 @@ def run_block(
 
 
 def _provenance(drop: Drop, numbers: Sequence[Number], options: Options) -> dict[str, Any]:
-    """Return the provenance of results, without times of day: equal sweeps make equal files."""
+    """Return the attributes that record the provenance: version, base drop, laws and options.
+
+    They hold no date, so that equal sweeps give equal files.
+    """
     laws = {type(law).__name__: law.formula for law in drop.contacts if law is not None}
     return {
         "stackbounce": __version__,

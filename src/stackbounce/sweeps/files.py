@@ -29,16 +29,16 @@ Writer: TypeAlias = Callable[[Block, "xr.Dataset"], None]
 
 
 class Form:
-    """The contents of a file.
+    """The layout of a file: its variables, coordinates, attributes and block shape.
 
     Parameters
     ----------
     sample : xarray.Dataset
-        The sweep of the first value of each number.
+        As from `sweep`, with the first value of each parameter only.
     axes : mapping
-        All values, by dimension.
+        All values of each parameter, by dimension.
     sides : sequence of int
-        The sides of a block, by dimension.
+        The shape of a block of drops, by dimension.
     """
 
     def __init__(
@@ -51,15 +51,15 @@ class Form:
         self.sides = tuple(sides)
 
     def shape(self, one: "xr.DataArray") -> tuple[int, ...]:
-        """Return the shape that one of the arrays has in the whole file."""
+        """Return the shape of a variable in the whole file."""
         return tuple(len(self.values[str(dim)]) for dim in one.dims)
 
     def chunk(self, one: "xr.DataArray") -> tuple[int, ...]:
-        """Return the shape that a block has in one of the arrays."""
+        """Return the shape of one block of a variable."""
         return self.sides + self.shape(one)[len(self.sides) :]
 
     def is_of(self, found: "xr.Dataset") -> bool:
-        """Tell whether a file is of this sweep."""
+        """Return whether a file belongs to this sweep: same attributes and coordinates."""
         return found.attrs == self.attrs and all(
             name in found.coords and np.array_equal(found[name].values, values)
             for name, values in self.values.items()
@@ -67,13 +67,13 @@ class Form:
 
 
 class Format(Protocol):
-    """A file format."""
+    """The operations that a file format must provide."""
 
     def create(self, path: Path, form: Form) -> None:
-        """Make a file without results."""
+        """Create a file with all its coordinates and no results."""
 
     def writer(self, path: Path) -> contextlib.AbstractContextManager[Writer]:
-        """Open a file that results can be written to, block by block."""
+        """Open a file for writing; yield a function that writes the results of one block."""
 
     def opened(self, path: Path) -> "xr.Dataset":
         """Open a file; numbers are read lazily."""
@@ -175,12 +175,12 @@ _FORMATS: dict[str, Format] = {".zarr": _Zarr(), ".nc": _NetCDF()}
 
 
 def format_of(path: Path) -> Format:
-    """Return the file format for a name.
+    """Return the file format that the suffix of a path stands for.
 
     Raises
     ------
     InvalidValue
-        If its suffix is not known.
+        If the suffix is not ``.zarr`` or ``.nc``.
     MissingExtra
         If a library that it needs is not installed.
 

@@ -134,7 +134,7 @@ def _tell_nobody(done: int, total: int) -> None:
 
 
 def _is_complete(out: Path, kind: Format, form: Form, log: Path) -> bool:
-    """Tell whether the file exists and is complete; raise if it is another sweep's."""
+    """Return whether the complete file of this sweep exists; raise if it holds another sweep."""
     if not out.exists():
         return False
     if not _is_same(out, kind, form):
@@ -144,7 +144,7 @@ def _is_complete(out: Path, kind: Format, form: Form, log: Path) -> bool:
 
 
 def _begin(partial: Path, kind: Format, form: Form, log: Path) -> tuple[tuple[int, ...], set[int]]:
-    """Make an empty file, or resume one; return a block's sides and the blocks done."""
+    """Create the partial file, or resume it; return the shape of a block and the blocks done."""
     lines = log.read_text("ascii").splitlines(keepends=True) if log.exists() else []
     whole = [line for line in lines if line.endswith("\n")]  # the last one may be half written
     if whole and partial.exists():
@@ -178,7 +178,7 @@ def solve_block(drop: Drop, values: Grid, options: Mapping[str, Any]) -> "xr.Dat
 def _solved(
     drop: Drop, values: Grid, todo: _Todo, options: Mapping[str, Any], client: "Client | None"
 ) -> _Done:
-    """Yield blocks with their results as they become ready, few at a time."""
+    """Yield blocks with their results as they are finished; few are in memory at a time."""
     jobs = ((k, block, (drop, _part(values, block), options)) for k, block in todo)
     if client is None:
         return ((k, block, solve_block(*job)) for k, block, job in jobs)
@@ -214,7 +214,7 @@ def _next(running: Any, waiting: dict[Any, tuple[int, Block]]) -> tuple[int, Blo
 
 @contextlib.contextmanager
 def _cluster_errors() -> Iterator[None]:
-    """Raise errors of the cluster as FileError, with the words that nothing is lost."""
+    """Convert errors of the cluster to FileError with the advice to resume the sweep."""
     from distributed import KilledWorker
     from distributed.client import ClosedClientError
 

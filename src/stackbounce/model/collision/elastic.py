@@ -1,7 +1,7 @@
-"""One ball on a power law without loss: it gives the units of length and time for all other laws.
+"""One ball on a lossless power law ``F = k c**p``: the units of length and time for all laws.
 
-A collision at speed v compresses ``F = k c**p`` to its peak C at most, and C/v is the unit in which
-the laws give contact times.
+C is the compression at which the contact stores the whole kinetic energy of the collision. No
+collision at the speed v reaches a larger compression. Contact times are given in units of C/v.
 """
 
 import math
@@ -11,7 +11,7 @@ __all__ = ["duration", "hysteretic_duration", "measured_stiffness", "peak_compre
 
 
 def duration(p: float) -> float:
-    """Return the contact time, in units of C/v: π for a linear spring.
+    """Return the contact time on a lossless power law, in units of C/v: π for a linear spring.
 
     Parameters
     ----------
@@ -38,9 +38,10 @@ def duration(p: float) -> float:
 
 
 def hysteretic_duration(p: float, n: float, e: float) -> float:
-    """Return the contact time, in units of C/v, that loads with exponent p and unloads with n.
+    """Return the contact time, in units of C/v, of a law with loading exponent p and unloading n.
 
-    Half of it is spent as without loss; the other half as if the ball had come at e v.
+    Loading takes half the contact time of the loading curve without loss. Unloading takes half the
+    contact time of the unloading curve without loss, at the speed e v.
 
     Examples
     --------
@@ -51,7 +52,7 @@ def hysteretic_duration(p: float, n: float, e: float) -> float:
 
 
 def peak_compression(k: float, p: float, mass: float, speed: float) -> float:
-    """Return C in m, at which the contact holds the whole energy: ``k C**(p+1)/(p+1) = m v**2/2``.
+    """Return C in m, where the contact stores the kinetic energy: ``k C**(p+1)/(p+1) = m v**2/2``.
 
     Examples
     --------
@@ -64,19 +65,19 @@ def peak_compression(k: float, p: float, mass: float, speed: float) -> float:
 
 
 def measured_stiffness(given: Mapping[str, float], duration: float) -> float:
-    """Return k in N/m**p of a contact that takes `duration` in units of C/v.
+    """Return the stiffness k in N/m**p that gives a measured contact time.
 
     Parameters
     ----------
     given : mapping of str to float
         ``mass`` in kg, ``contact_time`` in s, ``impact_speed`` in m/s and ``exponent``.
     duration : float
-        The measured contact time in units of C/v.
+        The contact time of the law in units of C/v.
 
     Raises
     ------
     ArithmeticError
-        If it is out of the range of numbers.
+        If k overflows.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Integrals of functions that are not smooth at the ends of their range."""
+"""Numerical integration of functions that are not smooth at the ends of their range."""
 
 import functools
 import math
@@ -16,7 +16,8 @@ def integral(function: Callable[[float], float]) -> float:
     Parameters
     ----------
     function : callable
-        Of ln(z), which tells z from 1 to the last digit; analytic but at the ends.
+        Its argument is ln(z), which resolves z near 1 to the last digit. It must be analytic
+        between the ends.
 
     Returns
     -------
@@ -24,8 +25,10 @@ def integral(function: Callable[[float], float]) -> float:
 
     Notes
     -----
-    The trapezoidal rule in t with ``z = 1/(1 + exp(-π sinh(t)))``, which halves no interval and
-    needs no tolerance. Source: H. Takahasi and M. Mori, Publ. RIMS 9, 721 (1974).
+    Double-exponential quadrature: the trapezoidal rule in t, ``z = 1/(1 + exp(-π sinh(t)))``.
+    The step is fixed; there is no tolerance.
+
+    Source: H. Takahasi and M. Mori, Publ. RIMS 9, 721 (1974).
 
     Examples
     --------

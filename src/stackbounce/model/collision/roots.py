@@ -1,4 +1,4 @@
-"""Where a function of one number is zero."""
+"""Root finding for functions of one number."""
 
 import math
 from collections.abc import Callable
@@ -12,14 +12,14 @@ _ROUNDS = 2000  # a bracket of numbers above 0 can span 600 decades
 
 
 def root(function: Callable[[float], float], low: float, high: float) -> float:
-    """Return the zero of an increasing or decreasing function, to the last digits.
+    """Return the zero of a monotonic function to machine precision.
 
     Parameters
     ----------
     function : callable
         From a float to a float.
     low, high : float
-        Between which it lies, above 0; both may be as close to it as round-off allows.
+        An interval above 0 that contains the zero; an end may equal it within round-off.
 
     Returns
     -------
@@ -74,7 +74,7 @@ def root(function: Callable[[float], float], low: float, high: float) -> float:
 def _interpolated(
     before: float, f_before: float, x: float, f: float, other: float, f_other: float
 ) -> float:
-    """Return the step to the zero of a line through two points or of an inverse parabola."""
+    """Return the step by the secant rule, or by inverse quadratic interpolation of three points."""
     if before == other:
         above, below = -f * (x - before), f - f_before
     else:

@@ -1,9 +1,9 @@
 """The contact laws: the force between two balls, or ball and floor, while they are compressed.
 
-Each is a small frozen value in a file of its own, which holds all that is known of the law. Forces
-never pull: where a formula would be negative the force is 0, while the compression and the formula
-go on. A contact ends when its force is back at zero for good, and ``k c**(p + 1)/(p + 1)`` counts
-as stored energy while the compression c is above 0.
+Each law is a frozen dataclass in a file of its own, with all its formulas. A force never pulls:
+where the formula is negative, the force is 0. The formula is evaluated further, so that the force
+may become positive again. A contact ends when its force is zero for good. While the compression c
+is above 0, ``k c**(p + 1)/(p + 1)`` counts as stored energy.
 """
 
 # The laws are imported in the order in which people are shown them: each registers itself.

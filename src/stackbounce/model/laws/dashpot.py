@@ -1,17 +1,18 @@
 """A linear spring and a dashpot, and one ball on them in closed form.
 
 With ``ω0**2 = k/m`` and the damping ratio ``ζ = b/(2 m ω0)`` the compression is
-``c = (v/ω) exp(-ζ ω0 t) sin(ω t)``, ``ω = ω0 sqrt(1 - ζ**2)``. The force is back at zero where
-``tan(ω T) = -2 ζ ω0 ω/(ω**2 - ζ**2 ω0**2)``, that is ``ω T = 2 acos(ζ)``, and there ``ċ`` is
+``c = (v/ω) exp(-ζ ω0 t) sin(ω t)``, ``ω = ω0 sqrt(1 - ζ**2)``. The force is back at zero at T,
+where ``tan(ω T) = -2 ζ ω0 ω/(ω**2 - ζ**2 ω0**2)``, that is ``ω T = 2 acos(ζ)``, and there ``ċ`` is
 ``-v exp(-ζ ω0 T)``. So
 
 ``ω0 T = 2 acos(ζ)/sqrt(1 - ζ**2)``,  ``e = exp(-2 ζ acos(ζ)/sqrt(1 - ζ**2))``,
 
-which are analytic in ζ through the critical 1, where they are 2 and exp(-2), and go on with
-``acosh(ζ)/sqrt(ζ**2 - 1)``: an overdamped ball leaves, too, at ``(2 ζ)**-2`` for large ζ.
+which are analytic in ζ. At the critical damping ζ = 1 they are 2 and exp(-2). For ζ above 1,
+``acosh(ζ)/sqrt(ζ**2 - 1)`` replaces ``acos(ζ)/sqrt(1 - ζ**2)``: an overdamped ball rebounds as
+well, and e approaches ``(2 ζ)**-2`` for large ζ.
 
-Source: T. Schwager and T. Pöschel, Granular Matter 9, 465 (2007), with
-``acos(ζ)`` for their arcs of tangents.
+Source: T. Schwager and T. Pöschel, Granular Matter 9, 465 (2007), who write arctangents in place of
+``acos(ζ)``.
 """
 
 import math
@@ -30,11 +31,12 @@ __all__ = ["Dashpot", "damping_ratio", "duration", "restitution"]
 @register
 @dataclass(frozen=True)
 class Dashpot(ContactLaw):
-    """A linear spring and a dashpot side by side, which cannot pull.
+    """A linear spring and a dashpot in parallel (Kelvin-Voigt), which cannot pull.
 
-    ``F = max(0, k c + b ċ)`` while the compression c is above 0, else 0: Kelvin's and Voigt's
-    solid. The contact begins with a force b times the speed of the touch. It ends when the force is
-    back at zero, which is before the compression is; in between, k c**2/2 counts as stored.
+    This is the Kelvin-Voigt model, spring and dashpot in parallel, without tension:
+    ``F = max(0, k c + b ċ)`` while the compression c is above 0, else 0. The contact begins with
+    the force b times the closing speed. It ends when the force returns to zero, which is before the
+    compression does. Until then ``k c**2/2`` counts as stored energy.
 
     Parameters
     ----------
@@ -52,8 +54,8 @@ class Dashpot(ContactLaw):
 
     Notes
     -----
-    Source: Bartz, arXiv 2007.15005. A contact that were to end at c = 0 would pull, and have
-    another restitution.
+    Source: Bartz, arXiv 2007.15005. If the contact ended at c = 0 instead, the force would pull
+    before the end, and the restitution would be another one.
 
     Examples
     --------
@@ -61,7 +63,7 @@ class Dashpot(ContactLaw):
     Dashpot(stiffness=22500.0, damping=7.2)
     """
 
-    says = "A linear spring and a dashpot side by side, which cannot pull."
+    says = "A linear spring and a dashpot in parallel (Kelvin-Voigt), which cannot pull."
     formula = "F = max(0, stiffness c + damping c')"
     source = "Bartz, arXiv 2007.15005"
     form = "DASHPOT"
@@ -97,20 +99,20 @@ class Dashpot(ContactLaw):
 
     @property
     def linger(self) -> float:
-        """For how many s the balls stay compressed: the force ends at ``c = -b ċ/k``."""
+        """The time in s for which c stays above 0 after the force ends at ``c = -b ċ/k``."""
         return self.damping / self.stiffness
 
     @classmethod
     def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return a touch that begins with a jump of the force, and a linear release."""
+        """Return the flanks: the force jumps at the touch, and falls linearly at the release."""
         return Flank(0.01, 0.3, "jump"), Flank(1.0, 1.0)
 
     def series_constants(self) -> dict[str, float]:
-        """Return what two dashpots in series must have in common."""
+        """Return the quantities that two dashpots in series must have in common: also b/k."""
         return super().series_constants() | {"damping/stiffness": self.damping / self.stiffness}
 
     def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
-        """Return stiffness and damping of two in series: b/k stays."""
+        """Return stiffness and damping of two dashpots in series; b/k is that of each."""
         return {"stiffness": stiffness, "damping": stiffness * (self.damping / self.stiffness)}
 
 
@@ -118,7 +120,7 @@ _FAR = 2.0  # from here on 1 - x would lose digits
 
 
 def duration(zeta: float) -> float:
-    """Return ``ω0 T`` of the contact time T; 1/ω0 is C/v as well, see `elastic`.
+    """Return ``ω0 T``: the contact time T in units of ``1/ω0 = C/v``, see `elastic`.
 
     Parameters
     ----------
@@ -155,7 +157,7 @@ def restitution(zeta: float) -> float:
 
 
 def damping_ratio(restitution: float) -> float:
-    """Return ζ, 0 or above, at which e is `restitution`, from above 0 to 1.
+    """Return the damping ratio ζ, 0 or above, of a restitution e above 0 and up to 1.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""The base of the laws without loss: the force is a power of the compression, in and out."""
+"""The base of the lossless laws: the force is a power of the compression, loading and unloading."""
 
 from typing import TYPE_CHECKING, Self
 
@@ -20,7 +20,7 @@ class ElasticLaw(ContactLaw):
     rate_free = True
 
     def restitution_at(self, mass: float, speed: float) -> float:
-        """Return 1."""
+        """Return 1: the law is lossless."""
         return 1.0
 
     def duration_at(self, mass: float, speed: float) -> float:
@@ -38,7 +38,7 @@ class ElasticLaw(ContactLaw):
 
     @classmethod
     def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return the same power for touch and release."""
+        """Return the flanks: the same power of the time at touch and release."""
         either = Flank(exponent or 1.0, exponent or _STEEPEST_FLANK, exact=True)
         return either, either
 

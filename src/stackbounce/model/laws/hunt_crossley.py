@@ -4,13 +4,13 @@ With ``d = χ v`` and ``u = ċ/v``, ``m v**2 u du = -k c**p (1 + d u) dc`` gives
 
 ``k c**(p+1)/(p+1) = m v**2 M/d**2``,  ``M = d - d u - ln((1 + d)/(1 + d u))``,
 
-which is 0 again at ``u = -e``: ``d (1 + e) = ln((1 + d)/(1 - d e))``. Both sides are called q here,
-χ times the whole change of speed, so that
+which returns to 0 at ``u = -e``, so that ``d (1 + e) = ln((1 + d)/(1 - d e))``. Both sides are
+called q here: χ times the change of velocity in the collision. Then
 
 ``d = (q - 1 + exp(-q))/(1 - exp(-q))``,  ``e = (1 - (1 + q) exp(-q))/(q - 1 + exp(-q))``.
 
-Nothing is lost to round-off in these where d is tiny or huge, as long as
-``E(x) = (exp(x) - 1 - x)/x**2`` is computed well.
+These formulas keep full precision for tiny and for huge d, if ``E(x) = (exp(x) - 1 - x)/x**2`` is
+computed without cancellation.
 
 Source: K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975); D. W. Marhefka and
 D. E. Orin, IEEE Trans. Syst. Man Cybern. A 29, 566 (1999).
@@ -40,7 +40,7 @@ from stackbounce.model.laws.registry import register
 __all__ = ["LARGEST", "HuntCrossley", "dissipation", "duration", "restitution"]
 
 LARGEST = 1e300
-"""Of d, for all functions here."""
+"""The largest d that the functions of this module accept."""
 _SMALL = 1.0  # the size up to which E(x) is summed
 _FACTORS = tuple(1.0 / math.factorial(n) for n in range(2, 22))
 
@@ -48,11 +48,12 @@ _FACTORS = tuple(1.0 / math.factorial(n) for n in range(2, 22))
 @register
 @dataclass(frozen=True)
 class HuntCrossley(ContactLaw):
-    """A power law with a damping that grows as the force does.
+    """A power law with a damping force in proportion to the elastic force.
 
+    The damping force is proportional to the elastic force:
     ``F = max(0, k c**p (1 + χ ċ))`` while the compression c is above 0, else 0. A contact of two
-    bodies ends when force and compression are back at zero, since they part more slowly than 1/χ;
-    ``k c**(p + 1)/(p + 1)`` counts as stored.
+    bodies ends when force and compression are both back at zero, because they separate more slowly
+    than 1/χ. ``k c**(p + 1)/(p + 1)`` counts as stored energy.
 
     Parameters
     ----------
@@ -81,7 +82,7 @@ class HuntCrossley(ContactLaw):
     HuntCrossley(stiffness=3000000.0, exponent=1.5, dissipation=0.15)
     """
 
-    says = "A power law with a damping that grows as the force does."
+    says = "A power law with a damping force in proportion to the elastic force."
     formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
     source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
     form = "HUNT_CROSSLEY"
@@ -120,16 +121,16 @@ class HuntCrossley(ContactLaw):
 
     @classmethod
     def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return the flanks: a loss bends the release otherwise than by a power."""
+        """Return the flanks: a power at the touch, and roughly a power at the release."""
         return Flank(exponent or 1.0, exponent or 1.5, exact=True), Flank(1.0, 2.5)
 
     def series_constants(self) -> dict[str, float]:
-        """Return what two laws in series must have in common."""
+        """Return the quantities that two laws in series must have in common: also χ/k**(1/p)."""
         rate = self.dissipation / self.stiffness ** (1.0 / self.exponent)
         return super().series_constants() | {"dissipation/stiffness**(1/exponent)": rate}
 
     def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
-        """Return stiffness and dissipation of two in series: ``χ1 f``."""
+        """Return stiffness and dissipation of two laws in series; the latter is χ times `share`."""
         return {"stiffness": stiffness, "dissipation": self.dissipation * share}
 
 
@@ -145,12 +146,12 @@ def restitution(d: float) -> float:
 
 
 def dissipation(restitution: float) -> float:
-    """Return d at which e is `restitution`, from above 0 to 1.
+    """Return ``d = χ v`` of a restitution e above 0 and up to 1.
 
     Raises
     ------
     ArithmeticError
-        If it is out of the range of numbers.
+        If d is too large.
 
     Examples
     --------
@@ -183,7 +184,7 @@ def duration(d: float, p: float) -> float:
     Notes
     -----
     ``T = ∫ m dv/(k c**p (1 + χ v))`` is integrated over ``x = |ln((1 + d u)/(1 + d u0))|``, from
-    either end ``u0 = 1, -e`` of the contact to its turn u = 0, where x is X. There
+    either end ``u0 = 1, -e`` of the contact to the peak compression, u = 0, where x is X. There
     ``M = d |u0| x R`` with
 
     ``R = 1 - (1 + d) E(-x) x/d`` up to ``X = ln(1 + d)``, and
@@ -208,7 +209,10 @@ def duration(d: float, p: float) -> float:
 
 
 def _half(d: float, p: float, speed: float, span: float, rest: Callable[[float], float]) -> float:
-    """Return the time from one end of the contact to the turn: `speed` is |u0|, `span` X."""
+    """Return the time, in units of C/v, from one end of the contact to the peak compression.
+
+    `speed` is |u0|, `span` is X, and `rest` is R as a function of x; see `duration`.
+    """
     power = p / (p + 1.0)
     area = integral(lambda log_z: rest(span * math.exp((p + 1.0) * log_z)) ** -power)
     unit: float = 2.0 * (span / d) ** (1.0 - power) * (2.0 * speed) ** -power
@@ -247,5 +251,5 @@ def _restitution(q: float) -> float:
 
 
 def _change(d: float) -> float:
-    """Return q at a d above 0: e is at most 1, and at most 1/d."""
+    """Return q at a d above 0; it is at most 2 d and 1 + d, because e is at most 1 and 1/d."""
     return root(lambda q: _dissipation(q) - d, d, min(2.0 * d, 1.0 + d))

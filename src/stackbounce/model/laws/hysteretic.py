@@ -1,4 +1,4 @@
-"""A contact that loses energy by its history: its unloading curve lies below its loading curve."""
+"""A contact with hysteresis: its unloading curve lies below its loading curve."""
 
 import math
 from collections.abc import Mapping
@@ -29,15 +29,17 @@ _SOFTEST, _STEEPEST_FLANK = 6.0, 100.0  # exponents of a release that is not kno
 @register
 @dataclass(frozen=True)
 class Hysteretic(ContactLaw):
-    """A spring that gives back less than it took: a softer curve on the way out.
+    """A lossy spring with hysteresis: it unloads along another curve than it loads.
 
+    This is a spring with hysteresis: it unloads along another curve than it loads.
     Loading follows ``F = k c**p``; from the peak compression C it unloads along
-    ``F = k C**p (c/C)**n``. A contact compressed again before it has opened goes back up its
-    unloading curve to the old peak C and on along the loading curve, so that no cycle gains energy.
-    (Where `reloading` is lossy and it turns back at a lower peak, it unloads from there along a
-    steeper power law, at most 10 n, which gives back e**2 of the reloading's work.) The contact
-    ends when force and compression are zero, and the next one starts afresh. The work given back
-    over the work taken is ``e**2 = (p + 1)/(n + 1)``, whatever the speed.
+    ``F = k C**p (c/C)**n``. If the contact is compressed again before it has opened, and
+    `reloading` is free, it follows its unloading curve back to the old peak C, and then the loading
+    curve, so that no cycle gains energy. If `reloading` is lossy and the contact turns back below
+    the old peak, it unloads along a steeper power law, whose exponent is at most 10 n, and returns
+    e**2 of the work of reloading. The contact ends when force and compression are zero. The next
+    contact has no memory of it. Unloading returns the fraction ``e**2 = (p + 1)/(n + 1)`` of the
+    work of loading, at any speed.
 
     Parameters
     ----------
@@ -52,9 +54,9 @@ class Hysteretic(ContactLaw):
         other is derived, and both can be read. Both can be given where they agree exactly, so that
         `dataclasses.replace` can change the rest; to change one of them, set the other to None.
     reloading : str, optional
-        What it costs to be compressed again before the contact has opened: ``"free"``, nothing up
-        to the old peak, or ``"lossy"``, the same share of the work as the first time. Nature's rule
-        is not known; the second is here to show what the choice changes.
+        The energy lost when the contact is compressed again before it has opened: ``"free"``, none
+        up to the old peak, or ``"lossy"``, the same fraction of the work as in the first loading.
+        The behaviour of real balls is not known; ``"lossy"`` shows what difference the rule makes.
 
     Raises
     ------
@@ -77,7 +79,7 @@ class Hysteretic(ContactLaw):
     7.0
     """
 
-    says = "A spring that gives back less than it took: a softer curve on the way out."
+    says = "A lossy spring with hysteresis: it unloads along another curve than it loads."
     formula = (
         "F = stiffness c**exponent; from the peak C on, "
         "F = stiffness C**exponent (c/C)**unloading_exponent"
@@ -122,18 +124,18 @@ class Hysteretic(ContactLaw):
         )
 
     def derived_field(self) -> str:
-        """Return the one of restitution and unloading exponent that was not given."""
+        """Return the name of the derived field: ``restitution`` or ``unloading_exponent``."""
         return self.derived
 
     def replaced(self, changes: Mapping[str, Any]) -> Self:
-        """Return the law with other numbers; restitution or unloading exponent is derived anew."""
+        """Return a copy with changed fields; the derived field is computed again."""
         given = [name for name in _ONE_OF if name in changes]
         given = given or [name for name in _ONE_OF if name != self.derived]
         others = {_OTHER[name]: None for name in given if _OTHER[name] not in changes}
         return super().replaced({**others, **changes})
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return the law as plain values, without what follows from them."""
+        """Return the law as plain values, without the derived field and the default `reloading`."""
         plain = super().to_mapping()
         del plain[self.derived]
         if self.reloading == "free":
@@ -175,7 +177,7 @@ class Hysteretic(ContactLaw):
 
     @classmethod
     def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return the flanks: the release is never harder than the touch."""
+        """Return the flanks: the exponent of the release is at least that of the touch."""
         touch = Flank(exponent or 1.0, exponent or 1.5, exact=True)
         if law is None:
             least = exponent or 1.0
@@ -184,7 +186,7 @@ class Hysteretic(ContactLaw):
         return touch, Flank(n, n)
 
     def series_constants(self) -> dict[str, Any]:
-        """Return what two laws in series must have in common."""
+        """Return what two laws in series must have in common: all but the stiffness."""
         names = ("exponent", "unloading_exponent", "reloading")
         return {name: getattr(self, name) for name in names}
 
@@ -193,10 +195,10 @@ class Hysteretic(ContactLaw):
         return self
 
     def pressed_on(self, other: "Hysteretic") -> "Hysteretic":
-        """Return a law that gives back as much energy as this one and another one in series.
+        """Return the law with the loading curve and the energy loss of this and another in series.
 
-        Both have one exponent and one rule for reloading. The part f of the compression that this
-        law takes is its part of the work, too, so that ``e**2 = f e_a**2 + (1 - f) e_b**2``.
+        Both must have the same exponent and the same `reloading`. This law takes the fraction f of
+        the compression, and therefore of the work: ``e**2 = f e_a**2 + (1 - f) e_b**2``.
         """
         p = self.exponent
         soft_a, soft_b = self.stiffness ** (-1.0 / p), other.stiffness ** (-1.0 / p)
@@ -214,7 +216,7 @@ _RELOADINGS = ("free", "lossy")
 
 
 def _losses(p: float, restitution: object, unloading: object) -> tuple[float, float, str]:
-    """Return e, n and which of the two is derived: ``e**2 = (p + 1)/(n + 1)``, section V."""
+    """Return e, n and the name of the derived one: ``e**2 = (p + 1)/(n + 1)``, section V."""
     e = None if restitution is None else fraction("restitution", restitution, zero=False)
     n = None if unloading is None else between("unloading_exponent", unloading, p, STEEPEST)
     if e is not None:

@@ -1,4 +1,4 @@
-"""What the rest of the package asks of a contact law, with the usual answers."""
+"""The base class of contact laws: the interface that the package uses, and its defaults."""
 
 import functools
 from collections.abc import Callable, Mapping
@@ -34,26 +34,27 @@ __all__ = [
 ]
 
 STEEPEST = 1e6
-"""The largest exponent of a loading or unloading curve; beyond it a curve is a step."""
+"""The largest exponent of a loading or unloading curve; above it the curve is almost a step."""
 
 Given: TypeAlias = Mapping[str, float]
-"""What was measured of a collision, by the names of the arguments of `calibrate`."""
+"""The measured quantities of a collision, by the names of the arguments of `calibrate`."""
 
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
 class Quantity(Unit):
-    """The unit of a law's number, how the number is checked, and its slider on the page.
+    """A parameter of a contact law: its unit, its validation, and its slider in the web explorer.
 
     Parameters
     ----------
     symbol : str
         The SI unit, as of `Unit`.
     check : callable
-        From the name and the value to the value as a float; raises if it is out of range.
+        A function of the name and the value that returns the value as a float, and raises if it is
+        out of range.
     slider : tuple of float
-        The value that the page begins with, and the ends of its range.
+        The initial value, the smallest and the largest value of the slider.
     """
 
     check: Callable[[str, object], float] = positive
@@ -61,21 +62,21 @@ class Quantity(Unit):
 
 
 def stiffness_in(unit: str) -> Quantity:
-    """Return the description of a stiffness in N/m, or in N/m to another exponent."""
+    """Return the `Quantity` of a stiffness in ``unit``: N/m, or N/m**p of a power law."""
     slider = (5e3, 1e2, 1e6) if unit == "N/m" else (2e5, 1e3, 1e10)
     return Quantity(unit, lambda name, value: positive(name, value, unit), slider)
 
 
 EXPONENT = Quantity("", lambda name, value: between(name, value, 1.0, STEEPEST), (1.5, 1.0, 4.0))
-"""The description of the exponent of a loading curve."""
+"""The `Quantity` of the exponent of a loading curve."""
 
 
 class Flank(NamedTuple):
-    """What the rise or the fall of a contact's force over time can be.
+    """The shape of a flank, the rise or the fall of the force with time, under a contact law.
 
-    `kind` is a lead of `stackbounce.measure.kinds.waveform.shapes`; its unknown lies between
-    `least` and `most`. `exact` tells that the law leaves little else: a power law without a loss
-    by the rate.
+    `kind` names the leading term, one of those in `stackbounce.measure.kinds.waveform.shapes`. Its
+    free parameter, such as the exponent of a power, lies between `least` and `most`. `exact` is
+    True if corrections to the leading term are small: for a power law without rate-dependent loss.
     """
 
     least: float
@@ -85,41 +86,41 @@ class Flank(NamedTuple):
 
 
 Flanks: TypeAlias = tuple[Flank, Flank]
-"""Touch and release."""
+"""The flanks at the touch and at the release."""
 
 
 class ContactLaw:
-    """The base of all contact laws: a law answers here whatever the package asks of it.
+    """The base class of all contact laws: the attributes and methods that the package uses.
 
-    A law is a frozen dataclass whose numbers are annotated with a `Quantity`. It sets `says`,
-    `formula`, `source` and `form`, overrides what differs from the answers below, and registers
-    itself by `stackbounce.model.laws.registry.register`.
+    A law is a frozen dataclass; the hint of each parameter holds a `Quantity`. The class must set
+    `says`, `formula`, `source` and `form`. It overrides the defaults that do not apply to it, and
+    is decorated with `stackbounce.model.laws.registry.register`.
     """
 
     says: ClassVar[str]
-    """What the law is, in one line for people."""
+    """A description of the law in one line, for users."""
     formula: ClassVar[str]
-    """The force at a compression c with the rate c', as plain text."""
+    """The formula of the force in terms of the compression c and its rate c', as plain text."""
     source: ClassVar[str]
     """Where it was published."""
     form: ClassVar[str]
     """The name of the form of the force, see `stackbounce.engine.forces`."""
     law_parameter: ClassVar[str] = ""
-    """The field that is the last of the engine's numbers of a contact."""
+    """The field that the engine takes as the law parameter, such as the damping."""
     rigid: ClassVar[bool] = False
-    """Whether a collision takes no time."""
+    """Whether collisions are instantaneous."""
     exact: ClassVar[bool] = False
     """Whether the motion is solved in closed form, so that a run is fast."""
     rate_free: ClassVar[bool] = False
     """Whether the force depends on the compression and its history alone, not on its rate."""
     loss: ClassVar[str] = ""
-    """The field that tells the loss of energy; empty for a law without loss."""
+    """The field that describes the energy loss; empty for a lossless law."""
     loss_depends_on: ClassVar[tuple[str, ...]] = ()
-    """What the restitution depends on besides the law: ``mass``, ``speed`` or both."""
+    """The quantities that the restitution depends on besides the law: ``mass``, ``speed``."""
     usual_exponent: ClassVar[float | None] = None
-    """The exponent that `calibrate` takes by default where the law leaves it open."""
+    """The default exponent in `calibrate`, for a law with a free exponent."""
     usual_models: ClassVar[Mapping[str, Mapping[str, float]]] = {}
-    """The models of this law in `standard_models`: name -> what else `calibrate` is given."""
+    """The models with this law in `standard_models`: name -> extra arguments of `calibrate`."""
 
     if TYPE_CHECKING:  # fields differ from law to law
 
@@ -133,35 +134,35 @@ class ContactLaw:
 
     @classmethod
     def quantities(cls) -> Mapping[str, Quantity]:
-        """Return the law's numbers by the names of their fields."""
+        """Return the `Quantity` of each parameter of the law, by field."""
         kind: Any = cls
         return _quantities(kind)
 
     @classmethod
     def fixed_exponent(cls) -> float | None:
-        """Return the exponent of the loading curve if it is the same for all laws of the class."""
+        """Return the exponent of the loading curve if the class fixes it; None if it is a field."""
         own = None if "exponent" in cls.quantities() else getattr(cls, "exponent", None)
         return None if own is None else float(own)
 
     @classmethod
     def default_exponent(cls) -> float | None:
-        """Return the exponent of the loading curve unless another one is given."""
+        """Return the default exponent of the loading curve; None if there is none."""
         fixed = cls.fixed_exponent()
         return cls.usual_exponent if fixed is None else fixed
 
     def units(self) -> dict[str, str]:
-        """Return the SI units of the law's numbers, with the value of the exponent in them."""
+        """Return the SI unit of each parameter, such as ``N/m**1.5`` for an exponent of 1.5."""
         exponent = getattr(self, "exponent", 1.0)
         power = "" if exponent == 1.0 else f"**{exponent:g}"
         found = self.quantities().items()
         return {name: one.symbol.replace("**exponent", power) for name, one in found}
 
     def derived_field(self) -> str:
-        """Return the field that follows from another one; empty for most laws."""
+        """Return the name of the field that is computed from another one; empty for most laws."""
         return ""
 
     def replaced(self, changes: Mapping[str, Any]) -> Self:
-        """Return the law with other numbers; a field that follows from a changed one follows."""
+        """Return a copy of the law with changed fields; a derived field is computed again."""
         law: Any = self
         return replace(law, **changes)  # type: ignore[no-any-return]
 
@@ -172,7 +173,7 @@ class ContactLaw:
         return {"law": type(self).__name__} | given
 
     def described(self) -> str:
-        """Return the law in words: its name and its numbers.
+        """Return a description of the law for users: its name, and its parameters with units.
 
         Examples
         --------
@@ -193,12 +194,12 @@ class ContactLaw:
     # what the engine is given
 
     def engine_numbers(self, varied: Mapping[str, Any] = _NOTHING) -> tuple[int, Any, Any, Any]:
-        """Return what the engine knows of a contact: form, stiffness, exponent and one more number.
+        """Return the engine's description of a contact: form, stiffness, exponent, law parameter.
 
         Parameters
         ----------
         varied : mapping of str to ndarray, optional
-            Fields that have other values, one for each of many drops.
+            Fields that vary, with one value for each of many drops.
         """
         known = {"stiffness": 1.0, "exponent": 1.0, "": 0.0}
         numbers = [
@@ -211,11 +212,11 @@ class ContactLaw:
 
     @property
     def contact_time_depends_on(self) -> tuple[str, ...]:
-        """What the contact time depends on besides the law: ``mass``, ``speed`` or both."""
+        """The quantities that the contact time depends on besides the law: ``mass``, ``speed``."""
         return ("mass", "speed") if self._needs_speed(self.exponent) else ("mass",)
 
     def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution of a mass in kg at a speed in m/s; by a run unless overridden."""
+        """Return the restitution of a mass in kg at a speed in m/s; by default by a simulation."""
         from stackbounce.engine.one_ball import bounce
 
         return bounce(self.engine_numbers(), mass, speed)[0]
@@ -226,7 +227,7 @@ class ContactLaw:
         return unit * self.duration_at(mass, speed)
 
     def duration_at(self, mass: float, speed: float) -> float:
-        """Return the contact time in units of C/v, see `elastic`; by a run unless overridden."""
+        """Return the contact time in units of C/v, see `elastic`, by default from a simulation."""
         from stackbounce.engine.one_ball import bounce
 
         time = bounce(self.engine_numbers(), mass, speed)[1]
@@ -234,7 +235,7 @@ class ContactLaw:
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
-        """Return what `calibrate` must be given, by the names of its arguments."""
+        """Return the names of the arguments that `calibrate` needs for this law."""
         usual = cls.default_exponent()
         p = usual if exponent is None else exponent
         loss = ["restitution"] if cls.loss else []
@@ -248,7 +249,7 @@ class ContactLaw:
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:
-        """Return the law that has what was measured; all that is needed is given.
+        """Return the law that reproduces measured quantities; ``given`` holds all that are needed.
 
         Raises
         ------
@@ -261,44 +262,44 @@ class ContactLaw:
 
     @property
     def linger(self) -> float:
-        """For how many s balls that fly apart at a steady rate stay compressed without a force."""
+        """The time in s between the end of the force and c = 0, if the balls separate steadily."""
         return 0.0
 
     # force records
 
     @classmethod
     def flanks(cls, exponent: float | None, law: "ContactLaw | None" = None) -> Flanks | None:
-        """Return what touch and release of a force record can be; None if nothing is known.
+        """Return the possible shapes of the flanks of a force record; None if nothing is known.
 
         Parameters
         ----------
         exponent : float or None
-            Of the loading curve, if it is known.
+            The exponent of the loading curve, if it is known.
         law : ContactLaw, optional
-            The law itself, if it is known.
+            The law with its parameters, if they are known.
         """
         return None
 
     # two contacts in series
 
     def series_constants(self) -> dict[str, Any]:
-        """Return what two laws must have in common so that both in series are of their class."""
+        """Return the quantities that two laws in series must have in common, by name."""
         return {"exponent": self.exponent}
 
     def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
-        """Return those numbers of two laws in series that differ from this one's.
+        """Return the fields of two laws in series that differ from those of this law.
 
         Parameters
         ----------
         stiffness : float
-            Of both in series.
+            The stiffness of both in series.
         share : float
-            The part of the compression that this law takes.
+            The fraction of the compression that this law takes.
         """
         return {"stiffness": stiffness}
 
     def as_hysteretic(self) -> "ContactLaw | None":
-        """Return the law as a `Hysteretic` one with the same force; None where there is none."""
+        """Return the `Hysteretic` law with the same force; None if there is none."""
         return None
 
 
@@ -319,7 +320,7 @@ def form_code(name: str) -> int:
 def contact_numbers(
     law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING
 ) -> tuple[int, Any, Any, Any]:
-    """Return what the engine knows of a contact, see `ContactLaw.engine_numbers`; None: no floor.
+    """Return a contact as the engine takes it, see `ContactLaw.engine_numbers`; None is no floor.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""All contact laws by name; each registers itself."""
+"""The registry of contact laws: each class adds itself by the decorator `register`."""
 
 from typing import TypeVar
 
@@ -10,11 +10,11 @@ __all__ = ["LAWS", "law_named", "register", "usual_laws"]
 _Law = TypeVar("_Law", bound=ContactLaw)
 
 LAWS: dict[str, type[ContactLaw]] = {}
-"""The classes of all laws by their names, in the order in which people are shown them."""
+"""The classes of all laws by their names, in the order of tables and menus."""
 
 
 def usual_laws() -> list[str]:
-    """Return the names of the laws whose models are compared as the usual ones."""
+    """Return the names of the laws that `standard_models` compares."""
     return [name for name, law in LAWS.items() if law.rigid or law.usual_models]
 
 
@@ -27,7 +27,7 @@ def register(law: type[_Law]) -> type[_Law]:
     Raises
     ------
     TypeError
-        If the class does not say what every law has to say, or another law has its name.
+        If the class lacks `says`, `formula`, `source` or `form`, or another law has its name.
     """
     missing = [name for name in ("says", "formula", "source", "form") if not hasattr(law, name)]
     if missing:

@@ -1,4 +1,4 @@
-"""A contact that takes no time."""
+"""The rigid contact: instantaneous collisions."""
 
 from dataclasses import dataclass
 from typing import Annotated, Self
@@ -15,7 +15,7 @@ __all__ = ["Rigid"]
 class Rigid(ContactLaw):
     """An instantaneous collision with Newton's restitution.
 
-    The two balls part at the restitution times the speed at which they met,
+    The relative speed after the collision is e times that before it,
     ``v_upper' - v_lower' = -e (v_upper - v_lower)``, and momentum is conserved; at the floor
     ``v' = -e v``.
 
@@ -54,7 +54,7 @@ class Rigid(ContactLaw):
 
     @property
     def contact_time_depends_on(self) -> tuple[str, ...]:
-        """Nothing."""
+        """Nothing: the contact time is always 0."""
         return ()
 
     def restitution_at(self, mass: float, speed: float) -> float:
@@ -67,7 +67,7 @@ class Rigid(ContactLaw):
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
-        """Return the one number that is needed."""
+        """Return the name of the only argument that `calibrate` needs."""
         return ["restitution"]
 
     @classmethod

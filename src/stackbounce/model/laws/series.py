@@ -13,15 +13,15 @@ _AGREE = 1e-12  # numbers that agree so well differ by round-off
 
 
 def series(law_a: _Law, law_b: _Law) -> _Law:
-    """Return the one law of two contacts in series: the same force, compressions that add up.
+    """Return the law of two contacts in series: equal forces, and compressions that add up.
 
-    The contacts of two balls with the floor, in series, make that of the balls with each other.
+    The contact between two balls is the contact of each with the floor, in series.
 
     Parameters
     ----------
     law_a, law_b : ContactLaw
-        Two laws of one class and one exponent, not `Rigid`. Those with losses must share the
-        compression in the same ratio at any rate: see the notes.
+        Two laws of the same class and exponent, not `Rigid`. For lossy laws, the ratio of the two
+        compressions must not depend on the rate: see the notes.
 
     Returns
     -------
@@ -31,18 +31,18 @@ def series(law_a: _Law, law_b: _Law) -> _Law:
     Raises
     ------
     InvalidValue
-        If the two in series are no contact of their class.
+        If the two in series are not equivalent to one law of their class.
     InvalidType
         If one of them is no contact law.
 
     Notes
     -----
-    Without a mass in between ``F1(c1) = F2(c2)`` and ``c = c1 + c2``. The force is of the same form
-    as both exactly where ``c1 = f c`` at all times, with
+    Without a mass in between, ``F1(c1) = F2(c2)`` and ``c = c1 + c2``. The law of both is of the
+    same class if, and only if, ``c1 = f c`` at all times, with
     ``f = k1**(-1/p) / (k1**(-1/p) + k2**(-1/p))``. This holds for springs and power laws; for
     `Dashpot` if b/k is the same; for `Viscoelastic` if A is the same (its force is ``k (s + A ṡ)``
     with ``s = c**1.5``); for `HuntCrossley` if ``χ1 f = χ2 (1 - f)``, which then is the χ of both
-    in series; for `Hysteretic` if restitution and rule for reloading are the same.
+    in series; for `Hysteretic` if `restitution` and `reloading` are the same.
 
     Springs: R. Cross, Am. J. Phys. 75, 1009 (2007), section V.
 

@@ -1,10 +1,12 @@
-"""The contact of viscoelastic spheres; one ball on it follows from one number, by a run.
+"""The contact of viscoelastic spheres, and one ball on it, which has one dimensionless parameter.
 
 In units of ``L = (m v**2/k)**(2/5)`` and L/v the motion is ``x'' = -(x**1.5 + v*² sqrt(x) x')``
 with ``v*² = 1.5 A (k/m)**(2/5) v**(1/5)``.
 
-Source: P. Müller and T. Pöschel, Phys. Rev. E 84, 021302 (2011), whose contact ends, too, when the
-force is back at zero.
+The restitution is a function of v*² alone, computed by a simulation.
+
+Source: P. Müller and T. Pöschel, Phys. Rev. E 84, 021302 (2011). As here, their contact ends when
+the force is back at zero.
 """
 
 import functools
@@ -21,7 +23,7 @@ from stackbounce.model.laws.registry import register
 __all__ = ["Viscoelastic", "duration", "restitution", "squared_speed"]
 
 _WEAK = 1e-5
-"""Up to this v*² the loss is its power series, of which a run's round-off would leave little."""
+"""Up to this v*² the loss is computed by its power series: a simulation has too much round-off."""
 
 _LOSS = 0.8 * 1.25**0.6 * math.gamma(0.6) * math.gamma(1.5) / math.gamma(2.1)
 """What the motion without loss, x'² = 1 - 0.8 x**2.5, dissipates per v*²: the integral of
@@ -34,8 +36,8 @@ class Viscoelastic(ContactLaw):
     """The contact of two viscoelastic spheres, or of one and a flat floor.
 
     ``F = max(0, k (c**1.5 + 1.5 A sqrt(c) ċ))`` while the compression c is above 0, else 0. The
-    contact ends when the force is back at zero, which is before the compression is; in between,
-    k c**2.5/2.5 counts as stored.
+    contact ends when the force is back at zero, which is before the compression is. Until then,
+    ``k c**2.5/2.5`` counts as stored energy.
 
     Parameters
     ----------
@@ -104,16 +106,16 @@ class Viscoelastic(ContactLaw):
 
     @property
     def linger(self) -> float:
-        """For how many s the balls stay compressed: the force ends at ``c = -1.5 A ċ``."""
+        """The time in s for which c stays above 0 after the force ends at ``c = -1.5 A ċ``."""
         return 1.5 * self.dissipative_time
 
     @classmethod
     def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
-        """Return a touch as the root of the time, and a release that begins to fade."""
+        """Return the flanks: ``root`` at the touch and ``fade`` at the release; see `Flank`."""
         return Flank(0.01, 0.3, "root"), Flank(0.01, 0.3, "fade")
 
     def series_constants(self) -> dict[str, float]:
-        """Return what two laws in series must have in common."""
+        """Return the quantities that two laws in series must have in common: also A."""
         return super().series_constants() | {"dissipative_time": self.dissipative_time}
 
 

@@ -1,1 +1,1 @@
-"""Pictures of measurements: a file for each kind."""
+"""Plots of measurements: a module for each kind of measurement."""

@@ -1,4 +1,4 @@
-"""Picture of an accelerometer's record: flights, and what each bounce keeps."""
+"""The plot of an accelerometer's record: its flights, and the restitution of each bounce."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -20,9 +20,9 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     Parameters
     ----------
     data : object
-        What was measured; the record that was used is in what was found.
+        Not used: the result contains the record.
     found : Accelerometer
-        What was found in it.
+        The result of the analysis.
 
     Returns
     -------

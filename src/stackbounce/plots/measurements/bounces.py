@@ -1,4 +1,4 @@
-"""Picture of restitution against impact speed, bounce by bounce."""
+"""The plot of the restitution of each bounce against its impact speed."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -16,14 +16,14 @@ _FIRST_NUMBERS = 6  # further ones would be written on each other
 
 
 def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
-    """Draw the restitution of each bounce against its impact speed, and the laws of its fall.
+    """Draw the restitution of each bounce against its impact speed, with the fitted laws e(v).
 
     Parameters
     ----------
     data : object
-        What was measured; the picture needs only what was found.
+        Not used.
     found : Bounces
-        What was found in it.
+        The result of the analysis.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Picture of the floor's force under two balls beside that under the lower one alone."""
+"""The plot of the floor force under two balls, and under the lower ball alone."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -13,14 +13,14 @@ __all__ = ["draw"]
 
 
 def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
-    """Draw both forces, below them their difference, and when the second ball came.
+    """Draw both forces, below them their difference, and the time of the second ball's touch.
 
     Parameters
     ----------
     data : object
-        The stack's record; the picture needs only what was found.
+        Not used.
     found : FloorGap
-        What was found in it.
+        The result of the analysis.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Picture of bounce heights, and of the restitution that joins them."""
+"""The plot of bounce heights, with those of a constant restitution."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -13,14 +13,14 @@ __all__ = ["draw"]
 
 
 def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
-    """Draw each height of the ball's lowest point, and those that the mean restitution gives.
+    """Draw the measured heights of the ball's lowest point, and those at the mean restitution.
 
     Parameters
     ----------
     data : object
-        What was measured; the picture needs only what was found.
+        Not used.
     found : Heights
-        What was found in it.
+        The result of the analysis.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Picture of a result that has none of its own: its numbers, with errors, as a table."""
+"""The plot of a result without a plot of its own: a table of its numbers with errors."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -18,9 +18,9 @@ def draw(data: Any, found: Any) -> "Figure":
     Parameters
     ----------
     data : xarray.Dataset or None
-        What was measured; the name of its file is written above the table.
+        The measured data; the name of its file is written above the table.
     found : Finding
-        What was found in it.
+        The result of the analysis.
 
     Returns
     -------

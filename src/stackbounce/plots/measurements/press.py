@@ -1,4 +1,4 @@
-"""Pictures of a press curve: what was measured, what was found in it."""
+"""The plot of a press curve (force against compression) and of the fits to it."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -17,14 +17,14 @@ _MANY = 1500  # points of a branch that are drawn, about
 
 
 def draw(data: Any, found: Any) -> "Figure":
-    """Draw a press curve with its fits, the loop between them, and below what the fits leave over.
+    """Draw a press curve with the fits of its branches, the hysteresis loop, and the residuals.
 
     Parameters
     ----------
     data : xarray.Dataset or None
-        What was measured; its `source` is named above the picture.
+        The measured data; the name of its file is in the title.
     found : Press
-        What `stackbounce.measure.kinds.press` found in it.
+        The result of the analysis.
 
     Returns
     -------
@@ -72,7 +72,7 @@ def _limits(found: Any) -> tuple[float, float]:
 
 
 def _draw_record(axes: "Axes", found: Any) -> None:
-    """Draw the other cycles in grey."""
+    """Draw the cycles that were not fitted, in grey."""
     if found.cycles < 2:
         return
     x, y = found.record
@@ -81,7 +81,7 @@ def _draw_record(axes: "Axes", found: Any) -> None:
 
 
 def _draw_branches(axes: "Axes", found: Any) -> None:
-    """Draw points and fits of both branches, and shade what lies between the fits."""
+    """Draw points and fits of both branches, and shade the hysteresis loop between the fits."""
     for curve, color, way in _branches(found):
         x, y = 1e3 * curve.compression, curve.force
         some = slice(None, None, max(1, len(x) // _MANY))
@@ -118,7 +118,7 @@ def _shade(axes: "Axes", found: Any) -> None:
 
 
 def _draw_line(axes: "Axes", found: Any) -> None:
-    """Draw the straight line through the contact."""
+    """Draw the linear fit through the origin, whose slope is the linear stiffness."""
     if found.linear_stiffness is None:
         return
     end = float(found.peak_compression.nominal_value)
@@ -128,7 +128,7 @@ def _draw_line(axes: "Axes", found: Any) -> None:
 
 
 def _kilo(stiffness: float) -> str:
-    """Return a stiffness in a handy unit.
+    """Return a stiffness as text in a unit with a suitable prefix.
 
     Examples
     --------

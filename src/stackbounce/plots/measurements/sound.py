@@ -1,4 +1,4 @@
-"""Picture of a recording: the knocks that were found in it, and what was left out."""
+"""The plot of a sound recording, its detected knocks, and those that were rejected."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -25,9 +25,9 @@ def draw(data: Any, found: Any) -> "Figure":
     Parameters
     ----------
     data : Dataset or array_like
-        The recording, as `knocks` took it.
+        The recording, as given to `knocks`.
     found : Knocks
-        What was found in it.
+        The result of the analysis.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""Picture of a track: the points, the parabolas of its flights, and what they leave over."""
+"""The plot of a track: the points, the parabolas of the flights, and the residuals."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -21,9 +21,9 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     Parameters
     ----------
     data : object
-        What was measured; the points that were used are in what was found.
+        Not used: the result contains the points.
     found : Tracks
-        What was found in it.
+        The result of the analysis.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""A picture of what was found in a force record."""
+"""The plot of a force record, and of the contacts, flanks and peaks found in it."""
 
 from typing import TYPE_CHECKING, Any
 
@@ -26,15 +26,15 @@ def draw(data: Any, found: Any) -> "Figure":
     Parameters
     ----------
     data : xarray.Dataset or (array_like, array_like)
-        The record, as `waveform` took it; its name is written above the picture.
+        The record, as given to `waveform`; the name of its file is in the title.
     found : Waveform
-        What `waveform` found in it.
+        The result of the analysis.
 
     Returns
     -------
     matplotlib.figure.Figure
-        Not shown and not saved. The time axis holds the contacts and a little on both sides;
-        forces are as they were analysed: contacts upward, without baseline, droop put back.
+        Not shown and not saved. The time axis extends a little beyond the contacts. Forces are
+        drawn as analysed: contacts upward, baseline subtracted, sensor droop corrected.
 
     Examples
     --------
@@ -101,7 +101,7 @@ def _draw_panel(
 
 
 def _extent(found: Any, contacts: Any) -> tuple[float, float]:
-    """Return the times in s between which something is to be seen."""
+    """Return the range of the time axis in s: the contacts with a margin on both sides."""
     first, last = float(found.times[0]), float(found.times[-1])
     if not contacts:
         return first, last
@@ -113,7 +113,7 @@ def _extent(found: Any, contacts: Any) -> tuple[float, float]:
 
 
 def _draw_record(axes: "Axes", found: Any, low: float, high: float, factor: float) -> None:
-    """Draw the samples, as dots where they are few, or as the range that each bin covers."""
+    """Draw the samples: as dots if they are few, else as the range of values in each bin."""
     inside = (found.times >= low) & (found.times <= high)
     times, force = factor * found.times[inside], found.force[inside]
     axes.axhspan(
@@ -160,7 +160,7 @@ def _draw_contact(axes: "Axes", found: Any, contact: Any, factor: float, *, flan
 
 
 def _label_contacts(axes: "Axes", contacts: Any, factor: float, wide: float) -> None:
-    """Write each contact's time over it, in rows where they would meet."""
+    """Write the contact time above each contact, in several rows if the labels would overlap."""
     ends = [-np.inf, -np.inf]
     for contact in contacts:
         if contact.time is None:
@@ -185,7 +185,7 @@ def _label_contacts(axes: "Axes", contacts: Any, factor: float, wide: float) -> 
 
 
 def _title(axes: "Axes", data: Any, found: Any) -> None:
-    """Write how many contacts there are, and which file it is."""
+    """Write the title: the number of contacts, and the name of the file."""
     count = len(found.contacts)
     words = f"{count or 'no'} contact{'s' * (count != 1)}"
     source = getattr(data, "attrs", {}).get("source", "")
