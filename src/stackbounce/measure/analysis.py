@@ -32,6 +32,10 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
         Of the contact in a force waveform; touch and release then have smaller errors.
     exponent : float, optional
         Of the loading curve, where the law leaves it open.
+    height : float or ufloat, optional
+        From where the ball fell, in m: gives the restitution of the first bounce.
+    speed : float or ufloat, optional
+        Impact speed in m/s: calibrates the impulse of a force waveform.
     height_error : float, optional
         Of each height in a table, in m.
     repeated : bool, optional
@@ -39,10 +43,6 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
     measured_to : {"bottom", "centre", "top"} or a pair of them, optional
         The point of the ball at which `height` and a table's heights were read, and that a track
         follows; a pair has the point for the drop height first, then that for the bounces.
-    height : float or ufloat, optional
-        From where the ball fell, in m: gives the restitution of the first bounce.
-    speed : float or ufloat, optional
-        Impact speed in m/s: calibrates the impulse of a force waveform.
     floor : float, optional
         Level of the floor in a track of one ball, in m as tracked.
     alone : xarray.Dataset, optional
