@@ -14,6 +14,8 @@ from stackbounce.cross2007 import paper
 from stackbounce.cross2007.pages import typeset
 from stackbounce.errors import FileError
 
+pytestmark = pytest.mark.slow  # the whole report is written twice
+
 NAMES = "2a 2b 4a 4b 5 6 7 8 9 10a 10b 11a 11b 12 13".split()
 VOID = {"meta", "img", "input", "br", "hr", "link"}
 
@@ -80,7 +82,6 @@ def test_it_says_what_it_is_doing(folder, told):
     assert told[-1] == f"writing to {folder}"
 
 
-@pytest.mark.slow
 def test_another_process_writes_the_same_bytes(tmp_path, monkeypatch):
     less = (
         "paper.FIGURES = {name: paper.FIGURES[name] for name in ('6', '12')};"

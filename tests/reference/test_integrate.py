@@ -17,7 +17,10 @@ def solved(name):
         yield row, integrate(**case)
 
 
-@pytest.mark.parametrize("name", ["springs", "hysteretic", "laws"])
+SLOW = pytest.param("springs", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("name", [SLOW, "hysteretic", "laws"])
 def test_data_files(name):
     for row, found in solved(name):
         speed = max(map(abs, row["case"]["velocities"]))

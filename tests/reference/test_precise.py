@@ -73,7 +73,10 @@ def test_power_law(p):
         assert abs(interval.impulse - 2) < CLOSE
 
 
-@pytest.mark.parametrize("name", ["springs", "hysteretic"])
+SLOW = pytest.param("hysteretic", marks=pytest.mark.slow)
+
+
+@pytest.mark.parametrize("name", ["springs", SLOW])
 def test_other_references(name):
     rows = make_data.read(name)
     for row in rows[:: len(rows) // 10]:
