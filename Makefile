@@ -15,7 +15,7 @@ RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
 .DEFAULT_GOAL := help
-.PHONY: help venv paper app test coverage bench check lint types imports docs format fuzz constraints clean distclean
+.PHONY: help venv paper app test coverage bench check lint types imports docs format fuzz frozen constraints clean distclean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1|\2/p' $(MAKEFILE_LIST) | \
@@ -44,6 +44,9 @@ check: lint types imports docs  ## everything: lint, types, import rules, docume
 
 fuzz: $(DEV)  ## random drops in great number: make fuzz DROPS=1000000 SEED=1
 	@cd tests && ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
+
+frozen: $(DEV)  ## compare all answers with those that were kept in tests/frozen
+	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m frozen
 
 lint: $(DEV)  ## ruff's rules and formatting
 	@$(BIN)/ruff check

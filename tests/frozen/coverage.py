@@ -3,14 +3,8 @@
 The imports below are all that has to follow when modules move.
 """
 
-import sys
 from collections.abc import Callable, Iterable
 from typing import Any
-
-from frozen.lab import ROOT
-
-if str(ROOT) not in sys.path:
-    sys.path.insert(0, str(ROOT))
 
 from benchmarks.coverage import (
     accelerometer,

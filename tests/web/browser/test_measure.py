@@ -96,7 +96,9 @@ def test_a_file_that_is_none_is_told(visit, tmp_path, content, message):
     file = tmp_path / "mine.csv"
     file.write_bytes(content)
     page.locator(".file-drop input[type=file]").set_input_files(file)
-    page.locator("#measure .field-error").filter(has_text=message).wait_for()
+    told = page.locator("#measure .field-error").filter(has_text=message)
+    told.wait_for()
+    assert told.is_visible()
     visit.complaints.clear()  # Chromium logs the refusal, which is the point here
 
 
