@@ -29,7 +29,7 @@ app: $(RUNTIME)  ## open the explorer in the browser
 	@$(BIN)/stackbounce app
 
 test: $(DEV)  ## run the fast tests of every kind, in under four minutes on two cores
-	@$(PYTEST) -m 'not slow'
+	@$(PYTEST) -m 'not slow' --hypothesis-profile=quick
 
 coverage: $(DEV)  ## hold all error bars to their claim (make check: some of them); half an hour
 	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py

@@ -1,11 +1,28 @@
 """Settings shared by all tests."""
 
+import collections
+
 import matplotlib as mpl
+import pytest
 from hypothesis import settings
 
 mpl.use("Agg")
 
-# The same examples in every run; `pytest --hypothesis-profile=explore` looks for new ones.
+# The same examples in every run. `make test` takes a few of them; `pytest
+# --hypothesis-profile=explore` looks for new ones.
 settings.register_profile("steady", derandomize=True, deadline=None)
+settings.register_profile("quick", settings.get_profile("steady"), max_examples=15)
 settings.register_profile("explore", deadline=None, max_examples=2000)
 settings.load_profile("steady")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """Mark as slow what `fast_cases` says: the cases of a test after its first few."""
+    seen = collections.Counter()
+    for item in items:
+        mark = item.get_closest_marker("fast_cases")
+        if mark is not None:
+            seen[item.location[0], item.originalname] += 1
+            if seen[item.location[0], item.originalname] > mark.args[0]:
+                item.add_marker(pytest.mark.slow)

@@ -42,6 +42,7 @@ def test_same_seed_same_drops():
     assert random_drops.changes(2, seed=4) == random_drops.changes(2, seed=4)
 
 
+@pytest.mark.slow
 def test_counts_change_between_the_hard_drops(small):
     columns = set()
     for offset in random_drops.OFFSETS:
@@ -54,6 +55,7 @@ def test_counts_change_between_the_hard_drops(small):
     assert columns == {0, 1, 2}
 
 
+@pytest.mark.slow
 def test_the_truth_agrees_with_fifty_digits(small):
     check = race.check(small, quiet, sample=4, hard=2)
     assert check.drops == 4 + 2 * len(random_drops.OFFSETS)
@@ -61,6 +63,7 @@ def test_the_truth_agrees_with_fifty_digits(small):
     assert check.wrong == 0
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("peer", "tolerance"), [(by_scipy.PEER, 1e-8), (by_steps.PEER, 1e-5)], ids=["scipy", "steps"]
 )
@@ -74,6 +77,7 @@ def test_a_peer_is_right_on_easy_drops(peer, tolerance):
         assert count.tolist() == result.collisions.tolist()
 
 
+@pytest.mark.slow
 def test_a_missing_peer_is_skipped_with_a_word(small):
     assert not NONE.available()
     ours, steps, nobody = race.race(small, quiet, (race.OURS, by_steps.PEER, NONE), seconds=0.1)

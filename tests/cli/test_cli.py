@@ -137,6 +137,7 @@ def test_a_table_for_people(run):
     assert float(impulse) == pytest.approx(interval["impulse"], rel=1e-3)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     "arguments", [PAIR, ["balls"], ["simulate", "B1", "B2", "B3", "tennis"], ["simulate", "B1"]]
 )
@@ -433,7 +434,8 @@ def test_what_nobody_foresaw_is_one_line(run, monkeypatch, error, line):
     assert err.count("\n") == 1
 
 
-@pytest.mark.parametrize("speed", ["1e200", "1e308", "1e-200", "5e-324"])
+@pytest.mark.fast_cases(2)
+@pytest.mark.parametrize("speed", ["1e200", "1e-200", "1e308", "5e-324"])
 @pytest.mark.parametrize("form", [[], ["--json"]])
 def test_speeds_at_the_ends_of_the_range(run, speed, form):
     code, out, err = run("simulate", "B1", "B2", "--speed", speed, *form)
@@ -441,6 +443,7 @@ def test_speeds_at_the_ends_of_the_range(run, speed, form):
     assert "nan" not in out.lower()
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.skipif(os.name != "posix", reason="a shell closes the streams")
 @pytest.mark.parametrize(
     ("streams", "line"),

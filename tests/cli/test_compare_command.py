@@ -28,6 +28,7 @@ def test_what_varies_in_a_data_set_can_be_told(capsys):
     assert json.loads(out)["values"]["contacts.0.restitution"]["value"] > 0.8
 
 
+@pytest.mark.slow
 def test_the_usual_models_side_by_side(capsys, tmp_path):
     picture = tmp_path / "compared.svg"
     code, out, err = run(capsys, "cross2007/B1-B3", "--compare", "--plot", str(picture))

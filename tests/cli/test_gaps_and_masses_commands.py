@@ -114,6 +114,7 @@ def test_masses_for_machines_and_to_a_file(run):
     assert sb.Drop.from_toml("best.toml").balls[1].mass == found["best"]["masses"][1]
 
 
+@pytest.mark.slow
 def test_masses_tell_when_the_best_lies_beyond(run):
     words = ["B1", "B2", "B3", *RIGID, "--contact", "Rigid restitution=1", "--within", "40g:50g"]
     code, out, _ = run("masses", *words)

@@ -54,6 +54,7 @@ LAYOUTS = {
 }
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("name", LAYOUTS)
 def test_each_layout_is_read_and_analysed(run, name):
     code, out, err = run(name, "--json")

@@ -131,6 +131,7 @@ def test_no_hysteretic_floor_keeps_more_than_the_bound():
             assert left < bound_energy(key).printed + 1e-6
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "ten", "whole"),
     [
@@ -145,6 +146,7 @@ def test_models_with_nothing_fitted(compared, name, ten, whole):
     assert compared[name].chi_squared == pytest.approx(whole, abs=0.2)
 
 
+@pytest.mark.slow
 def test_where_the_loss_is(compared):
     """With two restitutions fitted, loss at the floor only stays far behind loss everywhere."""
     floor, everywhere = compared["A, fitted"], compared["S, fitted"]
@@ -170,6 +172,7 @@ def test_models_with_shared_numbers(name, whole, shared):
         assert found.best[number] == pytest.approx(value, abs=4e-3)
 
 
+@pytest.mark.slow
 def test_a_longer_fall_changes_what_comes(compared):
     """Table I's numbers hold for 20 cm, so that other falls of the pairs are no mere scale."""
     higher = replace(THEORIES["S"], height=0.24)
@@ -178,17 +181,20 @@ def test_a_longer_fall_changes_what_comes(compared):
     assert abs(whole - compared["S"].chi_squared) > 1.0
 
 
+@pytest.mark.slow
 def test_order_of_the_models(compared):
     order = [one.model for one in compared.comparison.scores]
     assert order == ["S", "S, fitted", "A, fitted", "A", "rigid, two", "X", "Hertz"]
 
 
+@pytest.mark.slow
 def test_what_s_misses(compared):
     missed = [(one.drop, one.name) for one in compared.worst("S")]
     assert missed == [("B1_on_B3", "rebound_ratios.1"), ("B1_on_B1", "rebound_ratios.1")]
     assert compared.within("S") == 7
 
 
+@pytest.mark.slow
 def test_the_minimum_is_one(compared):
     """From elsewhere, and with more trials, the search ends at the same gaps."""
     near = compared["S, fitted"]
@@ -214,6 +220,7 @@ def test_readings_and_laws_hang_together():
     assert chi(lossy, AS_HEIGHTS) > 60.0
 
 
+@pytest.mark.slow
 def test_one_minute_decides(compared):
     heights = np.array([inputs.HEIGHT])
     rebound = {
@@ -223,6 +230,7 @@ def test_one_minute_decides(compared):
     assert rebound == pytest.approx({"A": 0.1217, "S": 0.156}, abs=1e-4)
 
 
+@pytest.mark.slow
 def test_records_that_were_not_fitted(compared):
     three = simulate_at_delay(compared, "S", "B1_on_B2", 2e-3)
     assert float(three.first_touch[1]) == pytest.approx(2e-3, abs=1e-8)
@@ -240,6 +248,7 @@ def test_the_basketball_is_the_other_way_round():
         assert found["shared", p].ratios[1] < 1.36
 
 
+@pytest.mark.slow
 def test_section_five_again():
     b2, b3 = refit_section_v()
     assert b2.ratios == pytest.approx(b2.printed, abs=0.01)

@@ -54,6 +54,7 @@ def wave(speed=1.0, first=40, last=80):
     return pace, times, end, peak(times, end)[1]
 
 
+@pytest.mark.slow
 @finite
 def test_cradle_against_thirty_digits(law):
     contact = {"law": law, "stiffness": 1}
@@ -127,6 +128,7 @@ def test_solitary_wave_keeps_its_height():
     assert forces[4] > forces[60] * 1.005  # and it has to form first
 
 
+@pytest.mark.slow
 def test_solitary_wave_is_five_beads_wide():
     """How far it goes while a bead moves faster than a thousandth of its largest velocity.
 
@@ -148,6 +150,7 @@ def test_solitary_wave_goes_with_the_fifth_root_of_the_speed():
     assert np.diff(np.log(pace)) / np.diff(np.log(speeds)) == pytest.approx(0.2, abs=1e-5)
 
 
+@pytest.mark.slow
 def test_solitary_wave_against_nesterenko():
     """Within 1 % of the continuum: V = (16/25)^(1/5) (k/m)^(2/5) v_m^(1/5) beads per time.
 

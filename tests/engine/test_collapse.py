@@ -12,6 +12,7 @@ from reference import rigid as reference
 PRECISION = 1e-11
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("floor", "balls"), [(0.5, 0.5), (0.8, 0.8), (0.9, 0.9), (0.9, 0.3), (0.2, 0.95), (1.0, 0.5)]
 )
@@ -82,14 +83,15 @@ def test_collapse_is_decided_by_theory(floor, balls, side, gap):
         assert result.collisions.tolist() == precise(drop).counts()
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("masses", "restitutions", "gaps"),
     [
         ((1.0, 1.0, 1.0), (0.1, 0.1, 0.1), (0.0, 0.0)),
         ((1.0, 2.0, 4.0), (0.5, 0.5, 0.5), (0.0, 0.0)),
-        pytest.param((1.0, 2.0, 4.0), (0.3, 0.3, 0.3), (0.5, 0.5), marks=pytest.mark.slow),
+        ((1.0, 2.0, 4.0), (0.3, 0.3, 0.3), (0.5, 0.5)),
         ((1.0, 2.0, 2.0), (0.2, 0.6, 0.3), (0.5, 0.0)),
-        pytest.param((0.3, 5.0, 0.3), (0.2, 0.6, 0.3), (0.5, 0.5), marks=pytest.mark.slow),
+        ((0.3, 5.0, 0.3), (0.2, 0.6, 0.3), (0.5, 0.5)),
     ],
 )
 def test_collapse_of_three_balls(masses, restitutions, gaps):
@@ -102,6 +104,7 @@ def test_collapse_of_three_balls(masses, restitutions, gaps):
     assert 0.0 <= result.energy_retained < 1.0
 
 
+@pytest.mark.slow
 def test_collapse_in_the_middle_of_three_balls_without_a_floor():
     """Equal balls, e < 7 - 4 sqrt(3) = 0.0718 (McNamara and Young 1992): they end up together."""
     drop = rigid([1.0] * 3, [None, 0.05, 0.05], [1.0, 1.0], [1.0, 0.25, -1.0])

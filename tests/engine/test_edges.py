@@ -113,11 +113,12 @@ def verges(family, parameters):
             yield low, high
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("masses", "stiffness"),
     [
         ((1.0, 6.0), 0.2),
-        pytest.param((1.0, 20.0), 3.0, marks=pytest.mark.slow),
+        ((1.0, 20.0), 3.0),
         ((1.0, 2.0), 0.05),
         ((3.0, 1.0), 8.0),
     ],
@@ -231,6 +232,7 @@ def every_law(stiffness):
 LAWS = sorted(every_law(1.0))
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("masses", [(1.0, 1e-6), (1e-6, 1.0), (1.0, 1e-4, 1.0), (1.0, 1e6, 1.0)])
 def test_masses_of_many_orders(name, masses):
@@ -242,10 +244,8 @@ def test_masses_of_many_orders(name, masses):
     assert 0.0 < result.energy_retained <= 1.0 + 1e-7
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["Hertz", *(pytest.param(name, marks=pytest.mark.slow) for name in ("Spring", "PowerLaw"))],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["Hertz", "Spring", "PowerLaw"])
 def test_a_mass_of_twelve_orders_on_a_light_one(name):
     """The light ball below is only felt as a part of the floor, or the limit is met and said."""
     light = sb.Drop([sb.Ball(1.0), sb.Ball(1e-12)], [every_law(1.0)[name]] * 2, impact_speed=1.0)
@@ -262,6 +262,7 @@ def test_a_mass_of_twelve_orders_on_a_light_one(name):
     assert half.energy.item() == pytest.approx(0.5, rel=1e-9)
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("name", LAWS)
 @pytest.mark.parametrize("power", [-8, 8])
 def test_stiffnesses_of_many_orders(name, power):

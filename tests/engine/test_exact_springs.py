@@ -17,6 +17,7 @@ ENERGY = 1e-12
 ROWS = make_data.read("springs")
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("row", ROWS, ids=range(len(ROWS)))
 def test_reference(row):
     drop = drop_of(row["case"])

@@ -88,6 +88,7 @@ def test_energy_is_conserved(name):
         assert result.energy_retained == pytest.approx(1.0, abs=1e-11)
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("name", LAWS)
 def test_two_balls_agree_with_an_adaptive_method(name):
     law, masses = LAWS[name], np.array([MASS, 0.03])

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import stackbounce as sb
@@ -126,7 +126,6 @@ def test_several_cycles_in_one_interval_follow_the_rule():
     assert seen >= 5
 
 
-@settings(max_examples=60)
 @given(
     mass=st.floats(-1, 1.5).map(lambda x: 10**x),
     stiffness=st.floats(-1, 1).map(lambda x: 10**x),

@@ -5,7 +5,7 @@ from dataclasses import fields
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import stackbounce as sb
@@ -92,7 +92,6 @@ def assert_identical(one, other, *, time=1.0, speed=1.0, force=1.0, length=1.0, 
         assert (one.intervals[name] * factor).tolist() == other.intervals[name].tolist()
 
 
-@settings(max_examples=60)
 @given(drops(EVERY))
 def test_momentum(drop):
     """The change of every ball's momentum is the impulse from below less the one from above."""
@@ -108,7 +107,6 @@ def test_momentum(drop):
     assert (result.intervals["impulse"] > 0.0).all()
 
 
-@settings(max_examples=60)
 @given(drops(EVERY))
 def test_each_impulse_is_the_top_balls_change_of_momentum(drop):
     result = simulate(drop)
@@ -124,7 +122,6 @@ def test_each_impulse_is_the_top_balls_change_of_momentum(drop):
     assert impulse == pytest.approx(mass * (after - before), abs=MOMENTUM * scale)
 
 
-@settings(max_examples=60)
 @given(drops(EVERY))
 def test_energy_never_rises(drop):
     result = simulate(drop)
@@ -137,7 +134,6 @@ def test_energy_never_rises(drop):
         assert energy == pytest.approx(energy[0], rel=ENERGY)
 
 
-@settings(max_examples=60)
 @given(drops(EVERY))
 def test_run_ends_when_nothing_approaches(drop):
     result = simulate(drop)
@@ -147,7 +143,6 @@ def test_run_ends_when_nothing_approaches(drop):
     assert (np.diff(result.rebound_speeds) >= -tiny).all()
 
 
-@settings(max_examples=60)
 @given(drops(EVERY))
 @pytest.mark.slow
 def test_intervals_of_a_contact_follow_each_other(drop):
@@ -173,7 +168,6 @@ def test_intervals_of_a_contact_follow_each_other(drop):
             assert rows["peak_force"] == pytest.approx(force, rel=1e-14)
 
 
-@settings(max_examples=60)
 @given(drops(EVERY), st.floats(0.01, 100.0))
 def test_speed_scales(drop, factor):
     """All speeds scale with v0, the times stay, where forces are linear and gaps scale too."""
@@ -186,7 +180,6 @@ def test_speed_scales(drop, factor):
         assert one.intervals[name] == pytest.approx(other.intervals[name], rel=1e-7, abs=1e-7)
 
 
-@settings(max_examples=60)
 @given(drops(EVERY), st.floats(0.01, 100.0))
 @pytest.mark.slow
 def test_masses_and_stiffnesses_scale_together(drop, factor):
@@ -219,7 +212,6 @@ def test_powers_of_four_of_the_masses_change_no_bit(drop, power):
     assert_identical(simulate(drop), other, time=t, force=t, length=t, impulse=f)
 
 
-@settings(max_examples=60)
 @given(drops(EVERY, largest=3))
 @pytest.mark.slow
 def test_sample_agrees_with_the_result(drop):
@@ -245,7 +237,6 @@ def test_sample_agrees_with_the_result(drop):
     assert_identical(result, simulate(drop))
 
 
-@settings(max_examples=40)
 @given(drops(FINITE, largest=3), st.lists(st.floats(0.0, 1.0), min_size=1, max_size=6))
 @pytest.mark.slow
 def test_sampling_elsewhere_changes_nothing(drop, fractions):
@@ -258,7 +249,6 @@ def test_sampling_elsewhere_changes_nothing(drop, fractions):
             assert sample[name].values[:, 0].tolist() == together[name].values[:, index].tolist()
 
 
-@settings(max_examples=50)
 @given(drops(FINITE, largest=3), st.floats(0.05, 1.2))
 def test_split_run_equals_the_whole(drop, fraction):
     """Stopped at a time, a run has the whole one's velocities and events up to then."""
@@ -277,7 +267,6 @@ def test_split_run_equals_the_whole(drop, fraction):
     )
 
 
-@settings(max_examples=60)
 @given(drops(EVERY))
 def test_reproducible_to_the_last_bit(drop):
     one, other = simulate(drop), simulate(drop)

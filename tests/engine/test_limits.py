@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import stackbounce as sb
@@ -30,7 +30,6 @@ def test_stiff_floor_meets_separate_collisions(lower):
     assert orders == pytest.approx(0.5, abs=0.05) or (orders > 0.45).all()
 
 
-@settings(max_examples=60)
 @given(
     masses=st.lists(st.floats(-1, 1).map(lambda x: 10**x), min_size=1, max_size=4),
     stiffness=st.floats(0.2, 5.0),

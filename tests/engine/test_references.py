@@ -45,6 +45,7 @@ def test_springs_against_the_modes_of_equations_5_and_6():
         assert abs(interval.impulse - impulse) < mpf(10) ** -30
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("masses", "stiffnesses", "gaps"),
     [((1, 1), (1, 1), (0,)), ((2, 1, 1), (1, 3, 1), (0, 0.1))],
@@ -61,6 +62,7 @@ def test_taylor_series_agree_with_modes(masses, stiffnesses, gaps):
             assert abs(getattr(a, name) - getattr(b, name)) < mpf(10) ** -25
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     "law",
     [
@@ -114,6 +116,7 @@ def test_collapse_of_three_meets_collapse_of_two():
     assert not rigid.ends_in_collapse([1, 1, 1], 0.0719, 0.0719)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "rows"), [("springs", (0, 7, 100)), ("hysteretic", (0, 3))])
 def test_data_files_are_what_the_script_writes(name, rows):
     cases = {

@@ -100,6 +100,7 @@ def test_elastic_counts(upper, floor, balls):
     assert result.status is sb.Status.FINISHED
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("power", "total"), [(0, 3), (1, 31), (2, 314), (3, 3141), (4, 31415), (5, 314159)]
 )
@@ -118,6 +119,7 @@ def test_elastic_counts_of_any_ratio(upper):
     assert tuple(counts) == reference.elastic_counts(1.0, upper)
 
 
+@pytest.mark.slow
 def test_hundred_thousand_elastic_collisions():
     upper = 1.05e9
     result = sb.simulate(rigid([1.0, upper]))
@@ -237,6 +239,7 @@ def random_stacks(count):
         )
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("drop", list(random_stacks(150)), ids=range(150))
 def test_random_stacks(drop):
     expected = precise(drop, limit=1500)

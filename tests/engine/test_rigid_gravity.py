@@ -239,6 +239,7 @@ def random_lossy(count):
         )
 
 
+@pytest.mark.fast_cases(4)
 @pytest.mark.parametrize("drop", list(random_lossy(60)), ids=range(60))
 def test_lossy_stacks_come_to_rest_and_gain_no_energy(drop):
     result = sb.simulate(drop, until=3000.0)

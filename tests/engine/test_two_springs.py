@@ -174,14 +174,8 @@ def changes(random, tries):
         yield at, low
 
 
-@pytest.mark.parametrize(
-    ("distance", "most"),
-    [
-        (1e-4, 0.2),
-        pytest.param(1e-7, 0.7, marks=pytest.mark.slow),
-        pytest.param(1e-10, 1.0, marks=pytest.mark.slow),
-    ],
-)
+@pytest.mark.slow
+@pytest.mark.parametrize(("distance", "most"), [(1e-4, 0.2), (1e-7, 0.7), (1e-10, 1.0)])
 def test_where_the_number_of_contacts_changes(distance, most):
     random = np.random.default_rng(3)
     points = [at(here + s * distance) for at, here in changes(random, 60) for s in (-1.0, 1.0)]

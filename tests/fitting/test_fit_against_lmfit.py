@@ -59,6 +59,7 @@ def test_values_errors_and_correlations_are_those_of_scipy(case):
     assert found.chi_squared == pytest.approx(2.0 * plain.cost, rel=1e-7)
 
 
+@pytest.mark.slow
 def test_intervals_are_those_of_lmfit():
     law, truth = CASES["springs"]
     target, found = ours(law, truth)

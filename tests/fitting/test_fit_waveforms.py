@@ -50,6 +50,7 @@ def test_residuals_are_those_of_a_spring_by_hand():
     assert objective.residuals(trial)[0] == pytest.approx((off.mean() - off) / 0.5, abs=1e-6)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("shift", [0.1, 1234.567])
 def test_the_clock_of_a_record_is_its_own(shift):
     found, plain = fitted((TIMES + shift, FORCE)), fitted((TIMES, FORCE))

@@ -40,6 +40,7 @@ SLOW = {  # a restitution that does
 # from touching to separate
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("drop", FAST.values(), ids=FAST)
 def test_separate_collisions_are_the_textbooks(drop):
     ds = sb.transition(drop)
@@ -51,6 +52,7 @@ def test_separate_collisions_are_the_textbooks(drop):
     assert ds.textbook_energy == pytest.approx(float(beyond.energy_retained[0]), abs=1e-9)
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("drop", (FAST | SLOW).values(), ids=FAST | SLOW)
 def test_nothing_changes_from_there_on_and_something_just_before(drop):
     limit = sb.transition(drop).separate_from
@@ -97,6 +99,7 @@ def test_every_gap_is_what_simulate_returns():
         assert ds.first_touch.sel(gap=gap).values == pytest.approx(result.first_touch)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("name", ["springs", "light below", "hysteretic", "dashpot"])
 def test_no_change_of_a_count_is_missed(name):
     drop = FAST[name]
@@ -290,6 +293,7 @@ def test_many_drops_of_several_kinds_keep_their_order():
 # the masses in between
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("restitution", [1.0, 0.8])
 @pytest.mark.parametrize("count", [3, 4])
 def test_rigid_balls_are_best_with_geometric_means(count, restitution):
@@ -303,6 +307,7 @@ def test_rigid_balls_are_best_with_geometric_means(count, restitution):
     )
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("law", [sb.Spring(1e4), sb.Hertz(1e6)])
 def test_no_other_mass_is_better(law):
     balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
@@ -321,6 +326,7 @@ def test_wide_gaps_bring_the_geometric_mean_back():
     assert sb.best_masses(drop).balls[1].mass == pytest.approx(0.1, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_contacts_may_depend_on_the_masses():
     seen = []
 
@@ -336,6 +342,7 @@ def test_contacts_may_depend_on_the_masses():
     assert len(seen) > 100
 
 
+@pytest.mark.slow
 def test_what_is_tried_can_be_said():
     balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
     drop = sb.Drop(balls, [sb.Rigid(1.0)] * 3, impact_speed=1.0)

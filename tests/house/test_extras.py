@@ -55,6 +55,7 @@ def test_a_missing_extra_is_named(monkeypatch):
         need("fit", "a fit")
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     "arguments",
     [
@@ -72,6 +73,7 @@ def test_a_plain_install_runs(arguments):
     assert (run.returncode, run.stderr) == (0, "")
 
 
+@pytest.mark.slow
 def test_a_plain_install_sweeps():
     run = plain(
         PLAIN + "import stackbounce as sb; "
@@ -83,6 +85,7 @@ def test_a_plain_install_sweeps():
     assert (run.stdout, run.stderr) == ("[1 1]\n", "")
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("arguments", "extra", "what"),
     [

@@ -13,6 +13,7 @@ from stackbounce import measure, plots
 
 ROOT = Path(__file__).parents[2]
 PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
+SLOW = ("gaps-and-masses.md", "paper.md", "towers.md")  # pages whose examples take long
 
 
 def read(name):
@@ -82,7 +83,13 @@ def test_every_public_name_is_documented():
     assert set(entries) == rooms - {"__version__"}
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize(
+    "page",
+    [
+        pytest.param(page, id=page.name, marks=[pytest.mark.slow] if page.name in SLOW else [])
+        for page in PAGES
+    ],
+)
 def test_examples_on_pages_come_out_as_written(page):
     fences = re.findall(
         r"^```(?:python|pycon)\n(>>> .*?)^```", page.read_text("utf-8"), re.MULTILINE | re.DOTALL

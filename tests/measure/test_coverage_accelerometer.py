@@ -7,6 +7,7 @@ from benchmarks.coverage.shares import shares
 SEEDS = range(300)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("case", CASES)
 def test_the_truth_lies_within_one_sigma_in_two_of_three(case):
     for quantity, share in shares(CASES[case], SEEDS).items():

@@ -8,6 +8,7 @@ from benchmarks.coverage.stiffness import CASES
 SEEDS = 200
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("case", CASES)
 def test_the_truth_lies_within_one_standard_error_in_two_of_three(case):
     hits = defaultdict(int)

@@ -92,6 +92,7 @@ def test_a_ball_that_is_seen_too_faintly_is_told(gap, options):
     assert found.notes[-1].endswith("too faintly to tell when")
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("gap", [3e-3, 12e-3])
 def test_a_light_ball_that_is_thrown_back_has_limits(gap):
     balls, laws = [sb.Ball(0.0085), sb.Ball(0.101)], [sb.Spring(2.3e4), sb.Spring(1.4e4)]

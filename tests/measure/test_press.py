@@ -131,6 +131,7 @@ def test_a_jump_at_the_turn():
     assert any("at the turn" in note for note in found.notes)
 
 
+@pytest.mark.slow
 def test_several_cycles():
     data = press_record(BALL, cycles=3, **USUAL)
     found = press(data)

@@ -24,6 +24,7 @@ def as_true(found, fall, before=0.5):
     return len(seen) == len(true) and np.abs(seen - true).max() < 1.5e-3
 
 
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize(
     "options",
     [

@@ -25,6 +25,7 @@ def compared(data, rate):
     return off, claimed, bounces(found)
 
 
+@pytest.mark.fast_cases(6)
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize(
     "options",

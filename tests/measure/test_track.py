@@ -26,6 +26,7 @@ def near(found, true, errors=4.0):
     return abs(found.nominal_value - true) < errors * found.std_dev
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(
     "options",
     [

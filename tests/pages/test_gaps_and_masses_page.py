@@ -25,6 +25,7 @@ def _in_a_folder_with_its_files(tmp_path, monkeypatch):
         Path(name).write_text(text, encoding="utf-8")
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("command", "printed"), RUNS, ids=[" ".join(words[:2]) for words, _ in RUNS]
 )

@@ -36,6 +36,7 @@ def test_the_files_are_what_the_script_writes(tmp_path):
         assert (tmp_path / path.name).read_bytes() == path.read_bytes(), path.name
 
 
+@pytest.mark.slow
 def test_the_commands_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys):
     for path in FILES:
         shutil.copy(path, tmp_path)

@@ -41,6 +41,7 @@ def bench():
     return Bench(PAPER)
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda words: words[-1])
 def test_a_command_makes_the_data_of_its_picture(command, sweeps, folder, monkeypatch):
     monkeypatch.chdir(folder)

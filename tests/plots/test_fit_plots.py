@@ -51,6 +51,7 @@ def dots(axes, marker="o"):
     return np.concatenate([np.stack(line.get_data(), axis=1) for line in lines])
 
 
+@pytest.mark.slow
 def test_a_dot_for_each_pull(two):
     axes = plots.fitted(two).axes[0]
     pulls = [row.pull for row in two.residuals]
@@ -96,6 +97,7 @@ def test_kinks_are_where_the_balls_touch_once_more():
         assert (counts[0] != counts[1]).any()
 
 
+@pytest.mark.slow
 def test_a_map_over_two_parameters_with_their_profiles(two):
     figure = plots.fitted(two)
     pulls, top, corner, axes, right = figure.axes
@@ -112,6 +114,7 @@ def test_a_map_over_two_parameters_with_their_profiles(two):
         assert np.all(above > -1e-6)
 
 
+@pytest.mark.slow
 def test_a_profile_meets_the_limits_of_the_interval(two):
     for name, interval in two.intervals().items():
         above = two.profile(name, interval[:2]) - two.chi_squared
@@ -123,6 +126,7 @@ def test_a_profile_meets_the_limits_of_the_interval(two):
         two.profile("gaps.0", [1.0])
 
 
+@pytest.mark.slow
 def test_three_parameters_have_no_map():
     data = {"rebound_ratios": ["0.42 ± 0.02", "1.72 ± 0.02"], "energy_retained": "0.99 ± 0.01"}
     vary = BETWEEN | {"gaps.0": ("0 mm", "5 mm"), "contacts.0.stiffness": (2e3, 3e3)}
@@ -144,6 +148,7 @@ def test_records_with_the_fitted_curve(records):
     assert records["contacts.0.stiffness"].nominal_value == pytest.approx(2600.0, rel=0.02)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("which", ["one", "two"])
 def test_a_corner_has_a_panel_for_each_pair(which, request):
     found = request.getfixturevalue(which)

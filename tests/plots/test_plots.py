@@ -129,6 +129,7 @@ def test_a_change_of_sign_is_white():
     assert bar.get_ylim() == pytest.approx((values.min(), values.max()))
 
 
+@pytest.mark.slow
 def test_names_of_contours_do_not_touch():
     drop = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, impact_speed=1.0)
     over = {

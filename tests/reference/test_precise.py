@@ -29,6 +29,7 @@ def test_dashpot(zeta):
         assert abs(outcome.velocities[0] - mp.exp(-z * time)) < CLOSE
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("exponent", [1, 1.5, 2.345])
 @pytest.mark.parametrize("loss", [0.1, 1, 10])
 def test_hunt_crossley(exponent, loss):
@@ -41,6 +42,7 @@ def test_hunt_crossley(exponent, loss):
         assert abs(residual / slope) < CLOSE
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     ("law", "numbers", "published"),
     [

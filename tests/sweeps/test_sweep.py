@@ -53,6 +53,7 @@ def assert_same(element, drop, **options):
             assert np.array_equal(element[name].values, expected, equal_nan=True), name
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize("count", [3, 30], ids=["plain", "compiled"])
 @pytest.mark.parametrize("laws", LAWS.values(), ids=LAWS)
 def test_every_element_is_what_simulate_returns(laws, count):
@@ -228,10 +229,8 @@ def test_other_values_in_the_sweep_change_no_bit():
         assert np.array_equal(alone[name][0], both[name][0]), name
 
 
-@pytest.mark.parametrize(
-    "shape",
-    [(3, 5000), (5000, 3), (2, 40, 130), pytest.param((1, 1, 7000), marks=pytest.mark.slow)],
-)
+@pytest.mark.fast_cases(1)
+@pytest.mark.parametrize("shape", [(2, 40, 130), (3, 5000), (5000, 3), (1, 1, 7000)])
 def test_a_grid_is_cut_into_blocks_that_fit_together(shape):
     drop = sb.Drop(TWO, LAWS["springs"], impact_speed=3.53)
     paths = ["impact_speed", "balls.0.mass", "gaps.0"][-len(shape) :]

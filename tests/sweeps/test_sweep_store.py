@@ -128,6 +128,7 @@ def test_chunks_of_dask_make_it_lazy():
         bad.compute()
 
 
+@pytest.mark.slow
 def test_a_complete_store_is_left_alone_and_another_is_refused(whole):
     calls = []
     again = write(
@@ -180,6 +181,7 @@ def test_a_sweep_goes_on_with_the_blocks_it_began_with(whole, tmp_path):
     assert digest(write(out, DROP, grid(DROP, OVER), block=100)) == whole[1]
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("log", [None, "", "3 2"])
 def test_killed_before_the_file_was_all_there_it_begins_anew(whole, tmp_path, log):
     out = tmp_path / whole[0].name

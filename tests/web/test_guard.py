@@ -118,6 +118,7 @@ def asked(app, messages, path="/api/simulate"):
     return sent[0], sent[1]["body"]
 
 
+@pytest.mark.slow
 def test_a_request_that_does_not_come_is_ended():
     guard = Guard(None, dataclasses.replace(LIMITS, upload_seconds=0.05))
     part = {"type": "http.request", "body": b"{", "more_body": True}
@@ -195,6 +196,7 @@ def workers():
     made.stop()
 
 
+@pytest.mark.slow
 def test_a_job_that_takes_too_long_is_ended_and_others_go_on(workers):
     async def run():
         with pytest.raises(TooLong, match=r"longer than the 0.5 s that one request may"):
@@ -212,6 +214,7 @@ def here():
     return os.getpid()
 
 
+@pytest.mark.slow
 def test_processes_that_were_ended_while_idle_are_made_anew(workers):
     async def run():
         first = await workers.run(here, seconds=60.0)

@@ -61,6 +61,7 @@ def runs(pid):
         return False
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
 def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
@@ -85,6 +86,7 @@ def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
     assert not left
 
 
+@pytest.mark.slow
 def test_without_a_port_the_first_free_one_is_taken():
     with socket.socket() as first:
         first.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)

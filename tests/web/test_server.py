@@ -105,6 +105,7 @@ def test_a_rigid_drop_has_no_other(server, drop):
     assert got["impact"] == [0.0, 0.0]
 
 
+@pytest.mark.slow
 def test_all_presets_play(server):
     catalogue = server.get("/api/catalogue").json()
     names = [preset["name"] for preset in catalogue["presets"]]
@@ -326,6 +327,7 @@ def test_exports(server, drop):
     assert export("svg") == export("svg")
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("name", [r"$\frac{$", "5 $ and $", "a\x00b\x1b", "\ufffe", "<&>"])
 @pytest.mark.parametrize("kind", ["svg", "png"])
 def test_any_name_can_be_drawn(server, drop, kind, name):
@@ -405,6 +407,7 @@ TRACK = (files("stackbounce.web") / "static" / "examples" / "two-tracks.csv").re
 FORCE = b"Time (s),Force (N)\n" + b"".join(b"%d,0.1\n" % i for i in range(40))
 
 
+@pytest.mark.fast_cases(3)
 @pytest.mark.parametrize(
     ("content", "asked", "message"),
     [

@@ -70,6 +70,7 @@ LINES = {
 }
 
 
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("end", ["\n", "\r\n"])
 @pytest.mark.parametrize("name", LINES)
 def test_long_files_are_read_as_short_ones_are(tmp_path, monkeypatch, name, end):
