@@ -6,6 +6,8 @@ import pytest
 from reference import make_data
 from reference.integrate import integrate
 
+pytestmark = pytest.mark.slow  # numba compiles the integrator first, for a minute
+
 
 def solved(name):
     """Yield the rows of a data file, and what `integrate` makes of each."""
@@ -17,7 +19,6 @@ def solved(name):
         yield row, integrate(**case)
 
 
-@pytest.mark.slow
 @pytest.mark.parametrize("name", ["laws", "hysteretic", "springs"])
 def test_data_files(name):
     for row, found in solved(name):
