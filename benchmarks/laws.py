@@ -17,7 +17,7 @@ import numpy as np
 
 import stackbounce as sb
 from benchmarks.by_scipy import rebound
-from stackbounce.engine.compiler import compile_kernel, kernel
+from stackbounce.engine.kernels import compile_kernel, kernel
 
 LAWS: dict[str, dict[str, Any]] = {
     "Hertz": {"law": "Hertz"},

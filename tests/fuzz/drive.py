@@ -10,7 +10,7 @@ from typing import Any
 from stackbounce.engine import codes
 from stackbounce.engine.batch import clear_arrays
 from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TIME_REACHED
-from stackbounce.engine.compiler import kernel
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.flight import compression_after
 from stackbounce.engine.forces import stored_energy
 from stackbounce.engine.motion import compression_at, velocity_at
@@ -77,7 +77,7 @@ def run(
 ) -> None:
     """Run one drop of finite contacts and write into ``out`` what is found."""
     size = len(stack.mass)
-    clear_arrays(room)
+    clear_arrays(room[0], room[1])
     unit = load(stack, drops, row)
     begin_contacts(stack)
     first, reference = energy_at(stack, 0.0)
@@ -119,7 +119,7 @@ def run(
     if status == codes.INVALID:
         fault |= IS_INVALID  # not because the clock could not tell the times of an event apart
     if drops.stops[row, 0] > 0.0 and end > 0.0:
-        clear_arrays(room)
+        clear_arrays(room[0], room[1])
         fault |= in_parts(stack, drops, row, samples, log, allowed * (reference + terms), out)
     out[FAULT] = fault
 
@@ -242,7 +242,7 @@ def run_rigid(
     stack: Any, room: Any, drops: Any, row: int, samples: Any, log: Any, turns: Any, out: Any
 ) -> None:
     """Run one drop of rigid balls and write into ``out`` what is found."""
-    clear_arrays(room)
+    clear_arrays(room[0], room[1])
     prepare_rigid(
         stack,
         drops.mass[row],

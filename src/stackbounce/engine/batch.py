@@ -1,36 +1,33 @@
-"""Many drops one after the other in the arrays of one stack.
+"""One drop, or many drops one after the other, in the arrays of one stack.
 
 Each row is a drop; columns are its balls, or the contacts below them. The outcome of a row depends
 on that row only.
 """
 
 import math
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple
 
 from stackbounce.engine import codes
 from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.compiler import Floats, Integers, kernel
+from stackbounce.engine.kernels import Floats, FloatTable, Integers, IntegerTable, kernel
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
-from stackbounce.engine.slots import LAST_CHECK, LAST_EVENT, LOG_ROWS
+from stackbounce.engine.slots import LAST_CHECK, LAST_EVENT, LOG_ROWS, RECORDS_PEAKS
 from stackbounce.engine.stack import RigidStack, Samples, Stack
-
-Table: TypeAlias = Any  # a numpy array of rows
-
 
 class Drops(NamedTuple):
     """The numbers of drops: (rows, balls) arrays, and (rows,) gravity; see `preparation`."""
 
-    mass: Table
-    kind: Table  # of law, see `preparation`
-    stiffness: Table
-    exponent: Table
-    law_parameter: Table
-    gap: Table  # below each ball; the lowest one's is 0
-    velocity: Table
-    gravity: Table
+    mass: FloatTable
+    kind: IntegerTable  # of law, see `preparation`
+    stiffness: FloatTable
+    exponent: FloatTable
+    law_parameter: FloatTable
+    gap: FloatTable  # below each ball; the lowest one's is 0
+    velocity: FloatTable
+    gravity: Floats
 
 
 class Outcomes(NamedTuple):
@@ -40,35 +37,50 @@ class Outcomes(NamedTuple):
     energies, which `find_ratios` computes.
     """
 
-    velocity: Table  # after, m/s
-    rebound_ratio: Table  # velocity over the impact speed v0
-    collisions: Table  # -1 where infinitely many
-    first_touch: Table  # s; nan where none
-    last_release: Table  # s; nan where none, infinity where the run stopped during an interval
-    energy_retained: Table  # kinetic energy after over that before
-    status: Table
+    velocity: FloatTable  # after, m/s
+    rebound_ratio: FloatTable  # velocity over the impact speed v0
+    collisions: IntegerTable  # -1 where infinitely many
+    first_touch: FloatTable  # s; nan where none
+    last_release: FloatTable  # s; nan where none, infinity where the run stopped in an interval
+    energy_retained: Floats  # kinetic energy after over that before
+    status: Integers
+
+
+class Workspace(NamedTuple):
+    """The memory of a run, besides its stack."""
+
+    floats: Floats  # the array of all floats of the stack; empty for a stack that is new
+    integers: Integers
+    log: Floats  # rows of `codes.LOG_COLUMNS`, in SI units
+    after: Floats  # unit of time (s) and end of the run (s), then the balls' velocities (m/s)
+
+
+CONTINUE, BEGIN, BEGIN_WITH_PEAKS = 0, 1, 2  # stages: the latter records peaks and impulses
+UNIT, END, AFTER = 0, 1, 2  # slots of `Workspace.after`; AFTER is that of the lowest ball
 
 
 @kernel
-def run_batch(
+def run_drop(
     stack: Stack,
-    room: tuple[Floats, Integers],
+    space: Workspace,
     drops: Drops,
+    row: int,
+    stage: int,
     until: float,
     rtol: float,
     event_limit: int,
     samples: Samples,
-    log: Floats,
-    out: Outcomes,
-) -> None:
-    """Run drops with finite contacts one after the other and write their results to ``out``.
+) -> int:
+    """Run a drop with finite contacts until it ends or the log is full; return its status.
 
-    The same stack is used for all drops. Its arrays are views of the two arrays in ``room``.
+    With the status RUNNING, the caller empties the log and continues. The number of rows in the log
+    is ``counter[LOG_ROWS]``. The times in ``samples`` are in s; they are changed.
     """
     size = len(stack.mass)
-    for row in range(len(out.status)):
-        clear_arrays(room)
-        unit = prepare(
+    if stage != CONTINUE:
+        clear_arrays(space.floats, space.integers)
+        stack.setting[RECORDS_PEAKS] = stage - BEGIN
+        space.after[UNIT] = prepare(
             stack,
             drops.mass[row],
             drops.kind[row],
@@ -80,43 +92,46 @@ def run_batch(
             drops.gravity[row],
             rtol,
         )
+        for k in range(len(samples.time)):
+            samples.time[k] /= space.after[UNIT]
         begin_contacts(stack)
-        _reset(out, row, size)
-        status = codes.RUNNING
-        while status == codes.RUNNING:
-            stack.counter[LOG_ROWS] = 0
-            status = advance_contacts(stack, until / unit, event_limit, log, samples)
-            _read_log(log, stack.counter[LOG_ROWS], unit, out, row)
+    unit = space.after[UNIT]
+    stack.counter[LOG_ROWS] = 0
+    status = advance_contacts(stack, until / unit, event_limit, space.log, samples)
+    if status != codes.RUNNING:
         end = stack.clock[LAST_EVENT]
         if status != codes.FINISHED:
-            end = (
-                until / unit if status == codes.TIME_REACHED else max(end, stack.clock[LAST_CHECK])
-            )
-            stack.counter[LOG_ROWS] = 0
-            log_unfinished(stack, end, log)
-            _read_log(log, stack.counter[LOG_ROWS], unit, out, row)
+            end = max(end, stack.clock[LAST_CHECK])
+            if status == codes.TIME_REACHED:
+                end = until / unit
+            log_unfinished(stack, end, space.log)
+        space.after[END] = end * unit
         for b in range(size):
-            out.velocity[row, b] = velocity_at(stack, b, end) / unit
-        out.status[row] = status
+            space.after[AFTER + b] = velocity_at(stack, b, end) / unit
+        for k in range(len(samples.velocity)):
+            samples.velocity[k] /= unit
+            samples.force[k] /= unit * unit
+            samples.stored[k] /= unit * unit
+    _convert_log(space.log, stack.counter[LOG_ROWS], unit)
+    return status
 
 
 @kernel
-def run_rigid_batch(
+def run_rigid_drop(
     stack: RigidStack,
-    room: tuple[Floats, Integers],
+    space: Workspace,
     drops: Drops,
+    row: int,
+    stage: int,
     until: float,
     rtol: float,
     event_limit: int,
     samples: Samples,
-    log: Floats,
-    out: Outcomes,
-) -> None:
-    """Run drops of rigid balls and write their results to ``out``; see `run_batch`."""
-    size = len(stack.mass)
-    for row in range(len(out.status)):
-        clear_arrays(room)
-        prepare_rigid(
+) -> int:
+    """Run a drop of rigid balls until it ends or the log is full; see `run_drop`."""
+    if stage != CONTINUE:
+        clear_arrays(space.floats, space.integers)
+        space.after[UNIT] = prepare_rigid(
             stack,
             drops.mass[row],
             drops.kind[row],
@@ -129,20 +144,68 @@ def run_rigid_batch(
             rtol,
         )
         begin_collisions(stack)
-        _reset(out, row, size)
-        status = codes.RUNNING
-        while status == codes.RUNNING:
-            stack.counter[LOG_ROWS] = 0
-            status = collide_all(stack, until, event_limit, log, samples)
-            _read_log(log, stack.counter[LOG_ROWS], 1.0, out, row)
+    stack.counter[LOG_ROWS] = 0
+    status = collide_all(stack, until, event_limit, space.log, samples)
+    if status != codes.RUNNING:
         end = stack.clock[LAST_EVENT]
         if status != codes.FINISHED:
             end = until if status == codes.TIME_REACHED else max(end, stack.clock[LAST_CHECK])
-        for b in range(size):
-            out.velocity[row, b] = rigid_velocity(stack, b, end)
-            if stack.infinite[b] == 1:
-                out.collisions[row, b] = -1
-        out.status[row] = status
+        space.after[END] = end
+        for b in range(len(stack.mass)):
+            space.after[AFTER + b] = rigid_velocity(stack, b, end)
+    return status
+
+
+@kernel
+def run_batch(
+    stack: Stack,
+    space: Workspace,
+    drops: Drops,
+    until: float,
+    rtol: float,
+    event_limit: int,
+    samples: Samples,
+    out: Outcomes,
+) -> None:
+    """Run drops with finite contacts one after the other and write their results to ``out``.
+
+    The same stack is used for all drops.
+    """
+    for row in range(len(out.status)):
+        _reset(out, row)
+        status, stage = codes.RUNNING, BEGIN
+        while status == codes.RUNNING:
+            status = run_drop(stack, space, drops, row, stage, until, rtol, event_limit, samples)
+            _read_log(space.log, stack.counter[LOG_ROWS], out, row)
+            stage = CONTINUE
+        _read_end(space.after, status, out, row)
+
+
+@kernel
+def run_rigid_batch(
+    stack: RigidStack,
+    space: Workspace,
+    drops: Drops,
+    until: float,
+    rtol: float,
+    event_limit: int,
+    samples: Samples,
+    out: Outcomes,
+) -> None:
+    """Run drops of rigid balls and write their results to ``out``; see `run_batch`."""
+    for row in range(len(out.status)):
+        _reset(out, row)
+        status, stage = codes.RUNNING, BEGIN
+        while status == codes.RUNNING:
+            status = run_rigid_drop(
+                stack, space, drops, row, stage, until, rtol, event_limit, samples
+            )
+            _read_log(space.log, stack.counter[LOG_ROWS], out, row)
+            stage = CONTINUE
+        _read_end(space.after, status, out, row)
+        for i in range(len(stack.infinite)):
+            if stack.infinite[i] == 1:
+                out.collisions[row, i] = -1
 
 
 @kernel
@@ -180,9 +243,8 @@ def _largest_speed(velocity: Floats) -> float:
 
 
 @kernel
-def clear_arrays(room: tuple[Floats, Integers]) -> None:
-    """Set all numbers of a stack to zero; ``room`` holds its floats and its integers."""
-    floats, integers = room
+def clear_arrays(floats: Floats, integers: Integers) -> None:
+    """Set all numbers of a stack to zero."""
     for k in range(len(floats)):
         floats[k] = 0.0
     for k in range(len(integers)):
@@ -190,25 +252,46 @@ def clear_arrays(room: tuple[Floats, Integers]) -> None:
 
 
 @kernel
-def _reset(out: Outcomes, row: int, size: int) -> None:
-    for i in range(size):
+def _convert_log(log: Floats, rows: int, unit: float) -> None:
+    """Convert rows of a log to SI units: with kg and m fixed, energies go with forces."""
+    for line in range(rows):
+        at = line * LOG_COLUMNS
+        log[at + codes.TIME] *= unit
+        log[at + codes.START] *= unit
+        log[at + codes.LOWER_VELOCITY] /= unit
+        log[at + codes.UPPER_VELOCITY] /= unit
+        log[at + codes.PEAK_FORCE] /= unit * unit
+        log[at + codes.IMPULSE] /= unit
+
+
+@kernel
+def _reset(out: Outcomes, row: int) -> None:
+    for i in range(len(out.collisions[row])):
         out.collisions[row, i] = 0
         out.first_touch[row, i] = math.nan
         out.last_release[row, i] = math.nan
 
 
 @kernel
-def _read_log(log: Floats, lines: int, unit: float, out: Outcomes, row: int) -> None:
+def _read_log(log: Floats, rows: int, out: Outcomes, row: int) -> None:
     """Add the contact intervals in a part of a log to the counts and times of one drop."""
-    for line in range(lines):
+    for line in range(rows):
         at = line * LOG_COLUMNS
         kind = int(log[at + codes.KIND])
         if kind not in (codes.RELEASE, codes.COLLISION):
             continue
         i = int(log[at + codes.CONTACT])
-        begin, end = log[at + codes.START] * unit, log[at + codes.TIME] * unit
+        begin, end = log[at + codes.START], log[at + codes.TIME]
         out.collisions[row, i] += 1
         if not out.first_touch[row, i] <= begin:
             out.first_touch[row, i] = begin
         if not out.last_release[row, i] >= end:
             out.last_release[row, i] = end
+
+
+@kernel
+def _read_end(after: Floats, status: int, out: Outcomes, row: int) -> None:
+    """Write the velocities after a run, and its status."""
+    for b in range(len(out.velocity[row])):
+        out.velocity[row, b] = after[AFTER + b]
+    out.status[row] = status

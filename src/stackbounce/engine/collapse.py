@@ -34,7 +34,7 @@ from stackbounce.engine.codes import (
     TIME,
     UPPER_VELOCITY,
 )
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.flight import (
     acceleration,
     anchor_balls,

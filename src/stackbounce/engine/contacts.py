@@ -27,7 +27,7 @@ from stackbounce.engine.codes import (
     RESUMED,
     UNLOADED,
 )
-from stackbounce.engine.compiler import kernel
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.forces import force, loaded_energy, stored_energy
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack

@@ -6,7 +6,7 @@ index of a slot in it. The earliest slot is always ``heap[0]``.
 
 import math
 
-from stackbounce.engine.compiler import Floats, Integers, kernel
+from stackbounce.engine.kernels import Floats, Integers, kernel
 
 
 @kernel

@@ -39,7 +39,7 @@ from stackbounce.engine.codes import (
     POWER,
     PRODUCT,
 )
-from stackbounce.engine.compiler import kernel
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import Stack
 

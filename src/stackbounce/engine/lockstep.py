@@ -29,7 +29,7 @@ general engine solves that drop.
 import math
 
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.trigonometry import cosine, half_turns, nudge_mode, sinc
 
 LANES = 32  # a power of two

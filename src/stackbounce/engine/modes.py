@@ -11,7 +11,7 @@ are exact as well.
 import math
 
 from stackbounce.engine.codes import EPSILON
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import WIDTH, Stack
 

@@ -46,7 +46,7 @@ from stackbounce.engine.codes import (
     TOUCH,
     UNLOADED,
 )
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.contacts import linearised_impulse_limit
 from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.forces import is_damped

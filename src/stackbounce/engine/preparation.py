@@ -7,7 +7,7 @@ the exponent and the law parameter.
 import math
 
 from stackbounce.engine import codes
-from stackbounce.engine.compiler import Floats, Integers, kernel
+from stackbounce.engine.kernels import Floats, Integers, kernel
 from stackbounce.engine.forces import is_nonlinear, take_law, typical_compression
 from stackbounce.engine.series import ORDER
 from stackbounce.engine.slots import (

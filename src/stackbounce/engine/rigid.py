@@ -28,7 +28,7 @@ from stackbounce.engine.codes import (
     UPPER_VELOCITY,
 )
 from stackbounce.engine.collapse import find_collapse, keep_state
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.event_queue import clear_queue
 from stackbounce.engine.flight import (
     acceleration,

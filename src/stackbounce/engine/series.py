@@ -2,7 +2,7 @@
 
 import math
 
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 
 ORDER = 24  # highest order of the power series of clusters without modes
 ROOT_ORDER = 36  # highest order of a series in the root of time

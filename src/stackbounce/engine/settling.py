@@ -14,7 +14,7 @@ them would fly for more than a negligible time, if a contact among or below them
 import math
 
 from stackbounce.engine.codes import ABSENT
-from stackbounce.engine.compiler import kernel
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.flight import (
     anchor_balls,
     anchor_contacts,

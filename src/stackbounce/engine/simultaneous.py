@@ -36,7 +36,7 @@ from stackbounce.engine.codes import (
     UNLOADED,
     UPPER_VELOCITY,
 )
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.contacts import (
     change_curve,
     change_phase,
@@ -105,8 +105,8 @@ def advance_contacts(
 
     Fills ``samples`` on the way and returns the status; counter[LOG_ROWS] is the length of the log.
     """
-    room = len(log) // LOG_COLUMNS
     size = len(stack.mass)
+    room = len(log) // LOG_COLUMNS - size  # the rest is for `log_unfinished`
     if stack.counter[EVENTS] == 0 and until == math.inf and _all_separating(stack):
         _record_samples(stack, samples, math.inf)
         return _final_status(stack)

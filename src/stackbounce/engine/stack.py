@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from stackbounce.engine import slots
-from stackbounce.engine.compiler import Floats, Integers, Rows
+from stackbounce.engine.kernels import Floats, Integers, Rows
 from stackbounce.engine.series import TERMS
 
 MODES = 8  # the most linear contacts of a cluster that moves in normal modes

@@ -15,7 +15,7 @@ eigenvalues; the tolerance is then round-off, whatever the user asks for.
 import math
 
 from stackbounce.engine.codes import POWER, PRODUCT
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.forces import (
     find_terms,
     force,

@@ -6,7 +6,7 @@ those of the Taylor series; the others are from Remez's algorithm, with the smal
 6e-18. Terms are summed in pairs, which is faster.
 """
 
-from stackbounce.engine.compiler import kernel
+from stackbounce.engine.kernels import kernel
 
 _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds a number
 _PER_HALF_TURN = 0.3183098861837907  # 1/pi

@@ -7,8 +7,9 @@ drop near the limits of accuracy is left to the general engine, with the status 
 import math
 from typing import Any
 
+from stackbounce.engine.batch import Drops, Outcomes, Workspace
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED, INVALID
-from stackbounce.engine.compiler import Floats, kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.lockstep import (
     A1,
     A2,
@@ -60,7 +61,7 @@ _OMEGA = 1e100  # largest frequency in 1/s; its inverse is the smallest
 
 
 def new_scratch() -> Any:
-    """Return scratch space for `run_two_springs`.
+    """Return scratch space for `run_two_springs`, an array.
 
     It begins at a cache line: loading a vector that spans two lines takes longer.
     """
@@ -72,42 +73,24 @@ def new_scratch() -> Any:
 
 
 @kernel
-def run_two_springs(
-    mass: Any,
-    stiffness: Any,
-    gap: Any,
-    speed: Any,
-    event_limit: int,
-    velocity: Any,
-    collisions: Any,
-    first_touch: Any,
-    last_release: Any,
-    status: Any,
-    x: Floats,
-) -> None:
+def run_two_springs(drops: Drops, event_limit: int, out: Outcomes, space: Workspace) -> None:
     """Compute the outcomes of many drops of two balls on springs, without gravity.
 
     Parameters
     ----------
-    mass, stiffness : arrays (n, 2)
-        In kg and N/m, the lower ball's and the floor's first.
-    gap, speed : arrays (n,)
-        Gap between the balls in m, impact speed of both in m/s.
+    drops : Drops
+        The parameters of n drops. Both balls come with the lower one's velocity.
     event_limit : int
         The number of touches and releases after which a drop ends with EVENT_LIMIT.
-    velocity : array (n, 2)
-        Gets the rebound speeds in m/s, up-positive.
-    collisions : integer array (n, 2)
-        Gets the number of intervals of each contact.
-    first_touch, last_release : arrays (n, 2)
-        Get times in s for each contact, nan for never.
-    status : integer array (n,)
-        Gets FINISHED; EVENT_LIMIT; INVALID for input that is out of range; or ASK where the general
-        engine must solve the drop. The other results of such a drop are meaningless.
-    x : array (SCRATCH,)
-        Scratch space, from `new_scratch`.
+    out : Outcomes
+        Gets the velocities, numbers of collisions, and times. The status is FINISHED; EVENT_LIMIT;
+        INVALID for input that is out of range; or ASK where the general engine must solve the drop.
+        The other results of such a drop are meaningless.
+    space : Workspace
+        Its ``floats`` are scratch space of the size SCRATCH, from `new_scratch`.
     """
-    rows = len(gap)
+    x = space.floats
+    rows = len(out.status)
     left, waiting, row = rows, 0, 0
     for i in range(LANES):
         x[STATUS + i], x[ROW + i] = ASK, -1.0  # free
@@ -116,13 +99,11 @@ def run_two_springs(
             while x[STATUS + i] != 0.0:
                 done = int(x[ROW + i])
                 if done >= 0:
-                    _write_outcome(
-                        velocity, collisions, first_touch, last_release, status, x, i, done
-                    )
+                    _write_outcome(out, x, i, done)
                     left -= 1
                 if waiting == 0 and row < rows:
                     waiting = min(LANES, rows - row)
-                    _fetch(mass, stiffness, gap, speed, row, waiting, x)
+                    _fetch(drops, row, waiting, x)
                     _find_constants(x, waiting)
                     row += waiting
                 if waiting == 0:
@@ -145,16 +126,14 @@ def _begin(x: Floats, i: int, waiting: int) -> None:
 
 
 @kernel
-def _fetch(
-    mass: Any, stiffness: Any, gap: Any, speed: Any, row: int, count: int, x: Floats
-) -> None:
+def _fetch(drops: Drops, row: int, count: int, x: Floats) -> None:
     """Copy the parameters of the next ``count`` drops, from a row on, to the waiting slots."""
     for i in range(count):
         x[NEXT + ROW + i] = row + i
-        x[MASS1 + i], x[MASS2 + i] = float(mass[row + i, 0]), float(mass[row + i, 1])
-        x[STIFFNESS1 + i] = float(stiffness[row + i, 0])
-        x[STIFFNESS2 + i] = float(stiffness[row + i, 1])
-        x[GAP + i], x[SPEED + i] = float(gap[row + i]), float(speed[row + i])
+        x[MASS1 + i], x[MASS2 + i] = drops.mass[row + i, 0], drops.mass[row + i, 1]
+        x[STIFFNESS1 + i] = drops.stiffness[row + i, 0]
+        x[STIFFNESS2 + i] = drops.stiffness[row + i, 1]
+        x[GAP + i], x[SPEED + i] = drops.gap[row + i, 1], -drops.velocity[row + i, 0]
 
 
 @kernel
@@ -206,25 +185,16 @@ def _find_constants(x: Floats, count: int) -> None:
 
 
 @kernel
-def _write_outcome(
-    velocity: Any,
-    collisions: Any,
-    first_touch: Any,
-    last_release: Any,
-    status: Any,
-    x: Floats,
-    i: int,
-    r: int,
-) -> None:
+def _write_outcome(out: Outcomes, x: Floats, i: int, r: int) -> None:
     """Write the outcome of the drop in lane i to row r; unknown numbers are nan."""
     code = int(x[STATUS + i])
     known = code in (FINISHED, EVENT_LIMIT)
     v0, unit = x[V0 + i] if known else math.nan, x[UNIT + i] if known else math.nan
     last0, last1 = x[LAST0 + i], x[LAST1 + i]
-    status[r] = code
-    velocity[r, 0], velocity[r, 1] = v0 * x[U0 + i], v0 * (x[U1 + i] * x[SLIM + i])
-    collisions[r, 0], collisions[r, 1] = int(x[N0 + i]), int(x[N1 + i])
-    first_touch[r, 0] = unit * 0.0
-    first_touch[r, 1] = unit * (x[FIRST + i] if x[N1 + i] > 0.0 else math.nan)
-    last_release[r, 0] = unit * (last0 if last0 > 0.0 else math.nan)
-    last_release[r, 1] = unit * (last1 if last1 > 0.0 else math.nan)
+    out.status[r] = code
+    out.velocity[r, 0], out.velocity[r, 1] = v0 * x[U0 + i], v0 * (x[U1 + i] * x[SLIM + i])
+    out.collisions[r, 0], out.collisions[r, 1] = int(x[N0 + i]), int(x[N1 + i])
+    out.first_touch[r, 0] = unit * 0.0
+    out.first_touch[r, 1] = unit * (x[FIRST + i] if x[N1 + i] > 0.0 else math.nan)
+    out.last_release[r, 0] = unit * (last0 if last0 > 0.0 else math.nan)
+    out.last_release[r, 1] = unit * (last1 if last1 > 0.0 else math.nan)

@@ -1,0 +1,37 @@
+"""Compile any kernel at once, for the tests and benchmarks of this machine."""
+
+import dis
+import functools
+import types
+from collections.abc import Callable
+from typing import Any
+
+from numba import njit
+
+import kernel_build.records  # noqa: F401 - tells numba what a Table is
+from stackbounce.engine.kernels import MARK
+
+_OPTIONS: dict[str, Any] = {  # no reference counts: kernels allocate nothing
+    "error_model": "numpy",
+    "nogil": True,
+    "_nrt": False,
+}
+
+
+@functools.cache
+def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Return the numba-compiled form of a kernel; its marked callees are compiled with it."""
+    namespace = dict(function.__globals__)
+    for instruction in dis.get_instructions(function):
+        if instruction.opname != "LOAD_GLOBAL":
+            continue
+        callee = namespace.get(instruction.argval)
+        if getattr(callee, MARK, False):
+            namespace[instruction.argval] = compile_kernel(callee)
+    clone = types.FunctionType(
+        function.__code__, namespace, function.__name__, function.__defaults__
+    )
+    clone.__qualname__ = function.__qualname__
+    clone.__module__ = function.__module__
+    result: Callable[..., Any] = njit(**_OPTIONS)(clone)
+    return result
