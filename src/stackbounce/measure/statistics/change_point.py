@@ -4,11 +4,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from stackbounce.measure.quantities import Array
 
 __all__ = ["Kink", "find_kink"]
-
-Array = NDArray[np.float64]
 
 _EVEN = 0.06  # of the contact time: width of averages before a slope or a maximum is taken
 _PART = 0.6  # of the largest departure: the fit ends there

@@ -15,7 +15,7 @@ from stackbounce.measure.kinds.press.fits import (
     rough_contact,
 )
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import trapezoid
+from stackbounce.measure.samples import stuck, trapezoid
 from stackbounce.measure.statistics.ar_noise import Noise
 
 __all__ = ["Branch", "Found", "analysed"]
@@ -354,7 +354,6 @@ def _turning_point_covariance(values: dict[str, float], last: Array, cycle: Cycl
 
 def _quantisation_covariance(rows: Array, record: Record, zero: _Zero) -> Array:
     """Return the covariance from the force's quantisation, if the zero's noise is below a step."""
-    known = len(zero.values) and record.step and zero.scatter < 0.4 * record.step
-    slack = np.abs(zero.weights).sum(axis=0) > 0.0
-    moved = rows[:, slack].sum(axis=1) if known else np.zeros(len(rows))
-    return np.outer(moved, moved) * record.step**2 / 12.0
+    error = stuck(record.step, zero.scatter) if len(zero.values) else 0.0
+    moved = rows[:, np.abs(zero.weights).sum(axis=0) > 0.0].sum(axis=1)
+    return np.outer(moved, moved) * error**2

@@ -15,6 +15,7 @@ from stackbounce.measure.kinds.track.flights import (
     unexplained,
 )
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import resolution
 
 __all__ = ["Columns", "Upward", "columns", "flights_of", "tilt_of", "upward"]
 
@@ -212,10 +213,7 @@ def _noise(heights: Array) -> float:
 
 def _noise_floor(heights: Array) -> float:
     """Return the least error of a point, that of rounding to pixels or digits."""
-    steps = np.diff(np.unique(heights))
-    steps = steps[steps > 1e-9 * np.ptp(heights)]
-    step = float(steps.min()) if len(steps) else 0.0
-    return max(step / math.sqrt(12.0), 1e-5 * float(np.ptp(heights)), 1e-12)
+    return max(resolution(heights) / math.sqrt(12.0), 1e-5 * float(np.ptp(heights)), 1e-12)
 
 
 def _joined(
