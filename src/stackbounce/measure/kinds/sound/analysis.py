@@ -11,6 +11,7 @@ from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding
 from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import runs
 
 __all__ = ["knocks"]
 
@@ -160,9 +161,7 @@ def _notes_on(samples: NDArray[np.float32]) -> list[str]:
     if peak == 0.0:
         raise InvalidValue("sound must hold more than silence, got only zeros")
     top = np.abs(samples) >= 0.999 * peak
-    count = max(top.shape[1] - _CLIPPED + 1, 0)
-    run = [top[:, k : k + count] for k in range(_CLIPPED)]
-    if np.logical_and.reduce(run).any():
+    if any((last - first + 1 >= _CLIPPED).any() for first, last in map(runs, top)):
         return ["The recording is clipped: loudness is wrong there, times are hardly touched."]
     return []
 

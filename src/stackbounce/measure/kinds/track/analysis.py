@@ -11,8 +11,8 @@ from stackbounce.measure.kinds.track.notes import notes_of, stays_long
 from stackbounce.measure.kinds.track.paths import (
     Columns,
     Upward,
-    columns,
     flights_of,
+    positions_of,
     tilt_of,
     upward,
 )
@@ -96,7 +96,7 @@ def track(
     gravity = positive("gravity", gravity, "m/s^2")
     clock = positive("frame_rate_factor", frame_rate_factor)
     ruler = positive("scale", scale)
-    found = columns(data)
+    found = positions_of(data)
     found = Columns(
         found.times / clock,
         found.names,

@@ -15,9 +15,9 @@ from stackbounce.measure.kinds.track.flights import (
     unexplained,
 )
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import resolution
+from stackbounce.measure.samples import columns, resolution
 
-__all__ = ["Columns", "Upward", "columns", "flights_of", "tilt_of", "upward"]
+__all__ = ["Columns", "Upward", "flights_of", "positions_of", "tilt_of", "upward"]
 
 _MOVES = 0.03  # of the range of a track, within a window
 _JUMP = 5.0  # errors that make a velocity's jump a bounce
@@ -54,26 +54,14 @@ class Upward(NamedTuple):
         return math.cos(self.tilt) * along + math.sin(self.tilt) * across
 
 
-def columns(data: Any) -> Columns:
+def positions_of(data: Any) -> Columns:
     """Return times and positions out of a Dataset or of plain arrays."""
     if hasattr(data, "data_vars"):
         found = _from_dataset(data)
     else:
-        if isinstance(data, str | bytes):
-            raise InvalidType(f"data must be a Dataset or arrays of a track, got {shown(data)}")
-        try:
-            arrays = [np.asarray(one, dtype=np.float64) for one in data]
-        except (TypeError, ValueError):
-            raise InvalidType(
-                f"data must be a Dataset or (times, heights), got {shown(data)}"
-            ) from None
-        if len(arrays) not in (2, 3) or any(one.shape != arrays[0].shape for one in arrays):
-            raise InvalidValue(
-                "data must be (times, heights) or (times, x, y) of equal lengths, got "
-                f"{len(arrays)} arrays of shapes {', '.join(str(one.shape) for one in arrays)}"
-            )
-        names = ("y",) if len(arrays) == 2 else ("x", "y")
-        found = Columns(arrays[0], ["ball"], [dict(zip(names, arrays[1:], strict=True))])
+        axes = ("x", "y") if hasattr(data, "__len__") and len(data) == 3 else ("y",)
+        times, *own = columns(data, ("time", *axes))
+        found = Columns(times, ["ball"], [dict(zip(axes, own, strict=True))])
     good = np.isfinite(found.times)
     times = found.times[good]
     if len(times) < 4 or (np.diff(times) <= 0.0).any():
