@@ -1,7 +1,8 @@
 """Columns -> the Dataset of what they hold."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -72,7 +73,9 @@ def assemble(
     for k, one in enumerate(columns):
         if one.factor != 1.0:
             values[:, k] *= one.factor
-    data, more = _builder(KINDS[holds])(columns, values, run)
+    kind = KINDS[holds]
+    builders = {"time": _series, "track": _track}
+    data, more = builders.get(kind.dimension, partial(_rows, kind))(columns, values, run)
     return data, doubts + more
 
 
@@ -194,31 +197,17 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     return xr.Dataset(data, coords=coords), doubts
 
 
-def _rows(dimension: str, *roles: str) -> Callable[[Sequence[Column], Values, object], _Built]:
-    """Return a function that builds a Dataset of rows, without those that lack a needed number."""
+def _rows(kind: Kind, columns: Sequence[Column], values: Values, run: object) -> _Built:
+    """Return the Dataset of rows, without those that lack a needed number."""
+    import xarray as xr
 
-    def build(columns: Sequence[Column], values: Values, run: object) -> _Built:
-        import xarray as xr
-
-        if run is not None:
-            raise InvalidValue("run: there is none to choose, as this holds no times")
-        whole = np.ones(len(values), dtype=bool)
-        for role in roles:
-            whole &= np.isfinite(values[:, _at(columns, role)])
-        if not whole.any():
-            raise FileError(f"it has no row with {' and '.join(roles)}")
-        return xr.Dataset(_data(columns, values[whole], dimension)), []
-
-    return build
-
-
-def _builder(kind: Kind) -> Callable[[Sequence[Column], Values, object], _Built]:
-    """Return the function that builds the Dataset of a kind from its columns."""
-    if kind.dimension == "time":
-        return _series
-    if kind.dimension == "track":
-        return _track
-    return _rows(kind.dimension, *(roles[0] for roles in kind.columns))
+    if run is not None:
+        raise InvalidValue("run: there is none to choose, as this holds no times")
+    roles = [each[0] for each in kind.columns]
+    whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
+    if not whole.any():
+        raise FileError(f"it has no row with {' and '.join(roles)}")
+    return xr.Dataset(_data(columns, values[whole], kind.dimension)), []
 
 
 def _at(columns: Sequence[Column], role: str) -> int:

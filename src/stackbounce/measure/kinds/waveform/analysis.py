@@ -20,8 +20,8 @@ from stackbounce.measure.kinds.waveform.intervals import (
 )
 from stackbounce.measure.kinds.waveform.record import Record, read_record
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
-from stackbounce.measure.kinds.waveform.sensor import known, sensitivity_of
-from stackbounce.measure.quantities import Array, known_to
+from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
+from stackbounce.measure.quantities import Array, known_to, measured_if_given
 from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
@@ -118,7 +118,8 @@ def waveform(
         raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")
     if threshold is not None:
         threshold = positive("threshold", threshold, "the record's unit")
-    m, v = known("mass", mass, "kilograms"), known("impact_speed", impact_speed, "m/s")
+    m = measured_if_given("mass", mass, "kilograms")
+    v = measured_if_given("impact_speed", impact_speed, "m/s")
     record = read_record(data)
     raw = record.values
     seen = _see(record, raw, threshold, sign)
