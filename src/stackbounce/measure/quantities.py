@@ -68,10 +68,7 @@ def known_to(value: float, error: float) -> Number:
 
 
 def measured(
-    name: str,
-    value: object,
-    of: str = "",
-    check: Callable[..., float] = positive,
+    name: str, value: object, of: str = "", check: Callable[..., float] = positive
 ) -> Number:
     """Return a number, or a number with an error, as one with an error (0 if it has none).
 

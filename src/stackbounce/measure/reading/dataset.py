@@ -86,11 +86,8 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
     missing = []
     for roles in KINDS[holds].columns:
         fit = [k for k, one in enumerate(found) if any(_is(one, role) for role in roles)]
-        at = fit[0] if fit else None
-        if at is None:
-            missing.append(roles)
-        else:
-            taken.add(at)
+        taken.update(fit[:1])
+        missing += [] if fit else [roles]
     for roles in missing:
         wanted = _UNITS.get(roles[0], "")
         fits = ("", wanted, "V") if roles[0] == "sound" else ("", wanted)
@@ -174,17 +171,14 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     values = values[rows]
     others = [k for k in range(len(columns)) if k != at]
     tracks = list(dict.fromkeys(columns[k].track for k in others))
-    names: list[list[str]] = [
-        _named([columns[k] for k in others if columns[k].track == one], ["time", "track"])
-        for one in tracks
-    ]
     blank = np.full((len(values), len(tracks)), np.nan)
     data: dict[str, Any] = {
         axis: (("time", "track"), blank.copy(), {"units": "m", "long_name": axis}) for axis in "xy"
     }
     for k, track in enumerate(tracks):
         own = [j for j in others if columns[j].track == track]
-        for name, j in zip(names[k], own, strict=True):
+        names = _named([columns[j] for j in own], ["time", "track"])
+        for name, j in zip(names, own, strict=True):
             place = data.setdefault(name, (("time", "track"), blank.copy(), _said(columns[j])))
             place[1][:, k] = values[:, j]
             place[2].update(_said(columns[j]))

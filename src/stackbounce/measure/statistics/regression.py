@@ -88,10 +88,7 @@ def _fits(design: Array, values: Array, covariances: Array) -> tuple[Array, Arra
 
 
 def fit_with_excess_scatter(
-    design: Array,
-    values: Array,
-    covariance: Array,
-    most: float,
+    design: Array, values: Array, covariance: Array, most: float
 ) -> tuple[Fit, float]:
     """Return the fit to values that may scatter by more than their errors, and the excess scatter.
 

@@ -7,7 +7,6 @@ import numpy as np
 from stackbounce.measure.kinds.press.branches import Cycle, Record
 from stackbounce.measure.kinds.press.cycle import Branch, Found, analysed
 from stackbounce.measure.kinds.press.result import Curve, Press
-from stackbounce.measure.quantities import known_to
 
 __all__ = ["result_of", "unloading_only"]
 
@@ -55,17 +54,13 @@ def result_of(record: Record, cycle: Cycle) -> Press:
 
 def _correlated(found: Found) -> dict[str, Any]:
     """Return the numbers of a cycle with their errors and correlations."""
-    from uncertainties import correlated_values
+    from uncertainties import correlated_values_norm
 
     scale = np.sqrt(np.clip(np.diag(found.covariance), 0.0, None))
-    known = scale > 0.0
-    # in units of the errors themselves, which span many decades
-    part = found.covariance[np.ix_(known, known)] / np.outer(scale[known], scale[known])
-    units = iter(correlated_values(np.zeros(int(known.sum())), part) if known.any() else ())
-    return {
-        name: value + size * next(units) if size > 0.0 else known_to(value, 0.0)
-        for (name, value), size in zip(found.values.items(), scale.tolist(), strict=True)
-    }
+    unit = np.where(scale > 0.0, scale, 1.0)
+    correlations = found.covariance / np.outer(unit, unit) + np.diag(scale == 0.0)
+    known = zip(found.values.values(), scale.tolist(), strict=True)
+    return dict(zip(found.values, correlated_values_norm(list(known), correlations), strict=True))
 
 
 def _curve(branch: Branch, contact: float, peak: float) -> Curve:

@@ -135,10 +135,12 @@ def _fitted(
     fitted = _flights(found, up, gravity)
     across = "x" if up.axis == "y" else "y"
     if fitted and across in found.positions[0]:
-        own = [(found.positions[found.names.index(name)], one) for name, one in fitted]
-        sides = [p[across][np.isfinite(up.heights(p))] for p, _ in own]
-        times, heights, flown = zip(*(one[:3] for _, one in own), strict=True)
-        angle, error = tilt_of(times, heights, sides, [one.flights for one in flown])
+        own = []
+        for name, (times, heights, flown, _) in fitted:
+            position = found.positions[found.names.index(name)]
+            side = position[across][np.isfinite(up.heights(position))]
+            own.append((times, heights, side, flown.flights))
+        angle, error = tilt_of(own)
         if abs(angle) > max(_LEAST_TILT, 3.0 * error):
             tilted = up._replace(tilt=angle)
             again = _flights(found, tilted, gravity)
@@ -172,12 +174,7 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
 
 
 def _track(
-    name: str,
-    times: Array,
-    heights: Array,
-    fit: Flights,
-    bounces: list[int],
-    floor: float | None,
+    name: str, times: Array, heights: Array, fit: Flights, bounces: list[int], floor: float | None
 ) -> Track:
     """Return a ball's bounces from its parabolas."""
     from uncertainties import correlated_values

@@ -241,15 +241,13 @@ def _jump(times: Array, fitted: Flights, j: int) -> tuple[float, float, float]:
     return jump, error, before
 
 
-def tilt_of(
-    times: Sequence[Array],
-    along: Sequence[Array],
-    across: Sequence[Array],
-    flights: Sequence[list[Flight]],
-) -> tuple[float, float]:
-    """Return the angle in radians between an axis and the vertical, and its error."""
+def tilt_of(balls: Sequence[tuple[Array, Array, Array, list[Flight]]]) -> tuple[float, float]:
+    """Return the angle in radians between an axis and the vertical, and its error.
+
+    Of each ball `balls` has the times, the positions along the axis and across it, the flights.
+    """
     angles, weights = [], []
-    for t, up, side, own in zip(times, along, across, flights, strict=True):
+    for t, up, side, own in balls:
         good = np.isfinite(up) & np.isfinite(side)
         kept = [Flight(a, b) for a, b in own if good[a:b].all()]
         if not kept:

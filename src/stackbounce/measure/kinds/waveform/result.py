@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from stackbounce.measure.constants import dynamic_stiffness
 from stackbounce.measure.finding import Curve, Finding, channels, force_channels
 from stackbounce.measure.kinds.waveform.flanks import Flank
-from stackbounce.measure.quantities import Array, Number, Row
+from stackbounce.measure.quantities import Array, Number, Row, nominal
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -160,15 +160,13 @@ class Waveform(Finding):
 
     def parts(self) -> dict[str, Any]:
         """Return what a drop can use, by the keys of its TOML: ball, contact, impact speed."""
-        from uncertainties import nominal_value
-
         found: dict[str, Any] = {}
         if self.mass is not None:
-            found["ball"] = {"mass": nominal_value(self.mass)}
+            found["ball"] = {"mass": nominal(self.mass)}
         if self.stiffness is not None:
-            found["contact"] = {"law": "Spring", "stiffness": nominal_value(self.stiffness)}
+            found["contact"] = {"law": "Spring", "stiffness": nominal(self.stiffness)}
         if self.impact_speed is not None:
-            found["impact_speed"] = nominal_value(self.impact_speed)
+            found["impact_speed"] = nominal(self.impact_speed)
         return found
 
     def told(self) -> dict[str, Any]:
