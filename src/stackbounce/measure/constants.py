@@ -52,8 +52,7 @@ def dynamic_stiffness(mass: Any, contact_time: Any) -> Number:
     (5.39+/-0.25)e+04
     """
     time = measured("contact_time", contact_time, _UNITS["contact_time"])
-    k: Number = _moving(mass) * (math.pi / time) ** 2
-    return k
+    return _moving(mass) * (math.pi / time) ** 2
 
 
 @dataclass(frozen=True)
@@ -183,8 +182,7 @@ def _moving(mass: Any) -> Number:
     if len(mass) != 2:
         raise InvalidValue(f"mass must be a number or a pair of numbers, got {shown(mass)}")
     one, other = (measured(f"mass.{i}", mass[i], _UNITS["mass"]) for i in (0, 1))
-    both: Number = one / (1.0 + one / other)
-    return both
+    return one / (1.0 + one / other)
 
 
 def _checks(kind: object, name: str) -> Callable[..., float]:

@@ -125,5 +125,4 @@ def trapezoid(x: Array) -> Array:
     array([0.5, 1.5, 1. ])
     """
     steps = 0.5 * np.diff(x)
-    weights: Array = np.append(steps, 0.0) + np.append(0.0, steps)
-    return weights
+    return np.asarray(np.append(steps, 0.0) + np.append(0.0, steps))

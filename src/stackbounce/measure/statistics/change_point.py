@@ -162,5 +162,4 @@ def _padded(columns: Array) -> Array:
 def _beside(base: Array, columns: Array) -> Array:
     """Return the part of columns that is orthogonal to gain and shift."""
     padded = _padded(columns)
-    beside: Array = padded - base @ (base.T @ padded)
-    return beside
+    return np.asarray(padded - base @ (base.T @ padded))

@@ -155,9 +155,8 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
     near = np.flatnonzero(path[start : end + 1] >= path[peak] - reach) + start
     first, last = int(near[0]), int(near[-1])
     step = float(np.median(np.abs(np.diff(path[start : end + 1]))))
-    ramp = (
-        2.0 * reach / step + 3.0 if step > 0.0 else 3.0
-    )  # points near the peak of a press that never stands still
+    # points near the peak of a press that never stands still
+    ramp = 2.0 * reach / step + 3.0 if step > 0.0 else 3.0
     still = last - first + 1 > 2.0 * ramp and last - first + 1 >= LEAST
     if still:
         held = np.arange(first, last + 1)

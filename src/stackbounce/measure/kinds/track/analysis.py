@@ -96,12 +96,7 @@ def track(
     gravity = positive("gravity", gravity, "m/s^2")
     clock = positive("frame_rate_factor", frame_rate_factor)
     ruler = positive("scale", scale)
-    found = positions_of(data)
-    found = Columns(
-        found.times / clock,
-        found.names,
-        [{name: ruler * one for name, one in p.items()} for p in found.positions],
-    )
+    found = positions_of(data, clock, ruler)
     notes: list[str] = []
     up = upward(found, axis, gravity)
     if axis is None and up.sign < 0.0:
@@ -150,12 +145,8 @@ def _fitted(
                     "vertical, as the flights show; heights are counted along the vertical."
                 )
                 return tilted, again
-    known = [name for name, _ in fitted]
-    notes.extend(
-        f"{name}: no bounce was found, and it is left out."
-        for name in found.names
-        if name not in known
-    )
+    without = [name for name in found.names if name not in dict(fitted)]
+    notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
     return up, fitted
 
 

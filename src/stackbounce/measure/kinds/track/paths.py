@@ -54,8 +54,8 @@ class Upward(NamedTuple):
         return math.cos(self.tilt) * along + math.sin(self.tilt) * across
 
 
-def positions_of(data: Any) -> Columns:
-    """Return times and positions out of a Dataset or of plain arrays."""
+def positions_of(data: Any, clock: float, ruler: float) -> Columns:
+    """Return times over `clock`, and positions times `ruler`, of a Dataset or plain arrays."""
     if hasattr(data, "data_vars"):
         found = _from_dataset(data)
     else:
@@ -69,8 +69,8 @@ def positions_of(data: Any) -> Columns:
             f"times must ascend and be at least 4, got {len(times)}"
             + " that do not ascend" * (len(times) > 3)
         )
-    positions = [{axis: one[good] for axis, one in p.items()} for p in found.positions]
-    return Columns(times, found.names, positions)
+    positions = [{axis: ruler * one[good] for axis, one in p.items()} for p in found.positions]
+    return Columns(times / clock, found.names, positions)
 
 
 def _from_dataset(data: Any) -> Columns:

@@ -188,8 +188,7 @@ def _waves(times: Array, tone: float) -> Array:
 def fit_quiet(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
     """Return the linear regression on columns at all samples, fitted to the quiet ones."""
     weights = np.linalg.lstsq(columns[quiet], values[quiet], rcond=None)[0]
-    best: Array = columns @ weights
-    return best
+    return np.asarray(columns @ weights)
 
 
 def _robust(rest: Array, quantum: float) -> float:
