@@ -13,7 +13,8 @@ from stackbounce.measure.quantities import Array
 __all__ = ["columns", "resolution", "runs", "stuck", "trapezoid"]
 
 _LEVELS = 2**18  # numbers that tell their step
-_REPEATED = 0.8  # share of different numbers among rounded ones, unless these are far apart
+_REPEATED = 0.8  # share of different numbers among rounded ones, unless these change quickly
+_CHANGES = 5  # different changes between neighbours, which evenly moved numbers have not
 _STRAY = 0.05  # share of the numbers that may lie between two steps
 _OFF = (0.1, 0.25)  # in steps: how uneven one step is, and how far off a distance may be
 _ON = 0.9  # share of the distances that are whole numbers of steps
@@ -82,7 +83,7 @@ def resolution(values: NDArray[np.floating]) -> float:
     """Return the step of a converter, or of digits, that numbers were rounded to; 0 for none.
 
     It is the smallest distance of two of them, if the other distances are multiples of it. Numbers
-    that neither repeat nor leave out steps may have been recorded at equal steps without rounding.
+    that neither repeat nor change by varying numbers of steps may just have been moved evenly.
 
     Examples
     --------
@@ -96,7 +97,8 @@ def resolution(values: NDArray[np.floating]) -> float:
     gaps = np.sort(gaps[gaps > 1e-9 * np.ptp(distinct)]) if len(gaps) else gaps
     for step in gaps[[0, int(_STRAY * len(gaps))]].tolist() if len(gaps) else ():
         multiples = gaps / step
-        seen = len(distinct) <= _REPEATED * len(some) or np.median(multiples) > 1.5
+        changes = np.unique(np.round(np.diff(some) / step))
+        seen = len(distinct) <= _REPEATED * len(some) or len(changes) > _CHANGES
         off = np.abs(multiples - np.round(multiples))
         if seen and np.mean(off < np.minimum(_OFF[0] * np.sqrt(multiples), _OFF[1])) > _ON:
             return float(step)

@@ -152,7 +152,9 @@ def fit_with_ar_noise(design: Array, values: Array, apart: Array) -> tuple[Fit, 
     """
     count = len(values) - design.shape[1]
     tried = _CORRELATIONS if count > _TELLING else np.zeros(1)
-    fits = [_fit(design, values, phi**apart, 1.0) for phi in tried]
+    rough = np.linalg.lstsq(design, values, rcond=None)[0]
+    rest = values - design @ rough  # small numbers, whose squares lose no digits
+    fits = [_fit(design, rest, phi**apart, 1.0) for phi in tried]
     each, spreads, likelihoods, variances = (np.array(one) for one in zip(*fits, strict=True))
     score = likelihoods + np.log(1.0 - tried**2)  # the prior: strong correlations are rare
     weights = np.exp(score - score.max())
@@ -160,7 +162,8 @@ def fit_with_ar_noise(design: Array, values: Array, apart: Array) -> tuple[Fit, 
     fitted = average_fits(weights, each, spreads)
     sigma = float(np.exp(0.5 * (weights @ np.log(variances))))
     squares = float(weights @ variances) * max(count, _ALMOST_NONE)
-    return Fit(*fitted, squares, count), sigma, float(weights @ tried)
+    fit = Fit(rough + fitted[0], fitted[1], squares, count)
+    return fit, sigma, float(weights @ tried)
 
 
 def linear_prediction_residual(
