@@ -120,8 +120,12 @@ def test_a_bounce_between_two_samples_is_told():
         ((np.arange(50.0), np.zeros(50)), InvalidValue, "must hold a free fall and a bounce"),
         ((np.zeros(50), np.zeros(50)), InvalidValue, "8 samples or more at ascending times"),
         (([1.0], [2.0]), InvalidValue, "8 samples or more at ascending times, got 1"),
-        ("fall", InvalidType, "data must be a Dataset from read, or times and values, got 'fall'"),
-        ((np.arange(3.0), None), InvalidType, "data must be a Dataset from read, or times"),
+        (
+            "fall",
+            InvalidType,
+            "data must be a Dataset with time and acceleration, or arrays of numbers",
+        ),
+        ((np.arange(3.0), None), InvalidValue, "time and acceleration of one length, got shapes"),
     ],
 )
 def test_bad_input(data, error, words):

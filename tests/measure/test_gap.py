@@ -1,4 +1,4 @@
-"""Gaps from delays, delays from gaps, and the paper's delays of 2 and 7 ms."""
+"""Gaps from delays, and the paper's delays of 2 and 7 ms."""
 
 import math
 
@@ -9,7 +9,7 @@ import stackbounce as sb
 from stackbounce.cross2007 import PAPER
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.measure.kinds.waveform.gap.delay import delay, delay_from_gap, gap_from_delay
+from stackbounce.measure.kinds.waveform.gap.delay import delay, gap_from_delay
 from stackbounce.synthetic.waveform import waveform as record_of
 
 SPEED = math.sqrt(2.0 * 9.80665 * 0.20)
@@ -34,14 +34,12 @@ def gap_at(delay_key, ball, **how):
         sb.Dashpot(5e4, 20.0),
     ],
 )
-def test_both_ways_agree_with_the_simulator(law, gap):
+def test_a_gap_is_that_of_the_simulator(law, gap):
     balls = [sb.Ball(0.101), sb.Ball(0.0248)]
     drop = sb.Drop(balls, [law, sb.Spring(1.6e4)], gaps=[gap], impact_speed=2.0)
     touch = float(sb.simulate(drop).first_touch[1])
     found = gap_from_delay(touch, 2.0, mass=0.101, contact=law)
     assert found.nominal_value == pytest.approx(gap, rel=1e-5)
-    later = delay_from_gap(gap, 2.0, mass=0.101, contact=law)
-    assert later.nominal_value == pytest.approx(touch, rel=1e-5)
 
 
 def test_a_spring_is_closed_form():
@@ -67,8 +65,6 @@ def test_errors_follow_from_what_was_given():
     by_speed = found.nominal_value * 0.01
     slope = 2.0 * (math.sin(w * 2e-3) / math.pi - 2e-3 / 4.3e-3 * math.cos(w * 2e-3))
     assert found.std_dev == pytest.approx(math.hypot(by_delay, by_speed, slope * 1e-4), rel=1e-3)
-    back = delay_from_gap(found.nominal_value, 2.0, contact_time=4.3e-3)
-    assert back.nominal_value == pytest.approx(2e-3, rel=1e-9)
 
 
 def test_two_channels_give_the_delay():
@@ -134,8 +130,6 @@ def test_the_paper_s_7_ms_of_basketball_and_tennis_ball_are_its_2_mm_at_most():
 def test_one_way_to_bounce_is_needed(how, words):
     with pytest.raises(InvalidValue, match=words):
         gap_from_delay(1e-3, 2.0, **how)
-    with pytest.raises(InvalidValue, match=words):
-        delay_from_gap(1e-3, 2.0, **how)
 
 
 def test_channels_without_a_touch_are_named():

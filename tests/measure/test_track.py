@@ -182,7 +182,7 @@ def test_a_second_ball_that_lies_still_is_left_out():
         ((np.zeros(20), np.zeros(20)), InvalidValue, "times must ascend"),
         ((np.arange(20.0)[::-1], np.zeros(20)), InvalidValue, "times must ascend"),
         ((np.arange(3.0), np.zeros(3)), InvalidValue, "at least 4"),
-        ((np.arange(20.0), np.zeros(3)), InvalidValue, "equal lengths"),
+        ((np.arange(20.0), np.zeros(3)), InvalidValue, "time and y of one length"),
         ("track.txt", InvalidType, "data must be"),
         (3, InvalidType, "data must be"),
         (xr.Dataset({"z": ("time", [1.0])}), InvalidType, "variables x and y"),

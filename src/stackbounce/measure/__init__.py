@@ -12,7 +12,7 @@ measurement   a file or typed numbers, with the results, for all user interfaces
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
 quantities    numbers with errors; a row of a table
-samples       columns of a Dataset or arrays; runs; trapezoids
+samples       columns of a Dataset or arrays, runs, rounding, areas
 statistics/   regression, change points, AR noise, error propagation
 ============= ================================================================
 """

@@ -3,16 +3,14 @@
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
 from stackbounce.calibration import calibrate
 from stackbounce.errors import InvalidValue, between, fraction, positive, shown
 from stackbounce.measure.quantities import Number, Row, measured
 from stackbounce.measure.statistics.propagation import propagate
 from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
-
-if TYPE_CHECKING:
-    pass
 
 __all__ = ["LawConstants", "dynamic_stiffness", "law_constants"]
 
@@ -54,8 +52,7 @@ def dynamic_stiffness(mass: Any, contact_time: Any) -> Number:
     (5.39+/-0.25)e+04
     """
     time = measured("contact_time", contact_time, _UNITS["contact_time"])
-    k: Number = _moving(mass) * (math.pi / time) ** 2
-    return k
+    return _moving(mass) * (math.pi / time) ** 2
 
 
 @dataclass(frozen=True)
@@ -86,11 +83,9 @@ class LawConstants:
     def all_rows(self) -> list[Row]:
         """Return the constants and, after them, the measured numbers that they follow from."""
         units = {"mass": "kg", "contact_time": "s", "impact_speed": "m/s"}
-        made_of = self.given.items()
-        return [
-            *self.rows(),
-            *(Row(f"from {n.replace('_', ' ')}", v, units.get(n, "")) for n, v in made_of),
-        ]
+        given = self.given.items()
+        made_of = [Row(f"from {n.replace('_', ' ')}", v, units.get(n, "")) for n, v in given]
+        return self.rows() + made_of
 
     def parts(self) -> dict[str, object]:
         """Return the contact with its nominal values, as a drop's TOML has it."""
@@ -160,10 +155,11 @@ def law_constants(
         "impact_speed": impact_speed,
         "exponent": exponent,
     }
-    sources: dict[str, Number] = {}
-    for name, value in given.items():
-        if value is not None:
-            sources[name] = measured(name, value, _UNITS.get(name, ""), _checks(kind, name))
+    sources: dict[str, Number] = {
+        name: measured(name, value, _UNITS.get(name, ""), _checks(kind, name))
+        for name, value in given.items()
+        if value is not None
+    }
     at = {name: value.nominal_value for name, value in sources.items()}
     found: Any = calibrate(kind, **at)
     names = list(found.quantities())  # includes constants that follow from each other
@@ -186,15 +182,11 @@ def _moving(mass: Any) -> Number:
     if len(mass) != 2:
         raise InvalidValue(f"mass must be a number or a pair of numbers, got {shown(mass)}")
     one, other = (measured(f"mass.{i}", mass[i], _UNITS["mass"]) for i in (0, 1))
-    both: Number = one / (1.0 + one / other)
-    return both
+    return one / (1.0 + one / other)
 
 
-def _checks(kind: object, name: str) -> Callable[[str, object, str], float]:
+def _checks(kind: object, name: str) -> Callable[..., float]:
     """Return the function that checks the range of a number before `calibrate` is called."""
     if name == "restitution":
-        zero = getattr(kind, "rigid", False)
-        return lambda name, value, _: fraction(name, value, zero=zero)
-    if name == "exponent":
-        return lambda name, value, _: between(name, value, 1.0, STEEPEST)
-    return positive
+        return partial(fraction, zero=getattr(kind, "rigid", False))
+    return partial(between, low=1.0, high=STEEPEST) if name == "exponent" else positive

@@ -20,9 +20,6 @@ File: TypeAlias = Path | tuple[str, bytes]
 """A file: its path, or its name and its content."""
 
 
-_TYPED = "numbers of the command line"
-
-
 @dataclass(frozen=True)
 class Measurement:
     """A file, or typed numbers, and what was found.
@@ -125,7 +122,12 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
         if not given or kind.of_numbers is None:
             continue
         own = {name: options[name] for name in keywords_of(kind.of_numbers) if name in options}
-        told = {"format": _TYPED, "why": "", "doubt": "", "holds": kind.typed}
+        told = {
+            "format": "numbers of the command line",
+            "why": "",
+            "doubt": "",
+            "holds": kind.typed,
+        }
         source = " ".join(known[name].on_command_line for name in given)
         done.append(Measurement(source, told, None, (kind.of_numbers(**own),)))
     return done

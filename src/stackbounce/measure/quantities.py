@@ -17,6 +17,7 @@ __all__ = [
     "known_rows",
     "known_to",
     "measured",
+    "measured_if_given",
     "nominal",
     "quantity_with_error",
 ]
@@ -67,10 +68,7 @@ def known_to(value: float, error: float) -> Number:
 
 
 def measured(
-    name: str,
-    value: object,
-    of: str = "",
-    check: Callable[[str, object, str], float] = positive,
+    name: str, value: object, of: str = "", check: Callable[..., float] = positive
 ) -> Number:
     """Return a number, or a number with an error, as one with an error (0 if it has none).
 
@@ -83,7 +81,8 @@ def measured(
     of : str, optional
         The unit in words, for the message.
     check : callable, optional
-        What its nominal value must pass: by default `stackbounce.errors.positive`.
+        What its nominal value must pass: by default `stackbounce.errors.positive`. It takes the
+        name, the value, and the unit if there is one.
 
     Returns
     -------
@@ -105,14 +104,26 @@ def measured(
     from uncertainties import UFloat
 
     known: Any = value
+    unit = [of] if of else []
     if not isinstance(value, UFloat):
-        return known_to(check(name, value, of), 0.0)
-    check(name, known.nominal_value, of)
+        return known_to(check(name, value, *unit), 0.0)
+    check(name, known.nominal_value, *unit)
     try:
         non_negative(name, known.std_dev)
     except InvalidValue:
         raise InvalidValue(f"{name} must have a finite error, got {shown(value)}") from None
     return known
+
+
+def measured_if_given(name: str, value: Any, of: str = "", **how: Any) -> Number | None:
+    """Return `measured` of a number; None stays None.
+
+    Examples
+    --------
+    >>> measured_if_given("mass", 0.057), measured_if_given("mass", None)
+    (0.057+/-0, None)
+    """
+    return None if value is None else measured(name, value, of, **how)
 
 
 def quantity_with_error(text: str, unit: str, name: str) -> float | Number:

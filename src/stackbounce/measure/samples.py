@@ -1,5 +1,6 @@
-"""Samples as an analysis takes them: columns of a Dataset or arrays; runs; trapezoids."""
+"""Samples as an analysis takes them: columns of a Dataset or arrays, runs, rounding, areas."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -9,7 +10,15 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.quantities import Array
 
-__all__ = ["columns", "runs", "trapezoid"]
+__all__ = ["columns", "resolution", "runs", "stuck", "trapezoid"]
+
+_LEVELS = 2**18  # numbers that tell their step
+_REPEATED = 0.8  # share of different numbers among rounded ones, unless these change quickly
+_CHANGES = 5  # different changes between neighbours, which evenly moved numbers have not
+_STRAY = 0.05  # share of the numbers that may lie between two steps
+_OFF = (0.1, 0.25)  # in steps: how uneven one step is, and how far off a distance may be
+_ON = 0.9  # share of the distances that are whole numbers of steps
+_STUCK = 0.4  # of a step: scatter, with rounding, below which numbers are stuck at it
 
 
 def columns(data: Any, names: Sequence[str]) -> list[Array]:
@@ -70,6 +79,45 @@ def runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return edges[::2], edges[1::2] - 1
 
 
+def resolution(values: NDArray[np.floating]) -> float:
+    """Return the step of a converter, or of digits, that numbers were rounded to; 0 for none.
+
+    It is the smallest distance of two of them, if the other distances are multiples of it. Numbers
+    that neither repeat nor change by varying numbers of steps may just have been moved evenly.
+
+    Examples
+    --------
+    >>> wave = np.sin(np.arange(100.0))
+    >>> resolution(wave), resolution(np.round(8.0 * wave) / 8.0)
+    (0.0, 0.125)
+    """
+    some = values[:: max(1, len(values) // _LEVELS)]
+    distinct = np.unique(some).astype(np.float64)
+    gaps = np.diff(distinct)
+    gaps = np.sort(gaps[gaps > 1e-9 * np.ptp(distinct)]) if len(gaps) else gaps
+    for step in gaps[[0, int(_STRAY * len(gaps))]].tolist() if len(gaps) else ():
+        multiples = gaps / step
+        changes = np.unique(np.round(np.diff(some) / step))
+        seen = len(distinct) <= _REPEATED * len(some) or len(changes) > _CHANGES
+        off = np.abs(multiples - np.round(multiples))
+        if seen and np.mean(off < np.minimum(_OFF[0] * np.sqrt(multiples), _OFF[1])) > _ON:
+            return float(step)
+    return 0.0
+
+
+def stuck(step: float, noise: float) -> float:
+    """Return the error of a mean of numbers that are rounded to a step, and hardly differ.
+
+    More noise makes the rounding errors of the numbers independent, so that they average out.
+
+    Examples
+    --------
+    >>> round(stuck(0.1, 0.01), 3), stuck(0.1, 0.1)
+    (0.029, 0.0)
+    """
+    return step / math.sqrt(12.0) if noise < _STUCK * step else 0.0
+
+
 def trapezoid(x: Array) -> Array:
     """Return the weights with which values at x add up to their integral along the path.
 
@@ -79,5 +127,4 @@ def trapezoid(x: Array) -> Array:
     array([0.5, 1.5, 1. ])
     """
     steps = 0.5 * np.diff(x)
-    weights: Array = np.append(steps, 0.0) + np.append(0.0, steps)
-    return weights
+    return np.asarray(np.append(steps, 0.0) + np.append(0.0, steps))

@@ -1,7 +1,8 @@
 """Columns -> the Dataset of what they hold."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -72,7 +73,9 @@ def assemble(
     for k, one in enumerate(columns):
         if one.factor != 1.0:
             values[:, k] *= one.factor
-    data, more = _builder(KINDS[holds])(columns, values, run)
+    kind = KINDS[holds]
+    builders = {"time": _series, "track": _track}
+    data, more = builders.get(kind.dimension, partial(_rows, kind))(columns, values, run)
     return data, doubts + more
 
 
@@ -83,11 +86,8 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
     missing = []
     for roles in KINDS[holds].columns:
         fit = [k for k, one in enumerate(found) if any(_is(one, role) for role in roles)]
-        at = fit[0] if fit else None
-        if at is None:
-            missing.append(roles)
-        else:
-            taken.add(at)
+        taken.update(fit[:1])
+        missing += [] if fit else [roles]
     for roles in missing:
         wanted = _UNITS.get(roles[0], "")
         fits = ("", wanted, "V") if roles[0] == "sound" else ("", wanted)
@@ -171,17 +171,14 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     values = values[rows]
     others = [k for k in range(len(columns)) if k != at]
     tracks = list(dict.fromkeys(columns[k].track for k in others))
-    names: list[list[str]] = [
-        _named([columns[k] for k in others if columns[k].track == one], ["time", "track"])
-        for one in tracks
-    ]
     blank = np.full((len(values), len(tracks)), np.nan)
     data: dict[str, Any] = {
         axis: (("time", "track"), blank.copy(), {"units": "m", "long_name": axis}) for axis in "xy"
     }
     for k, track in enumerate(tracks):
         own = [j for j in others if columns[j].track == track]
-        for name, j in zip(names[k], own, strict=True):
+        names = _named([columns[j] for j in own], ["time", "track"])
+        for name, j in zip(names, own, strict=True):
             place = data.setdefault(name, (("time", "track"), blank.copy(), _said(columns[j])))
             place[1][:, k] = values[:, j]
             place[2].update(_said(columns[j]))
@@ -194,31 +191,17 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     return xr.Dataset(data, coords=coords), doubts
 
 
-def _rows(dimension: str, *roles: str) -> Callable[[Sequence[Column], Values, object], _Built]:
-    """Return a function that builds a Dataset of rows, without those that lack a needed number."""
+def _rows(kind: Kind, columns: Sequence[Column], values: Values, run: object) -> _Built:
+    """Return the Dataset of rows, without those that lack a needed number."""
+    import xarray as xr
 
-    def build(columns: Sequence[Column], values: Values, run: object) -> _Built:
-        import xarray as xr
-
-        if run is not None:
-            raise InvalidValue("run: there is none to choose, as this holds no times")
-        whole = np.ones(len(values), dtype=bool)
-        for role in roles:
-            whole &= np.isfinite(values[:, _at(columns, role)])
-        if not whole.any():
-            raise FileError(f"it has no row with {' and '.join(roles)}")
-        return xr.Dataset(_data(columns, values[whole], dimension)), []
-
-    return build
-
-
-def _builder(kind: Kind) -> Callable[[Sequence[Column], Values, object], _Built]:
-    """Return the function that builds the Dataset of a kind from its columns."""
-    if kind.dimension == "time":
-        return _series
-    if kind.dimension == "track":
-        return _track
-    return _rows(kind.dimension, *(roles[0] for roles in kind.columns))
+    if run is not None:
+        raise InvalidValue("run: there is none to choose, as this holds no times")
+    roles = [each[0] for each in kind.columns]
+    whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
+    if not whole.any():
+        raise FileError(f"it has no row with {' and '.join(roles)}")
+    return xr.Dataset(_data(columns, values[whole], kind.dimension)), []
 
 
 def _at(columns: Sequence[Column], role: str) -> int:

@@ -108,12 +108,8 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     bend = _ACCELERATION.fullmatch(word)
     if bend and (symbol in ("m/s^2", "") or unit == "g"):
         factor, symbol = (G, "m/s^2") if unit == "g" else (factor, symbol)
-        return (
-            told or _axis(bend["rest"] or bend["axis"] or bend["before"] or ""),
-            factor,
-            symbol,
-            doubt,
-        )
+        axis = _axis(bend["rest"] or bend["axis"] or bend["before"] or "")
+        return told or axis, factor, symbol, doubt
     role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
     if symbol and role and symbol not in _WANTED.get(role, symbol).split():
         role = ""

@@ -3,7 +3,6 @@
 import csv
 import re
 from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from stackbounce.errors import FileError, InvalidValue, shown
@@ -125,7 +124,7 @@ def number(cell: str, decimal: str) -> float | None:
         if word.lstrip("+-") in _INFINITE:
             return float("-inf" if word.startswith("-") else "inf")
         cell = _plain(cell, decimal)
-    elif decimal == "," and _thousands("").fullmatch(cell):
+    elif decimal == "," and _POINTS.fullmatch(cell):
         cell = cell.replace(".", "")
     return float(cell) if _NUMBER.fullmatch(cell) else None
 
@@ -133,7 +132,7 @@ def number(cell: str, decimal: str) -> float | None:
 def _plain(cell: str, decimal: str) -> str:
     """Return a number without separators between thousands, and with a decimal point."""
     other = "." if decimal == "," else ","
-    if len(cell) > 60 or not _thousands(decimal).fullmatch(cell):
+    if len(cell) > 60 or not _GROUPED[decimal].fullmatch(cell):
         return cell.replace(",", ".", 1) if decimal == "," and "." not in cell else ""
     for mark in other + _SPACES:
         cell = cell.replace(mark, "")
@@ -148,10 +147,6 @@ _GROUPED = {
     for decimal, other in ((".", ","), (",", "."))
 }
 _POINTS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+")
-
-
-def _thousands(decimal: str) -> re.Pattern[str]:
-    return _GROUPED[decimal] if decimal else _POINTS
 
 
 def tabulate(content: str, decimal: str | None = None) -> Text:
@@ -234,7 +229,8 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
     """Return the decimal mark, and a doubt where commas could separate thousands as well."""
     cells = [cell for row in head for cell in row if "," in cell]
     commas = [one for one in cells if re.fullmatch(rf"[+-]?[0-9]*,[0-9]+{_EXPONENT}", one)]
-    points = [one for one in _all(head) if re.fullmatch(rf"[+-]?[0-9]*\.[0-9]+{_EXPONENT}", one)]
+    point = re.compile(rf"[+-]?[0-9]*\.[0-9]+{_EXPONENT}")
+    points = any(point.fullmatch(one) for row in head for one in row)
     grouped = [one for one in commas if re.fullmatch(r"[+-]?[1-9][0-9]{0,2},[0-9]{3}", one)]
     if not commas or (points and len(grouped) == len(commas)):
         mixed = [one for one in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", one)]
@@ -242,7 +238,3 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
     if len(grouped) == len(commas):
         return ",", [f"{grouped[0]!r} is read with a decimal comma: decimal='.' if it is not one"]
     return ",", []
-
-
-def _all(head: list[list[str]]) -> Iterator[str]:
-    return (cell for row in head for cell in row)

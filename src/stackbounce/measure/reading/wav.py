@@ -22,10 +22,8 @@ _STREAMED = (0, 0xFFFFFFFF)  # sizes that recorders write before they know the e
 
 def is_wav(content: bytearray) -> bool:
     """Tell whether bytes are a RIFF file of the kind WAVE."""
-    return content.startswith((b"RIFF", b"RF64", b"RIFX")) and bytes(content[8:12]) in (
-        b"WAVE",
-        b"",
-    )
+    riff = content.startswith((b"RIFF", b"RF64", b"RIFX"))
+    return riff and bytes(content[8:12]) in (b"WAVE", b"")
 
 
 def read_wav(content: bytearray) -> tuple["xr.Dataset", str, list[str]]:
@@ -115,10 +113,8 @@ def _decoded(form: bytearray, samples: memoryview, order: str, frames: int) -> N
         _, decoded = wavfile.read(io.BytesIO(b"".join([head, samples])))
         return np.asarray(decoded).reshape(frames, -1)
     except (ValueError, TypeError, ArithmeticError, struct.error) as error:
-        words = " ".join(str(error).split())
-        raise FileError(
-            f"it is a WAV sound that cannot be read, save it as PCM: {words}"
-        ) from error
+        why = " ".join(str(error).split())
+        raise FileError(f"it is a WAV sound that cannot be read, save it as PCM: {why}") from error
 
 
 def _folded(samples: NDArray[Any]) -> Array:

@@ -4,12 +4,14 @@ Neighbouring points of a record are disturbed alike: by a drift, a filter, the s
 a law that does not quite fit. Assuming independent errors makes error bars far too small.
 """
 
+from collections.abc import Sequence
 from functools import cached_property
-from typing import Any
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.regression import Fit, average_fits
 
 __all__ = [
@@ -20,12 +22,11 @@ __all__ = [
     "linear_prediction_residual",
 ]
 
-Array = NDArray[np.float64]
-
 _SHARES = (0.2, 0.6, 0.9, 1.0)  # of the variance that is AR(1) noise
 _TIMES = 7  # correlation times on the grid, from one point on
 _LONGEST = 0.5  # of the record, the longest correlation time
 _NONE = 1e-6  # a weight that does not count
+_ALMOST_NONE = 1e-9  # degrees of freedom of as many points as parameters
 _TELLING = 8  # degrees of freedom, above which residuals tell a correlation
 _CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # below 0: interlaced frames
 _CHUNK = 1024  # samples over which a linear prediction is learned
@@ -78,18 +79,19 @@ class Noise:
     @cached_property
     def _grid(self) -> tuple[float, list[tuple[float, float]]]:
         """Return the mean variance of the white noise, and of AR(1) noise of each correlation."""
-        count, width = self.jacobian.shape
+        count = len(self.residual)
         longest = max(2.0, _LONGEST * count)
-        both = np.column_stack([self.residual, self.jacobian])
-        free = max(1, count - width)
-        found = [(1.0, 0.0, *_likelihood(both, both, 0.0, free))]
+        apart = np.append(np.inf, np.ones(count - 1))
+        found: list[tuple[float, float, float, float]] = []
 
-        def add(times: Array) -> None:
+        def add(times: Array, shares: Sequence[float] = _SHARES) -> None:
             for time in times.tolist():
-                for share in _SHARES:
-                    solved, log_det = _solved(both, float(np.exp(-1.0 / time)), share)
-                    found.append((time, share, *_likelihood(both, solved, log_det, free)))
+                for share in shares:
+                    phi = float(np.exp(-1.0 / time))
+                    fit = _fit(self.jacobian, self.residual, phi**apart, share)
+                    found.append((time, share, fit.likelihood, fit.variance))
 
+        add(np.ones(1), (0.0,))
         add(np.geomspace(1.0, longest, _TIMES))
         best = max(found[1:], key=lambda row: row[2])
         if best[2] - np.log(count) > found[0][2]:  # the noise is autocorrelated: refine the grid
@@ -150,30 +152,18 @@ def fit_with_ar_noise(design: Array, values: Array, apart: Array) -> tuple[Fit, 
     """
     count = len(values) - design.shape[1]
     tried = _CORRELATIONS if count > _TELLING else np.zeros(1)
-    freedom = max(count, 1e-9)
-    both = np.column_stack([design, values])
-    shares = tried[:, None] ** apart  # of a point's error that it has from the one before
-    innovations = np.sqrt(1.0 - shares**2)
-    before = np.roll(both, 1, axis=0)
-    whitened = [
-        (both - share[:, None] * before) / new[:, None]
-        for share, new in zip(shares, innovations, strict=True)
-    ]
-    products = np.stack([one.T @ one for one in whitened])
-    normal, right = products[:, :-1, :-1], products[:, :-1, -1]
-    spreads = np.linalg.pinv(normal, hermitian=True)
-    each = (spreads @ right[:, :, None])[:, :, 0]
-    left = [one[:, -1] - one[:, :-1] @ row for one, row in zip(whitened, each, strict=True)]
-    squares = np.array([max(float(one @ one), 1e-300) for one in left])
-    variances = squares / freedom
-    score = -np.log(innovations).sum(axis=1) - 0.5 * np.linalg.slogdet(normal)[1]
-    score -= 0.5 * freedom * np.log(variances)
-    score += np.log(1.0 - tried**2)  # the prior: strong correlations are rare
+    rough = np.linalg.lstsq(design, values, rcond=None)[0]
+    rest = values - design @ rough  # small numbers, whose squares lose no digits
+    fits = [_fit(design, rest, phi**apart, 1.0) for phi in tried]
+    each, spreads, likelihoods, variances = (np.array(one) for one in zip(*fits, strict=True))
+    score = likelihoods + np.log(1.0 - tried**2)  # the prior: strong correlations are rare
     weights = np.exp(score - score.max())
     weights /= weights.sum()
-    fitted = average_fits(weights, each, variances[:, None, None] * spreads)
+    fitted = average_fits(weights, each, spreads)
     sigma = float(np.exp(0.5 * (weights @ np.log(variances))))
-    return Fit(*fitted, float(weights @ squares), count), sigma, float(weights @ tried)
+    squares = float(weights @ variances) * max(count, _ALMOST_NONE)
+    fit = Fit(rough + fitted[0], fitted[1], squares, count)
+    return fit, sigma, float(weights @ tried)
 
 
 def linear_prediction_residual(
@@ -273,40 +263,61 @@ def difference_noise(values: Array, order: int = 2) -> float:
     return float(middle / _MAD / np.sqrt(float(comb(2 * order, order))))
 
 
-def _likelihood(both: Array, solved: Array, log_det: float, free: int) -> tuple[float, float]:
-    """Return the log-likelihood up to a constant, and the variance that goes with it."""
+class _Generalised(NamedTuple):
+    """A generalised least squares fit, its restricted log-likelihood, the variance of an error."""
+
+    values: Array
+    covariance: Array
+    likelihood: float
+    variance: float
+
+
+def _fit(design: Array, values: Array, kept: Array, share: float) -> _Generalised:
+    """Return the fit of ``values = design @ parameters`` with white and AR(1) noise.
+
+    Parameters
+    ----------
+    design, values : ndarray
+        (N, P) and (N,).
+    kept : ndarray
+        (N,) correlation of a point's AR(1) noise with that of the one before it.
+    share : float
+        Of the variance that is AR(1) noise.
+    """
+    both = np.column_stack([values, design])
+    solved, log_det = _solved(both, kept, share)
     gram = both.T @ solved
-    inner = gram[1:, 1:]
-    values, vectors = np.linalg.eigh(inner)
-    values = np.maximum(values, 1e-12 * values[-1])
-    explained = float((((gram[0, 1:] @ vectors) ** 2) / values).sum())
-    square = max(float(gram[0, 0]) - explained, 1e-300)
-    log_inner = float(np.log(values).sum())
-    return -0.5 * (free * np.log(square) + log_det + log_inner), square / free
+    sizes, vectors = np.linalg.eigh(gram[1:, 1:])
+    sizes = np.maximum(sizes, 1e-12 * sizes[-1])
+    along = vectors.T @ gram[1:, 0]
+    square = max(float(gram[0, 0] - (along**2 / sizes).sum()), 1e-300)
+    freedom = max(len(values) - design.shape[1], _ALMOST_NONE)
+    variance = square / freedom
+    likelihood = -0.5 * (freedom * np.log(variance) + log_det + float(np.log(sizes).sum()))
+    covariance = variance * (vectors / sizes) @ vectors.T
+    return _Generalised(vectors @ (along / sizes), covariance, likelihood, variance)
 
 
-def _solved(both: Array, phi: float, share: float) -> tuple[Array, float]:
-    """Return V⁻¹ times columns and ln det V, with V = (1 - share) + share R and R_ij = φ**|i-j|.
+def _solved(both: Array, kept: Array, share: float) -> tuple[Array, float]:
+    """Return V⁻¹ times columns and ln det V, with V = (1 - share) + share R of AR(1) noise's R.
 
     R⁻¹ is tridiagonal, and V = ((1 - share) R⁻¹ + share) R.
     """
     from scipy.linalg import cho_solve_banded, cholesky_banded
 
-    count = len(both)
-    innovation = 1.0 - phi * phi
-    band: Any = np.empty((2, count))
-    band[0] = -phi / innovation
-    band[1] = (1.0 + phi * phi) / innovation
-    band[1, [0, -1]] = 1.0 / innovation
-    inverse = band.copy()
-    band *= 1.0 - share
-    band[1] += share
-    factor = cholesky_banded(band, check_finite=False)
-    half = cho_solve_banded((factor, False), both, check_finite=False)
+    innovations = 1.0 - kept**2
+    inverse = np.stack([-kept / innovations, 1.0 / innovations])  # upper form, by scipy
+    inverse[1, :-1] += kept[1:] ** 2 / innovations[1:]
+    half, log_det = both, float(np.log(innovations).sum())
+    if share < 1.0:
+        band = (1.0 - share) * inverse
+        band[1] += share
+        factor = cholesky_banded(band, check_finite=False)
+        half = cho_solve_banded((factor, False), both, check_finite=False)
+        log_det += 2.0 * float(np.log(factor[1]).sum())
     solved = inverse[1][:, None] * half
     solved[1:] += inverse[0, 1:, None] * half[:-1]
     solved[:-1] += inverse[0, 1:, None] * half[1:]
-    log_det = 2.0 * float(np.log(factor[1]).sum()) + (count - 1) * float(np.log(innovation))
     return solved, log_det
 
 

@@ -4,11 +4,10 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from stackbounce.measure.quantities import Array
 
 __all__ = ["Kink", "find_kink"]
-
-Array = NDArray[np.float64]
 
 _EVEN = 0.06  # of the contact time: width of averages before a slope or a maximum is taken
 _PART = 0.6  # of the largest departure: the fit ends there
@@ -163,5 +162,4 @@ def _padded(columns: Array) -> Array:
 def _beside(base: Array, columns: Array) -> Array:
     """Return the part of columns that is orthogonal to gain and shift."""
     padded = _padded(columns)
-    beside: Array = padded - base @ (base.T @ padded)
-    return beside
+    return np.asarray(padded - base @ (base.T @ padded))

@@ -1,13 +1,11 @@
 """Linear regression with correlated errors and excess scatter; error bars from few points."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-if TYPE_CHECKING:
-    from uncertainties import UFloat
+from stackbounce.measure.quantities import Array, Number
 
 __all__ = [
     "Fit",
@@ -27,13 +25,13 @@ _ONE = 0.6826894921370859  # probability within one sigma
 class Fit(NamedTuple):
     """Parameters (P,), their covariance (P, P), χ² and its degrees of freedom."""
 
-    values: NDArray[np.float64]
-    covariance: NDArray[np.float64]
+    values: Array
+    covariance: Array
     chi_squared: float
     freedom: int
 
 
-def covariance_of(values: "Sequence[UFloat]") -> NDArray[np.float64]:
+def covariance_of(values: Sequence[Number]) -> Array:
     """Return the covariance matrix of numbers with errors, (N, N).
 
     `uncertainties.covariance_matrix` sums over a set, whose order differs from run to run, and so
@@ -54,9 +52,7 @@ def covariance_of(values: "Sequence[UFloat]") -> NDArray[np.float64]:
     return np.array([[float(np.sum(one * other)) for other in spread] for one in spread])
 
 
-def least_squares(
-    design: NDArray[np.float64], values: NDArray[np.float64], covariance: NDArray[np.float64]
-) -> Fit:
+def least_squares(design: Array, values: Array, covariance: Array) -> Fit:
     """Return the generalised least squares fit of ``values = design @ parameters``.
 
     Parameters
@@ -82,9 +78,7 @@ def least_squares(
     return Fit(parameters, spread, float(chi_squared), len(values) - design.shape[1])
 
 
-def _fits(
-    design: NDArray[np.float64], values: NDArray[np.float64], covariances: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def _fits(design: Array, values: Array, covariances: Array) -> tuple[Array, Array, Array]:
     """Return parameters (K, P), their covariances (K, P, P) and χ² (K,) for each covariance."""
     inverses = np.linalg.pinv(covariances, hermitian=True)
     spreads = np.asarray(np.linalg.inv(design.T @ inverses @ design), dtype=np.float64)
@@ -94,10 +88,7 @@ def _fits(
 
 
 def fit_with_excess_scatter(
-    design: NDArray[np.float64],
-    values: NDArray[np.float64],
-    covariance: NDArray[np.float64],
-    most: float,
+    design: Array, values: Array, covariance: Array, most: float
 ) -> tuple[Fit, float]:
     """Return the fit to values that may scatter by more than their errors, and the excess scatter.
 
@@ -154,9 +145,7 @@ def fit_with_excess_scatter(
     return fit, float(scatters[1 + np.searchsorted(share, 0.5)])
 
 
-def average_fits(
-    weights: NDArray[np.float64], values: NDArray[np.float64], covariances: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def average_fits(weights: Array, values: Array, covariances: Array) -> tuple[Array, Array]:
     """Return the parameters and their covariance, averaged over fits under several noise models.
 
     Parameters
@@ -183,9 +172,7 @@ def average_fits(
     return mean, total
 
 
-def _half(
-    weights: NDArray[np.float64], off: NDArray[np.float64], errors: NDArray[np.float64]
-) -> float:
+def _half(weights: Array, off: Array, errors: Array) -> float:
     """Return half the width of the interval around 0 that holds 68.3 % of a normal mixture."""
     from scipy.optimize import brentq
     from scipy.special import ndtr

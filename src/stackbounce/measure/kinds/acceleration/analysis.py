@@ -6,9 +6,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, positive
 from stackbounce.measure.kinds.acceleration.result import Accelerometer
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import columns, runs
 from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["accelerometer"]
@@ -68,7 +69,7 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
     """
     g = positive("gravity", gravity, "m/s^2")
     times, values, notes = _sizes(data, g)
-    series = _series(_flying(times, values, g))
+    series = _series(times, _flying(times, values, g))
     if not series:
         raise InvalidValue(
             "data must hold a free fall and a bounce, flights of 0.06 s or more with a short pulse "
@@ -107,24 +108,17 @@ def accelerometer(data: Any, *, gravity: float = STANDARD_GRAVITY) -> Accelerome
 
 
 class _Flight(NamedTuple):
-    """The first and the last sample of a flight, and when these are, in s."""
+    """The first and the last sample of a flight."""
 
     first: int
     last: int
-    start: float
-    end: float
 
 
 def _sizes(data: Any, gravity: float) -> tuple[Array, Array, list[str]]:
     """Return times, the magnitude of the acceleration including gravity, and notes."""
     notes: list[str] = []
     if not hasattr(data, "data_vars"):
-        try:
-            times, values = np.array([*data], dtype=np.float64)
-        except (TypeError, ValueError):
-            raise InvalidType(
-                f"data must be a Dataset from read, or times and values, got {shown(data)}"
-            ) from None
+        times, values = columns(data, ("time", "acceleration"))
     else:
         names = [str(name) for name in data.data_vars if str(name).startswith("acceleration")]
         if not names:
@@ -132,15 +126,15 @@ def _sizes(data: Any, gravity: float) -> tuple[Array, Array, list[str]]:
                 "data must hold an acceleration over time, got "
                 f"{', '.join(map(str, data.data_vars)) or 'nothing'}"
             )
-        times = np.asarray(data["time"], dtype=np.float64)
+        times, *axes = columns(data, ("time", *names))
         if all(axis in names for axis in _AXES):
-            values = np.sqrt(sum(np.asarray(data[axis], dtype=np.float64) ** 2 for axis in _AXES))
+            values = np.sqrt(sum(axes[names.index(axis)] ** 2 for axis in _AXES))
         else:
-            values = np.abs(np.asarray(data[names[-1]], dtype=np.float64))
+            values = np.abs(axes[-1])
             if names[-1] != "acceleration_absolute":
                 notes.append("only one axis is there: flights are where it shows nothing")
-        axes = [np.abs(np.asarray(data[name], dtype=np.float64)) for name in names]
-        if any(int((one == np.nanmax(one)).sum()) >= _EQUAL for one in axes if one.size):
+        sizes = [np.abs(one) for one in axes if one.size]
+        if any(int((one == np.nanmax(one)).sum()) >= _EQUAL for one in sizes):
             notes.append("the sensor's range ended in a pulse: peaks are higher than they look")
         if "without g" in data.attrs.get("format", ""):
             values = np.abs(values - gravity)
@@ -159,21 +153,20 @@ def _sizes(data: Any, gravity: float) -> tuple[Array, Array, list[str]]:
 
 def _flying(times: Array, values: Array, gravity: float) -> list[_Flight]:
     """Return the free flights, without those that contain the first or the last sample."""
-    low = np.concatenate([[0], (values < _HALF * gravity).astype(int), [0]])
-    firsts, lasts = np.flatnonzero(np.diff(low) == 1), np.flatnonzero(np.diff(low) == -1) - 1
     return [
-        _Flight(int(a), int(b), float(times[a]), float(times[b]))
-        for a, b in zip(firsts, lasts, strict=True)
+        _Flight(int(a), int(b))
+        for a, b in zip(*runs(values < _HALF * gravity), strict=True)
         if 0 < a <= b + 1 - _FEWEST and b < len(times) - 1 and times[b] - times[a] >= _SHORTEST
     ]
 
 
-def _series(flights: list[_Flight]) -> list[_Flight]:
+def _series(times: Array, flights: list[_Flight]) -> list[_Flight]:
     """Return the longest series of two or more flights with only bounces between them."""
     best: list[_Flight] = []
     own: list[_Flight] = []
     for one in flights:
-        own = [*own, one] if own and one.start - own[-1].end < _LONGEST else [one]
+        short = own and times[one.first] - times[own[-1].last] < _LONGEST
+        own = [*own, one] if short else [one]
         best = own if len(own) > len(best) else best
     return best if len(best) > 1 else []
 
@@ -193,12 +186,7 @@ def _held(times: Array, values: Array, first: int, gravity: float) -> bool:
     return bool(known and 0.5 * gravity < np.median(values[before]) < 1.5 * gravity)
 
 
-def _notes(
-    times: Array,
-    counts: list[int],
-    kept: list[Any],
-    held: bool,
-) -> list[str]:
+def _notes(times: Array, counts: list[int], kept: list[Any], held: bool) -> list[str]:
     step = float(np.median(np.diff(times)))
     notes = []
     if min(counts) < _TOLD:

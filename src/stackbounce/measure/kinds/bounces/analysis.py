@@ -1,7 +1,7 @@
 """Times of successive bounces -> restitution of each, and how it falls with speed."""
 
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Callable, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -78,17 +78,20 @@ def bounces(
         positive("drop_height", getattr(drop_height, "nominal_value", drop_height), "metres")
     height = drop_height
     moments, missed = _moments(times, time_error, 3 if height is None else 2, notes)
-    flights = _flights(moments, missed, contact_time)
-    numbers, speeds, kept = _restitutions(flights, missed, height, gravity)
-    if not kept:
+
+    def found_at(moments: Sequence[Any]) -> _Found:
+        flights = _flights(moments, missed, contact_time)
+        return _Found(moments, flights, *_restitutions(flights, missed, height, gravity))
+
+    found = found_at(moments)
+    if not found.kept:
         raise InvalidValue(
             "times must hold two neighbouring flights, got none without a missing bounce between"
         )
     known = isinstance(moments[0], UFloat)
     if not known:
-        moments, flights, numbers, speeds, kept = _with_errors_from_scatter(
-            moments, missed, contact_time, height, gravity, notes
-        )
+        found = _with_errors_from_scatter(moments, found_at, notes)
+    flights, speeds, kept = found.flights, found.speeds, found.kept
     if any(one.nominal_value > 1.0 + 2.0 * one.std_dev for one in kept):
         notes.append(
             "A restitution above 1: a bounce was missed before it, or it was not left to itself."
@@ -108,9 +111,9 @@ def bounces(
             "known: the first bounce, the fastest, usually keeps less."
         )
     return Bounces(
-        tuple(moments),
+        tuple(found.moments),
         tuple(flights),
-        tuple(numbers),
+        tuple(found.numbers),
         tuple(speeds),
         tuple(kept),
         mean,
@@ -121,6 +124,16 @@ def bounces(
         gravity,
         tuple(notes),
     )
+
+
+class _Found(NamedTuple):
+    """Times of bounces and the flights between; of bounces: numbers, speeds, restitutions."""
+
+    moments: Sequence[Any]
+    flights: Sequence[Any]
+    numbers: Sequence[int]
+    speeds: Sequence[Any]
+    kept: Sequence[Any]
 
 
 def _moments(
@@ -221,24 +234,17 @@ def _restitutions(
 
 
 def _with_errors_from_scatter(
-    moments: Sequence[Any],
-    missed: Sequence[int],
-    contact_time: float,
-    height: Any,
-    gravity: float,
-    notes: list[str],
-) -> tuple[list[Any], list[Any], list[int], list[Any], list[Any]]:
-    """Return times, flights, numbers, speeds and restitutions with errors from the scatter.
+    moments: Sequence[Any], found_at: Callable[[Sequence[Any]], _Found], notes: list[str]
+) -> _Found:
+    """Return what follows from times, with errors from the scatter.
 
     All times have the same error. It follows from chi squared of a straight line, or of a constant
     for two restitutions, fitted to the restitutions over the impact speed.
     """
     from uncertainties import ufloat
 
-    def again(error: float) -> tuple[list[Any], list[Any], list[int], list[Any], list[Any]]:
-        timed = [ufloat(one, error) for one in moments]
-        flights = _flights(timed, missed, contact_time)
-        return timed, flights, *_restitutions(flights, missed, height, gravity)
+    def again(error: float) -> _Found:
+        return found_at([ufloat(one, error) for one in moments])
 
     small = 1e-6  # s; errors are proportional to it
     *_, speeds, kept = again(small)

@@ -6,7 +6,7 @@ from typing import Any
 from stackbounce.errors import fraction
 from stackbounce.measure.constants import dynamic_stiffness
 from stackbounce.measure.finding import Finding
-from stackbounce.measure.quantities import Number, Row, known_rows, measured
+from stackbounce.measure.quantities import Number, Row, known_rows, measured_if_given
 
 __all__ = ["Known", "known_contact"]
 
@@ -82,11 +82,7 @@ def known_contact(*, contact_time: Any = None, restitution: Any = None, mass: An
     dynamic stiffness 2.25e+04 N/m
     contact time 0.005 s
     """
-    time = None if contact_time is None else measured("contact_time", contact_time, "seconds")
-    kept = None
-    if restitution is not None:
-        kept = measured(
-            "restitution", restitution, "", lambda name, value, _: fraction(name, value)
-        )
+    time = measured_if_given("contact_time", contact_time, "seconds")
+    kept = measured_if_given("restitution", restitution, check=fraction)
     stiffness = None if time is None or mass is None else dynamic_stiffness(mass, time)
     return Known(time, kept, stiffness)

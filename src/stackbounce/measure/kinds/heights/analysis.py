@@ -11,7 +11,7 @@ from stackbounce.measure.kinds.heights.result import Heights
 from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.statistics.regression import widening
 
-__all__ = ["Place", "above_bottom", "fallen", "heights", "lowest_point", "places"]
+__all__ = ["Place", "above_bottom", "fallen", "heights", "places"]
 
 Place: TypeAlias = Literal["bottom", "centre", "top"]
 """The point of the ball that a height was read at."""
@@ -81,12 +81,13 @@ def heights(
     error = math.nan
     if height_error is not None:
         error = positive("height_error", height_error, "metres")
-    size = _size(diameter, points)
+    size = _size(diameter, *points)
     listed = _listed(bounce_heights)
     start = _counted("drop_height", _number("drop_height", drop_height, error), points[0], size)
+    names = [f"bounce_heights.{k}" for k in range(len(listed))]
     counted = [
         _counted(name, _number(name, one, error), points[1], size)
-        for name, one in ((f"bounce_heights.{k}", one) for k, one in enumerate(listed))
+        for name, one in zip(names, listed, strict=True)
     ]
     before = [start] * len(counted) if repeated else [start, *counted[:-1]]
     kept = [(after / first) ** 0.5 for first, after in zip(before, counted, strict=True)]
@@ -120,47 +121,21 @@ def above_bottom(measured_to: str, diameter: float | Number | None = None) -> An
     >>> above_bottom("centre", 0.066)
     0.033
     """
-    return _UP[measured_to] * _size(diameter, (measured_to, measured_to))
-
-
-def lowest_point(
-    name: str, height: Any, measured_to: str, diameter: float | Number | None = None
-) -> Any:
-    """Return the height of a ball's lowest point from that of its bottom, centre or top.
-
-    Parameters
-    ----------
-    name : str
-        What the height is called; messages begin with it.
-    height : float or ufloat
-        Above the floor, in m.
-    measured_to, diameter : optional
-        As in `above_bottom`.
-
-    Returns
-    -------
-    float or ufloat
-        In m, above 0.
-
-    Raises
-    ------
-    InvalidValue
-        If that is not above 0, or the diameter is missing.
-
-    Examples
-    --------
-    >>> lowest_point("height", 1.0, "top", 0.065)
-    0.935
-    """
-    size = _size(diameter, (measured_to, measured_to))
-    return _counted(name, _number(name, height, 0.0), measured_to, size)
+    return _UP[measured_to] * _size(diameter, measured_to)
 
 
 def fallen(height: Any, measured_to: object, diameter: Any) -> Any:
-    """Return the drop height of the ball's lowest point; None where none is given."""
+    """Return the drop height of the ball's lowest point; None where none is given.
+
+    Examples
+    --------
+    >>> fallen(1.0, "top", 0.065)
+    0.935
+    """
     if height is None:
         return None
-    return lowest_point("height", height, places(measured_to)[0], diameter)
+    place, _ = places(measured_to)
+    return _counted("height", _number("height", height, 0.0), place, _size(diameter, place))
 
 
 def places(measured_to: object) -> tuple[str, str]:
@@ -209,7 +184,7 @@ def _number(name: str, value: Any, error: float) -> Any:
     return number if error == 0.0 else ufloat(number, error)
 
 
-def _size(diameter: Any, places: tuple[str, str]) -> Any:
+def _size(diameter: Any, *places: str) -> Any:
     if diameter is None:
         away = [place for place in places if _UP[place]]
         if away:

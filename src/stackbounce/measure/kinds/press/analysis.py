@@ -121,8 +121,8 @@ def _chosen(found: list[Cycle], cycle: int | None) -> int:
 def _with_compliance(one: Press, moved: Press, unit: Any) -> Press:
     """Return a result with the error of the machine's compliance added to its errors."""
     changes: dict[str, Any] = {}
-    for name in Press.__dataclass_fields__:
-        value, other = getattr(one, name), getattr(moved, name)
+    for name, value in vars(one).items():
+        other = getattr(moved, name)
         if hasattr(value, "std_dev") and other is not None:
             changes[name] = value + (other.nominal_value - value.nominal_value) * unit
     return replace(one, **changes)

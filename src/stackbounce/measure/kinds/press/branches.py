@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import columns
+from stackbounce.measure.samples import columns, resolution
 from stackbounce.measure.statistics.ar_noise import difference_noise
 
 if TYPE_CHECKING:
@@ -100,10 +100,12 @@ def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> 
     if compliance:
         compression = compression - compliance * force
         notes.append(f"The machine's own {compliance:.3g} m/N was taken off the compression.")
+    steps = resolution(compression), resolution(force)
     jitter, hiss = (
-        max(difference_noise(one), _digit(one) / np.sqrt(12.0)) for one in (compression, force)
+        max(difference_noise(one), step / np.sqrt(12.0))
+        for one, step in zip((compression, force), steps, strict=True)
     )
-    return Record(compression, force, jitter, hiss, _digit(force), tuple(notes))
+    return Record(compression, force, jitter, hiss, steps[1], tuple(notes))
 
 
 def cycles(record: Record) -> list[Cycle]:
@@ -146,15 +148,6 @@ def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array
     return compression, force, notes
 
 
-def _digit(values: Array) -> float:
-    """Return the quantisation step: the distance of neighbouring values; 0 if few values repeat."""
-    some = values[:4096]
-    unique = np.unique(some)
-    if len(unique) < 2 or len(unique) > 0.8 * len(some):
-        return 0.0
-    return float(np.median(np.sort(np.diff(unique))[: max(1, len(unique) // 2)]))
-
-
 def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
     """Return a cycle around a peak, between the valleys (or ends) before and after it."""
     path = record.compression
@@ -162,9 +155,8 @@ def _cycle(record: Record, start: int, peak: int, end: int) -> Cycle:
     near = np.flatnonzero(path[start : end + 1] >= path[peak] - reach) + start
     first, last = int(near[0]), int(near[-1])
     step = float(np.median(np.abs(np.diff(path[start : end + 1]))))
-    ramp = (
-        2.0 * reach / step + 3.0 if step > 0.0 else 3.0
-    )  # points near the peak of a press that never stands still
+    # points near the peak of a press that never stands still
+    ramp = 2.0 * reach / step + 3.0 if step > 0.0 else 3.0
     still = last - first + 1 > 2.0 * ramp and last - first + 1 >= LEAST
     if still:
         held = np.arange(first, last + 1)

@@ -15,7 +15,7 @@ from stackbounce.measure.kinds.press.fits import (
     rough_contact,
 )
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import trapezoid
+from stackbounce.measure.samples import stuck, trapezoid
 from stackbounce.measure.statistics.ar_noise import Noise
 
 __all__ = ["Branch", "Found", "analysed"]
@@ -49,7 +49,8 @@ class Found(NamedTuple):
     Parameters
     ----------
     values : dict of str to float
-        The numbers, by name.
+        The numbers, by the names that `Press` has; and `top` and `top_out`, the forces of the two
+        fits at the peak.
     covariance : ndarray
         In the order of `values`.
     level : ndarray
@@ -238,11 +239,11 @@ def _loading(
     found = {
         "top": _Number(top, theta[0]),
         "exponent": _Number(p, p * theta[1]),
-        "length": _Number(c, c * theta[2]),
+        "peak_compression": _Number(c, c * theta[2]),
         "contact": _Number(peak - c, -c * theta[2]),
         "peak_force": _Number(top + float(tail @ fit.residual), theta[0] + lift),
         "work_in": _work(up, places, fit.values, theta, peak, zero),
-        "linear": _Number(slope, zero.row(x / square, up) + by_length * theta[2]),
+        "linear_stiffness": _Number(slope, zero.row(x / square, up) + by_length * theta[2]),
         "zero": _Number(0.0, np.zeros(theta.shape[1])),
     }
     if len(zero.values):
@@ -263,7 +264,7 @@ def _unloading(
     rows = np.vstack([own, theta[2]])
     return {
         "top_out": _Number(top, own[0]),
-        "unloading": _Number(n, n * own[1]),
+        "unloading_exponent": _Number(n, n * own[1]),
         "work_out": _work(down, places, fit.values, rows, peak, zero),
     }
 
@@ -334,16 +335,17 @@ def _covariance(rows: Array, fits: list[PowerFit], scales: list[Array]) -> Array
 
 def _turning_point_covariance(values: dict[str, float], last: Array, cycle: Cycle) -> Array:
     """Return the covariance that follows from the error of the turning point's compression."""
-    slope = values["top"] * values["exponent"] / values["length"]
+    length = values["peak_compression"]
+    slope = values["top"] * values["exponent"] / length
     moves: dict[str, float] = {
-        "length": 1.0,
+        "peak_compression": 1.0,
         "top": slope,  # keeps the stiffness top/length**p constant
         "peak_force": slope,
         "work_in": values["top"],
     }
     if "work_out" in values:
         moves["work_out"] = values["top_out"]
-        moves["top_out"] = values["top_out"] * values["unloading"] / values["length"]
+        moves["top_out"] = values["top_out"] * values["unloading_exponent"] / length
     row = np.array([moves.get(name, 0.0) for name in values])
     result = np.outer(row, row)
     if cycle.sampled:  # the last force then has minus the slope times the same error
@@ -354,7 +356,6 @@ def _turning_point_covariance(values: dict[str, float], last: Array, cycle: Cycl
 
 def _quantisation_covariance(rows: Array, record: Record, zero: _Zero) -> Array:
     """Return the covariance from the force's quantisation, if the zero's noise is below a step."""
-    known = len(zero.values) and record.step and zero.scatter < 0.4 * record.step
-    slack = np.abs(zero.weights).sum(axis=0) > 0.0
-    moved = rows[:, slack].sum(axis=1) if known else np.zeros(len(rows))
-    return np.outer(moved, moved) * record.step**2 / 12.0
+    error = stuck(record.step, zero.scatter) if len(zero.values) else 0.0
+    moved = rows[:, np.abs(zero.weights).sum(axis=0) > 0.0].sum(axis=1)
+    return np.outer(moved, moved) * error**2

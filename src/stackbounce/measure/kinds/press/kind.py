@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 __all__ = ["PRESS"]
 
 
-def _analyse(data: "xr.Dataset") -> "tuple[Press, ...]":
+def _analyse(data: "xr.Dataset") -> "Press":
     from stackbounce.measure.kinds.press.analysis import press
 
-    return (press(data),)
+    return press(data)
 
 
 def _recognised(columns: "Sequence[Column]") -> bool:

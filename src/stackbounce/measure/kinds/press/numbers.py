@@ -7,7 +7,6 @@ import numpy as np
 from stackbounce.measure.kinds.press.branches import Cycle, Record
 from stackbounce.measure.kinds.press.cycle import Branch, Found, analysed
 from stackbounce.measure.kinds.press.result import Curve, Press
-from stackbounce.measure.quantities import known_to
 
 __all__ = ["result_of", "unloading_only"]
 
@@ -20,33 +19,20 @@ def result_of(record: Record, cycle: Cycle) -> Press:
     """Return what one cycle with a loading gives, without its notes."""
     found = analysed(record, cycle)
     numbers = _correlated(found)
-    top, p, length = numbers["top"], numbers["exponent"], numbers["length"]
-    peak, work, back = numbers["peak_force"], numbers["work_in"], numbers.get("work_out")
-    lost = restitution = energy = relaxed = None
+    top, top_out = numbers.pop("top"), numbers.pop("top_out", None)
+    p, length, peak = (numbers[name] for name in ("exponent", "peak_compression", "peak_force"))
+    work, back = numbers["work_in"], numbers.get("work_out")
     if back is not None and work.nominal_value > 0.0:
         kept = back / work
-        lost = 1.0 - kept
+        numbers |= {"loss": 1.0 - kept, "relaxed": top - top_out}
         if kept.nominal_value > 0.0:
-            restitution, energy = kept**0.5, (p + 1.0) / kept - 1.0
-        relaxed = top - numbers["top_out"]
+            numbers |= {"restitution": kept**0.5, "energy_exponent": (p + 1.0) / kept - 1.0}
     contact, height = found.values["contact"], float(peak.nominal_value)
     return Press(
+        **numbers,
         stiffness=top / length**p,
-        exponent=p,
-        linear_stiffness=numbers["linear"],
         tangent_stiffness=p * top / length,
         secant_stiffness=peak / length,
-        peak_compression=length,
-        peak_force=peak,
-        work_in=work,
-        work_out=back,
-        loss=lost,
-        restitution=restitution,
-        unloading_exponent=numbers.get("unloading"),
-        energy_exponent=energy,
-        contact=numbers["contact"],
-        zero=numbers["zero"],
-        relaxed=relaxed,
         loading=_curve(found.loading, contact, height),
         unloading=None if back is None else _curve(found.unloading, contact, height),
         record=(record.compression - contact, record.force - found.level),
@@ -55,17 +41,15 @@ def result_of(record: Record, cycle: Cycle) -> Press:
 
 def _correlated(found: Found) -> dict[str, Any]:
     """Return the numbers of a cycle with their errors and correlations."""
-    from uncertainties import correlated_values
+    from uncertainties import correlated_values_norm
 
     scale = np.sqrt(np.clip(np.diag(found.covariance), 0.0, None))
-    known = scale > 0.0
-    # in units of the errors themselves, which span many decades
-    part = found.covariance[np.ix_(known, known)] / np.outer(scale[known], scale[known])
-    units = iter(correlated_values(np.zeros(int(known.sum())), part) if known.any() else ())
-    return {
-        name: value + size * next(units) if size > 0.0 else known_to(value, 0.0)
-        for (name, value), size in zip(found.values.items(), scale.tolist(), strict=True)
-    }
+    scale = np.where(scale > 0.0, scale, 0.0)
+    both = np.outer(scale, scale)
+    correlations = np.eye(len(scale))
+    np.divide(found.covariance, both, out=correlations, where=both > 0.0)
+    known = list(zip(found.values.values(), scale.tolist(), strict=True))
+    return dict(zip(found.values, correlated_values_norm(known, correlations), strict=True))
 
 
 def _curve(branch: Branch, contact: float, peak: float) -> Curve:

@@ -1,14 +1,11 @@
 """The result of the analysis of a press curve."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Finding
-from stackbounce.measure.quantities import Array, Row, measured
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
+from stackbounce.measure.quantities import Array, Number, Row, known_rows, measured
 
 __all__ = ["Curve", "Press"]
 
@@ -95,23 +92,23 @@ class Press(Finding):
 
     picture: ClassVar[str] = "press"
 
-    peak_compression: "UFloat"
-    peak_force: "UFloat"
-    contact: "UFloat"
-    zero: "UFloat"
+    peak_compression: Number
+    peak_force: Number
+    contact: Number
+    zero: Number
     record: tuple[Array, Array]
-    stiffness: "UFloat | None" = None
-    exponent: "UFloat | None" = None
-    linear_stiffness: "UFloat | None" = None
-    tangent_stiffness: "UFloat | None" = None
-    secant_stiffness: "UFloat | None" = None
-    work_in: "UFloat | None" = None
-    work_out: "UFloat | None" = None
-    loss: "UFloat | None" = None
-    restitution: "UFloat | None" = None
-    unloading_exponent: "UFloat | None" = None
-    energy_exponent: "UFloat | None" = None
-    relaxed: "UFloat | None" = None
+    stiffness: Number | None = None
+    exponent: Number | None = None
+    linear_stiffness: Number | None = None
+    tangent_stiffness: Number | None = None
+    secant_stiffness: Number | None = None
+    work_in: Number | None = None
+    work_out: Number | None = None
+    loss: Number | None = None
+    restitution: Number | None = None
+    unloading_exponent: Number | None = None
+    energy_exponent: Number | None = None
+    relaxed: Number | None = None
     loading: Curve | None = None
     unloading: Curve | None = None
     cycle: int = 0
@@ -131,7 +128,7 @@ class Press(Finding):
         loss: Any = self.loss
         return None if loss is None else bool(loss.nominal_value <= _AGREES * loss.std_dev)
 
-    def compression_at(self, force: "UFloat | float") -> "UFloat":
+    def compression_at(self, force: Number | float) -> Number:
         """Return the compression in m at which the loading has a force in N.
 
         Raises
@@ -142,13 +139,12 @@ class Press(Finding):
         at = measured("force", force, "newtons")
         if self.stiffness is None or self.exponent is None:
             raise InvalidValue("compression_at must have a loading to read it from, got none")
-        c: UFloat = (at / self.stiffness) ** (1.0 / self.exponent)
-        return c
+        return (at / self.stiffness) ** (1.0 / self.exponent)
 
     def rows(self) -> list[Row]:
         """Return what was found as rows of a table, the most important first."""
         p = f"N/m^{self.exponent.nominal_value:.3g}" if self.exponent is not None else "N/m^p"
-        held = [
+        found = [
             ("static stiffness, straight line", self.linear_stiffness, "N/m"),
             ("exponent", self.exponent, ""),
             ("stiffness of the power law", self.stiffness, p),
@@ -166,7 +162,7 @@ class Press(Finding):
             ("force with nothing pressed, as recorded", self.zero, "N"),
             ("drop of the force at the turn", self.relaxed, "N"),
         ]
-        rows = [Row(name, value, unit) for name, value, unit in held if value is not None]
+        rows = known_rows(found)
         if self.cycles > 1:
             rows.append(Row("cycle", f"{self.cycle + 1} of {self.cycles}"))
         return rows

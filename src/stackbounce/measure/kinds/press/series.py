@@ -2,15 +2,12 @@
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown
 from stackbounce.measure.kinds.press.result import Press
-from stackbounce.measure.quantities import Row, measured
+from stackbounce.measure.quantities import Number, Row, measured
 from stackbounce.model.laws import STEEPEST, PowerLaw, series
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
 
 __all__ = ["Split", "series_stiffness", "split_series"]
 
@@ -41,15 +38,15 @@ class Split:
         What a reader of the numbers should know, a sentence each.
     """
 
-    force: "UFloat"
-    bottom: "UFloat"
-    top: "UFloat"
-    upper: "UFloat"
-    between: "UFloat"
-    excess: "UFloat"
-    floor_stiffness: "UFloat"
-    ball_stiffness: "UFloat"
-    ratio: "UFloat"
+    force: Number
+    bottom: Number
+    top: Number
+    upper: Number
+    between: Number
+    excess: Number
+    floor_stiffness: Number
+    ball_stiffness: Number
+    ratio: Number
     notes: tuple[str, ...]
 
     def rows(self) -> list[Row]:
@@ -144,7 +141,7 @@ def split_series(lower: Any, upper: Any, both: Any, *, force: Any = None) -> Spl
     return Split(at, bottom, top, above, closer, excess, floor, ball, closer / bottom, tuple(notes))
 
 
-def _compression(name: str, one: Any, force: "UFloat") -> "UFloat":
+def _compression(name: str, one: Any, force: Number) -> Number:
     """Return a compression at a force, as given or read off a curve."""
     if isinstance(one, Press):
         if one.loading is None:
@@ -158,7 +155,7 @@ def _compression(name: str, one: Any, force: "UFloat") -> "UFloat":
         ) from None
 
 
-def series_stiffness(stiffness_a: Any, stiffness_b: Any, *, exponent: float = 1.0) -> "UFloat":
+def series_stiffness(stiffness_a: Any, stiffness_b: Any, *, exponent: float = 1.0) -> Number:
     """Return the stiffness of two contacts in series, ``k**(-1/p) = k1**(-1/p) + k2**(-1/p)``.
 
     Parameters
@@ -186,14 +183,11 @@ def series_stiffness(stiffness_a: Any, stiffness_b: Any, *, exponent: float = 1.
     >>> print(series_stiffness(ufloat(5.4e4, 0.25e4), ufloat(3.6e4, 0.28e4)))
     (2.16+/-0.11)e+04
     """
-    a, b = (
-        measured(name, one, "N/m**exponent")
-        for name, one in (("stiffness_a", stiffness_a), ("stiffness_b", stiffness_b))
-    )
+    a = measured("stiffness_a", stiffness_a, "N/m**exponent")
+    b = measured("stiffness_b", stiffness_b, "N/m**exponent")
     p = between("exponent", exponent, 1.0, STEEPEST)
     k1, k2 = float(a.nominal_value), float(b.nominal_value)
     both = positive("series", series(PowerLaw(k1, p), PowerLaw(k2, p)).stiffness)
     # dk/k1 = (k/k1)**(1 + 1/p)
     slopes = [(both / k) ** (1.0 + 1.0 / p) for k in (k1, k2)]
-    result: UFloat = both + slopes[0] * (a - k1) + slopes[1] * (b - k2)
-    return result
+    return both + slopes[0] * (a - k1) + slopes[1] * (b - k2)

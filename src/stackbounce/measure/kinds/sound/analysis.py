@@ -11,6 +11,7 @@ from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding
 from stackbounce.measure.kinds.sound.onset import onsets
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import runs
 
 __all__ = ["knocks"]
 
@@ -160,9 +161,7 @@ def _notes_on(samples: NDArray[np.float32]) -> list[str]:
     if peak == 0.0:
         raise InvalidValue("sound must hold more than silence, got only zeros")
     top = np.abs(samples) >= 0.999 * peak
-    count = max(top.shape[1] - _CLIPPED + 1, 0)
-    run = [top[:, k : k + count] for k in range(_CLIPPED)]
-    if np.logical_and.reduce(run).any():
+    if any((last - first + 1 >= _CLIPPED).any() for first, last in map(runs, top)):
         return ["The recording is clipped: loudness is wrong there, times are hardly touched."]
     return []
 
@@ -189,8 +188,7 @@ def _merged(rises: Rises, dead: float) -> tuple[Rises, list[Dropped]]:
 def _without_echoes(chain: Chain, rises: Rises, notes: list[str]) -> tuple[Chain, list[Dropped]]:
     """Return the series without echoes at its end, and why all other rises are left out."""
     delay = _echo_delay(chain, rises)
-    indices, missed = list(chain.indices), list(chain.missed)
-    cut = []
+    indices, missed, cut = list(chain.indices), list(chain.missed), []
     while delay and len(indices) > 3:
         lag = rises.times[indices[-1]] - rises.times[indices[-2]]
         quieter = rises.amplitudes[indices[-1]] < rises.amplitudes[indices[-2]]
@@ -222,25 +220,18 @@ def _without_echoes(chain: Chain, rises: Rises, notes: list[str]) -> tuple[Chain
 
 def _echo_delay(chain: Chain, rises: Rises) -> float:
     """Return the delay in s that at least three sounds after knocks have in common, or 0."""
-    lags = []
-    for k in range(len(rises.times)):
-        before = [i for i in chain.indices if i < k]
-        if before and k not in chain.indices:
-            lags.append(rises.times[k] - rises.times[before[-1]])
+    others = np.setdiff1d(np.arange(chain.indices[0], len(rises.times)), chain.indices)
+    before = np.array(chain.indices)[np.searchsorted(chain.indices, others) - 1]
+    lags = rises.times[others] - rises.times[before]
     if len(lags) < 3:
         return 0.0
     near = np.abs(np.subtract.outer(lags, lags)) < _AS_LATE
     best = int(np.argmax(near.sum(axis=1)))
-    return float(np.median(np.array(lags)[near[best]])) if near[best].sum() > 2 else 0.0
+    return float(np.median(lags[near[best]])) if near[best].sum() > 2 else 0.0
 
 
 def _note_series(
-    chain: Chain,
-    rises: Rises,
-    worth: Array,
-    dead: float,
-    origin: float,
-    notes: list[str],
+    chain: Chain, rises: Rises, worth: Array, dead: float, origin: float, notes: list[str]
 ) -> None:
     """Add notes on missing bounces, on too few knocks, and on further series of knocks."""
     times = origin + rises.times[list(chain.indices)]

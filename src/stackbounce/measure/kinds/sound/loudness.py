@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import resolution
 from stackbounce.measure.statistics.ar_noise import linear_prediction_residual
 
 __all__ = ["Rises", "find_rises", "rounding", "whitened"]
@@ -15,7 +16,6 @@ _AFTER, _BEFORE, _GUARD = 4, 16, 1  # hops whose loudness is compared, and betwe
 _ORDER = 24  # of the linear prediction that removes noise
 _LEAST_RISE = 3.0  # of the energy
 _MOST = 250  # rises that are looked at
-_LEVELS = 2**18  # samples that tell the quantisation step
 
 
 class Rises(NamedTuple):
@@ -33,7 +33,7 @@ class Rises(NamedTuple):
 def rounding(samples: NDArray[np.float32]) -> Array:
     """Return the variance of the quantisation error, (channels,).
 
-    It is s²/12 for the step s, the smallest distance of two values.
+    It is s²/12 for the step s that `resolution` sees.
 
     Examples
     --------
@@ -41,12 +41,7 @@ def rounding(samples: NDArray[np.float32]) -> Array:
     >>> (12 * rounding(coarse[None].astype(np.float32))) ** 0.5
     array([0.125])
     """
-    found = np.zeros(len(samples))
-    for channel, values in enumerate(samples):
-        some = np.unique(values[:: max(1, len(values) // _LEVELS)])
-        if len(some) > 1:
-            found[channel] = float(np.diff(some).min()) ** 2 / 12.0
-    return found
+    return np.array([resolution(one) for one in samples]) ** 2 / 12.0
 
 
 def whitened(samples: NDArray[np.float32], rounded: Array) -> NDArray[np.float32]:

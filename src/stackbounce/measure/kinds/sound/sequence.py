@@ -28,11 +28,7 @@ class Chain(NamedTuple):
 
 
 def find_chain(
-    times: Array,
-    worth: Array,
-    loudness: Array,
-    errors: Array,
-    dead_time: float,
+    times: Array, worth: Array, loudness: Array, errors: Array, dead_time: float
 ) -> Chain:
     """Return the series of bounces that explains most of the knocks.
 

@@ -11,8 +11,8 @@ from stackbounce.measure.kinds.track.notes import notes_of, stays_long
 from stackbounce.measure.kinds.track.paths import (
     Columns,
     Upward,
-    columns,
     flights_of,
+    positions_of,
     tilt_of,
     upward,
 )
@@ -96,12 +96,7 @@ def track(
     gravity = positive("gravity", gravity, "m/s^2")
     clock = positive("frame_rate_factor", frame_rate_factor)
     ruler = positive("scale", scale)
-    found = columns(data)
-    found = Columns(
-        found.times / clock,
-        found.names,
-        [{name: ruler * one for name, one in p.items()} for p in found.positions],
-    )
+    found = positions_of(data, clock, ruler)
     notes: list[str] = []
     up = upward(found, axis, gravity)
     if axis is None and up.sign < 0.0:
@@ -135,10 +130,12 @@ def _fitted(
     fitted = _flights(found, up, gravity)
     across = "x" if up.axis == "y" else "y"
     if fitted and across in found.positions[0]:
-        own = [(found.positions[found.names.index(name)], one) for name, one in fitted]
-        sides = [p[across][np.isfinite(up.heights(p))] for p, _ in own]
-        times, heights, flown = zip(*(one[:3] for _, one in own), strict=True)
-        angle, error = tilt_of(times, heights, sides, [one.flights for one in flown])
+        own = []
+        for name, (times, heights, flown, _) in fitted:
+            position = found.positions[found.names.index(name)]
+            side = position[across][np.isfinite(up.heights(position))]
+            own.append((times, heights, side, flown.flights))
+        angle, error = tilt_of(own)
         if abs(angle) > max(_LEAST_TILT, 3.0 * error):
             tilted = up._replace(tilt=angle)
             again = _flights(found, tilted, gravity)
@@ -148,12 +145,8 @@ def _fitted(
                     "vertical, as the flights show; heights are counted along the vertical."
                 )
                 return tilted, again
-    known = [name for name, _ in fitted]
-    notes.extend(
-        f"{name}: no bounce was found, and it is left out."
-        for name in found.names
-        if name not in known
-    )
+    without = [name for name in found.names if name not in dict(fitted)]
+    notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
     return up, fitted
 
 
@@ -172,12 +165,7 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
 
 
 def _track(
-    name: str,
-    times: Array,
-    heights: Array,
-    fit: Flights,
-    bounces: list[int],
-    floor: float | None,
+    name: str, times: Array, heights: Array, fit: Flights, bounces: list[int], floor: float | None
 ) -> Track:
     """Return a ball's bounces from its parabolas."""
     from uncertainties import correlated_values

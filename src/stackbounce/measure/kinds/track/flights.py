@@ -97,12 +97,7 @@ def find_flights(times: Array, heights: Array, sigma: float, acceleration: float
     return flights[::-1]
 
 
-def unexplained(
-    times: Array,
-    heights: Array,
-    sigma: float,
-    accelerations: Array,
-) -> Array:
+def unexplained(times: Array, heights: Array, sigma: float, accelerations: Array) -> Array:
     """Return the cost of the best segmentation for each acceleration; see `find_flights`.
 
     Parameters
@@ -121,10 +116,7 @@ def unexplained(
 
 
 def _cut(
-    times: Array,
-    heights: Array,
-    sigma: float,
-    accelerations: Array,
+    times: Array, heights: Array, sigma: float, accelerations: Array
 ) -> tuple[Array, NDArray[np.intp], NDArray[np.intp]]:
     """Return the cost of the best segmentation for each acceleration, and that for the first one.
 

@@ -14,12 +14,7 @@ _NOTICED = 1.0  # error of a speed, beyond which it is said to be off
 
 
 def notes_of(
-    name: str,
-    times: Array,
-    fit: Flights,
-    bounces: list[int],
-    impact: Any,
-    fallen: Any,
+    name: str, times: Array, fit: Flights, bounces: list[int], impact: Any, fallen: Any
 ) -> tuple[str, ...]:
     """Return the notes on a ball's track; `fallen` is its time of fall from rest."""
     notes = []

@@ -15,8 +15,9 @@ from stackbounce.measure.kinds.track.flights import (
     unexplained,
 )
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import columns, resolution
 
-__all__ = ["Columns", "Upward", "columns", "flights_of", "tilt_of", "upward"]
+__all__ = ["Columns", "Upward", "flights_of", "positions_of", "tilt_of", "upward"]
 
 _MOVES = 0.03  # of the range of a track, within a window
 _JUMP = 5.0  # errors that make a velocity's jump a bounce
@@ -53,26 +54,14 @@ class Upward(NamedTuple):
         return math.cos(self.tilt) * along + math.sin(self.tilt) * across
 
 
-def columns(data: Any) -> Columns:
-    """Return times and positions out of a Dataset or of plain arrays."""
+def positions_of(data: Any, clock: float, ruler: float) -> Columns:
+    """Return times over `clock`, and positions times `ruler`, of a Dataset or plain arrays."""
     if hasattr(data, "data_vars"):
         found = _from_dataset(data)
     else:
-        if isinstance(data, str | bytes):
-            raise InvalidType(f"data must be a Dataset or arrays of a track, got {shown(data)}")
-        try:
-            arrays = [np.asarray(one, dtype=np.float64) for one in data]
-        except (TypeError, ValueError):
-            raise InvalidType(
-                f"data must be a Dataset or (times, heights), got {shown(data)}"
-            ) from None
-        if len(arrays) not in (2, 3) or any(one.shape != arrays[0].shape for one in arrays):
-            raise InvalidValue(
-                "data must be (times, heights) or (times, x, y) of equal lengths, got "
-                f"{len(arrays)} arrays of shapes {', '.join(str(one.shape) for one in arrays)}"
-            )
-        names = ("y",) if len(arrays) == 2 else ("x", "y")
-        found = Columns(arrays[0], ["ball"], [dict(zip(names, arrays[1:], strict=True))])
+        axes = ("x", "y") if hasattr(data, "__len__") and len(data) == 3 else ("y",)
+        times, *own = columns(data, ("time", *axes))
+        found = Columns(times, ["ball"], [dict(zip(axes, own, strict=True))])
     good = np.isfinite(found.times)
     times = found.times[good]
     if len(times) < 4 or (np.diff(times) <= 0.0).any():
@@ -80,8 +69,8 @@ def columns(data: Any) -> Columns:
             f"times must ascend and be at least 4, got {len(times)}"
             + " that do not ascend" * (len(times) > 3)
         )
-    positions = [{axis: one[good] for axis, one in p.items()} for p in found.positions]
-    return Columns(times, found.names, positions)
+    positions = [{axis: ruler * one[good] for axis, one in p.items()} for p in found.positions]
+    return Columns(times / clock, found.names, positions)
 
 
 def _from_dataset(data: Any) -> Columns:
@@ -212,10 +201,7 @@ def _noise(heights: Array) -> float:
 
 def _noise_floor(heights: Array) -> float:
     """Return the least error of a point, that of rounding to pixels or digits."""
-    steps = np.diff(np.unique(heights))
-    steps = steps[steps > 1e-9 * np.ptp(heights)]
-    step = float(steps.min()) if len(steps) else 0.0
-    return max(step / math.sqrt(12.0), 1e-5 * float(np.ptp(heights)), 1e-12)
+    return max(resolution(heights) / math.sqrt(12.0), 1e-5 * float(np.ptp(heights)), 1e-12)
 
 
 def _joined(
@@ -255,15 +241,13 @@ def _jump(times: Array, fitted: Flights, j: int) -> tuple[float, float, float]:
     return jump, error, before
 
 
-def tilt_of(
-    times: Sequence[Array],
-    along: Sequence[Array],
-    across: Sequence[Array],
-    flights: Sequence[list[Flight]],
-) -> tuple[float, float]:
-    """Return the angle in radians between an axis and the vertical, and its error."""
+def tilt_of(balls: Sequence[tuple[Array, Array, Array, list[Flight]]]) -> tuple[float, float]:
+    """Return the angle in radians between an axis and the vertical, and its error.
+
+    Of each ball `balls` has the times, the positions along the axis and across it, the flights.
+    """
     angles, weights = [], []
-    for t, up, side, own in zip(times, along, across, flights, strict=True):
+    for t, up, side, own in balls:
         good = np.isfinite(up) & np.isfinite(side)
         kept = [Flight(a, b) for a, b in own if good[a:b].all()]
         if not kept:

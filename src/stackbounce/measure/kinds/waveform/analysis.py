@@ -20,8 +20,8 @@ from stackbounce.measure.kinds.waveform.intervals import (
 )
 from stackbounce.measure.kinds.waveform.record import Record, read_record
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
-from stackbounce.measure.kinds.waveform.sensor import known, sensitivity_of
-from stackbounce.measure.quantities import Array, known_to
+from stackbounce.measure.kinds.waveform.sensor import sensitivity_of
+from stackbounce.measure.quantities import Array, known_to, measured_if_given
 from stackbounce.model.laws import ContactLaw
 
 if TYPE_CHECKING:
@@ -118,7 +118,8 @@ def waveform(
         raise InvalidValue(f"sign must be 1 or -1, got {shown(sign)}")
     if threshold is not None:
         threshold = positive("threshold", threshold, "the record's unit")
-    m, v = known("mass", mass, "kilograms"), known("impact_speed", impact_speed, "m/s")
+    m = measured_if_given("mass", mass, "kilograms")
+    v = measured_if_given("impact_speed", impact_speed, "m/s")
     record = read_record(data)
     raw = record.values
     seen = _see(record, raw, threshold, sign)
@@ -198,11 +199,12 @@ def _undrooped(record: Record, seen: Seen, time_constant: float) -> Record:
 def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> list[str]:
     """Return the notes on a record."""
     notes = []
+    of = f" {unit}" if unit else ""
     if not contacts:
         high = float(np.max(np.abs(seen.signal)))
         notes.append(
-            f"no contact stands out of the noise of {seen.zero.noise:.3g} {unit}".rstrip()
-            + f" (largest deviation {high:.3g}): try threshold, or a more sensitive channel"
+            f"no contact stands out of the noise of {seen.zero.noise:.3g}{of} (largest deviation "
+            f"{high:.3g}): try threshold, or a more sensitive channel"
         )
     if seen.short:
         notes.append(
@@ -210,16 +212,11 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
             "if these are contacts, sample faster"
         )
     if any(one.clipped for one in contacts):
-        top = max(
-            (s for s, one in zip(seen.stretches, contacts, strict=True) if one.clipped), key=len
-        )
+        cut = [s for s, one in zip(seen.stretches, contacts, strict=True) if one.clipped]
+        top = max(cut, key=len)
         height = seen.sign * float(seen.raw[top.first : top.last + 1].max())
-        count = sum(one.clipped for one in contacts)
-        notes.append(
-            f"clipped at {height:.4g} {unit}".rstrip()
-            + (f" in {count} contacts" if count > 1 else "")
-            + ": peak force and impulse are lower limits"
-        )
+        where = f" in {len(cut)} contacts" if len(cut) > 1 else ""
+        notes.append(f"clipped at {height:.4g}{of}{where}: peak force and impulse are lower limits")
     if contacts and contacts[0].start is None:
         notes.append("the record begins within a contact: its touch is unknown")
     if contacts and contacts[-1].end is None:
@@ -228,10 +225,8 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
     if few < _FEW:
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
     if seen.zero.hum:
-        notes.append(
-            f"hum of {seen.zero.mains:.0f} Hz was taken off, amplitude "
-            f"{seen.zero.hum:.3g} {unit}".rstrip()
-        )
+        hum = f"{seen.zero.hum:.3g}{of}"
+        notes.append(f"hum of {seen.zero.mains:.0f} Hz was taken off, amplitude {hum}")
     whole = next((one for one in contacts if one.time is not None), None)
     if mass is not None and whole is not None and len(whole.peaks) > 1:
         notes.append(

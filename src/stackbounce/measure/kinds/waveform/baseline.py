@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.record import Record
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import stuck
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
-__all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter", "stuck"]
+__all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter"]
 
 _SHARE = 0.25  # of a record, at least, is quiet
 _FAR = 0.2  # of a record's range: a clipped level that differs more from the ends is no baseline
@@ -187,8 +188,7 @@ def _waves(times: Array, tone: float) -> Array:
 def fit_quiet(columns: Array, values: Array, quiet: NDArray[np.bool_]) -> Array:
     """Return the linear regression on columns at all samples, fitted to the quiet ones."""
     weights = np.linalg.lstsq(columns[quiet], values[quiet], rcond=None)[0]
-    best: Array = columns @ weights
-    return best
+    return np.asarray(columns @ weights)
 
 
 def _robust(rest: Array, quantum: float) -> float:
@@ -205,8 +205,3 @@ def _robust(rest: Array, quantum: float) -> float:
 def _floor(record: Record) -> float:
     """Return the smallest possible noise: that of quantisation, or round-off."""
     return max(record.quantum / math.sqrt(12.0), 1e-6 * float(np.ptp(record.values)), 1e-300)
-
-
-def stuck(quantum: float, noise: float) -> float:
-    """Return the quantisation error of a level, if the noise is below half a step."""
-    return quantum / math.sqrt(12.0) if noise < 0.5 * quantum else 0.0

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.baseline import Quiet, fit_quiet, scatter, stuck
+from stackbounce.measure.kinds.waveform.baseline import Quiet, fit_quiet, scatter
 from stackbounce.measure.kinds.waveform.ends import Ends
 from stackbounce.measure.kinds.waveform.flanks import Flank, fit_flank
 from stackbounce.measure.kinds.waveform.intervals import Stretch
@@ -15,6 +15,7 @@ from stackbounce.measure.kinds.waveform.peaks import Peak, find_peaks, flat_top,
 from stackbounce.measure.kinds.waveform.result import Contact
 from stackbounce.measure.kinds.waveform.shapes import Shape
 from stackbounce.measure.quantities import Array, known_to
+from stackbounce.measure.samples import stuck
 
 __all__ = ["Seen", "measure_contact"]
 

@@ -43,8 +43,7 @@ def smoothed(values: Array, width: int) -> Array:
     total = np.concatenate([[0.0], np.cumsum(values)])
     at = np.arange(count)
     low, high = np.maximum(at - half, 0), np.minimum(at + half + 1, count)
-    averages: Array = (total[high] - total[low]) / (high - low)
-    return averages
+    return np.asarray((total[high] - total[low]) / (high - low))
 
 
 def which_sign(signal: Array, noise: float) -> int:

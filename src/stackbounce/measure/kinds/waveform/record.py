@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import force_channels
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import columns
+from stackbounce.measure.samples import columns, resolution
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,7 +20,6 @@ __all__ = ["Record", "read_record"]
 _FEWEST = 8  # samples of a record
 _UNEVEN = 0.01  # of a step
 _SPIKE = 12.0  # noise levels of a second difference
-_STEPS = 4096  # distinct values, beyond which no steps of a converter are looked for
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +99,7 @@ def read_record(data: "xr.Dataset | Sequence[ArrayLike]") -> Record:
         count = int(spiky.sum())
         notes.append(f"{count} spike{'s' * (count > 1)} of one sample left out")
         times, values = times[~spiky], values[~spiky]
-    return Record(times, values, unit, step, _quantum(values), tuple(notes))
+    return Record(times, values, unit, step, resolution(values), tuple(notes))
 
 
 def _channel(data: Any) -> tuple[Array, Array, str, list[str]]:
@@ -131,16 +130,3 @@ def _spikes(values: Array) -> NDArray[np.bool_]:
     off = np.maximum(np.abs(before + 0.5 * here), np.abs(after + 0.5 * here))
     found[2:-2] = high & (off < 0.15 * np.abs(here))
     return found
-
-
-def _quantum(values: Array) -> float:
-    """Return the step of the converter: the distance of neighbouring values if they have one."""
-    distinct = np.unique(values)
-    if not 1 < len(distinct) <= min(_STEPS, len(values) // 2):
-        return 0.0
-    gaps = np.diff(distinct)
-    gaps = gaps[gaps > 1e-9 * np.ptp(distinct)]
-    least = float(np.quantile(gaps, 0.05))
-    multiples = gaps / least
-    even = np.abs(multiples - np.round(multiples)) < 0.1 * np.maximum(multiples, 1.0) ** 0.5
-    return least if even.mean() > 0.9 else 0.0

@@ -6,12 +6,10 @@ from typing import TYPE_CHECKING, Any, ClassVar
 from stackbounce.measure.constants import dynamic_stiffness
 from stackbounce.measure.finding import Curve, Finding, channels, force_channels
 from stackbounce.measure.kinds.waveform.flanks import Flank
-from stackbounce.measure.quantities import Array, Row
+from stackbounce.measure.quantities import Array, Number, Row, nominal
 
 if TYPE_CHECKING:
     import xarray as xr
-    from uncertainties import UFloat
-
 __all__ = ["Contact", "Waveform"]
 
 _LISTED = 12  # contacts in a table for people
@@ -47,15 +45,15 @@ class Contact:
         The fits behind `start` and `end`, for a picture.
     """
 
-    start: "UFloat | None"
-    end: "UFloat | None"
-    time: "UFloat | None"
-    peaks: "tuple[tuple[UFloat, UFloat], ...]"
-    peak_force: "UFloat"
-    impulse: "UFloat"
-    rise: "UFloat | None"
-    fall: "UFloat | None"
-    exponents: "tuple[UFloat | None, UFloat | None]"
+    start: Number | None
+    end: Number | None
+    time: Number | None
+    peaks: tuple[tuple[Number, Number], ...]
+    peak_force: Number
+    impulse: Number
+    rise: Number | None
+    fall: Number | None
+    exponents: tuple[Number | None, Number | None]
     clipped: bool
     samples: int
     flanks: tuple[Flank | None, Flank | None] = field(repr=False)
@@ -99,21 +97,21 @@ class Waveform(Finding):
     contacts: tuple[Contact, ...]
     unit: str
     noise: float
-    baseline: "UFloat"
+    baseline: Number
     drift: float
     hum: float
     sign: int
     step: float
     notes: tuple[str, ...]
-    sensitivity: "UFloat | None"
-    mass: "UFloat | float | None"
-    impact_speed: "UFloat | float | None"
+    sensitivity: Number | None
+    mass: Number | float | None
+    impact_speed: Number | float | None
     times: Array = field(repr=False)
     force: Array = field(repr=False)
     zero: Array = field(repr=False)
 
     @property
-    def stiffness(self) -> "UFloat | None":
+    def stiffness(self) -> Number | None:
         """Dynamic stiffness ``m (π/τ)**2`` in N/m of the first whole contact, if `mass` is known.
 
         It supposes one ball on one linear spring: R. Cross, Am. J. Phys. 75, 1009 (2007),
@@ -123,7 +121,7 @@ class Waveform(Finding):
         return None if self.mass is None or time is None else dynamic_stiffness(self.mass, time)
 
     @property
-    def _first_time(self) -> "UFloat | None":
+    def _first_time(self) -> Number | None:
         return next((one.time for one in self.contacts if one.time is not None), None)
 
     def rows(self) -> list[Row]:
@@ -162,15 +160,13 @@ class Waveform(Finding):
 
     def parts(self) -> dict[str, Any]:
         """Return what a drop can use, by the keys of its TOML: ball, contact, impact speed."""
-        from uncertainties import nominal_value
-
         found: dict[str, Any] = {}
         if self.mass is not None:
-            found["ball"] = {"mass": nominal_value(self.mass)}
+            found["ball"] = {"mass": nominal(self.mass)}
         if self.stiffness is not None:
-            found["contact"] = {"law": "Spring", "stiffness": nominal_value(self.stiffness)}
+            found["contact"] = {"law": "Spring", "stiffness": nominal(self.stiffness)}
         if self.impact_speed is not None:
-            found["impact_speed"] = nominal_value(self.impact_speed)
+            found["impact_speed"] = nominal(self.impact_speed)
         return found
 
     def told(self) -> dict[str, Any]:

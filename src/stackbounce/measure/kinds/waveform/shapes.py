@@ -78,13 +78,11 @@ class Shape:
         beyond = np.maximum(
             (log(self.least) - logs) / _EDGES[0], (logs - log(self.most)) / _EDGES[1]
         )
-        free: Array = -0.5 * np.maximum(beyond, 0.0) ** 2
-        return free
+        return np.asarray(-0.5 * np.maximum(beyond, 0.0) ** 2)
 
     def unknown(self, logs: Array, length: float) -> Array:
         """Return p, or a in the unit of the contact's length."""
-        unknown: Array = np.exp(logs)
-        return unknown if self.kind == "power" else unknown * length
+        return np.asarray(np.exp(logs) * (1.0 if self.kind == "power" else length))
 
     def begins(self, log: float, spread: float) -> tuple[float, float]:
         """Return the power of the time with which the force begins, and its standard error."""

@@ -1,9 +1,7 @@
 """Logger Pro's text files."""
 
 from stackbounce.errors import FileError
-from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.layouts import Layout, first_row, layout
-from stackbounce.measure.reading.roles import column
+from stackbounce.measure.reading.layouts import Layout, columns_of, first_row, layout
 from stackbounce.measure.reading.text import Text
 
 
@@ -21,9 +19,6 @@ def logger_pro(text: Text) -> Layout | None:
     if len(lines) < 6:  # without short names
         names = text.head[lines[-2]]
     run = text.head[lines[2]][0]
-    columns = [
-        column(k, heading(names[k] if k < len(names) else "", units[k] if k < len(units) else ""))
-        for k in range(width)
-    ]
+    columns = columns_of(names, width, units)
     why = f"its first line 'Vernier Format' is that of a text from Logger Pro ({run!r})"
-    return Layout("Logger Pro", why, tuple(columns), first)
+    return Layout("Logger Pro", why, columns, first)

@@ -2,9 +2,8 @@
 
 import re
 
-from stackbounce.measure.reading.headings import heading, is_unit
-from stackbounce.measure.reading.layouts import Layout, first_row, layout
-from stackbounce.measure.reading.roles import column
+from stackbounce.measure.reading.headings import is_unit
+from stackbounce.measure.reading.layouts import Layout, columns_of, first_row, layout
 from stackbounce.measure.reading.text import Text
 
 
@@ -16,9 +15,6 @@ def picoscope(text: Text) -> Layout | None:
         return None
     if not all(re.fullmatch(r"\(.*\)", cell) and is_unit(cell) for cell in head[1]):
         return None
-    columns = tuple(
-        column(k, heading(name, unit))
-        for k, (name, unit) in enumerate(zip(head[0], head[1], strict=False))
-    )
+    columns = columns_of(head[0], min(len(head[0]), len(head[1])), head[1])
     why = f"names over units in brackets, {head[1][0]},{head[1][1]}, are how PicoScope writes"
     return Layout("PicoScope", why, columns, first_row(text, 2))

@@ -10,26 +10,20 @@ where q is the lower ball's displacement, up-positive, as it bounces alone: on a
 """
 
 import math
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any
 
 from stackbounce.errors import InvalidValue, fraction, shown
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.result import Waveform
-from stackbounce.measure.kinds.waveform.sensor import known
+from stackbounce.measure.quantities import Number, measured, measured_if_given
 from stackbounce.measure.statistics.propagation import propagate
 from stackbounce.model import Ball, Drop
 from stackbounce.run.driver import simulate
 
 if TYPE_CHECKING:
-    from uncertainties import UFloat
-
     from stackbounce.model.laws import ContactLaw
 
-__all__ = ["delay", "delay_from_gap", "gap_from_delay"]
-
-_Gap: TypeAlias = Callable[[float, float, float], float]
-_TURNS = 200
+__all__ = ["delay", "gap_from_delay"]
 
 
 def gap_from_delay(
@@ -41,7 +35,7 @@ def gap_from_delay(
     contact_time: Any = None,
     contact: "ContactLaw | None" = None,
     restitution: float = 1.0,
-) -> "UFloat":
+) -> Number:
     """Return the gap of two falling balls that touch a delay after the lower one's landing.
 
     The bounce of the lower ball alone is given by exactly one of `contact_time`, `stiffness` (with
@@ -86,57 +80,28 @@ def gap_from_delay(
     >>> print(f"{gap * 1e3:.1uS} mm")
     1.3(9) mm
     """
-    gap, given = _checked(
-        "delay", delay, impact_speed, mass, stiffness, contact_time, contact, restitution
-    )
-    result: UFloat = propagate(lambda value, v, ball: [gap(value, v, ball)], given)[0]
-    return result
+    ways = {"stiffness": stiffness, "contact_time": contact_time, "contact": contact}
+    given = [way for way, one in ways.items() if one is not None]
+    if len(given) != 1:
+        raise InvalidValue(
+            f"exactly one of stiffness, contact_time and contact must be given, got "
+            f"{', '.join(given) or 'none'}"
+        )
+    m: Any = measured_if_given("mass", mass, "kilograms")
+    k = measured_if_given("stiffness", stiffness, "N/m")
+    tau = measured_if_given("contact_time", contact_time, "seconds")
+    if m is None and tau is None and not getattr(contact, "rigid", False):
+        raise InvalidValue(f"mass must be given with {given[0]}, got {shown(mass)}")
+    numbers = {"t": measured("delay", delay), "v": measured("impact_speed", impact_speed, "m/s")}
+    fraction("restitution", restitution)
+    if contact is not None:
+        numbers["mass"] = 1.0 if m is None else m
+        return propagate(lambda **at: [_simulated_gap(contact, **at)], numbers)[0]
+    numbers["tau"] = tau if k is None else math.pi * (m / k) ** 0.5
+    return propagate(lambda **at: [_spring_gap(**at, e=restitution)], numbers)[0]
 
 
-def delay_from_gap(
-    gap: Any,
-    impact_speed: Any,
-    *,
-    mass: Any = None,
-    stiffness: Any = None,
-    contact_time: Any = None,
-    contact: "ContactLaw | None" = None,
-    restitution: float = 1.0,
-) -> "UFloat":
-    """Return the delay after which two falling balls touch: the inverse of `gap_from_delay`.
-
-    Parameters
-    ----------
-    gap : float or UFloat
-        In m, above 0.
-    impact_speed, mass, stiffness, contact_time, contact, restitution : optional
-        See `gap_from_delay`.
-
-    Returns
-    -------
-    UFloat
-        In s.
-
-    Raises
-    ------
-    InvalidValue
-        As in `gap_from_delay`, or if they never touch.
-    InvalidType
-        If something has the wrong type.
-
-    Examples
-    --------
-    >>> print(f"{delay_from_gap(1e-3, 1.98, contact_time=4.3e-3) * 1e3:.2f} ms")
-    1.84+/-0 ms
-    """
-    gap_of, given = _checked(
-        "gap", gap, impact_speed, mass, stiffness, contact_time, contact, restitution
-    )
-    result: UFloat = propagate(lambda **numbers: [_inverted(gap_of, **numbers)], given)[0]
-    return result
-
-
-def delay(floor: Any, balls: Any) -> "UFloat":
+def delay(floor: Any, balls: Any) -> Number:
     """Return the time from the floor's first touch to that of the balls, from two channels.
 
     Parameters
@@ -179,43 +144,6 @@ def delay(floor: Any, balls: Any) -> "UFloat":
     return starts[1] - starts[0]
 
 
-def _checked(
-    name: str,
-    value: Any,
-    speed: Any,
-    mass: Any,
-    stiffness: Any,
-    contact_time: Any,
-    contact: Any,
-    restitution: float,
-) -> tuple[_Gap, dict[str, Any]]:
-    """Return the gap as a function of delay, speed and ball, and the numbers that were given.
-
-    The ball is given by its contact time on a spring, or by its mass.
-    """
-    ways = {"stiffness": stiffness, "contact_time": contact_time, "contact": contact}
-    given = [way for way, one in ways.items() if one is not None]
-    if len(given) != 1:
-        raise InvalidValue(
-            f"exactly one of stiffness, contact_time and contact must be given, got "
-            f"{', '.join(given) or 'none'}"
-        )
-    m = known("mass", mass, "kilograms")
-    if m is None and (
-        stiffness is not None or (contact is not None and not getattr(contact, "rigid", False))
-    ):
-        raise InvalidValue(f"mass must be given with {given[0]}, got {shown(mass)}")
-    k, tau = known("stiffness", stiffness, "N/m"), known("contact_time", contact_time, "seconds")
-    if k is not None and m is not None:
-        tau = math.pi * (m / k) ** 0.5
-    numbers = {"value": known(name, value), "v": known("impact_speed", speed, "m/s")}
-    fraction("restitution", restitution)
-    if contact is None:
-        return lambda t, v, ball: _spring_gap(t, v, ball, restitution), numbers | {"ball": tau}
-    ball = 1.0 if m is None else m
-    return lambda t, v, ball: _simulated_gap(contact, t, v, ball), numbers | {"ball": ball}
-
-
 def _spring_gap(t: float, v: float, tau: float, e: float) -> float:
     """Return v0 t + q(t) of a ball on a linear spring, which then flies up at e v0."""
     if t <= tau:
@@ -227,18 +155,3 @@ def _simulated_gap(contact: Any, t: float, v: float, mass: float) -> float:
     """Return v0 t + q(t) of a ball on any law."""
     single = simulate(Drop([Ball(mass)], [contact], impact_speed=v))
     return v * t + float(single.sample([t]).position.values[0, 0])
-
-
-def _inverted(gap_of: _Gap, value: float, v: float, ball: float) -> float:
-    """Return the delay of a gap, which grows with the delay."""
-    from scipy.optimize import brentq
-
-    high = value / v
-    for _ in range(_TURNS):
-        if gap_of(high, v, ball) >= value:
-            break
-        high *= 2.0
-    else:
-        raise InvalidValue(f"gap must be one that closes, got {value:g}")
-    tolerances = {"xtol": 1e-15 * high, "rtol": 1e-13}
-    return float(brentq(lambda t: gap_of(t, v, ball) - value, 0.0, high, **tolerances))

@@ -9,9 +9,9 @@ from stackbounce.errors import InvalidValue, fraction
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.gap.result import FloorGap
 from stackbounce.measure.kinds.waveform.result import Contact, Waveform
-from stackbounce.measure.quantities import Array, known_to, measured
+from stackbounce.measure.kinds.waveform.sensor import restitution_of
+from stackbounce.measure.quantities import Array, known_to, measured, measured_if_given
 from stackbounce.measure.statistics.change_point import Kink, find_kink
-from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["floor_gap"]
 
@@ -155,20 +155,10 @@ def _scale(alone: Waveform, contact: Contact, mass: Any, speed: Any, restitution
             + ", got None"
         )
     v = measured("impact_speed", speed, "m/s")
-    if restitution is not None:
-        e = measured("restitution", restitution, "", lambda name, value, _: fraction(name, value))
-    else:
-        e = _bounce(alone, v)
+    e = measured_if_given("restitution", restitution, check=fraction)
+    if e is None:
+        e = restitution_of(alone.contacts, v) or known_to(*_UNKNOWN)
     return v * (1.0 + e) / contact.impulse
-
-
-def _bounce(alone: Waveform, speed: Any) -> Any:
-    """Return the restitution from the flight to a second bounce, or its prior."""
-    if len(alone.contacts) > 1 and alone.contacts[1].start is not None:
-        e = STANDARD_GRAVITY * (alone.contacts[1].start - alone.contacts[0].end) / (2.0 * speed)
-        if 0.0 < e.nominal_value <= 1.0:
-            return e
-    return known_to(*_UNKNOWN)
 
 
 def _limits(both: Waveform, kink: Kink, lasting: float) -> tuple[tuple[float, float], list[str]]:

@@ -2,16 +2,12 @@
 
 import math
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import Any, ClassVar
 
 from stackbounce.measure.finding import Finding
 from stackbounce.measure.kinds.waveform.result import Waveform
-from stackbounce.measure.quantities import Row
+from stackbounce.measure.quantities import Number, Row
 from stackbounce.measure.statistics.change_point import Kink
-
-if TYPE_CHECKING:
-    from uncertainties import UFloat
-
 
 __all__ = ["FloorGap", "SensorGap"]
 
@@ -40,8 +36,8 @@ class FloorGap(Finding):
 
     picture: ClassVar[str] = "gap"
 
-    delay: "UFloat | None"
-    gap: "UFloat | None"
+    delay: Number | None
+    gap: Number | None
     delay_limits: tuple[float, float]
     gap_limits: tuple[float, float]
     gain: float
@@ -73,8 +69,8 @@ class SensorGap(Finding):
         What should be known about it, a sentence each.
     """
 
-    delay: "UFloat"
-    gap: "UFloat | None"
+    delay: Number
+    gap: Number | None
     notes: tuple[str, ...]
 
     def rows(self) -> list[Row]:
