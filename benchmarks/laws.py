@@ -17,7 +17,8 @@ import numpy as np
 
 import stackbounce as sb
 from benchmarks.by_scipy import rebound
-from stackbounce.engine.kernels import compile_kernel, kernel
+from kernel_build.jit import compile_kernel
+from stackbounce.engine.kernels import kernel
 
 LAWS: dict[str, dict[str, Any]] = {
     "Hertz": {"law": "Hertz"},

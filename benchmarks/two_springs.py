@@ -13,7 +13,7 @@ from rich.console import Console
 
 from benchmarks.random_drops import random
 from stackbounce.engine import codes
-from stackbounce.engine.kernels import compile_kernel
+from kernel_build.jit import compile_kernel
 from stackbounce.engine.two_springs import new_scratch, run_two_springs
 
 _LIMIT = 10**6

@@ -6,7 +6,7 @@ import pytest
 import stackbounce as sb
 from reference import make_data, springs
 from stackbounce.engine import codes
-from stackbounce.engine.kernels import compile_kernel
+from kernel_build.jit import compile_kernel
 from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
 
 SPEED = 1e-12

@@ -9,7 +9,7 @@ import numpy as np
 from fuzz import drive
 from fuzz.draw import BATCH, Drops, balls_of, drops_of, is_rigid
 from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.kernels import compile_kernel
+from kernel_build.jit import compile_kernel
 from stackbounce.engine.stack import (
     as_arrays,
     in_one_room,

@@ -24,6 +24,7 @@ simultaneous  the event loop of a stack with finite contacts
 batch         many drops one after the other in the arrays of one stack
 two_springs   two balls on springs without gravity: many drops, fast
 lockstep      one step of many drops of two balls on springs at the same time
+elementary    exponential, logarithm, power, sine and cosine, the same bits on every system
 trigonometry  cosine and (sin x)/x without branches
 ============= =====================================================================
 """

@@ -28,6 +28,7 @@ from stackbounce.engine.codes import (
     UNLOADED,
 )
 from stackbounce.engine.kernels import kernel
+from stackbounce.engine.elementary import exp, log, power
 from stackbounce.engine.forces import force, loaded_energy, stored_energy
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
@@ -71,7 +72,7 @@ def _set_loading_curve(stack: Stack, i: int) -> None:
     """Set the force of contact i to its loading curve: k c^p, or k c^q times the gain."""
     unit = stack.scale[i]
     exponent = stack.factor_exponent[i]
-    _set_curve(stack, i, stack.stiffness[i] * unit**exponent, unit, exponent)
+    _set_curve(stack, i, stack.stiffness[i] * power(unit, exponent), unit, exponent)
     stack.top[i] = math.inf
     if exponent == 1.0:
         stack.rate[i] = stack.stiffness[i]
@@ -86,7 +87,7 @@ def _set_curve(stack: Stack, i: int, force_at_unit: float, unit: float, exponent
     stack.linearised[i] = 0
     # if the gain grows from 0 as well, the whole force has a larger exponent than the power alone
     steepest = max(exponent, stack.exponent[i])
-    ratio = stack.number[LINEARISED_WORK] ** (1.0 / (steepest + 1.0))
+    ratio = power(stack.number[LINEARISED_WORK], 1.0 / (steepest + 1.0))
     stack.linearised_below[i] = ratio * unit
 
 
@@ -96,7 +97,7 @@ def _linearise(stack: Stack, i: int) -> None:
     ratio = stack.linearised_below[i] / stack.curve_unit[i]
     stack.linearised[i] = 1
     stack.linearised_impulse[i] = 0.0
-    steepness: float = ratio ** (stack.curve_exponent[i] - 1.0)
+    steepness = power(ratio, stack.curve_exponent[i] - 1.0)
     stack.rate[i] = stack.curve_force[i] * max(steepness, _SOFTEST) / stack.curve_unit[i]
 
 
@@ -135,7 +136,7 @@ def _linearise_if_slow(stack: Stack, i: int) -> None:
             stack.phase[i] = RELEASING
             stack.top[i] = math.inf
     else:
-        shorter: float = _SHORTER ** (1.0 / (stack.curve_exponent[i] + 1.0))
+        shorter = power(_SHORTER, 1.0 / (stack.curve_exponent[i] + 1.0))
         stack.linearised_below[i] = shorter * compression
 
 
@@ -155,10 +156,10 @@ def _steepen(stack: Stack, i: int, compression: float) -> None:
     if steeper <= stack.curve_exponent[i] * _STEEPER:
         return
     # the steeper curve meets the loading curve earlier than the old one
-    meeting = max(0.0, math.log(stack.stiffness[i] * compression**exponent / pressing))
-    furthest = math.log(stack.top[i] / compression)
+    meeting = max(0.0, log(stack.stiffness[i] * power(compression, exponent) / pressing))
+    furthest = log(stack.top[i] / compression)
     _set_curve(stack, i, pressing, compression, steeper)
-    stack.top[i] = compression * math.exp(min(furthest, meeting / (steeper - exponent)))
+    stack.top[i] = compression * exp(min(furthest, meeting / (steeper - exponent)))
 
 
 @kernel

@@ -40,6 +40,7 @@ from stackbounce.engine.codes import (
     PRODUCT,
 )
 from stackbounce.engine.kernels import kernel
+from stackbounce.engine.elementary import power
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import Stack
 
@@ -117,9 +118,8 @@ def typical_compression(stack: Stack, i: int, speed: float) -> float:
 @kernel
 def _length_of_energy(mass: float, speed: float, k: float, p: float) -> float:
     """Return the compression at which the force k c^p has done the work m v^2/2."""
-    power = 1.0 / (p + 1.0)
-    length: float = (0.5 * (p + 1.0) * mass / k) ** power * speed ** (2.0 * power)
-    return length
+    share = 1.0 / (p + 1.0)
+    return power(0.5 * (p + 1.0) * mass / k, share) * power(speed, 2.0 * share)
 
 
 @kernel
@@ -127,8 +127,7 @@ def raised(x: float, p: float) -> float:
     """Return x^p; for p = 1.5 (Hertz) by a square root, which is faster than a power."""
     if p == 1.5:
         return x * math.sqrt(x)
-    power: float = x**p
-    return power
+    return power(x, p)
 
 
 @kernel
@@ -168,12 +167,10 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
 def _elastic_work(stack: Stack, i: int, c: float) -> float:
     """Return the integral from 0 to c of the force of a product at rest."""
     exponent = stack.exponent[i] + 1.0
-    power: float = c**exponent
-    work = stack.stiffness[i] * power / exponent
+    work = stack.stiffness[i] * power(c, exponent) / exponent
     if stack.gain_square[i] > 0.0:
         exponent = stack.factor_exponent[i] + 3.0
-        power = c**exponent
-        work += stack.stiffness[i] * stack.gain_square[i] * power / exponent
+        work += stack.stiffness[i] * stack.gain_square[i] * power(c, exponent) / exponent
     return work
 
 
@@ -185,8 +182,8 @@ def loaded_energy(stack: Stack, i: int, compression: float) -> float:
     """
     exponent = stack.exponent[i] + 1.0
     kept = exponent / (stack.unloading[i] + 1.0)
-    above: float = max(0.0, compression) ** exponent
-    base: float = stack.base[i] ** exponent
+    above = power(max(0.0, compression), exponent)
+    base = power(stack.base[i], exponent)
     work = stack.stiffness[i] * (above - base) / exponent
     return stack.base_energy[i] + kept * max(0.0, work)
 
@@ -200,7 +197,7 @@ def potential(stack: Stack, i: int, compression: float) -> float:
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return 0.5 * stack.rate[i] * c * c
     exponent = stack.curve_exponent[i] + 1.0
-    share: float = (c / stack.curve_unit[i]) ** exponent
+    share = power(c / stack.curve_unit[i], exponent)
     return stack.curve_force[i] * stack.curve_unit[i] * share / exponent
 
 
@@ -209,16 +206,16 @@ def static_compression(stack: Stack, i: int, weight: float) -> float:
     """Return the compression of contact i at which it carries a weight."""
     if stack.law[i] == PRODUCT:
         p, q, square = stack.exponent[i], stack.factor_exponent[i] + 2.0, stack.gain_square[i]
-        rest: float = (weight / stack.stiffness[i]) ** (1.0 / p)
+        rest = power(weight / stack.stiffness[i], 1.0 / p)
         if square > 0.0 and rest > 0.0:
-            rest = min(rest, (weight / stack.stiffness[i] / square) ** (1.0 / q))
+            rest = min(rest, power(weight / stack.stiffness[i] / square, 1.0 / q))
             for _ in range(_NEWTON):
-                one, two = rest**p, square * rest**q
+                one, two = power(rest, p), square * power(rest, q)
                 rest -= (one + two - weight / stack.stiffness[i]) * rest / (p * one + q * two)
         return rest
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return weight / stack.rate[i]
-    share: float = (weight / stack.curve_force[i]) ** (1.0 / stack.curve_exponent[i])
+    share = power(weight / stack.curve_force[i], 1.0 / stack.curve_exponent[i])
     return stack.curve_unit[i] * share
 
 
@@ -262,7 +259,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, squares
     long. Only if ``squares`` is 1 may a gain have a term in c^2: without it the loop is faster.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
-    powers, gains, power = stack.power_series, stack.gain_series, stack.power
+    powers, gains, needed = stack.power_series, stack.gain_series, stack.power
     law, curve_force, curve_unit = stack.law, stack.curve_force, stack.curve_unit
     slope, exponent = stack.rate, stack.curve_exponent
     gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
@@ -273,7 +270,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, squares
         falling = share * stack.number[GRAVITY] if k == 0 else 0.0
         below = 0.0
         for i in range(low, high):
-            c, u, p = c_all[i], powers[i], power[i]
+            c, u, p = c_all[i], powers[i], needed[i]
             rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
             c[n] = share * rate
             if p > 0.0:

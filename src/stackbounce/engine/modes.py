@@ -12,6 +12,7 @@ import math
 
 from stackbounce.engine.codes import EPSILON
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.elementary import hypotenuse, sine, sine_and_cosine
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import WIDTH, Stack
 
@@ -107,8 +108,9 @@ def modal_position(stack: Stack, j: int, s: float) -> float:
     digits if the equilibrium is far away.
     """
     angle = stack.omega[j] * s
-    half = math.sin(0.5 * angle)
-    swing = stack.cosine[j] * math.cos(angle) + stack.sine[j] * math.sin(angle) / stack.omega[j]
+    half = sine(0.5 * angle)
+    sin, cos = sine_and_cosine(angle)
+    swing = stack.cosine[j] * cos + stack.sine[j] * sin / stack.omega[j]
     return swing + stack.static[j] * (2.0 * half * half)
 
 
@@ -128,9 +130,9 @@ def modal_compression(
         weight = stack.shape[j * WIDTH + i - low] / stack.weight[i]
         omega = stack.omega[j]
         amplitude = stack.cosine[j] - stack.static[j]
-        cosine, sine = math.cos(omega * s), math.sin(omega * s)
+        sin, cos = sine_and_cosine(omega * s)
         position = modal_position(stack, j, s)
-        speed = stack.sine[j] * cosine - amplitude * omega * sine
+        speed = stack.sine[j] * cos - amplitude * omega * sin
         even, odd = weight * (position - stack.static[j]), weight * speed
         out[0] += weight * position
         for k in range(2, 8, 2):
@@ -139,8 +141,9 @@ def modal_compression(
             odd *= -omega * omega / (k * (k + 1))
             out[k] += even
         out[7] += odd
-        fastest = abs(weight) * math.hypot(amplitude * omega, stack.sine[j])
-        tail += fastest * omega**7 / 40320.0
+        fastest = abs(weight) * hypotenuse(amplitude * omega, stack.sine[j])
+        cube = omega * omega * omega
+        tail += fastest * (cube * cube * omega) / 40320.0
         turned = min(omega * s, 1.0)
         reach = abs(stack.cosine[j]) + abs(stack.sine[j]) * turned / omega
         noise += abs(weight) * (abs(stack.static[j]) * turned * turned + reach)
@@ -156,14 +159,14 @@ def modal_impulse(stack: Stack, i: int, low: int, high: int, s: float) -> tuple[
         weight = stack.shape[j * WIDTH + i - low] / stack.weight[i] * stack.rate[i]
         omega = stack.omega[j]
         angle = omega * s
-        half = math.sin(0.5 * angle)
-        first = math.sin(angle) / omega
+        half = sine(0.5 * angle)
+        first = sine(angle) / omega
         second = 2.0 * half * half / (omega * omega)
         third = _sine_rest(angle) / omega
         fourth = _cosine_rest(angle) / (omega * omega)
-        static, cosine, sine = stack.static[j], stack.cosine[j], stack.sine[j]
-        once += weight * (static * third + cosine * first + sine * second)
-        twice += weight * (static * fourth + cosine * second + sine * third / (omega * omega))
+        static, start, rate = stack.static[j], stack.cosine[j], stack.sine[j]
+        once += weight * (static * third + start * first + rate * second)
+        twice += weight * (static * fourth + start * second + rate * third / (omega * omega))
     return once, twice
 
 
@@ -171,7 +174,7 @@ def modal_impulse(stack: Stack, i: int, low: int, high: int, s: float) -> tuple[
 def _sine_rest(x: float) -> float:
     """Return x - sin x without cancellation."""
     if x > 0.7:
-        return x - math.sin(x)
+        return x - sine(x)
     square = x * x
     total = 1.0
     for k in range(16, 3, -2):
@@ -184,7 +187,7 @@ def _cosine_rest(x: float) -> float:
     """Return x^2/2 - 1 + cos x without cancellation."""
     square = x * x
     if x > 0.7:
-        half = math.sin(0.5 * x)
+        half = sine(0.5 * x)
         return 0.5 * square - 2.0 * half * half
     total = 1.0
     for k in range(17, 4, -2):

@@ -48,6 +48,7 @@ from stackbounce.engine.codes import (
 )
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.contacts import linearised_impulse_limit
+from stackbounce.engine.elementary import exponent_of, times_power_of_two
 from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.forces import is_damped
 from stackbounce.engine.motion import (
@@ -62,7 +63,7 @@ from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
 # round-off below this fraction of a typical motion: the motion itself is only round-off
-_NOTHING = 1000.0 * EPSILON**2
+_NOTHING = 1000.0 * EPSILON * EPSILON
 _LOOSE = 10.0  # a touch must exceed this times the tolerance of a step
 _LINEARISED_EXIT = 0.9  # of ``linearised_below``: the chord is left above 1 and taken below this
 
@@ -363,8 +364,7 @@ def _safe_wait(
         return min(safe_step(f, order, 0.0, horizon), horizon), False
     size = abs(f[0]) + band / EPSILON
     # where the remainder is as large, as a power of two: the choice of units changes no bit
-    _, exponent = math.frexp(size / tail)
-    natural = math.ldexp(8.0, exponent // power)
+    natural = times_power_of_two(8.0, exponent_of(size / tail) // power)
     if order < power and more == 0.0:
         for k in range(order + 1, power):
             f[k] = 0.0

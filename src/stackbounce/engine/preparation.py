@@ -8,6 +8,12 @@ import math
 
 from stackbounce.engine import codes
 from stackbounce.engine.kernels import Floats, Integers, kernel
+from stackbounce.engine.elementary import (
+    exponent_of,
+    log,
+    nearest_exponent,
+    times_power_of_two,
+)
 from stackbounce.engine.forces import is_nonlinear, take_law, typical_compression
 from stackbounce.engine.series import ORDER
 from stackbounce.engine.slots import (
@@ -62,19 +68,20 @@ def prepare(
             stack.setting[NONLINEAR] = 1
     unit = 1.0
     if 0.0 < shortest < math.inf:
-        power = round(math.log2(shortest))
-        unit = 2.0 ** max(-_LONGEST_EXPONENT, min(power, _LONGEST_EXPONENT))
+        power = nearest_exponent(shortest)
+        power = max(-_LONGEST_EXPONENT, min(power, _LONGEST_EXPONENT))
+        unit = times_power_of_two(1.0, power)
     for i in range(size):
-        stack.stiffness[i] *= unit**2
+        stack.stiffness[i] *= unit * unit
         stack.gain_rate[i] /= unit
         stack.velocity[i] = velocity[i] * unit
         stack.compression[i] = -gap[i]
     tolerance = max(_STEP * rtol, _ROUND_OFF)
-    stack.number[GRAVITY] = gravity * unit**2
+    stack.number[GRAVITY] = gravity * (unit * unit)
     stack.number[SPEED] = speed * unit
     stack.number[TOLERANCE] = tolerance
     stack.number[LINEARISED_WORK] = max(tolerance * _LINEARISED_SHARE, _LEAST_LINEARISED_WORK)
-    order = round(1.0 - 0.7 * math.log(tolerance))
+    order = math.floor(1.5 - 0.7 * log(tolerance))
     stack.setting[SERIES_ORDER] = min(ORDER, max(_LEAST_ORDER, order))
     return unit
 
@@ -101,8 +108,8 @@ def prepare_rigid(
     speed = 0.0
     for v in velocity:
         speed = max(speed, abs(v))
-    power = math.frexp(speed)[1]
-    unit = 2.0 ** max(-_LARGEST_EXPONENT, min(power, _LARGEST_EXPONENT))
+    power = max(-_LARGEST_EXPONENT, min(exponent_of(speed), _LARGEST_EXPONENT))
+    unit = times_power_of_two(1.0, power)
     for i in range(len(stack.mass)):
         absent = kind[i] == codes.ABSENT
         stack.mass[i] = mass[i]

@@ -1,0 +1,327 @@
+"""Exponential, logarithm, power, sine and cosine, of basic operations only.
+
+The C library's functions differ in their last digits from one system to the next. These kernels use
+only operations that IEEE 754 rounds exactly (+ - * / and the square root), never a fused
+multiply-add. They give the same bits everywhere: in plain Python, or compiled for any processor.
+None raises: where Python's `math` would, the result is an infinity or not a number.
+
+Arguments are reduced, and polynomials evaluated, in the manner of fdlibm (Sun Microsystems, 1993).
+The polynomials here are fitted at Chebyshev nodes. Where a double has too few digits, a number is
+the sum of two doubles (Dekker, Numerische Mathematik 18, 224, 1971). Errors are given in units of
+the last place; subnormal results have at most 1.
+"""
+
+import math
+
+from stackbounce.engine.kernels import kernel
+
+_ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds a number
+_SPLIT = 134217729.0  # 2^27 + 1
+_ROOT_TWO = 1.4142135623730951
+
+_PER_LN2 = 1.4426950408889634  # 1/ln 2
+_LN2 = 0.6931471803691238  # ln 2 to 32 bits: whole multiples up to 2^21 are exact
+_LN2_REST = 1.9082149292705877e-10
+_LARGEST = 709.782712893384  # its exponential is the last finite one
+_SMALLEST = -745.1332191019412  # its exponential is the last above 0
+
+_THIRD = 0.3333333333333333
+_THIRD_REST = 1.850371707708594e-17
+
+_PER_QUARTER_TURN = 0.6366197723675814  # 2/pi
+_QUARTER_TURN = 1.570796325802803  # pi/2 to 29 bits: whole multiples up to 2^24 are exact
+_QUARTER_TURN_2 = 9.920935774287987e-10  # the next 29 bits
+_QUARTER_TURN_3 = 2.2517417706346578e-18  # the next 29 bits
+_QUARTER_TURN_4 = 3.5215598651832e-27  # the rest
+_FEW_TURNS = 26353589.0  # 2^24 quarter turns
+_PER_TURN = 0.15915494309189535  # 1/(2 pi)
+_TURN = 6.283185307179586
+_TURN_REST = 2.4492935982947064e-16
+_COARSE = 1125899906842624.0  # 2^50
+
+
+@kernel
+def exact_product(a: float, b: float) -> tuple[float, float]:
+    """Return a b rounded, and its rounding error, for factors below 2^996 (Dekker, 1971)."""
+    product = a * b
+    wide = _SPLIT * a
+    a_high = wide - (wide - a)
+    a_low = a - a_high
+    wide = _SPLIT * b
+    b_high = wide - (wide - b)
+    b_low = b - b_high
+    rest = (a_high * b_high - product) + a_high * b_low + a_low * b_high + a_low * b_low
+    return product, rest
+
+
+@kernel
+def times_power_of_two(x: float, n: int) -> float:
+    """Return x 2^n, rounded once where it is subnormal."""
+    while n > 1023:
+        if x == 0.0 or abs(x) == math.inf:
+            return x
+        x *= 8.98846567431158e307  # 2^1023
+        n -= 1023
+    while n < -1022:
+        if x == 0.0:
+            return x
+        x *= 2.004168360008973e-292  # 2^-969: what is still to come is at most 2^-53
+        n += 969
+    factor = 2.0
+    if n < 0:
+        factor, n = 0.5, -n
+    while n > 0:
+        if n & 1:
+            x *= factor
+        factor *= factor
+        n >>= 1
+    return x
+
+
+@kernel
+def _significand(x: float) -> tuple[float, int]:
+    """Return m from 1 to below 2, and e, with x = m 2^e, for finite x > 0."""
+    e = -16
+    while x >= 65536.0:
+        x *= 2.3283064365386963e-10  # 2^-32
+        e += 32
+    while x < 1.52587890625e-05:  # 2^-16
+        x *= 4294967296.0
+        e -= 32
+    x *= 65536.0
+    if x >= 65536.0:
+        x *= 1.52587890625e-05
+        e += 16
+    if x >= 256.0:
+        x *= 0.00390625
+        e += 8
+    if x >= 16.0:
+        x *= 0.0625
+        e += 4
+    if x >= 4.0:
+        x *= 0.25
+        e += 2
+    if x >= 2.0:
+        x *= 0.5
+        e += 1
+    return x, e
+
+
+@kernel
+def exponent_of(x: float) -> int:
+    """Return e with 2^(e-1) <= |x| < 2^e; 0 for 0, an infinity or not a number."""
+    size = abs(x)
+    if not 0.0 < size < math.inf:
+        return 0
+    return _significand(size)[1] + 1
+
+
+@kernel
+def nearest_exponent(x: float) -> int:
+    """Return the whole number nearest to log2 x, for finite x > 0."""
+    m, e = _significand(x)
+    return e + 1 if m > _ROOT_TWO else e
+
+
+@kernel
+def exp(x: float) -> float:
+    """Return e^x; the error is below 1 unit."""
+    return _exp_of_sum(x, 0.0)
+
+
+@kernel
+def _exp_of_sum(x: float, low: float) -> float:
+    """Return e^(x + low), for a small second part.
+
+    With e^r = 1 + 2 r/(R - r), R = r coth(r/2) is a series in r^2.
+    """
+    if not x <= _LARGEST:
+        return x if x != x else math.inf
+    if x < _SMALLEST:
+        return 0.0
+    k = (x * _PER_LN2 + _ROUND) - _ROUND
+    high = x - k * _LN2
+    low = k * _LN2_REST - low
+    r = high - low
+    t = r * r
+    c = 6.613756469419941e-05 + t * (-1.6534056620335676e-06 + t * 4.143604353281816e-08)
+    c = r - t * (0.1666666666666666 + t * (-0.002777777777755998 + t * c))
+    return times_power_of_two(1.0 - ((low - r * c / (2.0 - c)) - high), int(k))
+
+
+@kernel
+def _log_series(z: float) -> float:
+    """Return 1/5 + z/7 + z^2/9 + ..., for z up to (3 - sqrt 8)^2."""
+    zz = z * z
+    even = 0.07692297481259215 + zz * 0.05853118169745603
+    even = 0.2 + zz * (0.11111111110827943 + zz * even)
+    odd = 0.06667402346923655 + zz * 0.05861589311938259
+    odd = 0.14285714285714682 + zz * (0.09090909167696401 + zz * odd)
+    return even + z * odd
+
+
+@kernel
+def log(x: float) -> float:
+    """Return the natural logarithm; the error is below 1 unit.
+
+    With x = 2^e (1 + f) and s = f/(2 + f), ln(1 + f) is 2 s (1 + s^2/3 + s^4/5 + ...).
+    """
+    if not 0.0 < x < math.inf:
+        if x == 0.0:
+            return -math.inf
+        return x if x > 0.0 else math.nan
+    m, e = _significand(x)
+    if m > _ROOT_TWO:
+        m *= 0.5
+        e += 1
+    f = m - 1.0
+    s = f / (2.0 + f)
+    z = s * s
+    square = 0.5 * f * f
+    rest = 2.0 * z * (_THIRD + z * _log_series(z))
+    return e * _LN2 - ((square - (s * (square + rest) + e * _LN2_REST)) - f)
+
+
+@kernel
+def _log_in_two(x: float) -> tuple[float, float]:
+    """Return the natural logarithm as a sum of two doubles, relative error 2^-64, 0 < x < inf.
+
+    As `log`, with s and the terms up to s^3 in two doubles.
+    """
+    m, e = _significand(x)
+    if m > _ROOT_TWO:
+        m *= 0.5
+        e += 1
+    f = m - 1.0
+    d = m + 1.0
+    s = f / d
+    product, rest = exact_product(s, d)
+    s_low = ((f - product) - rest - s * (m - (d - 1.0))) / d
+    z, z_low = exact_product(s, s)
+    z_low += 2.0 * s * s_low
+    tail = z * _log_series(z)
+    g = _THIRD + tail  # 1/3 + s^2/5 + ...
+    g_low = (_THIRD - g) + tail + _THIRD_REST
+    q, q_low = exact_product(z, g)
+    q_low += z * g_low + z_low * g
+    cube, cube_low = exact_product(s, q)
+    cube_low += s * q_low + s_low * q
+    half = s + cube
+    half_low = (s - half) + cube + (cube_low + s_low)
+    large = e * _LN2
+    total = large + 2.0 * half
+    low = (large - total) + 2.0 * half + (2.0 * half_low + e * _LN2_REST)
+    return total, low
+
+
+@kernel
+def power(x: float, y: float) -> float:
+    """Return x^y for x >= 0; the error is below 1 unit.
+
+    Exact as far as rounding allows for y = 1/2, 1 and 2.
+    """
+    if y == 0.0 or x == 1.0:
+        return 1.0
+    if not 0.0 < x < math.inf:
+        if x == 0.0 and y == y:
+            return 0.0 if y > 0.0 else math.inf
+        if x > 0.0 and y == y:
+            return x if y > 0.0 else 0.0
+        return math.nan
+    if y == 1.0:
+        return x
+    if y == 2.0:
+        return x * x
+    if y == 0.5:
+        return math.sqrt(x)
+    high, low = _log_in_two(x)
+    size = y * high
+    if not abs(size) < 800.0:
+        return _exp_of_sum(size, 0.0)
+    size, rest = exact_product(y, high)
+    return _exp_of_sum(size, rest + y * low)
+
+
+@kernel
+def _within_eighth_turn(x: float) -> tuple[int, float, float]:
+    """Return a whole number of quarter turns, and the rest of the angle x as a sum of two doubles.
+
+    The rest is at most about an eighth of a turn. Up to 2^24 quarter turns (Cody and Waite,
+    Software Manual for the Elementary Functions, 1980) its relative error is that of a double.
+    Larger angles first lose their whole turns, with an absolute error below 1e-15. From 2^50 on
+    neighbouring doubles are up to a turn apart or more: the angle counts as 0.
+    """
+    if not abs(x) < _FEW_TURNS:
+        if not abs(x) < _COARSE:
+            return 0, 0.0 * x, 0.0  # not a number for an infinity
+        turns = math.floor(x * _PER_TURN)
+        product, rest = exact_product(float(turns), _TURN)
+        x = ((x - product) - rest) - turns * _TURN_REST
+    quarters = (x * _PER_QUARTER_TURN + _ROUND) - _ROUND
+    first = x - quarters * _QUARTER_TURN
+    part = quarters * _QUARTER_TURN_2
+    second = first - part
+    lost = first - second
+    error = (first - (second + lost)) + (lost - part)
+    part = quarters * _QUARTER_TURN_3 - error
+    third = second - part
+    low = ((second - third) - part) - quarters * _QUARTER_TURN_4
+    high = third + low
+    return int(quarters), high, (third - high) + low
+
+
+@kernel
+def _near_sine(x: float, low: float) -> float:
+    """Return sin(x + low), for an angle up to about an eighth of a turn."""
+    z = x * x
+    v = z * x
+    r = 2.7557316100128336e-06 + z * (-2.5051131339848143e-08 + z * 1.5918092905114907e-10)
+    r = 0.008333333333330946 + z * (-0.000198412698367539 + z * r)
+    return x - ((z * (0.5 * low - v * r) - low) - v * -0.16666666666666666)
+
+
+@kernel
+def _near_cosine(x: float, low: float) -> float:
+    """Return cos(x + low), for an angle up to about an eighth of a turn."""
+    z = x * x
+    r = -2.755731727021332e-07 + z * (2.0876145952384525e-09 + z * -1.1382609660408365e-11)
+    r = 0.041666666666666664 + z * (-0.0013888888888887395 + z * (2.4801587298762765e-05 + z * r))
+    half = 0.5 * z
+    one = 1.0 - half
+    return one + (((1.0 - one) - half) + (z * z * r - x * low))
+
+
+@kernel
+def sine(x: float) -> float:
+    """Return sin x; the error is below 1 unit up to 2^24 quarter turns, see `sine_and_cosine`."""
+    quarters, high, low = _within_eighth_turn(x)
+    value = _near_cosine(high, low) if quarters & 1 else _near_sine(high, low)
+    return -value if quarters & 2 else value
+
+
+@kernel
+def sine_and_cosine(x: float) -> tuple[float, float]:
+    """Return sin x and cos x; the errors are below 1 unit up to 2^24 quarter turns.
+
+    Larger angles lose whole turns first, with an absolute error below 1e-15. From 2^50 on, where
+    neighbouring doubles are up to a turn apart or more, the angle counts as 0.
+    """
+    quarters, high, low = _within_eighth_turn(x)
+    sin, cos = _near_sine(high, low), _near_cosine(high, low)
+    if quarters & 1:
+        sin, cos = cos, -sin
+    if quarters & 2:
+        sin, cos = -sin, -cos
+    return sin, cos
+
+
+@kernel
+def hypotenuse(a: float, b: float) -> float:
+    """Return the square root of a^2 + b^2 without overflow, to about 2 units."""
+    larger, smaller = abs(a), abs(b)
+    if larger < smaller:
+        larger, smaller = smaller, larger
+    if larger == 0.0 or larger == math.inf:
+        return larger
+    ratio = smaller / larger
+    return larger * math.sqrt(1.0 + ratio * ratio)
