@@ -36,7 +36,7 @@ class _Library(codegen.JITCodeLibrary):
         self._finalized = True
         self.made.append(self)
 
-    def get_pointer_to_function(self, name: str) -> int:
+    def get_pointer_to_function(self, name: str) -> int:  # noqa: ARG002 - numba's signature
         return 0  # there is none: nothing is run
 
 
@@ -48,7 +48,7 @@ def lower(entries: Iterable[Callable[..., Any]]) -> str:
     """
     generator: Any = cpu_target.target_context.codegen()
     generator._library_class = _Library
-    generator.set_env = lambda name, environment: None
+    generator.set_env = lambda *_: None
     wrappers = []
     for entry in entries:
         takes = signature(entry)
@@ -94,11 +94,13 @@ define i64 @"{name}@level@"({takes}) {{
 
 def _without_library(text: str) -> str:
     """Return IR that needs no C library: functions of it are instructions, no loop calls memset."""
-    text = re.sub(r"^target (triple|datalayout).*\n|^source_filename.*\n", "", text, flags=re.M)
+    text = re.sub(
+        r"^target (triple|datalayout).*\n|^source_filename.*\n", "", text, flags=re.MULTILINE
+    )
     text = text.replace("= common global", "= internal global")
     for name in _INSTRUCTIONS:
-        text = re.sub(rf"^declare double @{name}\(double.*\n", "", text, flags=re.M)
+        text = re.sub(rf"^declare double @{name}\(double.*\n", "", text, flags=re.MULTILINE)
         text = text.replace(f"@{name}(", f"@llvm.{name}.f64(")
         if f"@llvm.{name}.f64(" in text and f"declare double @llvm.{name}.f64" not in text:
             text += f"declare double @llvm.{name}.f64(double)\n"
-    return re.sub(r"^(define .*) \{$", r'\1 "no-builtins" {', text, flags=re.M)
+    return re.sub(r"^(define .*) \{$", r'\1 "no-builtins" {', text, flags=re.MULTILINE)

@@ -81,4 +81,3 @@ def _link(parts: list[Path], exported: list[str], target: Target, path: Path) ->
     for extra in (path.with_suffix(".lib"), path.with_suffix(".pdb")):
         extra.unlink(missing_ok=True)
     return path
-

@@ -17,6 +17,7 @@ from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, lo
 from stackbounce.engine.slots import LAST_CHECK, LAST_EVENT, LOG_ROWS, RECORDS_PEAKS
 from stackbounce.engine.stack import RigidStack, Samples, Stack
 
+
 class Drops(NamedTuple):
     """The numbers of drops: (rows, balls) arrays, and (rows,) gravity; see `preparation`."""
 
@@ -64,12 +65,12 @@ def run_drop(
     stack: Stack,
     space: Workspace,
     drops: Drops,
+    samples: Samples,
     row: int,
     stage: int,
     until: float,
     rtol: float,
     event_limit: int,
-    samples: Samples,
 ) -> int:
     """Run a drop with finite contacts until it ends or the log is full; return its status.
 
@@ -121,12 +122,12 @@ def run_rigid_drop(
     stack: RigidStack,
     space: Workspace,
     drops: Drops,
+    samples: Samples,
     row: int,
     stage: int,
     until: float,
     rtol: float,
     event_limit: int,
-    samples: Samples,
 ) -> int:
     """Run a drop of rigid balls until it ends or the log is full; see `run_drop`."""
     if stage != CONTINUE:
@@ -161,10 +162,10 @@ def run_batch(
     stack: Stack,
     space: Workspace,
     drops: Drops,
+    samples: Samples,
     until: float,
     rtol: float,
     event_limit: int,
-    samples: Samples,
     out: Outcomes,
 ) -> None:
     """Run drops with finite contacts one after the other and write their results to ``out``.
@@ -175,7 +176,7 @@ def run_batch(
         _reset(out, row)
         status, stage = codes.RUNNING, BEGIN
         while status == codes.RUNNING:
-            status = run_drop(stack, space, drops, row, stage, until, rtol, event_limit, samples)
+            status = run_drop(stack, space, drops, samples, row, stage, until, rtol, event_limit)
             _read_log(space.log, stack.counter[LOG_ROWS], out, row)
             stage = CONTINUE
         _read_end(space.after, status, out, row)
@@ -186,10 +187,10 @@ def run_rigid_batch(
     stack: RigidStack,
     space: Workspace,
     drops: Drops,
+    samples: Samples,
     until: float,
     rtol: float,
     event_limit: int,
-    samples: Samples,
     out: Outcomes,
 ) -> None:
     """Run drops of rigid balls and write their results to ``out``; see `run_batch`."""
@@ -198,7 +199,7 @@ def run_rigid_batch(
         status, stage = codes.RUNNING, BEGIN
         while status == codes.RUNNING:
             status = run_rigid_drop(
-                stack, space, drops, row, stage, until, rtol, event_limit, samples
+                stack, space, drops, samples, row, stage, until, rtol, event_limit
             )
             _read_log(space.log, stack.counter[LOG_ROWS], out, row)
             stage = CONTINUE

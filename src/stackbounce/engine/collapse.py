@@ -34,7 +34,6 @@ from stackbounce.engine.codes import (
     TIME,
     UPPER_VELOCITY,
 )
-from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.flight import (
     acceleration,
     anchor_balls,
@@ -47,6 +46,7 @@ from stackbounce.engine.flight import (
     schedule_collision,
     wake,
 )
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.settling import NEGLIGIBLE_TIME
 from stackbounce.engine.slots import (
     EVENTS,

@@ -27,9 +27,9 @@ from stackbounce.engine.codes import (
     RESUMED,
     UNLOADED,
 )
-from stackbounce.engine.kernels import kernel
 from stackbounce.engine.elementary import exp, log, power
 from stackbounce.engine.forces import force, loaded_energy, stored_energy
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 

@@ -17,8 +17,8 @@ event would lose digits when it is added to the local time, the origin of local 
 import math
 
 from stackbounce.engine.codes import ABSENT, EPSILON
-from stackbounce.engine.kernels import kernel
 from stackbounce.engine.event_queue import schedule
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY
 from stackbounce.engine.stack import RigidStack
 

@@ -39,8 +39,8 @@ from stackbounce.engine.codes import (
     POWER,
     PRODUCT,
 )
-from stackbounce.engine.kernels import kernel
 from stackbounce.engine.elementary import power
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import Stack
 

@@ -11,8 +11,8 @@ are exact as well.
 import math
 
 from stackbounce.engine.codes import EPSILON
-from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.elementary import hypotenuse, sine, sine_and_cosine
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import WIDTH, Stack
 

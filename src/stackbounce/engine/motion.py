@@ -3,10 +3,10 @@
 import math
 
 from stackbounce.engine.codes import COMPRESSING, EPSILON
-from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.contacts import correct_curve
 from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.forces import is_linear, power_needed
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.modes import (
     find_modes,
     modal_compression,

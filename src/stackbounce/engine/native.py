@@ -60,7 +60,7 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
 
     found = _library()
     if found is None:
-        raise RuntimeError(f"no compiled code: {_reason()}")
+        raise RuntimeError(reason())
     library, level = found
     takes = signature(entry)
     kinds: dict[type, Any] = {float: ctypes.c_double, int: ctypes.c_int64}
@@ -84,13 +84,13 @@ def _library() -> tuple[Any, str] | None:
         return None
 
 
-def _reason() -> str:
+def reason() -> str:
     """Return why there is no compiled code."""
     try:
         _load()
-    except _NoLibraryError as reason:
-        return str(reason)
-    return "it was not there before"
+    except _NoLibraryError as found:
+        return str(found)
+    return "the compiled code was not there when it was first asked for"
 
 
 class _NoLibraryError(Exception):

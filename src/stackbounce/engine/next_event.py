@@ -46,11 +46,11 @@ from stackbounce.engine.codes import (
     TOUCH,
     UNLOADED,
 )
-from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.contacts import linearised_impulse_limit
 from stackbounce.engine.elementary import exponent_of, times_power_of_two
 from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.forces import is_damped
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.motion import (
     align_anchors,
     compression_series,

@@ -7,7 +7,6 @@ the exponent and the law parameter.
 import math
 
 from stackbounce.engine import codes
-from stackbounce.engine.kernels import Floats, Integers, kernel
 from stackbounce.engine.elementary import (
     exponent_of,
     log,
@@ -15,6 +14,7 @@ from stackbounce.engine.elementary import (
     times_power_of_two,
 )
 from stackbounce.engine.forces import is_nonlinear, take_law, typical_compression
+from stackbounce.engine.kernels import Floats, Integers, kernel
 from stackbounce.engine.series import ORDER
 from stackbounce.engine.slots import (
     GRAVITY,

@@ -15,8 +15,8 @@ the stack is set to its static state at once.
 import math
 
 from stackbounce.engine.codes import COMPRESSING, POWER, PRODUCT
-from stackbounce.engine.kernels import kernel
 from stackbounce.engine.forces import is_damped, potential, static_compression
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.series import TERMS
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack

@@ -28,7 +28,6 @@ from stackbounce.engine.codes import (
     UPPER_VELOCITY,
 )
 from stackbounce.engine.collapse import find_collapse, keep_state
-from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.event_queue import clear_queue
 from stackbounce.engine.flight import (
     acceleration,
@@ -42,6 +41,7 @@ from stackbounce.engine.flight import (
     velocity_after,
     wake,
 )
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.settling import earliest_other, settle
 from stackbounce.engine.slots import (
     BALLS_AT_REST,

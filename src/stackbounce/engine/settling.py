@@ -14,7 +14,6 @@ them would fly for more than a negligible time, if a contact among or below them
 import math
 
 from stackbounce.engine.codes import ABSENT
-from stackbounce.engine.kernels import kernel
 from stackbounce.engine.flight import (
     anchor_balls,
     anchor_contacts,
@@ -23,6 +22,7 @@ from stackbounce.engine.flight import (
     schedule_collision,
     velocity_after,
 )
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY, LAST_EVENT, LOWEST_LOSSY
 from stackbounce.engine.stack import RigidStack
 

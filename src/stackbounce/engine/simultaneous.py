@@ -36,7 +36,6 @@ from stackbounce.engine.codes import (
     UNLOADED,
     UPPER_VELOCITY,
 )
-from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.contacts import (
     change_curve,
     change_phase,
@@ -48,6 +47,7 @@ from stackbounce.engine.contacts import (
 )
 from stackbounce.engine.event_queue import clear_queue, schedule
 from stackbounce.engine.forces import force, stored_energy
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.motion import (
     advance_cluster,
     allows_root_series,

@@ -26,3 +26,4 @@ class Table:
             rows.append((address, array.shape[0], array.shape[1] if array.ndim > 1 else 1))
         self.table = np.array(rows, dtype=np.int64)
         self.address: int = self.table.__array_interface__["data"][0]
+        self._as_parameter_ = self.address  # what ctypes passes to a compiled kernel

@@ -15,7 +15,6 @@ eigenvalues; the tolerance is then round-off, whatever the user asks for.
 import math
 
 from stackbounce.engine.codes import POWER, PRODUCT
-from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.elementary import power
 from stackbounce.engine.forces import (
     find_terms,
@@ -26,6 +25,7 @@ from stackbounce.engine.forces import (
     raised,
     stored_energy,
 )
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.series import ORDER, ROOT_ORDER, evaluate
 from stackbounce.engine.slots import RECORDS_PEAKS, SERIES_ORDER, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack

@@ -8,43 +8,38 @@ kernel then runs the drops of the block one after the other and writes their row
 import functools
 import math
 import os
-import threading
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from itertools import accumulate, islice
-from typing import Any, TypeAlias
+from itertools import accumulate
+from typing import TypeAlias
 
 import numpy as np
 
-from stackbounce.engine import codes
-from stackbounce.engine.batch import Drops, Outcomes, find_ratios
-from stackbounce.engine.compiler import compile_kernel
-from stackbounce.engine.stack import as_arrays, in_one_room, new_samples
-from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
+from stackbounce.engine import codes, native
+from stackbounce.engine.batch import UNIT, Drops, Outcomes, find_ratios
+from stackbounce.engine.tables import Table
+from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
 from stackbounce.run.columns import Rows, base_rows, fill
-from stackbounce.run.driver import LOG_ROWS_AT_ONCE
 from stackbounce.run.engines import (
     FINITE,
     OUT_OF_RANGE,
     TWO_SPRINGS_EVENTS,
     Engine,
-    Mode,
+    choose_compiled,
     choose_engine,
-    choose_mode,
     suits_two_springs,
 )
+from stackbounce.run.memory import memory, spring_workspace
 from stackbounce.run.options import Options
 
 __all__ = ["solve"]
 
 _BLOCKS = range(1024, 16384)  # drops in a block: enough for the lanes, few enough for the caches
 _EACH = 8  # blocks per thread of a large grid, so that all threads end at about the same time
-_NO_ROOM: Any = ([], [])  # a new stack needs no clearing
-_local = threading.local()
 
-_Runner: TypeAlias = Callable[[Drops, Outcomes, Options, Mode], None]
+_Runner: TypeAlias = Callable[[Drops, Outcomes, Options, bool], None]
 """Runs drops and writes their outcomes, except rebound ratios and retained energies."""
 
 
@@ -69,8 +64,8 @@ def solve(
     options : Options
         The end time, tolerance and event limit of each run.
     compiled : bool, optional
-        Whether to run compiled code; by default if there are many drops. The results are the same
-        bit for bit.
+        Whether to run compiled code; by default wherever there is some for this machine. The
+        results are the same bit for bit.
 
     Returns
     -------
@@ -78,11 +73,10 @@ def solve(
         Arrays (count, balls), and (count,) energy and status, in row-major order of the grid.
     """
     count, balls = math.prod(shape), len(drop.balls)
-    mode = choose_mode(compiled, count, balls)
+    chosen = choose_compiled(compiled)
     run: _Runner = functools.partial(_run_rows, choose_engine(drop))
     if suits_two_springs(drop, rows, options):
         run = _run_two_springs
-    relate = compile_kernel(find_ratios) if mode is Mode.COMPILED else find_ratios
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
     threads = os.cpu_count() or 1
     most = min(max(count // (_EACH * threads), _BLOCKS.start), _BLOCKS.stop)
@@ -96,16 +90,16 @@ def solve(
             shaped = (array.reshape((*sizes, *array.shape[1:])) for array in drops)
             fill(Drops._make(shaped), drop, {one: values[block] for one, values in wide.items()})
             part = Outcomes._make(array[stop - size(block) : stop] for array in out)
-            run(drops, part, options, mode)
-            with np.errstate(all="ignore"):
-                relate(drops, part)
+            run(drops, part, options, chosen)
+            _find_ratios(drops, part, chosen)
 
     cut = list(blocks(shape, sides(shape, most)))
     todo = iter(list(zip(cut, accumulate(map(size, cut)), strict=True)))
-    work(islice(todo, 1))  # compiles the kernels once, not in each thread
-    if len(cut) > 1:
-        with ThreadPoolExecutor(threads) as pool:  # each takes the next block
-            list(pool.map(work, [todo] * threads))
+    if len(cut) == 1:
+        work(todo)
+        return out
+    with ThreadPoolExecutor(threads) as pool:  # each takes the next block
+        list(pool.map(work, [todo] * threads))
     return out
 
 
@@ -122,71 +116,48 @@ def _new_outcomes(count: int, balls: int) -> Outcomes:
     )
 
 
-def _run_two_springs(drops: Drops, out: Outcomes, options: Options, mode: Mode) -> None:
+def _run_two_springs(drops: Drops, out: Outcomes, options: Options, compiled: bool) -> None:
     """Run drops by the engine for two springs, and those with the status ASK by the general one."""
-    run, scratch = compile_kernel(run_two_springs), new_scratch
-    if mode is not Mode.COMPILED:
-        run, scratch = run_two_springs, functools.partial(_zeros, SCRATCH)
-    speed, gap = -drops.velocity[:, 0], np.ascontiguousarray(drops.gap[:, 1])
-    given = (drops.mass, drops.stiffness, gap, speed, TWO_SPRINGS_EVENTS)
-    times = out.first_touch, out.last_release
-    run(*given, out.velocity, out.collisions, *times, out.status, scratch())
+    space = spring_workspace(compiled)
+    if compiled:
+        run = native.compiled(run_two_springs)
+        run(Table(drops), TWO_SPRINGS_EVENTS, Table(out), Table(space))
+    else:
+        run_two_springs(drops, TWO_SPRINGS_EVENTS, out, space)
     asked = np.flatnonzero(out.status == codes.ASK)
     if len(asked):
         some = Drops._make(array[asked] for array in drops)
         answers = Outcomes._make(array[asked] for array in out)
-        _run_rows(FINITE, some, answers, options, mode)
+        _run_rows(FINITE, some, answers, options, compiled)
         for array, answer in zip(out, answers, strict=True):
             array[asked] = answer
 
 
-def _run_rows(engine: Engine, drops: Drops, out: Outcomes, options: Options, mode: Mode) -> None:
-    """Run drops by one engine.
-
-    If plain Python reaches its limit of events, or a number out of range, all drops start again in
-    compiled code.
-    """
-    if mode is Mode.COMPILED or not _run_plainly(engine, drops, out, options, mode):
-        stack, room, samples, log = _arrays(engine, drops.mass.shape[1])
-        compile_kernel(engine.run_batch)(stack, room, drops, *options, samples, log, out)
-
-
-def _run_plainly(engine: Engine, drops: Drops, out: Outcomes, options: Options, mode: Mode) -> bool:
-    """Run drops as plain Python; return False if compiled code must run all of them again."""
+def _run_rows(
+    engine: Engine, drops: Drops, out: Outcomes, options: Options, compiled: bool
+) -> None:
+    """Run drops by one engine."""
     balls = drops.mass.shape[1]
-    limit = mode.event_limit(options.event_limit)
-    samples, log = new_samples([], balls), _zeros(_log_size(balls))
+    if compiled:
+        memory(engine, balls, compiled).run_batch(engine.run_batch, drops, options, out)
+        return
     for row in range(len(out.status)):
+        room = memory(engine, balls, compiled)
+        stack, space, _ = room.arguments
         one = Drops._make(array[row : row + 1].tolist() for array in drops)
         outcome = Outcomes._make(array[row : row + 1] for array in out)
-        stack, cut = engine.new_stack(balls), options._replace(event_limit=limit)
         try:
-            engine.run_batch(stack, _NO_ROOM, one, *cut, samples, log, outcome)
+            engine.run_batch(stack, space, one, room.no_samples, *options, outcome)
         except OUT_OF_RANGE:
-            return False
-        if out.status[row] == codes.EVENT_LIMIT and limit < options.event_limit:
-            return False
-    return True
+            outcome.status[0] = codes.INVALID
+            unit = space.after[UNIT] or 1.0
+            outcome.velocity[0] = [velocity / unit for velocity in stack.velocity]
 
 
-def _arrays(engine: Engine, balls: int) -> tuple[Any, ...]:
-    """Return this thread's stack, its two underlying arrays, empty samples and a log."""
-    if not hasattr(_local, "made"):
-        _local.made = functools.cache(_new_arrays)
-    made: tuple[Any, ...] = _local.made(engine, balls)
-    return made
-
-
-def _new_arrays(engine: Engine, balls: int) -> tuple[Any, ...]:
-    from stackbounce.engine.structure import Structure
-
-    stack, room = in_one_room(engine.new_stack(balls))
-    return Structure(stack), room, as_arrays(new_samples([], balls)), np.zeros(_log_size(balls))
-
-
-def _log_size(balls: int) -> int:
-    return max(LOG_ROWS_AT_ONCE, balls) * codes.LOG_COLUMNS
-
-
-def _zeros(count: int) -> list[float]:
-    return [0.0] * count
+def _find_ratios(drops: Drops, out: Outcomes, compiled: bool) -> None:
+    """Compute rebound ratios and retained energies."""
+    if compiled:
+        native.compiled(find_ratios)(Table(drops), Table(out))
+        return
+    with np.errstate(all="ignore"):
+        find_ratios(drops, out)

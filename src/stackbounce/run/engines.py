@@ -1,4 +1,4 @@
-"""The one place that chooses how drops are run: the engine, and plain Python or compiled code.
+"""The one place that chooses how drops are run: the engine, and compiled code or plain Python.
 
 ============= ==========================================================================
 engine        solves
@@ -9,32 +9,20 @@ two springs   batches of two balls on springs, many at a time (`engine.two_sprin
               near the limits of its accuracy are passed on to `FINITE`
 ============= ==========================================================================
 
-All modes give the same bits; they differ in speed only. Loading compiled code takes about as long
-as plain Python takes up to the thresholds below.
-
-============== ===== =====================================================================
-threshold      value meaning
-============== ===== =====================================================================
-`PLAIN_DROPS`  24    drops in a batch up to which it is run as plain Python
-`PLAIN_BALLS`  20    balls in a stack up to which it is run as plain Python
-`PLAIN_EVENTS` 2000  events, or checks between two of them, after which compiled code takes
-                     over
-============== ===== =====================================================================
+Compiled code is used wherever there is some for this machine (`engine.native`). Plain Python gives
+the same bits, about a hundred times slower.
 """
 
-import enum
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
-from stackbounce.engine.batch import run_batch, run_rigid_batch
+from stackbounce.engine import native
+from stackbounce.engine.batch import run_batch, run_drop, run_rigid_batch, run_rigid_drop
 from stackbounce.engine.codes import POWER
-from stackbounce.engine.motion import velocity_at
-from stackbounce.engine.preparation import prepare, prepare_rigid
-from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
-from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
 from stackbounce.engine.stack import new_rigid_stack, new_stack
+from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.model.laws import contact_numbers
 from stackbounce.run.options import Options
@@ -46,23 +34,19 @@ __all__ = [
     "RIGID",
     "TWO_SPRINGS_EVENTS",
     "Engine",
-    "Mode",
+    "choose_compiled",
     "choose_engine",
-    "choose_mode",
     "suits_two_springs",
 ]
 
-PLAIN_DROPS = 24
-PLAIN_BALLS = 20
-PLAIN_EVENTS = 2000
 TWO_SPRINGS_EVENTS = 10_000
 """An event limit that two springs never reach where their own engine gives an answer."""
 
 OUT_OF_RANGE = (OverflowError, ZeroDivisionError, ValueError)
 """What plain Python raises where compiled code goes on with inf or nan.
 
-``1e300**2``, ``1.0 / 0.0``, ``math.sqrt(-1.0)``, ``math.cos(math.inf)`` and ``round(math.nan)`` are
-all there are. Any other exception in a kernel is a programming error and is not caught.
+``1.0 / 0.0``, ``math.sqrt(-1.0)`` and ``int(math.nan)`` are such cases. Any other exception in a
+kernel is a programming error and is not caught.
 """
 
 Kernel: TypeAlias = Callable[..., Any]
@@ -76,76 +60,43 @@ class Engine:
     ----------
     new_stack : callable
         Returns an empty stack for a number of balls.
-    prepare : kernel
-        Fills it with a drop's numbers; returns its unit of time in s.
-    begin : kernel
-        Schedules the first events.
-    advance : kernel
-        Goes from event to event; returns a status.
-    velocity : kernel
-        Returns a ball's velocity at a time.
-    log_unfinished : kernel or None
-        Logs the contact intervals that had not ended; None where intervals have no duration.
+    run_drop : kernel
+        Runs one drop until it ends or the log is full.
     run_batch : kernel
         Runs many drops one after the other.
     """
 
     new_stack: Callable[[int], Any]
-    prepare: Kernel
-    begin: Kernel
-    advance: Kernel
-    velocity: Kernel
-    log_unfinished: Kernel | None
+    run_drop: Kernel
     run_batch: Kernel
 
 
-FINITE = Engine(
-    new_stack, prepare, begin_contacts, advance_contacts, velocity_at, log_unfinished, run_batch
-)
-RIGID = Engine(
-    new_rigid_stack,
-    prepare_rigid,
-    begin_collisions,
-    collide_all,
-    rigid_velocity,
-    None,
-    run_rigid_batch,
-)
+FINITE = Engine(new_stack, run_drop, run_batch)
+RIGID = Engine(new_rigid_stack, run_rigid_drop, run_rigid_batch)
 
 
-class Mode(enum.Enum):
-    """How kernels are run."""
-
-    PLAIN = "plain Python"
-    TRIAL = "plain Python, then compiled from PLAIN_EVENTS on"
-    COMPILED = "compiled"
-
-    def event_limit(self, limit: int) -> int:
-        """Return the event limit of a first run, if ``limit`` is the limit that the user set.
-
-        It is lower for TRIAL, where compiled code takes over at PLAIN_EVENTS.
-        """
-        return min(PLAIN_EVENTS, limit) if self is Mode.TRIAL else limit
-
-
-def choose_mode(compiled: bool | None, drops: int, balls: int) -> Mode:
-    """Choose between plain Python and compiled code for a batch of drops.
+def choose_compiled(compiled: bool | None) -> bool:
+    """Return whether compiled code is run; by default wherever there is some.
 
     Parameters
     ----------
     compiled : bool or None
-        What the user asked for; None leaves the choice to the thresholds.
-    drops, balls : int
-        How many drops, and balls in each.
+        What the user asked for; None leaves the choice to what there is.
 
-    Examples
-    --------
-    >>> choose_mode(None, drops=1, balls=2), choose_mode(None, drops=1000, balls=2)
-    (<Mode.TRIAL: 'plain Python, then compiled from PLAIN_EVENTS on'>, <Mode.COMPILED: 'compiled'>)
+    Raises
+    ------
+    InvalidType
+        If it is none of these.
+    InvalidValue
+        If compiled code is asked for and there is none for this machine.
     """
-    if compiled is not None:
-        return Mode.COMPILED if compiled else Mode.PLAIN
-    return Mode.TRIAL if drops <= PLAIN_DROPS and balls <= PLAIN_BALLS else Mode.COMPILED
+    if compiled is None:
+        return native.available()
+    if not isinstance(compiled, bool):
+        raise InvalidType(f"compiled must be True, False or None, got {shown(compiled)}")
+    if compiled and not native.available():
+        raise InvalidValue(f"compiled must be False or None here: {native.reason()}")
+    return compiled
 
 
 def choose_engine(drop: Drop) -> Engine:

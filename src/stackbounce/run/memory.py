@@ -1,0 +1,96 @@
+"""The memory in which drops are run: lists for plain Python, arrays and their tables otherwise."""
+
+import functools
+import threading
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from stackbounce.engine import codes, native
+from stackbounce.engine.batch import AFTER, Drops, Outcomes, Workspace
+from stackbounce.engine.slots import LOG_ROWS
+from stackbounce.engine.stack import Samples, as_arrays, in_one_room, new_samples
+from stackbounce.engine.tables import Table
+from stackbounce.engine.two_springs import SCRATCH, new_scratch
+from stackbounce.run.engines import Engine, Kernel
+from stackbounce.run.options import Options
+
+__all__ = ["Memory", "memory", "spring_workspace"]
+
+_ROWS = 512  # of the log, besides one for each ball
+_MOST = 16  # stacks of different height that a thread keeps
+_local = threading.local()
+
+
+class Memory(NamedTuple):
+    """The memory of runs of stacks of one height."""
+
+    compiled: bool
+    stack: Any
+    space: Workspace
+    drop: Drops  # room for one drop
+    arguments: tuple[Any, ...]  # stack, space and drop as a kernel takes them
+    no_samples: Any
+
+    def put(self, numbers: Drops) -> None:
+        """Set the parameters of the one drop."""
+        for room, values in zip(self.drop, numbers, strict=True):
+            room[0] = values
+
+    def kernel(self, entry: Kernel, samples: Samples) -> Kernel:
+        """Return an entry that runs the one drop, to be called with its stage and options."""
+        if not self.compiled:
+            return functools.partial(entry, *self.arguments, samples, 0)
+        table = Table(samples) if len(samples.time) else self.no_samples
+        return functools.partial(native.compiled(entry), *self.arguments, table, 0)
+
+    def run_batch(self, entry: Kernel, drops: Drops, options: Options, out: Outcomes) -> None:
+        """Run many drops by compiled code, and write their outcomes."""
+        stack, space, _ = self.arguments
+        native.compiled(entry)(stack, space, Table(drops), self.no_samples, *options, Table(out))
+
+    def samples(self, times: Sequence[float]) -> Samples:
+        """Return room for samples at times in s, in ascending order."""
+        samples = new_samples(times, len(self.stack.mass))
+        return as_arrays(samples) if self.compiled and times else samples
+
+    def take_log(self) -> list[float]:
+        """Return the rows of the log in a flat list."""
+        return self.numbers(self.space.log[: self.stack.counter[LOG_ROWS] * codes.LOG_COLUMNS])
+
+    def numbers(self, values: Any) -> list[Any]:
+        """Return an array or a list as a list."""
+        return list(values.tolist() if self.compiled else values)
+
+
+def memory(engine: Engine, balls: int, compiled: bool) -> Memory:
+    """Return the memory for stacks of one height: new for plain Python, else this thread's own."""
+    if not compiled:
+        return _new_memory(engine, balls, compiled)
+    if not hasattr(_local, "known"):
+        _local.known = functools.lru_cache(_MOST)(_new_memory)
+    known: Memory = _local.known(engine, balls, compiled)
+    return known
+
+
+def spring_workspace(compiled: bool) -> Workspace:
+    """Return scratch space for the engine for two springs."""
+    if not compiled:
+        return Workspace([0.0] * SCRATCH, [], [], [])
+    empty: Any = np.empty(0)
+    return Workspace(new_scratch(), np.empty(0, dtype=np.int64), empty, empty)
+
+
+def _new_memory(engine: Engine, balls: int, compiled: bool) -> Memory:
+    stack, samples = engine.new_stack(balls), new_samples([], balls)
+    log, after = [0.0] * ((_ROWS + balls) * codes.LOG_COLUMNS), [0.0] * (AFTER + balls)
+    drop = Drops(*([[0.0] * balls] for _ in Drops._fields[:-1]), [0.0])
+    if not compiled:
+        space = Workspace([], [], log, after)
+        return Memory(compiled, stack, space, drop, (stack, space, drop), samples)
+    stack, (floats, integers) = in_one_room(stack)
+    space = Workspace(floats, integers, np.array(log), np.array(after))
+    drop = Drops(*map(np.array, drop))._replace(kind=np.zeros((1, balls), dtype=np.int64))
+    arguments = Table(stack), Table(space), Table(drop)
+    return Memory(compiled, stack, space, drop, arguments, Table(as_arrays(samples)))
