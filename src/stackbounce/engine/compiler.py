@@ -51,6 +51,7 @@ def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 @functools.cache
 def _compiled(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return the numba-compiled form of a kernel; the caller must hold the lock."""
+    import numpy as np
     from numba import njit
 
     namespace = dict(function.__globals__)
@@ -61,6 +62,8 @@ def _compiled(function: Callable[..., Any]) -> Callable[..., Any]:
         callee = namespace.get(name)
         if getattr(callee, _MARK, False):
             namespace[name] = _compiled(callee)
+        elif isinstance(callee, tuple):  # a table: quick to look up and to compile as an array
+            namespace[name] = np.array(callee)
     clone = types.FunctionType(
         function.__code__, namespace, function.__name__, function.__defaults__
     )
