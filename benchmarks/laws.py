@@ -14,10 +14,10 @@ from time import process_time
 from typing import Any
 
 import numpy as np
+from kernel_build.jit import compile_kernel
 
 import stackbounce as sb
 from benchmarks.by_scipy import rebound
-from kernel_build.jit import compile_kernel
 from stackbounce.engine.kernels import kernel
 
 LAWS: dict[str, dict[str, Any]] = {

@@ -9,11 +9,11 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
+from kernel_build.jit import compile_kernel
 from rich.console import Console
 
 from benchmarks.random_drops import random
 from stackbounce.engine import codes
-from kernel_build.jit import compile_kernel
 from stackbounce.engine.two_springs import new_scratch, run_two_springs
 
 _LIMIT = 10**6

@@ -6,6 +6,7 @@ import types
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 from numba import njit
 
 import kernel_build.records  # noqa: F401 - tells numba what a Table is
@@ -25,9 +26,12 @@ def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     for instruction in dis.get_instructions(function):
         if instruction.opname != "LOAD_GLOBAL":
             continue
-        callee = namespace.get(instruction.argval)
+        name = instruction.argval
+        callee = namespace.get(name)
         if getattr(callee, MARK, False):
-            namespace[instruction.argval] = compile_kernel(callee)
+            namespace[name] = compile_kernel(callee)
+        elif isinstance(callee, tuple):  # a table: quick to look up and to compile as an array
+            namespace[name] = np.array(callee)
     clone = types.FunctionType(
         function.__code__, namespace, function.__name__, function.__defaults__
     )

@@ -7,9 +7,9 @@ import random
 import mpmath
 import numpy as np
 import pytest
+from kernel_build.jit import compile_kernel
 
 from stackbounce.engine import elementary
-from kernel_build.jit import compile_kernel
 
 INF, NAN = math.inf, math.nan
 SUBNORMAL, TINY, HUGE = 5e-324, 2.2250738585072014e-308, 1.7976931348623157e308

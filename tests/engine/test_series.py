@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-
 from kernel_build.jit import compile_kernel
+
 from stackbounce.engine.series import evaluate, lower_bound
 
 RNG = np.random.default_rng(4)

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from kernel_build.jit import compile_kernel
 
 import stackbounce as sb
 from reference import make_data, springs
 from stackbounce.engine import codes
-from kernel_build.jit import compile_kernel
 from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
 
 SPEED = 1e-12

@@ -5,11 +5,12 @@ import time
 from typing import Any, NamedTuple
 
 import numpy as np
+from kernel_build.jit import compile_kernel
+from stackbounce.engine.structure import Structure
 
 from fuzz import drive
 from fuzz.draw import BATCH, Drops, balls_of, drops_of, is_rigid
 from stackbounce.engine.codes import LOG_COLUMNS
-from kernel_build.jit import compile_kernel
 from stackbounce.engine.stack import (
     as_arrays,
     in_one_room,
@@ -17,7 +18,6 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
-from stackbounce.engine.structure import Structure
 
 _LOG_ROWS = 256
 

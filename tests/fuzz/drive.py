@@ -10,9 +10,9 @@ from typing import Any
 from stackbounce.engine import codes
 from stackbounce.engine.batch import clear_arrays
 from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TIME_REACHED
-from stackbounce.engine.kernels import kernel
 from stackbounce.engine.flight import compression_after
 from stackbounce.engine.forces import stored_energy
+from stackbounce.engine.kernels import kernel
 from stackbounce.engine.motion import compression_at, velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity

@@ -18,6 +18,7 @@ from stackbounce.engine.kernels import kernel
 _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds a number
 _SPLIT = 134217729.0  # 2^27 + 1
 _ROOT_TWO = 1.4142135623730951
+_POWERS_OF_TWO = tuple(math.ldexp(1.0, n) for n in range(-1022, 1024))
 
 _PER_LN2 = 1.4426950408889634  # 1/ln 2
 _LN2 = 0.6931471803691238  # ln 2 to 32 bits: whole multiples up to 2^21 are exact
@@ -67,15 +68,7 @@ def times_power_of_two(x: float, n: int) -> float:
             return x
         x *= 2.004168360008973e-292  # 2^-969: what is still to come is at most 2^-53
         n += 969
-    factor = 2.0
-    if n < 0:
-        factor, n = 0.5, -n
-    while n > 0:
-        if n & 1:
-            x *= factor
-        factor *= factor
-        n >>= 1
-    return x
+    return x * _POWERS_OF_TWO[n + 1022]
 
 
 @kernel
@@ -89,21 +82,21 @@ def _significand(x: float) -> tuple[float, int]:
         x *= 4294967296.0
         e -= 32
     x *= 65536.0
-    if x >= 65536.0:
-        x *= 1.52587890625e-05
-        e += 16
-    if x >= 256.0:
-        x *= 0.00390625
-        e += 8
-    if x >= 16.0:
-        x *= 0.0625
-        e += 4
-    if x >= 4.0:
-        x *= 0.25
-        e += 2
-    if x >= 2.0:
-        x *= 0.5
-        e += 1
+    far = x >= 65536.0  # selections, not branches, which a processor would have to guess
+    x *= 1.52587890625e-05 if far else 1.0
+    e += 16 if far else 0
+    far = x >= 256.0
+    x *= 0.00390625 if far else 1.0
+    e += 8 if far else 0
+    far = x >= 16.0
+    x *= 0.0625 if far else 1.0
+    e += 4 if far else 0
+    far = x >= 4.0
+    x *= 0.25 if far else 1.0
+    e += 2 if far else 0
+    far = x >= 2.0
+    x *= 0.5 if far else 1.0
+    e += 1 if far else 0
     return x, e
 
 

@@ -11,7 +11,7 @@ are exact as well.
 import math
 
 from stackbounce.engine.codes import EPSILON
-from stackbounce.engine.elementary import hypotenuse, sine, sine_and_cosine
+from stackbounce.engine.elementary import hypotenuse, sine_and_cosine
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import WIDTH, Stack
@@ -107,11 +107,22 @@ def modal_position(stack: Stack, j: int, s: float) -> float:
     ``static``. The formula avoids the difference of coordinate and equilibrium, which would cancel
     digits if the equilibrium is far away.
     """
-    angle = stack.omega[j] * s
-    half = sine(0.5 * angle)
-    sin, cos = sine_and_cosine(angle)
+    sin, cos, versed = _turn(stack.omega[j] * s)
+    return _swing(stack, j, sin, cos, versed)
+
+
+@kernel
+def _turn(angle: float) -> tuple[float, float, float]:
+    """Return sine, cosine and 1 - cosine of an angle, without cancellation, from half of it."""
+    sin, cos = sine_and_cosine(0.5 * angle)
+    return 2.0 * sin * cos, (cos - sin) * (cos + sin), 2.0 * sin * sin
+
+
+@kernel
+def _swing(stack: Stack, j: int, sin: float, cos: float, versed: float) -> float:
+    """Return the coordinate of mode j, given the numbers of `_turn`."""
     swing = stack.cosine[j] * cos + stack.sine[j] * sin / stack.omega[j]
-    return swing + stack.static[j] * (2.0 * half * half)
+    return swing + stack.static[j] * versed
 
 
 @kernel
@@ -130,8 +141,8 @@ def modal_compression(
         weight = stack.shape[j * WIDTH + i - low] / stack.weight[i]
         omega = stack.omega[j]
         amplitude = stack.cosine[j] - stack.static[j]
-        sin, cos = sine_and_cosine(omega * s)
-        position = modal_position(stack, j, s)
+        sin, cos, versed = _turn(omega * s)
+        position = _swing(stack, j, sin, cos, versed)
         speed = stack.sine[j] * cos - amplitude * omega * sin
         even, odd = weight * (position - stack.static[j]), weight * speed
         out[0] += weight * position
@@ -159,11 +170,11 @@ def modal_impulse(stack: Stack, i: int, low: int, high: int, s: float) -> tuple[
         weight = stack.shape[j * WIDTH + i - low] / stack.weight[i] * stack.rate[i]
         omega = stack.omega[j]
         angle = omega * s
-        half = sine(0.5 * angle)
-        first = sine(angle) / omega
-        second = 2.0 * half * half / (omega * omega)
-        third = _sine_rest(angle) / omega
-        fourth = _cosine_rest(angle) / (omega * omega)
+        sin, _, versed = _turn(angle)
+        first = sin / omega
+        second = versed / (omega * omega)
+        third = _sine_rest(angle, sin) / omega
+        fourth = _cosine_rest(angle, versed) / (omega * omega)
         static, start, rate = stack.static[j], stack.cosine[j], stack.sine[j]
         once += weight * (static * third + start * first + rate * second)
         twice += weight * (static * fourth + start * second + rate * third / (omega * omega))
@@ -171,10 +182,10 @@ def modal_impulse(stack: Stack, i: int, low: int, high: int, s: float) -> tuple[
 
 
 @kernel
-def _sine_rest(x: float) -> float:
-    """Return x - sin x without cancellation."""
+def _sine_rest(x: float, sin: float) -> float:
+    """Return x - sin x without cancellation, given sin x."""
     if x > 0.7:
-        return x - sine(x)
+        return x - sin
     square = x * x
     total = 1.0
     for k in range(16, 3, -2):
@@ -183,12 +194,11 @@ def _sine_rest(x: float) -> float:
 
 
 @kernel
-def _cosine_rest(x: float) -> float:
-    """Return x^2/2 - 1 + cos x without cancellation."""
+def _cosine_rest(x: float, versed: float) -> float:
+    """Return x^2/2 - 1 + cos x without cancellation, given 1 - cos x."""
     square = x * x
     if x > 0.7:
-        half = sine(0.5 * x)
-        return 0.5 * square - 2.0 * half * half
+        return 0.5 * square - versed
     total = 1.0
     for k in range(17, 4, -2):
         total = 1.0 - square / (k * (k + 1)) * total
