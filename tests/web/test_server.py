@@ -309,7 +309,11 @@ WRONG = [
         {"x": {**SIDES["x"], "count": 999}, "y": {**SIDES["y"], "count": 999}},
         "x.count times y.count must be at most 40000, got 998001",
     ),
-    ("map", {"x": SIDES["x"], "y": {**SIDES["y"], "path": "gap"}}, "'gap' is no number of this"),
+    (
+        "map",
+        {"x": SIDES["x"], "y": {**SIDES["y"], "path": "gap"}},
+        "'gap' is not a parameter",
+    ),
 ]
 
 

@@ -206,7 +206,7 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
         )
     if seen.short:
         notes.append(
-            f"{seen.short} thing{'s' * (seen.short > 1)} of one or two samples left out: "
+            f"{seen.short} peak{'s' * (seen.short > 1)} of one or two samples ignored: "
             "if these are contacts, sample faster"
         )
     if any(one.clipped for one in contacts):
@@ -229,7 +229,7 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
     if seen.zero.hum:
         notes.append(
-            f"hum of {seen.zero.mains:.0f} Hz was taken off, amplitude "
+            f"hum of {seen.zero.mains:.0f} Hz was subtracted, amplitude "
             f"{seen.zero.hum:.3g} {unit}".rstrip()
         )
     whole = next((one for one in contacts if one.time is not None), None)

@@ -10,7 +10,7 @@ from stackbounce.measure.kinds.waveform.record import Record
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
-__all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter", "stuck"]
+__all__ = ["Quiet", "first_guess", "fit_quiet", "quantisation_error", "quiet_parts", "scatter"]
 
 _SHARE = 0.25  # of a record, at least, is quiet
 _FAR = 0.2  # of a record's range: a clipped level that differs more from the ends is no baseline
@@ -116,7 +116,7 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     noise, density = scatter(rest, best.shape[1], record.quantum)
     floor = _floor(record)
     noise, density = max(noise, floor), max(density, floor)
-    error = float(np.hypot(density / np.sqrt(len(rest)), stuck(record.quantum, noise)))
+    error = float(np.hypot(density / np.sqrt(len(rest)), quantisation_error(record.quantum, noise)))
     return Quiet(base, noise, density, error, height, mains)
 
 
@@ -207,6 +207,6 @@ def _floor(record: Record) -> float:
     return max(record.quantum / math.sqrt(12.0), 1e-6 * float(np.ptp(record.values)), 1e-300)
 
 
-def stuck(quantum: float, noise: float) -> float:
+def quantisation_error(quantum: float, noise: float) -> float:
     """Return the quantisation error of a level, if the noise is below half a step."""
     return quantum / math.sqrt(12.0) if noise < 0.5 * quantum else 0.0

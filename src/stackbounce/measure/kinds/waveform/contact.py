@@ -7,7 +7,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.measure.kinds.waveform.baseline import Quiet, fit_quiet, scatter, stuck
+from stackbounce.measure.kinds.waveform.baseline import (
+    Quiet,
+    fit_quiet,
+    quantisation_error,
+    scatter,
+)
 from stackbounce.measure.kinds.waveform.ends import Ends
 from stackbounce.measure.kinds.waveform.flanks import Flank, fit_flank
 from stackbounce.measure.kinds.waveform.intervals import Stretch
@@ -151,7 +156,9 @@ def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | Non
         if sum(sides) >= _MANY:
             noise, density = scatter(values[quiet], columns.shape[1], seen.quantum)
             density = max(density, 1e-6 * float(np.ptp(values)))
-        offset = float(np.hypot(density / np.sqrt(sum(sides)), stuck(seen.quantum, noise)))
+        offset = float(
+            np.hypot(density / np.sqrt(sum(sides)), quantisation_error(seen.quantum, noise))
+        )
     return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
 
 

@@ -62,7 +62,7 @@ export function fitForm(store, api, fitted) {
       h("legend", { text: "What was measured" }),
       alone,
       rows,
-      h("button", { type: "button", text: "Add a number", onclick: () => addRow().querySelector("select").focus() }),
+      h("button", { type: "button", text: "Add a measured value", onclick: () => addRow().querySelector("select").focus() }),
     ),
     vary,
     h("div", { class: "fit-buttons" }, button, undo),
@@ -146,7 +146,7 @@ export function fitForm(store, api, fitted) {
     labels = { touch: "First touch on the record’s clock" };
     for (const { path, label } of own) labels[path] = capital(label);
     vary.replaceChildren(
-      h("legend", { text: "What may vary" }),
+      h("legend", { text: "Parameters to vary" }),
       ...own.map(({ path, label }) => {
         const box = h("input", { type: "checkbox", name: "vary", value: path, checked: isLikely(laws, path, drop, clocks) });
         return h("label", { class: "check" }, box, capital(label));
@@ -193,7 +193,7 @@ export function fitForm(store, api, fitted) {
     const twice = used.find(([name], i) => used.findIndex(([other]) => other === name) < i);
     if (twice) throw new Error(`Two values are of the same quantity, ${twice[0]}.`);
     const chosen = [...vary.querySelectorAll("input:checked")].map(({ value }) => value);
-    if (chosen.length === 0) throw new Error("Choose at least one number that may vary.");
+    if (chosen.length === 0) throw new Error("Choose at least one parameter to vary.");
     form.append("drop", JSON.stringify(drop));
     form.append("vary", JSON.stringify(chosen));
     form.append("measured", JSON.stringify(Object.fromEntries(used)));
