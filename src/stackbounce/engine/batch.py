@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, TypeAlias
 
 from stackbounce.engine import codes
 from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.compiler import Floats, Integers, kernel
+from stackbounce.engine.compiler import Floats, Integers, kernel, with_callees
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
@@ -47,6 +47,12 @@ class Outcomes(NamedTuple):
     last_release: Table  # s; nan where none, infinity where the run stopped during an interval
     energy_retained: Table  # kinetic energy after over that before
     status: Table
+
+
+@kernel
+def is_infinite(stack: Stack, i: int) -> bool:  # noqa: ARG001 - see `run_rigid_batch`
+    """Tell whether a contact had infinitely many intervals: a finite one never has."""
+    return False
 
 
 @kernel
@@ -97,50 +103,7 @@ def run_batch(
             _read_log(log, stack.counter[LOG_ROWS], unit, out, row)
         for b in range(size):
             out.velocity[row, b] = velocity_at(stack, b, end) / unit
-        out.status[row] = status
-
-
-@kernel
-def run_rigid_batch(
-    stack: RigidStack,
-    room: tuple[Floats, Integers],
-    drops: Drops,
-    until: float,
-    rtol: float,
-    event_limit: int,
-    samples: Samples,
-    log: Floats,
-    out: Outcomes,
-) -> None:
-    """Run drops of rigid balls and write their results to ``out``; see `run_batch`."""
-    size = len(stack.mass)
-    for row in range(len(out.status)):
-        clear_arrays(room)
-        prepare_rigid(
-            stack,
-            drops.mass[row],
-            drops.kind[row],
-            drops.stiffness[row],
-            drops.exponent[row],
-            drops.law_parameter[row],
-            drops.gap[row],
-            drops.velocity[row],
-            drops.gravity[row],
-            rtol,
-        )
-        begin_collisions(stack)
-        _reset(out, row, size)
-        status = codes.RUNNING
-        while status == codes.RUNNING:
-            stack.counter[LOG_ROWS] = 0
-            status = collide_all(stack, until, event_limit, log, samples)
-            _read_log(log, stack.counter[LOG_ROWS], 1.0, out, row)
-        end = stack.clock[LAST_EVENT]
-        if status != codes.FINISHED:
-            end = until if status == codes.TIME_REACHED else max(end, stack.clock[LAST_CHECK])
-        for b in range(size):
-            out.velocity[row, b] = rigid_velocity(stack, b, end)
-            if stack.infinite[b] == 1:
+            if is_infinite(stack, b):
                 out.collisions[row, b] = -1
         out.status[row] = status
 
@@ -212,3 +175,27 @@ def _read_log(log: Floats, lines: int, unit: float, out: Outcomes, row: int) -> 
             out.first_touch[row, i] = begin
         if not out.last_release[row, i] >= end:
             out.last_release[row, i] = end
+
+
+@kernel
+def _log_nothing(stack: RigidStack, end: float, log: Floats) -> None:
+    """Stand in for `log_unfinished` where no contact interval has a duration."""
+
+
+@kernel
+def _collided_infinitely(stack: RigidStack, i: int) -> bool:
+    """Tell whether a rigid contact has collided infinitely often."""
+    return stack.infinite[i] == 1
+
+
+run_rigid_batch = with_callees(
+    run_batch,
+    "run_rigid_batch",
+    prepare=prepare_rigid,
+    begin_contacts=begin_collisions,
+    advance_contacts=collide_all,
+    log_unfinished=_log_nothing,
+    velocity_at=rigid_velocity,
+    is_infinite=_collided_infinitely,
+)
+"""`run_batch` of rigid balls; its `stack` is a `RigidStack`."""

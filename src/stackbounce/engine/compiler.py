@@ -39,6 +39,17 @@ def kernel(function: Function) -> Function:
     return function
 
 
+def with_callees(function: Function, name: str, **callees: Callable[..., Any]) -> Function:
+    """Return a kernel under another name that calls other kernels where it calls those named.
+
+    It is compiled as if it had been written out with them, so that a choice costs no time.
+    """
+    namespace = function.__globals__ | callees
+    other: Any = types.FunctionType(function.__code__, namespace, name, function.__defaults__)
+    other.__module__ = function.__module__
+    return kernel(other)  # type: ignore[no-any-return]
+
+
 def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Return the numba-compiled form of a kernel; its marked callees are compiled with it.
 
