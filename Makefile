@@ -35,7 +35,7 @@ coverage: $(DEV)  ## hold all error bars to their claim (make check: some of the
 	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py
 
 bench: $(DEV)  ## growth, accuracy and speed, also of other solvers (extra: bench), in build/bench
-	@$(BIN)/python -m benchmarks --out build/bench
+	@PYTHONPATH=tests $(BIN)/python -m benchmarks --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
 
 check: lint types imports docs  ## everything: lint, types, import rules, documentation, all tests, in Chromium too

@@ -1,4 +1,7 @@
-"""Run all benchmarks: `python -m benchmarks [--out DIR]`."""
+"""Run all benchmarks: `PYTHONPATH=tests python -m benchmarks [--out DIR]`, as `make bench` does.
+
+The solvers of `tests/reference`, of fifty digits, tell what is exact.
+"""
 
 import argparse
 from pathlib import Path

@@ -4,10 +4,8 @@ Times are processor times of one thread, medians of rounds over all solvers, so 
 does not fall on all tries of one of them. Compilation is left out.
 """
 
-import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from statistics import median
 from time import process_time
 
@@ -17,8 +15,8 @@ from benchmarks import random_drops
 from benchmarks.peers import by_cvode, by_cyrk, by_heyoka, by_scipy, by_steps, ours
 from benchmarks.peers.common import Answer, Peer
 from benchmarks.random_drops import Drops
+from reference import springs
 
-TESTS = Path(__file__).parents[1] / "tests"
 OURS = ours.PEER
 PEERS = (
     OURS,
@@ -96,9 +94,6 @@ def check(
     given: Sets, progress: Callable[[str], None], sample: int = SAMPLE, hard: int = HARD_SAMPLE
 ) -> Check:
     """Return how the truth compares with fifty digits on the first drops of each set."""
-    sys.path.insert(0, str(TESTS))
-    from reference import springs
-
     off, wrong = [], 0
     for key, drops in given.drops.items():
         few = drops.first(hard if key else sample)

@@ -5,7 +5,6 @@ they have about thirty digits and come from another method altogether.
 """
 
 import json
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -18,6 +17,7 @@ import numpy as np
 import stackbounce as sb
 from benchmarks.by_scipy import rebound
 from benchmarks.timing import best
+from reference import precise
 
 TESTS = Path(__file__).parents[1] / "tests"
 TOLERANCES = tuple(float(f"1e-{n}") for n in range(3, 15))
@@ -120,9 +120,6 @@ def error(result: sb.Result, expected: list[float]) -> float:
 
 def work(progress: Callable[[str], None]) -> list[Work]:
     """Return error and time of `DROPS` by this package, compiled and plain, and by scipy."""
-    sys.path.insert(0, str(TESTS))
-    from reference import precise
-
     kinds, off, calls = [], [], []
     for name, case in DROPS.items():
         progress(f"work and precision: thirty digits of two balls, {name}")

@@ -1,14 +1,13 @@
-"""Sphinx's settings. Nothing is fetched while building, and the pages fetch nothing."""
+"""Sphinx's settings. Nothing is fetched while building, and the pages fetch nothing.
 
-import sys
-from pathlib import Path
+Run `python -m sphinx` at the top of the repository, as `make docs` does: from there it finds the
+extensions in `docs/_extensions`.
+"""
 
 import matplotlib as mpl
 
 from stackbounce.cross2007.style import use_style
 from stackbounce.version import __version__
-
-sys.path.insert(0, str(Path(__file__).parent / "_extensions"))
 
 project = "stackbounce"
 author = "The stackbounce developers"
@@ -16,12 +15,12 @@ copyright = "2026, The stackbounce developers"
 release = version = __version__
 
 extensions = [
+    "docs._extensions.mathml",
+    "docs._extensions.measure_options",
+    "docs._extensions.offline",
     "matplotlib.sphinxext.plot_directive",
-    "mathml",
-    "measure_options",
     "myst_parser",
     "numpydoc",
-    "offline",
     "sphinx.ext.autodoc",
     "sphinx.ext.autosummary",
 ]

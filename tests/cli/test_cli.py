@@ -701,7 +701,7 @@ def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
     ("arguments", "message"),
     [
         (["--over", "balls.0.mass=1:2"], "--over must be PATH=START:STOP:COUNT"),
-        (["--over", "balls.7.mass=1:2:3"], "balls.7.mass is no number of this drop"),
+        (["--over", "balls.7.mass=1:2:3"], "balls.7.mass is not a parameter of this drop"),
         (["--over", "balls.0.mass=-1kg,1kg"], "balls.0.mass must be a positive number"),
         (
             ["--over", "gaps.0=0,1", "--cluster", "tcp://127.0.0.1:9"],
@@ -718,7 +718,7 @@ def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
         (["--over", "gaps.0=0:1mm:9:log"], "of one sign for :log, not from or to 0, got 0:1mm"),
         (
             ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"],
-            "--plot needs one or two numbers that vary, got 3",
+            "--plot needs one or two parameters that vary, got 3",
         ),
         ([], "Missing option '--over'"),
     ],

@@ -288,7 +288,7 @@ def test_bad_input_is_one_line(run, tmp_path, arguments, expected):
         (("--save", "a.toml"), "--save must name a folder for 2 drops, a file each, got a.toml"),
         (("--measured", "rebound_ratios.0=1 ± 1"), "--measured must be DROP.NAME, such as low."),
         (("--measured", "lo.rebound_ratios.0=1 ± 1"), "did you mean low?"),
-        (("--vary", "low.gaps.1"), "low.gaps.1 is no number of the drop; did you mean"),
+        (("--vary", "low.gaps.1"), "low.gaps.1 is not a parameter of the drop; did you mean"),
     ],
 )
 def test_what_is_wrong_with_several_drops(run, tmp_path, arguments, expected):

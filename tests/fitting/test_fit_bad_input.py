@@ -81,7 +81,7 @@ def test_data_that_do_not_fit(data, kind, message):
         ({3: (1.0, 2.0)}, InvalidType, "vary must have names for keys, got 3"),
         (["contacts.5.stiffness"], InvalidValue, "did you mean contacts.1.stiffness?"),
         ({"mass": (1.0, 2.0)}, InvalidValue, "neither a number of the drop nor used by a tie"),
-        ({"m\u00e4ss": (1.0, 2.0)}, InvalidValue, "is no number of the drop"),
+        ({"m\u00e4ss": (1.0, 2.0)}, InvalidValue, "is not a parameter of the drop"),
         ({STIFFNESS: (2000.0, 500.0)}, InvalidValue, "lower bound below the upper one, got 2000"),
         ({STIFFNESS: (500.0, 500.0)}, InvalidValue, "lower bound below the upper one, got 500"),
         ({STIFFNESS: (-5.0, 500.0)}, InvalidValue, "cannot be varied to -5"),

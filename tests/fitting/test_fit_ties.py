@@ -176,8 +176,8 @@ def test_a_function_that_fails_is_told(function, message):
 @pytest.mark.parametrize(
     ("tie", "vary", "message"),
     [
-        ({"contacts.9.stiffness": "k"}, None, "is no number of the drop"),
-        ({3: "k"}, None, "is no number of the drop"),
+        ({"contacts.9.stiffness": "k"}, None, "is not a parameter of the drop"),
+        ({3: "k"}, None, "is not a parameter of the drop"),
         ({UPPER: "k"}, {"k": (1.0, 2.0), UPPER: (1.0, 2.0)}, "both varied and tied"),
         ({UPPER: "2.0 * m"}, None, "has m, which is neither varied nor a number of the drop"),
         ({UPPER: "2.0 * pi"}, None, "k is neither a number of the drop nor used by a tie"),

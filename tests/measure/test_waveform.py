@@ -1,7 +1,5 @@
 """Force records: contacts, times, peaks, impulses, and records as bad as they come."""
 
-import time
-
 import numpy as np
 import pytest
 import xarray as xr
@@ -12,6 +10,7 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.plots.measurements.waveform import draw
 from stackbounce.synthetic.waveform import waveform as record_of
+from work import calls_of, memory_of
 
 ONE = sb.simulate(sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0))
 TIME = float(ONE.intervals["end"][0])
@@ -122,9 +121,9 @@ def test_separate_collisions_are_separate_contacts():
 
 @pytest.mark.slow
 def test_a_hundred_bounces():
-    began = time.perf_counter()
-    found = waveform(pulses(100))
-    assert time.perf_counter() - began < 30.0
+    _, ten = calls_of(waveform, pulses(10))
+    found, hundred = calls_of(waveform, pulses(100))
+    assert hundred < 10 * ten  # the work grows with the contacts, no faster
     assert len(found.contacts) == 100
     times = [one.time for one in found.contacts]
     inside = np.mean([near(one, 4e-3, 1.0) for one in times])
@@ -133,12 +132,14 @@ def test_a_hundred_bounces():
 
 
 @pytest.mark.slow
-def test_a_million_samples_are_fast():
+def test_a_million_samples_take_hardly_more_steps_than_few():
     data = pulses(3, rate=1.4e7, noise=5.0)
     assert len(data[0]) > 900_000
-    began = time.perf_counter()
-    found = waveform(data)
-    assert time.perf_counter() - began < 15.0
+    _, few = calls_of(waveform, pulses(3, noise=5.0))
+    _, many = calls_of(waveform, data)
+    assert many < 1.5 * few
+    found, held = memory_of(waveform, data)
+    assert held < 20 * data[0].nbytes
     assert len(found.contacts) == 3
     assert all(near(one.time, 4e-3) for one in found.contacts)
     assert all(one.time.std_dev < 1e-5 for one in found.contacts)

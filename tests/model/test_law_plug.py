@@ -3,6 +3,7 @@
 import dataclasses
 import json
 import math
+import re
 from typing import Annotated, ClassVar
 
 import numpy as np
@@ -11,6 +12,7 @@ import pytest
 import stackbounce as sb
 from hardening import Hardening
 from stackbounce.cli import main, tables
+from stackbounce.engine import forces
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named
@@ -100,6 +102,7 @@ def goes_through_every_face(kind, tmp_path, capfd):
     (page,) = [one for one in json.loads(list_choices(LIMITS))["laws"] if one["law"] == name]
     assert (page["formula"], page["source"], page["says"]) == (kind.formula, kind.source, kind.says)
     assert [one["name"] for one in page["fields"]] == list(kind.quantities())
+    assert page["loss_fields"] == list(kind.loss_fields())
     return law, result
 
 
@@ -199,6 +202,26 @@ def test_an_incomplete_law_is_refused():
     with pytest.raises(TypeError, match="Silent must set formula, source, form"):
         register(Silent)
     assert "Silent" not in LAWS
+
+
+def test_a_form_with_a_squared_and_a_rate_term_is_refused(monkeypatch):
+    """Only `forces` knows the form: a HARDENING whose force also depends on the rate."""
+    usual = forces.take_law
+
+    def take(stack, i, kind, *numbers):
+        usual(stack, i, forces.HARDENING if kind == 10 else kind, *numbers)
+        if kind == 10:
+            stack.gain_rate[i] = 0.1
+
+    class Clay(Hardening):
+        form = "DAMPED_HARDENING"
+
+    monkeypatch.setattr(forces, "DAMPED_HARDENING", 10, raising=False)
+    monkeypatch.setattr(forces, "take_law", take)
+    words = "Clay has the form of force DAMPED_HARDENING: a gain has a term in c^2 or one in c'"
+    with pytest.raises(TypeError, match=re.escape(words)):
+        register(Clay)
+    assert "Clay" not in LAWS
 
 
 def test_a_name_belongs_to_one_law():

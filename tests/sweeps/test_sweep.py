@@ -169,9 +169,12 @@ def test_an_unfinished_drop_is_marked_and_the_others_are_not():
     [
         (
             {"balls.0.mas": [1.0]},
-            r"balls.0.mas is no number of this drop; did you mean balls.0.mass\?",
+            r"balls.0.mas is not a parameter of this drop; did you mean balls.0.mass\?",
         ),
-        ({"contacts.0.restitution": [1.0]}, "contacts.0.restitution is no number of this drop"),
+        (
+            {"contacts.0.restitution": [1.0]},
+            "contacts.0.restitution is not a parameter of this drop",
+        ),
         (
             {"balls.0.mass": [1.0, -1.0]},
             r"balls.0.mass must be a positive .*, got -1.0 \(at balls.0.mass 1: ",

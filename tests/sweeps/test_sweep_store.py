@@ -284,7 +284,7 @@ def test_over_is_read(text, values):
         (["balls.0.mass=1:2:0"], "must have from 1 to"),
         (["gaps.0=0:1:3:log"], "numbers of one sign for :log"),
         (["balls.0.mass=1m:2m:3"], "balls.0.mass must be a mass"),
-        (["balls.9.mass=1:2:3"], "is no number of this drop"),
+        (["balls.9.mass=1:2:3"], "is not a parameter of this drop"),
         (["gaps.0=0:1:3", "gaps.0=1"], "gaps.0 twice"),
     ],
 )

@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 import struct
 import xml.etree.ElementTree as ET
 from importlib.resources import files
@@ -146,6 +147,48 @@ def test_the_catalogue_names_every_number_of_every_law(server):
         assert sb.model.LAWS[law["law"]](**given)
 
 
+def test_the_catalogue_names_what_sets_the_loss_of_every_law(server):
+    catalogue = server.get("/api/catalogue").json()
+    lossy = {law["law"]: law["loss_fields"] for law in catalogue["laws"]}
+    assert lossy["Spring"] == []
+    assert lossy["Dashpot"] == ["damping"]
+    assert lossy["Hysteretic"] == ["restitution", "unloading_exponent"]
+    for name, fields in lossy.items():
+        assert set(fields) <= set(sb.model.LAWS[name].quantities())
+        assert bool(fields) == bool(sb.model.LAWS[name].loss)
+    assert lossy[catalogue["lossy_law"]]
+
+
+def test_the_page_names_no_law_or_its_loss():
+    """All that the page knows of laws is served; a name is only in the drops that it opens with."""
+    scripts = files("stackbounce.web").joinpath("static/js")
+    words = {*sb.model.LAWS, *(law.loss for law in sb.model.LAWS.values() if law.loss)}
+    words -= {"restitution"}  # is also a measured quantity
+    named = {
+        (script.name, word)
+        for script in scripts.iterdir()
+        if script.name not in ("store.js", "examples.js")
+        for word in re.findall(r"\w+", script.read_text(encoding="utf-8"))
+        if word in words
+    }
+    assert not named
+
+
+@pytest.mark.parametrize("name", list(sb.model.LAWS))
+def test_a_floor_of_any_law_is_put_where_there_was_none(server, name):
+    asked = {"contact": {"law": "none"}, "to": name, "mass": 0.1, "impact_speed": 2.0}
+    law = sb.Drop.from_mapping(
+        {
+            "balls": [{"mass": 0.1}],
+            "contacts": [answer(server, "like", **asked)["contact"]],
+            "impact_speed": 2.0,
+        }
+    ).contacts[0]
+    lossy = bool(sb.model.LAWS[name].loss)
+    assert sb.restitution(law, 0.1, 2.0) == pytest.approx(0.8 if lossy else 1.0, rel=1e-9)
+    assert sb.contact_time(law, 0.1, 2.0) == pytest.approx(0.0 if law.rigid else 5e-3, rel=1e-9)
+
+
 def test_balls_of_the_catalogue_are_stacked(server):
     got = answer(server, "stack", balls=["B1", "B2"], height=0.2)
     assert got["drop"]["gaps"] == [0.001]
@@ -267,7 +310,11 @@ WRONG = [
         {"x": {**SIDES["x"], "count": 999}, "y": {**SIDES["y"], "count": 999}},
         "x.count times y.count must be at most 40000, got 998001",
     ),
-    ("map", {"x": SIDES["x"], "y": {**SIDES["y"], "path": "gap"}}, "'gap' is no number of this"),
+    (
+        "map",
+        {"x": SIDES["x"], "y": {**SIDES["y"], "path": "gap"}},
+        "'gap' is not a parameter",
+    ),
 ]
 
 

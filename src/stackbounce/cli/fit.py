@@ -55,14 +55,14 @@ _DATA = {
         list[str] | None,
         "PATH=BOUNDS",
         "What may change: 'gaps.0=0mm:5mm', or what is known of it, 'gaps.0=1.3 ± 0.9 mm', or "
-        "its path alone; once per number.",
+        "its path alone; once per parameter.",
         **_PROBLEM,
     ),
     "tie": option(
         list[str] | None,
         "PATH=FORMULA",
-        "A number that follows from others: 'contacts.1.stiffness=0.5*contacts.0.stiffness'; "
-        "once per number.",
+        "A parameter that follows from others: 'contacts.1.stiffness=0.5*contacts.0.stiffness'; "
+        "once per parameter.",
         **_PROBLEM,
     ),
 }

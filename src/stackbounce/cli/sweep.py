@@ -44,9 +44,9 @@ def run(
         list[str],
         typer.Option(
             metavar="PATH=VALUES",
-            help="A number that varies: balls.0.mass=50g:500g:40 (start, stop, how many), "
-            "contacts.0.stiffness=1kN/m:1MN/m:40:log (in even ratios) or gaps.0=0mm,1mm,5mm; "
-            "once per number. Balls, contacts and gaps count from 0, the lowest.",
+            help="A parameter that varies: balls.0.mass=50g:500g:40 (start, stop, how many), "
+            "contacts.0.stiffness=1kN/m:1MN/m:40:log (logarithmic spacing) or gaps.0=0mm,1mm,5mm; "
+            "once per parameter. Balls, contacts and gaps count from 0, the lowest.",
             show_default=False,
         ),
     ],
@@ -114,7 +114,7 @@ def _check_shown(drop: "Drop", over: Sequence[str], show: str) -> None:
     from stackbounce.plots.sweep_curves import TITLES
 
     if len(over) not in (1, 2):
-        raise InvalidValue(f"--plot needs one or two numbers that vary, got {len(over)}")
+        raise InvalidValue(f"--plot needs one or two parameters that vary, got {len(over)}")
     name, dot, which = show.partition(".")
     if name not in TITLES:
         raise InvalidValue(f"--show must name a result, got {shown(name)}; {nearest(name, TITLES)}")

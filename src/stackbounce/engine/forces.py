@@ -23,9 +23,9 @@ Those from DASHPOT to HARDENING are one form in the stack, a PRODUCT of a power 
     F = max(0, k c^q g),    g = a + b c + s c^2 + d c'
 
 Its leading elastic term is k c^p: either a is 1, b is 0 and p = q, or a is 0, b is 1 and p = q + 1.
-Either s or d is 0. Only a linear spring with a dashpot has q = 0. A new form that is such a product
-needs a code and its numbers in `take_law`; any other one also a force, an energy, a static
-compression, and the terms of its power series (`find_terms`).
+Either s or d is 0, which `check_form` enforces. Only a linear spring with a dashpot has q = 0. A
+new form that is such a product needs a code and its numbers in `take_law`; any other one also a
+force, an energy, a static compression, and the terms of its power series (`find_terms`).
 """
 
 import math
@@ -42,7 +42,7 @@ from stackbounce.engine.codes import (
 from stackbounce.engine.elementary import power
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import GRAVITY
-from stackbounce.engine.stack import Stack
+from stackbounce.engine.stack import Stack, new_stack
 
 DASHPOT = 5
 VISCOELASTIC = 6
@@ -84,6 +84,17 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float) -> N
         else:  # k c^p (1 + c^2/z^2)
             stack.gain_constant[i] = 1.0
             stack.gain_square[i] = 1.0 / (z * z)
+
+
+def check_form(kind: int) -> None:
+    """Raise ValueError if the gain of a form has a term in c^2 and one in c'.
+
+    `next_event` looks for the zero of a gain that depends on c', and takes it to have no c^2.
+    """
+    stack = new_stack(1)
+    take_law(stack, 0, kind, 1.0, 1.5, 0.5)  # any numbers
+    if stack.gain_square[0] != 0.0 and stack.gain_rate[0] != 0.0:
+        raise ValueError("a gain has a term in c^2 or one in c', not both")
 
 
 @kernel

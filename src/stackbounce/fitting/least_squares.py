@@ -81,7 +81,9 @@ def find_minima(
         follow = _FOLLOWED_RECORDS if objective.records else _FOLLOWED
     chosen = _apart(objective, first, trials, follow)
     near = sorted((_descend_smooth(objective, x, None, _ROUGH) for x in chosen), key=_chi_squared)
-    ends = sorted((descend(objective, one.x) for one in _worth(objective, near)), key=_chi_squared)
+    ends = sorted(
+        (descend(objective, one.x) for one in _promising(objective, near)), key=_chi_squared
+    )
     good = [one for one in ends if one.chi_squared < ends[0].chi_squared + EQUAL]
     nearest = sorted(good, key=lambda one: np.sum(((one.x - chosen[0]) / objective.widths) ** 2))
     return _distinct(objective, nearest + ends[len(good) :])
@@ -91,7 +93,7 @@ def _chi_squared(one: Minimum) -> float:
     return one.chi_squared
 
 
-def _worth(objective: Objective, near: list[Minimum]) -> list[Minimum]:
+def _promising(objective: Objective, near: list[Minimum]) -> list[Minimum]:
     """Return the rough ends, sorted by chi squared, that are low and far enough apart to follow."""
     widths = objective.widths
     limit = near[0].chi_squared + max(_HOPE, near[0].chi_squared)

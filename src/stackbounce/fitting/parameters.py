@@ -122,7 +122,7 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
     Raises
     ------
     InvalidValue
-        If a name is no number of the drops, or its bounds are not possible.
+        If a name is not a parameter of the drops, or its bounds are not possible.
     InvalidType
         If something has the wrong type.
 
@@ -173,7 +173,7 @@ def _parameter(drops: Mapping[str, Drop], name: object, given: object) -> Parame
     at = find_numbers(drops, name)
     if not at and not (name.isidentifier() and name.isascii()):
         raise InvalidValue(
-            f"{name[:60]} is no number of the drop; {nearest(name, list_paths(drops))}"
+            f"{name[:60]} is not a parameter of the drop; {nearest(name, list_paths(drops))}"
         )
     if name in OWN_WORDS or keyword.iskeyword(name):
         raise InvalidValue(f"{name} means something else in formulas: take another name")

@@ -96,7 +96,7 @@ def read_ties(
         places = places_of.get(name, [])
         if not places:
             right = nearest(name, list_paths(drops))
-            raise InvalidValue(f"tie: {shown(name)} is no number of the drop; {right}")
+            raise InvalidValue(f"tie: {shown(name)} is not a parameter of the drop; {right}")
         for place in places:
             if place in varied:
                 raise InvalidValue(f"{name} is both varied and tied: only one of the two")

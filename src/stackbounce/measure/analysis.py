@@ -90,7 +90,8 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
     kind = KINDS.get(holds)
     if kind is None or kind.analyse is None:
         raise InvalidValue(
-            f"there is no analysis of {holds}: tell what it holds, one of {', '.join(KINDS)}"
+            f"there is no analysis of {holds}: give the kind of measurement, one of "
+            f"{', '.join(KINDS)}"
         )
     given = {name: value for name, value in options.items() if value is not None}
     found = kind.analyse(data, **{name: given[name] for name in kind.options if name in given})

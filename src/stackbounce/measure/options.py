@@ -29,7 +29,7 @@ _UNIT_NAMES = {
 }
 _FORM_NAMES = {"lengths": "LENGTHS", "points": "POINT"}
 _BALL, _DROP = "What is known of the ball", "What is known of the drop"
-_FILE = "What a file does not say"
+_FILE = "What the file does not state"
 
 
 @dataclass(frozen=True)
@@ -119,16 +119,16 @@ _TABLE: dict[str, tuple[Option, ...]] = {
                   "error '57.0 ± 0.5 g', as all numbers of ball and drop."),
         _measured("diameter", "Diameter", "66 mm", unit="m", says="Such as 66mm."),
         _measured("contact_time", "Contact time", "5.0 ± 0.1 ms", unit="s", rare=True,
-                  says="On the floor, where no file tells it: '5.0 ± 0.1 ms'."),
+                  says="On the floor, if no file gives it: '5.0 ± 0.1 ms'."),
         _measured("restitution", "Restitution", "0.75 ± 0.02", rare=True,
-                  says="On the floor, where no file tells it: '0.75 ± 0.02'."),
+                  says="On the floor, if no file gives it: '0.75 ± 0.02'."),
         Option("law", "Contact law", "none in particular", form="law", choices=lambda: LAWS,
                says="Give the constants of this contact law, and save it: "
                f"{_listed(map(_typed, LAWS))}; with an exponent as in 'power-law exponent=1.3'. "
                "A force waveform's touches and releases are then those of this law, with smaller "
                "errors."),
         _number("exponent", "Exponent of the law", "1.3", rare=True,
-                says="Of the law's loading curve, where the law leaves it open: 1.3."),
+                says="Of the law's loading curve, if the law does not fix it: 1.3."),
     ),
     "": (
         _measured("height", "Drop height", "1.00 ± 0.01 m", unit="m",
@@ -140,12 +140,12 @@ _TABLE: dict[str, tuple[Option, ...]] = {
         Option("heights", "Heights", "1.00, 0.62, 0.39 m", form="lengths", unit="m", to="numbers",
                says="Instead of a file: the drop's and those of the bounces, "
                "'1.00, 0.62, 0.39 m'."),
-        _number("height_error", "Error of heights", "5 mm", unit="m", rare=True,
+        _number("height_error", "Error of each height", "5 mm", unit="m", rare=True,
                 says="Of each height of --heights or of a table, such as 5mm."),
-        Option("repeated", "Heights of one bounce, again and again", "", form="flag",
+        Option("repeated", "Heights of the same bounce, repeated", "", form="flag",
                default=False, rare=True,
-               says="The heights after the first are of one bounce, from drop after drop."),
-        Option("measured_to", "Heights are those of the ball's", "bottom", form="points",
+               says="The heights after the first are all of the first bounce, of several drops."),
+        Option("measured_to", "Heights refer to the ball's", "bottom", form="points",
                default="bottom",
                choices=lambda: ("bottom", "centre", "top", "bottom,top", "top,bottom"),
                says="Point of the ball that heights are those of, or that a track follows: bottom, "
@@ -153,23 +153,25 @@ _TABLE: dict[str, tuple[Option, ...]] = {
         _number("floor", "Level of the floor", "0 m", unit="m", rare=True, says="Level of the "
                 "floor in a track, such as 0m: for balls that stay on it for long."),
         Option("alone", "Force under the lower ball alone", "", form="file", rare=True,
-               says="The floor's force under the lower ball alone, from the same height: tells the "
-               "gap of the stack that FILE is of."),
+               says="Force record of the lower ball alone from the same height: it gives the gap "
+               "of the stack in FILE."),
         _number("time_constant", "Sensor's time constant", "0.1 s", unit="s", rare=True,
-                says="Of a piezo sensor's droop, such as 0.1s: undoes it."),
+                says="Time constant of a piezo sensor, such as 0.1s: its droop is corrected."),
         _number("gravity", "Gravity", "9.81 m/s^2", unit="m/s**2", rare=True,
-                says="Where it was measured, such as 9.81m/s^2."),
+                says="At the place of the measurement, such as 9.81m/s^2."),
     ),
     _FILE: (
-        _told("holds", "It holds", "as recognised", metavar="KIND", choices=lambda: KINDS,
-              says=f"What it holds, where it is unsure: {_listed(KINDS)}."),
+        _told("holds", "Kind of measurement", "as recognised", metavar="KIND",
+              choices=lambda: KINDS,
+              says=f"Kind of measurement in the file, if not recognised: {_listed(KINDS)}."),
         _told("names", "Columns", "1=time, 2=force", form="columns", metavar="COLUMN=MEANING",
               flag="--column",
               says="What a column is, by its name or its number from 1: 2=force; once per column."),
         _told("units", "Units of columns", "x=cm, y=cm", form="columns", metavar="COLUMN=UNIT",
               flag="--unit", says="Unit of a column: x=cm; once per column."),
-        _told("table", "Table", "Energy", metavar="NAME", rare=True, says="Which table of a zip."),
-        _told("run", "Run", "2", rare=True, says="Which of several runs in it."),
+        _told("table", "Table", "Energy", metavar="NAME", rare=True,
+              says="Which table of a zip file."),
+        _told("run", "Run", "2", rare=True, says="Which of several runs in the file."),
         _told("decimal", "Decimal mark", "as recognised", rare=True, choices=lambda: (".", ","),
               says="Decimal mark, . or , where 1,234 could be either."),
     ),

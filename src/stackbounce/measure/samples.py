@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.quantities import Array
 
-__all__ = ["columns", "resolution", "runs", "stuck", "trapezoid"]
+__all__ = ["columns", "quantisation_error", "resolution", "runs", "trapezoid"]
 
 _LEVELS = 2**18  # numbers that tell their step
 _REPEATED = 0.8  # share of different numbers among rounded ones, unless these change quickly
@@ -105,14 +105,14 @@ def resolution(values: NDArray[np.floating]) -> float:
     return 0.0
 
 
-def stuck(step: float, noise: float) -> float:
+def quantisation_error(step: float, noise: float) -> float:
     """Return the error of a mean of numbers that are rounded to a step, and hardly differ.
 
     More noise makes the rounding errors of the numbers independent, so that they average out.
 
     Examples
     --------
-    >>> round(stuck(0.1, 0.01), 3), stuck(0.1, 0.1)
+    >>> round(quantisation_error(0.1, 0.01), 3), quantisation_error(0.1, 0.1)
     (0.029, 0.0)
     """
     return step / math.sqrt(12.0) if noise < _STUCK * step else 0.0

@@ -143,5 +143,5 @@ def _summary(result: Result) -> str:
     kept = result.energy_retained
     words = f"v₀ = {speed:.3g} m/s"
     if math.isfinite(kept):
-        words += f", kinetic energy kept {100.0 * kept:.0f} %"
+        words += f", kinetic energy retained {100.0 * kept:.0f} %"
     return words

@@ -94,7 +94,7 @@ def number_at(drop: Drop, path: object) -> Number:
         raise InvalidType(f"a path must be a string, got {shown(path)}")
     known = numbers_of(drop)
     if path not in known:
-        raise InvalidValue(f"{path[:60]} is no number of this drop; {nearest(path, known)}")
+        raise InvalidValue(f"{path[:60]} is not a parameter of this drop; {nearest(path, known)}")
     return known[path]
 
 

@@ -13,7 +13,7 @@ from stackbounce.units import quantity
 __all__ = ["axis", "grid"]
 
 _MOST = 10**9
-_RIGHT = "PATH=START:STOP:COUNT, with :log for even ratios, or PATH=VALUE,VALUE,…"
+_RIGHT = "PATH=START:STOP:COUNT, with :log for logarithmic spacing, or PATH=VALUE,VALUE,…"
 
 
 def grid(drop: Drop, texts: Sequence[str]) -> dict[str, NDArray[np.float64]]:
@@ -103,7 +103,7 @@ def _number(drop: Drop, path: str) -> Number:
         reason = _reason(drop, path.split("."))
         if not reason:
             raise
-        raise InvalidValue(f"{path} is no number of this drop: {reason}") from error
+        raise InvalidValue(f"{path} is not a parameter of this drop: {reason}") from error
 
 
 def _reason(drop: Drop, words: list[str]) -> str:

@@ -228,11 +228,12 @@ class State(BaseModel):
 
 
 class Catalogue(BaseModel):
-    """Balls, laws, the paper's cases, and the bounds of one request."""
+    """Balls, laws, the law of a measured loss, the paper's cases, and the bounds of a request."""
 
     stackbounce: str
     balls: list[_Json]
     laws: list[_Json]
+    lossy_law: str
     presets: list[_Json]
     limits: _Json
 

@@ -101,6 +101,6 @@ def test_broken(read, content, message):
 
 
 def test_a_sound_is_no_track(read):
-    with pytest.raises(InvalidValue, match="it is a sound, got 'track'"):
+    with pytest.raises(InvalidValue, match="the file is a sound, got 'track'"):
         read(made.wav(), holds="track")
     assert read(made.wav(), holds="sound").sizes == {"time": 800}

@@ -110,7 +110,7 @@ def test_an_end_that_makes_no_side_is_told_where_it_stands(visit):
     page = opened(visit)
     page.locator("[data-key=map-x-low]").fill("-1")
     page.locator("[data-key=map-x-low]").press("Tab")
-    assert page.locator("#map-x-error").inner_text() == "Even ratios need ends above 0."
+    assert page.locator("#map-x-error").inner_text() == "A logarithmic axis needs limits above 0."
 
 
 def test_the_newest_drop_wins(visit):

@@ -110,6 +110,39 @@ def test_a_fit_that_cannot_be_is_told(visit):
     visit.complaints.clear()  # Chromium logs the answer 422, which is the point here
 
 
+def test_a_law_that_only_the_server_knows_is_offered_with_its_loss(visit):
+    """The page has the laws of the catalogue, and ticks the number that sets a law's loss."""
+    page = visit.page
+    field = {"name": "softness", "unit": "s", "required": True, "default": 0.1}
+    clay = {"law": "Clay", "says": "Clay.", "formula": "F", "source": "S", "rigid": False}
+    clay |= {"fields": [field | {"low": 0.0, "high": 1.0}], "loss_fields": ["softness"]}
+    clay |= {"exact": False}
+
+    def add(route):
+        catalogue = route.fetch().json()
+        catalogue["laws"].append(clay)
+        route.fulfill(json=catalogue)
+
+    def paths(route):
+        path = {"path": "contacts.0.softness", "label": "softness", "unit": "s", "value": 0.1}
+        route.fulfill(json={"paths": [path], "shows": []})
+
+    page.route("**/api/catalogue", add)
+    opened(visit)
+    assert "Clay" in page.locator('[data-key="law-0"] option').all_inner_texts()
+    page.route("**/api/map/paths", paths)
+    page.evaluate(
+        """() => { const { store } = window.stackbounce; const { drop } = store.get();
+             const contacts = [{ law: 'Clay', softness: 0.1 }, drop.contacts[1]];
+             store.set({ drop: { ...drop, contacts } }); }"""
+    )
+    box = page.locator('.fit-vary input[value="contacts.0.softness"]')
+    box.wait_for()
+    assert box.is_checked()
+    assert page.locator('[data-path="contacts.0.softness"]').count() == 1
+    visit.complaints.clear()  # Chromium logs that the server refuses Clay
+
+
 def test_the_form_has_a_field_for_every_option(visit, server):
     page = opened(visit)
     form = page.locator("form.measure-options")

@@ -9,13 +9,13 @@ from stackbounce.measure.reading.headings import slug
 from stackbounce.measure.reading.roles import Column
 from stackbounce.units import in_si
 
-__all__ = ["Told", "as_told", "of_run"]
+__all__ = ["ReadOptions", "apply_options", "of_run"]
 
 _Key = str | int
 
 
 @dataclass(frozen=True)
-class Told:
+class ReadOptions:
     """The options of `read`, checked as far as they can be without a file."""
 
     holds: str | None = None
@@ -57,7 +57,7 @@ def _checked(option: str, given: object) -> list[str]:
     return list(given.values())
 
 
-def as_told(columns: Sequence[Column], told: Told) -> list[Column]:
+def apply_options(columns: Sequence[Column], told: ReadOptions) -> list[Column]:
     """Return columns with the names and units of the options."""
     found = list(columns)
     for option, mapping in (("units", told.units), ("names", told.names)):

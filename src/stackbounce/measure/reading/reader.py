@@ -15,7 +15,7 @@ from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import Layout
 from stackbounce.measure.reading.limits import content_of, refuse_others
 from stackbounce.measure.reading.numbers import Table, rows_of
-from stackbounce.measure.reading.options import Told, as_told, of_run
+from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run
 from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.text import decode, tabulate
 
@@ -103,7 +103,7 @@ def read(
     >>> data.force.values
     array([   0., 1500.,  100.])
     """
-    told = Told(holds, table, run, names, units, decimal)
+    told = ReadOptions(holds, table, run, names, units, decimal)
     return _named(*content_of(path), told)
 
 
@@ -136,13 +136,13 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
     >>> read_content("force.csv", content).attrs["holds"]
     'waveform'
     """
-    told = Told(**options)
+    told = ReadOptions(**options)
     if not content:
         raise FileError(f"{name} is empty")
     return _named(name, bytearray(content), told)
 
 
-def _named(name: str, content: bytearray, told: Told) -> "xr.Dataset":
+def _named(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     try:
         data = _read(content, told)
     except StackbounceError as error:
@@ -153,11 +153,11 @@ def _named(name: str, content: bytearray, told: Told) -> "xr.Dataset":
     return data
 
 
-def _read(content: bytearray, told: Told) -> "xr.Dataset":
+def _read(content: bytearray, told: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if told.holds not in (None, "sound"):
-            raise InvalidValue(f"holds: it is a sound, got {shown(told.holds)}")
+            raise InvalidValue(f"holds: the file is a sound, got {shown(told.holds)}")
         return _signed(data, "WAV", why, "sound", doubts)
     if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
         return _from_zip(content, told)
@@ -166,7 +166,7 @@ def _read(content: bytearray, told: Told) -> "xr.Dataset":
     return _from_text(content, told)
 
 
-def _from_zip(content: bytearray, told: Told) -> "xr.Dataset":
+def _from_zip(content: bytearray, told: ReadOptions) -> "xr.Dataset":
     members, by_phyphox = zipped.members(content)
     names = sorted(members, key=lambda one: (one.count("/"), one))
     if told.table is not None:
@@ -192,7 +192,7 @@ def _from_zip(content: bytearray, told: Told) -> "xr.Dataset":
     return data
 
 
-def _from_text(content: bytearray, told: Told) -> "xr.Dataset":
+def _from_text(content: bytearray, told: ReadOptions) -> "xr.Dataset":
     layout, columns, table, doubts, runs = _table(content, told)
     if layout.clock:
         table.values[:, 0] = layout.clock[0] + layout.clock[1] * table.values[:, 0]
@@ -207,7 +207,9 @@ def _from_text(content: bytearray, told: Told) -> "xr.Dataset":
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 
 
-def _table(content: bytearray, told: Told) -> tuple[Layout, list[Column], Table, list[str], bool]:
+def _table(
+    content: bytearray, told: ReadOptions
+) -> tuple[Layout, list[Column], Table, list[str], bool]:
     """Return the layout of a text, its columns, numbers and doubts, and whether it has runs.
 
     The text is freed on return, as it may be larger than all of these.
@@ -215,7 +217,7 @@ def _table(content: bytearray, told: Told) -> tuple[Layout, list[Column], Table,
     refuse_others(content)
     text = tabulate(decode(content), told.decimal)
     layout = layout_of(text)
-    columns = as_told(layout.columns, told)
+    columns = apply_options(layout.columns, told)
     doubts = [*text.doubts, *(() if told.names else layout.doubts)]
     columns, runs = of_run(columns, told.run, doubts)
     table = rows_of(text, layout.first, [one.index for one in columns])

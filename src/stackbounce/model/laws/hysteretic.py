@@ -123,6 +123,11 @@ class Hysteretic(ContactLaw):
             f"{given}={getattr(self, given)!r}{rule})"
         )
 
+    @classmethod
+    def loss_fields(cls) -> tuple[str, ...]:
+        """Return ``restitution`` and ``unloading_exponent``, of which one is given."""
+        return _ONE_OF
+
     def derived_field(self) -> str:
         """Return the name of the derived field: ``restitution`` or ``unloading_exponent``."""
         return self.derived

@@ -157,6 +157,11 @@ class ContactLaw:
         found = self.quantities().items()
         return {name: one.symbol.replace("**exponent", power) for name, one in found}
 
+    @classmethod
+    def loss_fields(cls) -> tuple[str, ...]:
+        """Return the fields of which any one can set the energy loss; none for a lossless law."""
+        return (cls.loss,) if cls.loss else ()
+
     def derived_field(self) -> str:
         """Return the name of the field that is computed from another one; empty for most laws."""
         return ""

@@ -3,7 +3,7 @@
 from typing import TypeVar
 
 from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.model.laws.law import ContactLaw
+from stackbounce.model.laws.law import ContactLaw, form_code
 
 __all__ = ["LAWS", "law_named", "register", "usual_laws"]
 
@@ -27,7 +27,8 @@ def register(law: type[_Law]) -> type[_Law]:
     Raises
     ------
     TypeError
-        If the class lacks `says`, `formula`, `source` or `form`, or another law has its name.
+        If the class lacks `says`, `formula`, `source` or `form`, or another law has its name, or
+        the engine cannot solve its form.
     """
     missing = [name for name in ("says", "formula", "source", "form") if not hasattr(law, name)]
     if missing:
@@ -35,6 +36,12 @@ def register(law: type[_Law]) -> type[_Law]:
     other = LAWS.get(law.__name__, law)
     if (other.__module__, other.__qualname__) != (law.__module__, law.__qualname__):
         raise TypeError(f"{law.__name__} is the name of a law in {other.__module__} already")
+    from stackbounce.engine.forces import check_form
+
+    try:
+        check_form(form_code(law.form))
+    except ValueError as error:
+        raise TypeError(f"{law.__name__} has the form of force {law.form}: {error}") from error
     LAWS[law.__name__] = law
     return law
 

@@ -6,9 +6,8 @@ from typing import Any
 
 from stackbounce import calibration
 from stackbounce.cross2007.cases import list_cases
-from stackbounce.errors import InvalidValue
 from stackbounce.json_values import as_json
-from stackbounce.model import LAWS, ContactLaw, Drop, law_named
+from stackbounce.model import LAWS, ContactLaw, Drop, Hysteretic, Rigid, law_named
 from stackbounce.model.catalogue import BALLS, stack
 from stackbounce.version import __version__
 from stackbounce.web.limits import Limits
@@ -16,6 +15,8 @@ from stackbounce.web.limits import Limits
 __all__ = ["calibrate_law", "convert_law", "list_choices", "stack_balls"]
 
 _DEFAULT_CONTACT_TIME = 5e-3  # s, a tennis ball's, as a rigid contact has none of its own
+_DEFAULT_CONTACT = Rigid(0.8)  # in place of no floor
+_LOSSY = Hysteretic  # the paper's own way to lose energy
 
 
 @functools.cache
@@ -31,6 +32,7 @@ def list_choices(limits: Limits) -> str:
             "stackbounce": __version__,
             "balls": [entry.to_mapping() for entry in BALLS],
             "laws": [_describe_law(kind) for kind in LAWS.values()],
+            "lossy_law": _LOSSY.__name__,
             "presets": presets,
             "limits": limits,
         }
@@ -61,7 +63,7 @@ def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
         "formula": kind.formula,
         "source": kind.source,
         "fields": fields,
-        "loses": bool(kind.loss),
+        "loss_fields": kind.loss_fields(),
         "rigid": kind.rigid,
         "exact": kind.exact,
     }
@@ -89,9 +91,11 @@ def convert_law(
     restitution: float | None,
     contact_time: float | None,
 ) -> str:
-    """Find another law with the restitution and contact time of a contact; return it as JSON."""
-    if contact is None:
-        raise InvalidValue('contact must be a law to begin with, got "none"')
+    """Find another law with the restitution and contact time of a contact; return it as JSON.
+
+    No contact has the restitution 0.8 and the contact time of a rigid one, 5 ms.
+    """
+    contact = contact or _DEFAULT_CONTACT
     at = {"mass": mass, "speed": impact_speed}
     if contact_time is None:
         contact_time = calibration.contact_time(contact, **at) or _DEFAULT_CONTACT_TIME

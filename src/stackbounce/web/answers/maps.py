@@ -44,7 +44,7 @@ def _spread(side: "Axis") -> NDArray[np.float64]:
     """Return the values along a side, with linear or logarithmic spacing."""
     for name, value in (("low", side.low), ("high", side.high)):
         if side.log and value <= 0.0:
-            raise InvalidValue(f"{name} must be above 0 for even ratios, got {value:g}")
+            raise InvalidValue(f"{name} must be above 0 on a logarithmic scale, got {value:g}")
     if side.low == side.high:
         raise InvalidValue(f"high must differ from low, got {side.high:g} twice")
     spread = np.geomspace if side.log else np.linspace
@@ -95,7 +95,7 @@ def map_drop(drop: Drop, x: "Axis", y: "Axis", show: str) -> str:
     for line in (x, y):
         if line.path not in known:
             raise InvalidValue(
-                f"{shown(line.path)} is no number of this drop; {nearest(line.path, known)}"
+                f"{shown(line.path)} is not a parameter of this drop; {nearest(line.path, known)}"
             )
     label, unit = _name_outcome(drop, show)
     data = sweep(drop, _vary(drop, x, y), rtol=_RTOL, event_limit=LIMITS.events)

@@ -139,8 +139,8 @@ def _sizes(data: Any, gravity: float) -> tuple[Array, Array, list[str]]:
         if "without g" in data.attrs.get("format", ""):
             values = np.abs(values - gravity)
             notes.append(
-                "gravity was taken off by the phone, which guesses where down is and does so badly "
-                "in flight: record the acceleration with g"
+                "the phone has subtracted gravity, whose direction it estimates badly in flight: "
+                "record the acceleration with g"
             )
     known = np.isfinite(times) & np.isfinite(values)
     if known.sum() < 2 * _FEWEST or (np.diff(times[known]) <= 0.0).any():

@@ -7,7 +7,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
-from stackbounce.measure.kinds.bounces.restitution_law import laws_of, straight
+from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces
 from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.statistics.regression import widening
@@ -107,8 +107,8 @@ def bounces(
     if height is None and flights[0] is not None:
         height = gravity * flights[0] ** 2 / 8.0 / _energy_kept(kept)
         notes.append(
-            "The drop height is inferred from the mean energy kept; give drop_height if it is "
-            "known: the first bounce, the fastest, usually keeps less."
+            "The drop height is inferred from the mean fraction of energy retained; give "
+            "drop_height if it is known: the first bounce, the fastest, usually retains less."
         )
     return Bounces(
         tuple(found.moments),
@@ -251,7 +251,7 @@ def _with_errors_from_scatter(
     if len(kept) < 2:
         notes.append("One restitution and no errors of its times: its error cannot be told.")
         return again(float("nan"))
-    fit, _ = straight(speeds, kept, 1 if len(kept) > 2 else 0, 0.0)
+    fit, _ = fit_line(speeds, kept, 1 if len(kept) > 2 else 0, 0.0)
     error = small * np.sqrt(fit.chi_squared / fit.freedom) * widening(fit.freedom)
     notes.append(
         "The times have no errors: those of the restitutions follow from their scatter about a "

@@ -9,7 +9,7 @@ import numpy as np
 from stackbounce.measure.quantities import Array, Number
 from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_with_excess_scatter
 
-__all__ = ["RestitutionLaw", "laws_of", "straight"]
+__all__ = ["RestitutionLaw", "fit_line", "laws_of"]
 
 _MOST = 0.3  # largest excess scatter of restitutions
 
@@ -51,7 +51,7 @@ class RestitutionLaw:
         return self.coefficient * speed ** (-self.slope)
 
 
-def straight(
+def fit_line(
     speeds: Sequence[Any], kept: Sequence[Any], degree: int, most: float, power: bool = False
 ) -> tuple[Fit, float]:
     """Fit a straight line to restitution over speed; return it and the excess scatter about it.
@@ -88,7 +88,7 @@ def laws_of(
     scatter = 0.0
     if len(kept) > 2:
         for form, power in (("linear", False), ("power law", True)):
-            fit, more = straight(speeds, kept, 1, most, power)
+            fit, more = fit_line(speeds, kept, 1, most, power)
             first, second = correlated_values(fit.values, fit.covariance)
             if not power:
                 scatter = more
@@ -96,6 +96,6 @@ def laws_of(
             laws.append(
                 RestitutionLaw(form, coefficient, -second, fit.chi_squared, fit.freedom)  # type: ignore[arg-type]
             )
-    fit, _ = straight(speeds, kept, 0, most)
+    fit, _ = fit_line(speeds, kept, 0, most)
     (mean,) = correlated_values(fit.values, fit.covariance)
     return mean, tuple(laws), scatter

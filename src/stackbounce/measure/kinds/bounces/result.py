@@ -68,7 +68,7 @@ class Bounces(Finding):
             rows.append(Row(f"restitution at {at} ({law.form})", law.coefficient))
             rows.append(Row(f"{name} ({law.form})", law.slope, unit))
         if self.drop_height is not None:
-            how = "inferred from the mean energy kept" if self.inferred else "given"
+            how = "inferred from the mean energy retained" if self.inferred else "given"
             rows.append(Row(f"drop height, {how}", self.drop_height, "m"))
         for k, speed, kept in zip(self.numbers, self.impact_speeds, self.restitutions, strict=True):
             rows.append(Row(f"impact speed of bounce {k}", speed, "m/s"))

@@ -14,7 +14,7 @@ def _analyse(data: Any, **known: Any) -> Any:
         from stackbounce.measure.kinds import KINDS
 
         raise InvalidValue(
-            "there is no analysis of a table without heights: tell what it holds, one of "
+            "there is no analysis of a table without heights: give the kind of measurement, one of "
             f"{', '.join(KINDS)}"
         )
     return _of_numbers(heights=data["y"].values.tolist(), **known)

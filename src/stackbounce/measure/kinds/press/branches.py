@@ -99,7 +99,7 @@ def record_of(data: "xr.Dataset | Any", compliance: float, sign: int | None) -> 
     notes += turned
     if compliance:
         compression = compression - compliance * force
-        notes.append(f"The machine's own {compliance:.3g} m/N was taken off the compression.")
+        notes.append(f"The compliance of the machine, {compliance:.3g} m/N, was subtracted.")
     steps = resolution(compression), resolution(force)
     jitter, hiss = (
         max(difference_noise(one), step / np.sqrt(12.0))
@@ -135,7 +135,7 @@ def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array
         sign = 1 if force.max() - quiet >= -force.min() - quiet else -1
     if sign < 0:
         force = -force
-        notes.append("The force was taken with the other sign, so that pressing is positive.")
+        notes.append("The sign of the force was reversed, so that compression is positive.")
     line = linregress(compression, force)
     if abs(line.slope) < _TOUCHES * line.stderr:
         raise InvalidValue(
@@ -144,7 +144,7 @@ def _oriented(compression: Array, force: Array, sign: int | None) -> tuple[Array
         )
     if line.slope < 0.0:
         compression = -compression
-        notes.append("The compression was taken with the other sign: the force fell as it grew.")
+        notes.append("The sign of the compression was reversed: the force fell as it grew.")
     return compression, force, notes
 
 

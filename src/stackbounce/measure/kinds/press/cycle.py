@@ -15,7 +15,7 @@ from stackbounce.measure.kinds.press.fits import (
     rough_contact,
 )
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import stuck, trapezoid
+from stackbounce.measure.samples import quantisation_error, trapezoid
 from stackbounce.measure.statistics.ar_noise import Noise
 
 __all__ = ["Branch", "Found", "analysed"]
@@ -356,6 +356,6 @@ def _turning_point_covariance(values: dict[str, float], last: Array, cycle: Cycl
 
 def _quantisation_covariance(rows: Array, record: Record, zero: _Zero) -> Array:
     """Return the covariance from the force's quantisation, if the zero's noise is below a step."""
-    error = stuck(record.step, zero.scatter) if len(zero.values) else 0.0
+    error = quantisation_error(record.step, zero.scatter) if len(zero.values) else 0.0
     moved = rows[:, np.abs(zero.weights).sum(axis=0) > 0.0].sum(axis=1)
     return np.outer(moved, moved) * error**2

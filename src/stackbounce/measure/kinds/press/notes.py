@@ -27,7 +27,9 @@ def sentences(found: Press, held: int) -> list[str]:
     p: Any = found.exponent
     notes = []
     if found.zero.nominal_value == 0.0 and found.zero.std_dev == 0.0:
-        notes.append("There is no part with nothing pressed: the force was taken as zeroed before.")
+        notes.append(
+            "There are no points before the contact: the zero of the force was assumed to be right."
+        )
         assert found.loading is not None
         least = float(found.loading.compression.min())
         if least > 0.1 * found.peak_compression.nominal_value:

@@ -75,7 +75,7 @@ def unloading_only(record: Record, cycle: Cycle) -> Press:
         cycle.unloading[::-1], np.empty(0, np.intp), cycle.held, cycle.peak, cycle.peak_error
     )
     mirror = result_of(record, back)
-    note = "There is no loading: only the peak, the work given back and n can be known."
+    note = "There is no loading curve: only the peak, the energy returned and n can be determined."
     return Press(
         secant_stiffness=mirror.secant_stiffness,
         peak_compression=mirror.peak_compression,

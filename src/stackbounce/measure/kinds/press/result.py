@@ -183,10 +183,10 @@ class Press(Finding):
         k, p, line, e = self.stiffness, self.exponent, self.linear_stiffness, self.restitution
         if k is None or p is None or line is None:
             return {}
-        straight = self.linear or p.nominal_value < 1.0
-        contact: dict[str, object] = {"stiffness": float((line if straight else k).nominal_value)}
-        if not straight:
+        as_spring = self.linear or p.nominal_value < 1.0
+        contact: dict[str, object] = {"stiffness": float((line if as_spring else k).nominal_value)}
+        if not as_spring:
             contact["exponent"] = float(p.nominal_value)
         if e is None or self.lossless:
-            return {"contact": {"law": "Spring" if straight else "PowerLaw", **contact}}
+            return {"contact": {"law": "Spring" if as_spring else "PowerLaw", **contact}}
         return {"contact": {"law": "Hysteretic", **contact, "restitution": float(e.nominal_value)}}

@@ -208,7 +208,7 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
         )
     if seen.short:
         notes.append(
-            f"{seen.short} thing{'s' * (seen.short > 1)} of one or two samples left out: "
+            f"{seen.short} peak{'s' * (seen.short > 1)} of one or two samples ignored: "
             "if these are contacts, sample faster"
         )
     if any(one.clipped for one in contacts):
@@ -226,7 +226,7 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
         notes.append(f"only {few} samples in a contact: times and peaks are coarse, sample faster")
     if seen.zero.hum:
         hum = f"{seen.zero.hum:.3g}{of}"
-        notes.append(f"hum of {seen.zero.mains:.0f} Hz was taken off, amplitude {hum}")
+        notes.append(f"hum of {seen.zero.mains:.0f} Hz was subtracted, amplitude {hum}")
     whole = next((one for one in contacts if one.time is not None), None)
     if mass is not None and whole is not None and len(whole.peaks) > 1:
         notes.append(

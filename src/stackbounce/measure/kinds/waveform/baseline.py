@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.kinds.waveform.record import Record
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.samples import stuck
+from stackbounce.measure.samples import quantisation_error
 from stackbounce.measure.statistics.ar_noise import correlation_factor, difference_noise
 
 __all__ = ["Quiet", "first_guess", "fit_quiet", "quiet_parts", "scatter"]
@@ -117,7 +117,7 @@ def quiet_parts(record: Record, quiet: NDArray[np.bool_], *, hum: bool) -> Quiet
     noise, density = scatter(rest, best.shape[1], record.quantum)
     floor = _floor(record)
     noise, density = max(noise, floor), max(density, floor)
-    error = float(np.hypot(density / np.sqrt(len(rest)), stuck(record.quantum, noise)))
+    error = float(np.hypot(density / np.sqrt(len(rest)), quantisation_error(record.quantum, noise)))
     return Quiet(base, noise, density, error, height, mains)
 
 

@@ -15,7 +15,7 @@ from stackbounce.measure.kinds.waveform.peaks import Peak, find_peaks, flat_top,
 from stackbounce.measure.kinds.waveform.result import Contact
 from stackbounce.measure.kinds.waveform.shapes import Shape
 from stackbounce.measure.quantities import Array, known_to
-from stackbounce.measure.samples import stuck
+from stackbounce.measure.samples import quantisation_error
 
 __all__ = ["Seen", "measure_contact"]
 
@@ -152,7 +152,9 @@ def _part(seen: Seen, before: Stretch | None, one: Stretch, after: Stretch | Non
         if sum(sides) >= _MANY:
             noise, density = scatter(values[quiet], columns.shape[1], seen.quantum)
             density = max(density, 1e-6 * float(np.ptp(values)))
-        offset = float(np.hypot(density / np.sqrt(sum(sides)), stuck(seen.quantum, noise)))
+        offset = float(
+            np.hypot(density / np.sqrt(sum(sides)), quantisation_error(seen.quantum, noise))
+        )
     return _Part(times, values, one.first - low, one.last - low, offset, noise, density)
 
 

@@ -137,7 +137,7 @@ class Waveform(Finding):
             rows.append(Row("sensitivity", self.sensitivity, "V/N"))
         rows += [Row("noise", self.noise, self.unit), Row("baseline", self.baseline, self.unit)]
         if self.hum:
-            rows.append(Row("hum taken off, amplitude", self.hum, self.unit))
+            rows.append(Row("amplitude of the subtracted hum", self.hum, self.unit))
         return rows
 
     def _rows_of(self, contact: Contact, start: str) -> list[Row]:

@@ -54,7 +54,7 @@ export function mountControls(root, store, api, catalogue) {
   const measured = (contact, values) =>
     attempt(async () => {
       const { drop } = store.get();
-      const { contact: changed, note } = await asMeasured(api, catalogue.laws, drop, contact, values);
+      const { contact: changed, note } = await asMeasured(api, catalogue, drop, contact, values);
       change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
   const tools = { catalogue, set, change, choose, relaw, measured, drop: () => store.get().drop };
@@ -111,15 +111,15 @@ function placed(contact, note) {
 }
 
 /**
- * Return `[drop, notes]`: where all balls are the paper's and all contacts springs, the contacts that
- * a chosen ball touches become those that these balls have.
+ * Return `[drop, notes]`: where all balls are the paper's and all contacts have the paper's laws, the contacts
+ * that a chosen ball touches become those that these balls have.
  */
 async function asStacked(api, catalogue, drop, ball) {
   const names = drop.balls.map(({ name }) => name);
   const known = names.every((name) => catalogue.balls.some((one) => one.name === name));
-  const springs = drop.contacts.every(({ law }) => law === "Spring");
-  if (ball === null || !known || !springs) return [drop, []];
+  if (ball === null || !known) return [drop, []];
   const stack = await api.stack(names, 1);
+  if (!drop.contacts.every(({ law }, i) => law === stack.drop.contacts[i].law)) return [drop, []];
   const touched = (contact) => contact === ball || contact === ball + 1 || contact === 0;
   const contacts = drop.contacts.map((one, i) => (touched(i) ? stack.drop.contacts[i] : one));
   const gaps = gapsOf(drop).map((gap, i) => (touched(i + 1) ? stack.drop.gaps[i] : gap));

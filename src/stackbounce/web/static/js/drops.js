@@ -4,7 +4,6 @@ import { clean, numeric } from "./units.js";
 
 export const GRAVITY = 9.80665;
 const NEW_MASS = 0.05; // kg of a ball on top of one whose mass cannot be read
-const NEW_CONTACT = { law: "Spring", stiffness: 5000 };
 
 /** Return a copy of a drop with the value at a path such as "balls.0.mass" changed. */
 export function withValue(drop, path, value) {
@@ -42,15 +41,15 @@ export function isDrop(drop) {
   return contacts.every(({ law }) => typeof law === "string") && numbers(gaps) && numbers(velocities);
 }
 
-/** Return a drop with a lighter ball on top. */
-export function withBall(drop) {
+/** Return a drop with a lighter ball on top; `first` is its contact if the one below it has no law. */
+export function withBall(drop, first) {
   const top = drop.balls.at(-1);
   const mass = numeric(top.mass, "kg");
   const diameter = numeric(top.diameter, "m");
   const ball = { mass: Number.isFinite(mass) ? clean(Number((mass / 2).toPrecision(3))) : NEW_MASS };
   if (Number.isFinite(diameter)) ball.diameter = clean(Number((diameter * 0.8).toPrecision(2)));
   const last = drop.contacts.at(-1);
-  const contact = last.law === "none" ? NEW_CONTACT : last;
+  const contact = last.law === "none" ? first : last;
   const next = {
     ...drop,
     balls: [...drop.balls, ball],

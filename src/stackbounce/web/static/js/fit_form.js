@@ -3,6 +3,7 @@
 import { h, write } from "./dom.js";
 import { choice } from "./fields.js";
 import { describeFit } from "./fit_words.js";
+import { converted, lossOf } from "./laws.js";
 import { ballName, capital, contactName } from "./words.js";
 
 const BY_BALL = {
@@ -17,6 +18,7 @@ const BY_CONTACT = {
   collisions: "collisions",
 };
 const UNLIKELY = 1e-3; // the p-value below which a fit is called poor
+const START = 0.75; // the restitution that a fit begins with where the law lost no energy
 const EXAMPLES = {
   rebound_ratios: "1.64 ± 0.02",
   rebound_speeds: "5.8 ± 0.1 m/s",
@@ -42,7 +44,7 @@ export function fitForm(store, api, fitted) {
     h("button", {
       type: "button",
       text: "Drop the lowest ball alone",
-      onclick: () => store.set({ drop: lowest(store.get().drop) }),
+      onclick: () => dropAlone(),
     }),
   );
   const status = h("p", { class: "note", role: "status" });
@@ -60,7 +62,7 @@ export function fitForm(store, api, fitted) {
       h("legend", { text: "What was measured" }),
       alone,
       rows,
-      h("button", { type: "button", text: "Add a number", onclick: () => addRow().querySelector("select").focus() }),
+      h("button", { type: "button", text: "Add a measured value", onclick: () => addRow().querySelector("select").focus() }),
     ),
     vary,
     h("div", { class: "fit-buttons" }, button, undo),
@@ -72,6 +74,8 @@ export function fitForm(store, api, fitted) {
   let shape = "";
   let labels = {};
   let before = null;
+  let known = null;
+  const catalogue = async () => (known ??= await api.catalogue());
 
   const addRow = (name = null, value = "", channel = false) => {
     const { drop } = store.get();
@@ -122,8 +126,18 @@ export function fitForm(store, api, fitted) {
     write(status, "");
     offerVaried();
   };
+  const dropAlone = async () => {
+    problem.hidden = true;
+    try {
+      store.set({ drop: await lowest(api, await catalogue(), store.get().drop) });
+    } catch (error) {
+      write(problem, error.message);
+      problem.hidden = false;
+    }
+  };
   const offerVaried = async () => {
     const { drop } = store.get();
+    const { laws } = await catalogue();
     const { paths } = await api.mapPaths(drop).catch(() => ({ paths: [] }));
     if (drop !== store.get().drop) return;
     const own = paths.filter(({ path }) => !path.endsWith("_ratio"));
@@ -132,9 +146,9 @@ export function fitForm(store, api, fitted) {
     labels = { touch: "First touch on the record’s clock" };
     for (const { path, label } of own) labels[path] = capital(label);
     vary.replaceChildren(
-      h("legend", { text: "What may vary" }),
+      h("legend", { text: "Parameters to vary" }),
       ...own.map(({ path, label }) => {
-        const box = h("input", { type: "checkbox", name: "vary", value: path, checked: isLikely(path, drop, clocks) });
+        const box = h("input", { type: "checkbox", name: "vary", value: path, checked: isLikely(laws, path, drop, clocks) });
         return h("label", { class: "check" }, box, capital(label));
       }),
     );
@@ -179,7 +193,7 @@ export function fitForm(store, api, fitted) {
     const twice = used.find(([name], i) => used.findIndex(([other]) => other === name) < i);
     if (twice) throw new Error(`Two values are of the same quantity, ${twice[0]}.`);
     const chosen = [...vary.querySelectorAll("input:checked")].map(({ value }) => value);
-    if (chosen.length === 0) throw new Error("Choose at least one number that may vary.");
+    if (chosen.length === 0) throw new Error("Choose at least one parameter to vary.");
     form.append("drop", JSON.stringify(drop));
     form.append("vary", JSON.stringify(chosen));
     form.append("measured", JSON.stringify(Object.fromEntries(used)));
@@ -198,12 +212,11 @@ function describeVerdict({ probability }) {
   return "Fitted, but not well: the drop is now the nearest one, and it does not describe what was measured.";
 }
 
-/** Return a drop without the balls on top; a spring gets a damping, as one ball alone is measured for its loss of energy. */
-function lowest(drop) {
-  const [{ law, stiffness }] = drop.contacts;
-  const damping = Number((0.2 * Math.sqrt(stiffness * drop.balls[0].mass)).toPrecision(2));
-  const contacts = law === "Spring" ? [{ law: "Dashpot", stiffness, damping }] : drop.contacts.slice(0, 1);
-  const next = { ...drop, balls: drop.balls.slice(0, 1), contacts, gaps: [] };
+/** Return a drop without the balls on top; its law can lose energy, as one ball alone is measured for its loss. */
+async function lowest(api, { laws, lossy_law: lossy }, drop) {
+  const [own] = drop.contacts;
+  const contact = lossOf(laws, own) ? own : await converted(api, lossy, drop, 0, START);
+  const next = { ...drop, balls: drop.balls.slice(0, 1), contacts: [contact], gaps: [] };
   if (drop.velocities) next.velocities = drop.velocities.slice(0, 1);
   return next;
 }
@@ -225,15 +238,11 @@ function quantities(drop) {
   return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", "Kinetic energy retained"]];
 }
 
-/** The numbers of laws that set how much energy is lost. */
-const LOSSES = ["restitution", "damping", "dissipation", "dissipative_time", "unloading_exponent"];
-
 /** Return whether a number is usually unknown: losses are; stiffnesses are where times were measured, else only their ratio matters. */
-function isLikely(path, drop, clocks) {
+function isLikely(laws, path, drop, clocks) {
   const [part, index, field] = path.split(".");
   if (part !== "contacts") return false;
-  const loss = (law) => LOSSES.find((name) => law[name] !== undefined);
-  if (field === loss(drop.contacts[index])) return true;
-  const lossless = !drop.contacts.some(loss);
+  if (field === lossOf(laws, drop.contacts[index])) return true;
+  const lossless = !drop.contacts.some((contact) => lossOf(laws, contact));
   return field === "stiffness" && (clocks || (lossless && Number(index) === drop.contacts.length - 1));
 }

@@ -40,7 +40,7 @@ export function table(caption, heads, rows) {
 
 /** Return in words how well the drop describes what was measured. */
 function describeQuality({ chi_squared: squared, degrees_of_freedom: freedom, probability }) {
-  if (freedom < 1 && squared > 1) return "No values of the numbers that vary here reproduce what was measured.";
+  if (freedom < 1 && squared > 1) return "No values of the varied parameters reproduce what was measured.";
   if (freedom < 1) return "As many numbers were varied as measured: nothing is left to check the fit by.";
   const ratio = squared / freedom;
   const sentence = `Chi squared is ${format(squared, 3)} for ${freedom} ${freedom === 1 ? "degree" : "degrees"} of freedom`;

@@ -79,7 +79,7 @@ function sideForm(name, title, current, paths, set) {
     {},
     h("legend", { text: title }),
     choice({
-      label: `${title}: number`,
+      label: `${title}: parameter`,
       quiet: true,
       key: `map-${name}`,
       groups: [["", paths.map(({ path, label }) => [path, capital(label)])]],
@@ -92,7 +92,7 @@ function sideForm(name, title, current, paths, set) {
       end("low", "from"),
       end("high", "to"),
       h("span", { class: "unit", text: pretty(shown.unit) }),
-      h("label", { class: "check" }, log, "even ratios"),
+      h("label", { class: "check" }, log, "logarithmic"),
     ),
     error,
   );
@@ -100,7 +100,7 @@ function sideForm(name, title, current, paths, set) {
 
 function problemOf(side) {
   const text = [side.low, side.high].find((end) => typeof end !== "number");
-  if (text !== undefined) return `“${text}” is no number that is read here.`;
+  if (text !== undefined) return `“${text}” is not a number.`;
   if (side.low === side.high) return "The two ends must differ.";
-  return isSide(side) ? null : "Even ratios need ends above 0.";
+  return isSide(side) ? null : "A logarithmic axis needs limits above 0.";
 }

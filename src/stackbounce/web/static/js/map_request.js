@@ -1,5 +1,6 @@
 /** Requests a map: first a coarse one, then a fine one; a newer request replaces an older one. */
 
+import { lawOf } from "./laws.js";
 import { firstSide, isSide } from "./map_axes.js";
 import { depends } from "./map_words.js";
 
@@ -11,8 +12,7 @@ const PREPARING = /being prepared/;
 
 /** Return how many points the last map of a drop has along its sides; `laws` are the catalogue's. */
 export function fineness(drop, laws) {
-  const exact = (law) => law === "none" || laws.find((one) => one.law === law).exact;
-  return drop.contacts.every(({ law }) => exact(law)) ? FINE : SLOWER;
+  return drop.contacts.every(({ law }) => lawOf(laws, law).exact) ? FINE : SLOWER;
 }
 
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, {answer} or {problem, preparing}. */

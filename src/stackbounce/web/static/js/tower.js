@@ -3,6 +3,7 @@
 import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
 import { h } from "./dom.js";
 import { choice, numberField } from "./fields.js";
+import { firstContact } from "./laws.js";
 import { format } from "./units.js";
 import { ballName, contactName } from "./words.js";
 
@@ -31,7 +32,7 @@ export function towerOf(drop, tools, notes) {
     "data-key": "add",
     disabled: full,
     text: "Add a ball on top",
-    onclick: () => tools.change(withBall(tools.drop())),
+    onclick: () => tools.change(withBall(tools.drop(), firstContact(tools.catalogue.laws))),
   });
   return { element: h("div", {}, add, h("ol", { class: "tower" }, items)), fields };
 }
@@ -131,7 +132,7 @@ function measuredBox(contact, law, tools) {
     return one;
   };
   const boxes = [local({ name: "restitution", label: "restitution", unit: "", low: 0.05, high: 1 })];
-  if (law.law !== "Rigid") boxes.push(local({ name: "contact_time", label: "contact time", unit: "s", low: 5e-4, high: 5e-2 }));
+  if (!law.rigid) boxes.push(local({ name: "contact_time", label: "contact time", unit: "s", low: 5e-4, high: 5e-2 }));
   const apply = h("button", {
     type: "button",
     class: "small",
