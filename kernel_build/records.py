@@ -16,7 +16,15 @@ from numba import types
 from numba.core.typing.templates import AttributeTemplate
 from numba.extending import typeof_impl
 
-from stackbounce.engine.kernels import Floats, FloatTable, Integers, IntegerTable, Rows
+from stackbounce.engine.kernels import (
+    FloatColumn,
+    Floats,
+    FloatTable,
+    IntegerColumn,
+    Integers,
+    IntegerTable,
+    Rows,
+)
 from stackbounce.engine.series import TERMS
 from stackbounce.engine.tables import COLUMNS, Table
 
@@ -26,6 +34,8 @@ _WORD = 8  # bytes of any number
 _FIELDS = {  # type of the numbers, dimensions, and numbers in a row where all rows have as many
     Floats: ("float64", 1, None),
     Integers: ("int64", 1, None),
+    FloatColumn: ("float64", 1, None),
+    IntegerColumn: ("int64", 1, None),
     FloatTable: ("float64", 2, None),
     IntegerTable: ("int64", 2, None),
     Rows: ("float64", 2, TERMS),

@@ -9,7 +9,15 @@ from typing import NamedTuple
 
 from stackbounce.engine import codes
 from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.kernels import Floats, FloatTable, Integers, IntegerTable, kernel
+from stackbounce.engine.kernels import (
+    FloatColumn,
+    Floats,
+    FloatTable,
+    IntegerColumn,
+    Integers,
+    IntegerTable,
+    kernel,
+)
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
@@ -28,7 +36,7 @@ class Drops(NamedTuple):
     law_parameter: FloatTable
     gap: FloatTable  # below each ball; the lowest one's is 0
     velocity: FloatTable
-    gravity: Floats
+    gravity: FloatColumn
 
 
 class Outcomes(NamedTuple):
@@ -43,8 +51,8 @@ class Outcomes(NamedTuple):
     collisions: IntegerTable  # -1 where infinitely many
     first_touch: FloatTable  # s; nan where none
     last_release: FloatTable  # s; nan where none, infinity where the run stopped in an interval
-    energy_retained: Floats  # kinetic energy after over that before
-    status: Integers
+    energy_retained: FloatColumn  # kinetic energy after over that before
+    status: IntegerColumn
 
 
 class Workspace(NamedTuple):

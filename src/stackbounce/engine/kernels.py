@@ -11,8 +11,10 @@ from typing import Annotated, Any, TypeAlias, TypeVar
 Floats: TypeAlias = MutableSequence[float]  # a list, or an array when compiled
 Integers: TypeAlias = MutableSequence[int]
 Rows: TypeAlias = Sequence[Floats]  # a list of lists, or an array of rows of TERMS numbers
-FloatTable: TypeAlias = Annotated[Any, "float64"]  # an array of rows of any length
-IntegerTable: TypeAlias = Annotated[Any, "int64"]
+FloatColumn: TypeAlias = Annotated[Any, "float64", 1]  # always an array, with a number per drop
+IntegerColumn: TypeAlias = Annotated[Any, "int64", 1]
+FloatTable: TypeAlias = Annotated[Any, "float64", 2]  # the same, with a row per drop
+IntegerTable: TypeAlias = Annotated[Any, "int64", 2]
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 MARK = "__stackbounce_kernel__"

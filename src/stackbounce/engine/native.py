@@ -64,10 +64,10 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     library, level = found
     takes = signature(entry)
     kinds: dict[type, Any] = {float: ctypes.c_double, int: ctypes.c_int64}
-    function = library[f"{entry.__name__}_{level}" if level else entry.__name__]
+    function: Any = library[f"{entry.__name__}_{level}" if level else entry.__name__]
     function.argtypes = [kinds.get(kind, ctypes.c_void_p) for kind in takes.arguments]
     function.restype = ctypes.c_int64 if takes.returns else None
-    return function
+    return function  # type: ignore[no-any-return]
 
 
 @functools.cache

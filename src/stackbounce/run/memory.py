@@ -76,21 +76,25 @@ def memory(engine: Engine, balls: int, compiled: bool) -> Memory:
 
 def spring_workspace(compiled: bool) -> Workspace:
     """Return scratch space for the engine for two springs."""
-    if not compiled:
-        return Workspace([0.0] * SCRATCH, [], [], [])
-    empty: Any = np.empty(0)
-    return Workspace(new_scratch(), np.empty(0, dtype=np.int64), empty, empty)
+    space = Workspace([0.0] * SCRATCH, [], [], [])
+    return _arrays(space)._replace(floats=new_scratch()) if compiled else space
 
 
 def _new_memory(engine: Engine, balls: int, compiled: bool) -> Memory:
     stack, samples = engine.new_stack(balls), new_samples([], balls)
     log, after = [0.0] * ((_ROWS + balls) * codes.LOG_COLUMNS), [0.0] * (AFTER + balls)
-    drop = Drops(*([[0.0] * balls] for _ in Drops._fields[:-1]), [0.0])
+    space = Workspace([], [], log, after)
+    drop = Drops._make([[0.0] * balls] for _ in Drops._fields)._replace(gravity=[0.0])
     if not compiled:
-        space = Workspace([], [], log, after)
         return Memory(compiled, stack, space, drop, (stack, space, drop), samples)
     stack, (floats, integers) = in_one_room(stack)
-    space = Workspace(floats, integers, np.array(log), np.array(after))
-    drop = Drops(*map(np.array, drop))._replace(kind=np.zeros((1, balls), dtype=np.int64))
+    space = _arrays(space)._replace(floats=floats, integers=integers)
+    drop = Drops._make(map(np.array, drop))._replace(kind=np.zeros((1, balls), dtype=np.int64))
     arguments = Table(stack), Table(space), Table(drop)
     return Memory(compiled, stack, space, drop, arguments, Table(as_arrays(samples)))
+
+
+def _arrays(space: Workspace) -> Any:
+    """Return a workspace of lists as one of arrays."""
+    integers: Any = np.array(space.integers, dtype=np.int64)
+    return Workspace._make(map(np.array, space))._replace(integers=integers)
