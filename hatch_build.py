@@ -15,6 +15,7 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
 NATIVE = "stackbounce/engine/native"
 MANIFEST = "manifest.json"
+BUILT = "build/kernels"  # what is only for wheels
 
 
 class KernelHook(BuildHookInterface[Any]):
@@ -31,7 +32,7 @@ class KernelHook(BuildHookInterface[Any]):
 
         other = "" if version == "editable" else os.environ.get("STACKBOUNCE_PLATFORM", "")
         name = other or platform_name()
-        folder = root / "build" / "kernels" / name if other else root / "src" / NATIVE
+        folder = root / BUILT / name if other else root / "src" / NATIVE
         paths = [str(root / "src"), *filter(None, [os.environ.get("PYTHONPATH")])]
         command = [sys.executable, "-m", "kernel_build", "--platform", name, "--folder"]
         done = subprocess.run(
@@ -53,7 +54,7 @@ class KernelHook(BuildHookInterface[Any]):
         """Return the libraries and a manifest of them, each with its place in the wheel."""
         manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
         manifest["libraries"] = {name: manifest["libraries"][name] for name in names}
-        ours = Path(self.root) / "build" / "kernels" / f"{names[0]}.json"
+        ours = Path(self.root) / BUILT / f"{names[0]}.json"
         ours.parent.mkdir(parents=True, exist_ok=True)
         ours.write_text(json.dumps(manifest, indent=2) + "\n", "utf-8")
         files = [entry["file"] for entry in manifest["libraries"].values()]
