@@ -13,40 +13,46 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist wo
 # Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.
 RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
+# What pyproject.toml says that a build needs; the package is built with it in $(VENV) itself.
+BUILD_NEEDS := import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["build-system"]["requires"], sep="\n")
 
 .DEFAULT_GOAL := help
-.PHONY: help venv paper app test coverage bench check lint types imports docs format fuzz frozen constraints clean distclean
+.PHONY: help venv kernels paper app test coverage bench check lint types imports docs format fuzz frozen constraints clean \
+	distclean
 
 help:  ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  make \1|\2/p' $(MAKEFILE_LIST) | \
 	while IFS='|' read -r target meaning; do printf '%-20s %s\n' "$$target" "$$meaning"; done
 
-paper: $(RUNTIME)  ## recompute the paper: figures, tables and audit, in build/paper
+paper: kernels  ## recompute the paper: figures, tables and audit, in build/paper
 	@$(BIN)/stackbounce paper --out build/paper
 	@echo "Open $(CURDIR)/build/paper/index.html"
 
-app: $(RUNTIME)  ## open the explorer in the browser
+app: kernels  ## open the explorer in the browser
 	@$(BIN)/stackbounce app
 
-test: $(DEV)  ## run the fast tests of every kind, in under four minutes on two cores
+test: $(DEV) kernels  ## run the fast tests of every kind, in under four minutes on two cores
 	@$(PYTEST) -m 'not slow' --hypothesis-profile=quick
 
-coverage: $(DEV)  ## hold all error bars to their claim (make check: some of them); half an hour
+coverage: $(DEV) kernels  ## hold all error bars to their claim (make check: some of them); half an hour
 	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py
 
-bench: $(DEV)  ## growth, accuracy and speed, also of other solvers (extra: bench), in build/bench
+bench: $(DEV) kernels  ## growth, accuracy and speed, also of other solvers (extra: bench), in build/bench
 	@PYTHONPATH=tests $(BIN)/python -m benchmarks --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
 
-check: lint types imports docs  ## everything: lint, types, import rules, documentation, all tests, in Chromium too
+check: kernels lint types imports docs  ## everything: lint, types, import rules, documentation, all tests, in Chromium too
 	@tests/web/browser/chromium.sh
 	@$(PYTEST)
 
-fuzz: $(DEV)  ## random drops in great number: make fuzz DROPS=1000000 SEED=1
+fuzz: $(DEV) kernels  ## random drops in great number: make fuzz DROPS=1000000 SEED=1
 	@cd tests && ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
 
-frozen: $(DEV)  ## compare all answers with those that were kept in tests/frozen
+frozen: $(DEV) kernels  ## compare all answers with those that were kept in tests/frozen
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m frozen
+
+kernels: $(RUNTIME)  ## compile the engine's kernels anew if its sources changed: a minute or two
+	@$(BIN)/python -m kernel_build || test $$? -eq 3 # 3: not to be compiled on this machine, plain Python runs
 
 lint: $(DEV)  ## ruff's rules and formatting
 	@$(BIN)/ruff check
@@ -58,7 +64,7 @@ types: $(DEV)  ## mypy --strict on the package
 imports: $(DEV)  ## the import rules (import-linter)
 	@$(BIN)/lint-imports
 
-docs: $(DEV)  ## build the documentation in build/docs, warnings being errors
+docs: $(DEV) kernels  ## build the documentation in build/docs, warnings being errors
 	@$(BIN)/python -m sphinx -q -E -W --keep-going -n -b html -d build/doctrees docs build/docs
 	@echo "Documentation: $(CURDIR)/build/docs/index.html"
 
@@ -95,7 +101,8 @@ $(RUNTIME): pyproject.toml constraints.txt
 	  { echo "stackbounce needs Python 3.11 or later, which '$(PYTHON)' is not: try make PYTHON=python3.12" >&2; exit 1; }
 	@test -x $(BIN)/pip || $(PYTHON) -m venv --clear $(VENV) || \
 	  { echo "Python's venv module does not work here (on Debian or Ubuntu: apt install python3-venv)" >&2; exit 1; }
-	@echo "Installing stackbounce into $(VENV)"
-	@$(INSTALL) editables hatchling
+	@echo "Installing stackbounce into $(VENV), and compiling its kernels: a few minutes"
+	@$(BIN)/python -c '$(BUILD_NEEDS)' > $(VENV)/build-needs.txt
+	@$(INSTALL) editables --requirement $(VENV)/build-needs.txt
 	@$(INSTALL) --no-build-isolation --editable '.[all]'
 	@touch $@

@@ -1,60 +1,131 @@
-"""Compile the kernels: `python -m kernel_build [--all] [--force]`."""
+"""Compile the kernels: `python -m kernel_build [--all] [--force]`.
+
+The exit status is 0 if all is up to date now, 3 where nothing can be compiled: for a platform that
+is not in `targets`, or without numba or zig.
+"""
 
 import argparse
 import hashlib
 import json
 import os
+import subprocess
+import sys
+import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from kernel_build.targets import TARGETS, WASM
 from stackbounce.engine.native import FOLDER, MANIFEST, digest_of_sources, platform_name
 
+IMPOSSIBLE = 3
 
-def main() -> None:
-    """Compile what is not there or not up to date."""
-    parser = argparse.ArgumentParser(prog="python -m kernel_build", description=__doc__)
+
+def main() -> int:
+    """Compile what is not there or not up to date; return the exit status."""
+    parser = argparse.ArgumentParser(prog="python -m kernel_build")
     parser.add_argument("--all", action="store_true", help="for all platforms, not this one only")
     parser.add_argument("--platform", default=platform_name(), help="such as linux-x86_64")
     parser.add_argument("--force", action="store_true", help="also if all is up to date")
     parser.add_argument("--folder", type=Path, default=FOLDER, help="where the libraries go")
     given = parser.parse_args()
-    names = list(TARGETS) if given.all else [n for n in (given.platform, WASM) if n in TARGETS]
+    if given.platform not in TARGETS and not given.all:
+        return _impossible(f"kernels are not compiled for {given.platform}")
+    names = list(TARGETS) if given.all else list(dict.fromkeys((given.platform, WASM)))
     if given.force or not _is_up_to_date(given.folder, names):
+        missing = _missing_tool()
+        if missing:
+            return _impossible(missing)
+        print("Compiling the kernels: a minute or two", flush=True)  # noqa: T201
         build(names, given.folder)
+    return 0
 
 
 def build(names: list[str], folder: Path) -> None:
-    """Write the libraries of some targets, and a manifest, to a folder."""
+    """Write the libraries of some targets, and a manifest, to a folder.
+
+    Each file appears whole, and the manifest last: whoever reads meanwhile, or builds the same,
+    never gets half a file.
+    """
     from kernel_build.lowering import lower
     from kernel_build.machine_code import make_library
     from stackbounce.engine.entries import ENTRIES
 
+    sources = digest_of_sources()
     ir = lower(ENTRIES)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
-        paths = list(pool.map(lambda name: make_library(ir, TARGETS[name], folder), names))
+        made = list(pool.map(lambda name: make_library(ir, TARGETS[name]), names))
     libraries = {
         name: {
-            "file": path.name,
-            "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
+            "file": TARGETS[name].file,
+            "sha256": hashlib.sha256(content).hexdigest(),
             "levels": [level for level in TARGETS[name].levels if level],
         }
-        for name, path in zip(names, paths, strict=True)
+        for name, content in zip(names, made, strict=True)
     }
-    manifest = {"sources": digest_of_sources(), "libraries": libraries}
-    (folder / MANIFEST).write_text(json.dumps(manifest, indent=2) + "\n", "utf-8")
+    manifest = {"sources": sources, "builder": _digest_of_builder(), "libraries": libraries}
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content in zip(names, made, strict=True):
+        _write(folder / TARGETS[name].file, content)
+    _write(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
+
+
+def _write(path: Path, content: bytes) -> None:
+    """Write a file that is there as a whole or not at all."""
+    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as new:
+        new.write(content)
+    written = Path(new.name)
+    try:
+        written.chmod(0o644)
+        written.replace(path)
+    except BaseException:
+        written.unlink(missing_ok=True)
+        raise
 
 
 def _is_up_to_date(folder: Path, names: list[str]) -> bool:
-    """Return whether a folder has the libraries, made of the present sources."""
+    """Return whether a folder has the libraries, made of the present sources by this folder."""
     try:
         manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
-    except (OSError, ValueError):
+        libraries = [manifest["libraries"][name] for name in names]
+        whole = all(
+            hashlib.sha256((folder / library["file"]).read_bytes()).hexdigest() == library["sha256"]
+            for library in libraries
+        )
+        made_of = manifest["sources"], manifest["builder"]
+    except (OSError, ValueError, KeyError, TypeError):
         return False
-    built = manifest.get("libraries", {})
-    there = all(name in built and (folder / built[name]["file"]).is_file() for name in names)
-    return there and manifest.get("sources") == digest_of_sources()
+    return whole and made_of == (digest_of_sources(), _digest_of_builder())
+
+
+def _digest_of_builder() -> str:
+    """Return a hash of the files in this folder."""
+    digest = hashlib.sha256()
+    for source in sorted(Path(__file__).parent.glob("*.[pc]*")):
+        if source.is_file():
+            digest.update(source.name.encode() + b"\0" + source.read_bytes() + b"\0")
+    return digest.hexdigest()
+
+
+def _missing_tool() -> str:
+    """Return which tool is not there or does not run; nothing if all do."""
+    try:
+        import llvmlite.binding  # noqa: F401
+        import numba  # noqa: F401
+    except ImportError as error:
+        return f"compiling kernels needs numba: {error}"
+    command = [sys.executable, "-m", "ziglang", "version"]
+    try:
+        zig = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        return f"compiling kernels needs zig: {error}"
+    lines = zig.stderr.strip().splitlines() or ["it does not run"]
+    return f"compiling kernels needs zig: {lines[-1]}" if zig.returncode else ""
+
+
+def _impossible(reason: str) -> int:
+    print(f"{reason}; drops run as plain Python", file=sys.stderr)  # noqa: T201
+    return IMPOSSIBLE
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

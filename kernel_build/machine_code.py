@@ -1,5 +1,6 @@
 """From IR to libraries: LLVM optimises and emits, zig's linker links."""
 
+import os
 import re
 import subprocess
 import sys
@@ -14,8 +15,8 @@ _PROCESSOR_LEVEL = Path(__file__).with_name("processor_level.c")
 _INLINING = 275  # LLVM's threshold at its third level of optimisation
 
 
-def make_library(ir: str, target: Target, folder: Path) -> Path:
-    """Compile the IR of `lowering.lower` for a target; return the library's path.
+def make_library(ir: str, target: Target) -> bytes:
+    """Compile the IR of `lowering.lower` for a target; return the library's content.
 
     Raises
     ------
@@ -32,7 +33,7 @@ def make_library(ir: str, target: Target, folder: Path) -> Path:
             exported += _exported(text)
             parts.append(Path(room) / f"kernels{level}.o")
             parts[-1].write_bytes(_emit(text, target, processor))
-        return _link(parts, exported, target, folder / target.file)
+        return _link(parts, exported, target, Path(room))
 
 
 def _exported(text: str) -> list[str]:
@@ -65,19 +66,26 @@ def _emit(text: str, target: Target, processor: str) -> bytes:
     return bytes(machine.emit_object(module))
 
 
-def _link(parts: list[Path], exported: list[str], target: Target, path: Path) -> Path:
-    """Link object files and C to a library that needs no other; return its path."""
-    path.parent.mkdir(parents=True, exist_ok=True)
+def _link(parts: list[Path], exported: list[str], target: Target, room: Path) -> bytes:
+    """Link object files and C to a library that needs no other; return its content.
+
+    It is linked in a room of its own, with zig's cache: nothing else is written, and neither a path
+    nor the time comes into the library.
+    """
     shape = ["-shared", "-nostdlib", "-s", "-O1"]
     if target.zig.startswith("wasm"):
         shape = ["-nostdlib", "-Wl,--no-entry", "-Wl,--export-memory", "-s"]
         shape += [f"-Wl,--export={name}" for name in exported]
     command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *shape]
+    caches = {f"ZIG_{which}_CACHE_DIR": str(room / "zig") for which in ("GLOBAL", "LOCAL")}
     done = subprocess.run(
-        [*command, *map(str, parts), "-o", str(path)], capture_output=True, text=True, check=False
+        [*command, *map(str, parts), "-o", target.file],
+        capture_output=True,
+        text=True,
+        check=False,
+        cwd=room,
+        env=os.environ | caches,
     )
     if done.returncode:
-        raise RuntimeError(f"the linker failed for {path.name}: {done.stderr.strip()}")
-    for extra in (path.with_suffix(".lib"), path.with_suffix(".pdb")):
-        extra.unlink(missing_ok=True)
-    return path
+        raise RuntimeError(f"the linker failed for {target.file}: {done.stderr.strip()}")
+    return (room / target.file).read_bytes()

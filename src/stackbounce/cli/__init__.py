@@ -2,8 +2,9 @@
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -69,7 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     -------
     int
         The exit status: 0; 2 after an error of the user, 1 after any other error, 130 after an
-        interruption. An error is printed in one line on stderr.
+        interruption. An error or a warning is printed in one line on stderr.
 
     Examples
     --------
@@ -83,7 +84,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
     try:
-        code = app(arguments, prog_name="stackbounce", standalone_mode=False)
+        with warnings.catch_warnings():
+            warnings.showwarning = _warn
+            code = app(arguments, prog_name="stackbounce", standalone_mode=False)
         sys.stdout.flush()
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
@@ -113,6 +116,15 @@ def _command(arguments: Sequence[str] | None) -> str:
 
 
 def _failed(message: str, code: int = 2) -> int:
-    line = "".join(c if c.isprintable() else "?" for c in " ".join(message.split()))
-    typer.echo(f"stackbounce: error: {line}", err=True)
+    _say(f"error: {message}")
     return code
+
+
+def _warn(message: Warning | str, *_: Any, **__: Any) -> None:
+    """Show a warning as the command line shows an error, without the line of code."""
+    _say(str(message))
+
+
+def _say(message: str) -> None:
+    line = "".join(c if c.isprintable() else "?" for c in " ".join(message.split()))
+    typer.echo(f"stackbounce: {line}", err=True)

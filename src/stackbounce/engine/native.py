@@ -44,7 +44,13 @@ def platform_name() -> str:
 
 def available() -> bool:
     """Return whether there is compiled code for this machine; warn once if there is none."""
-    return _library() is not None
+    return not isinstance(_library(), str)
+
+
+def reason() -> str:
+    """Return why there is no compiled code, and what to do; nothing if there is some."""
+    found = _library()
+    return found if isinstance(found, str) else ""
 
 
 @functools.cache
@@ -59,74 +65,87 @@ def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
     from stackbounce.engine.entries import signature
 
     found = _library()
-    if found is None:
-        raise RuntimeError(reason())
+    if isinstance(found, str):
+        raise RuntimeError(found)  # noqa: TRY004 - no wrong type: it says why there is none
     library, level = found
     takes = signature(entry)
     kinds: dict[type, Any] = {float: ctypes.c_double, int: ctypes.c_int64}
-    function: Any = library[f"{entry.__name__}_{level}" if level else entry.__name__]
+    function = library[f"{entry.__name__}_{level}" if level else entry.__name__]
     function.argtypes = [kinds.get(kind, ctypes.c_void_p) for kind in takes.arguments]
     function.restype = ctypes.c_int64 if takes.returns else None
-    return function  # type: ignore[no-any-return]
-
-
-@functools.cache
-def _library() -> tuple[Any, str] | None:
-    """Return the library of this machine and the processor level to use, or None with a warning."""
-    try:
-        return _load()
-    except _NoLibraryError as reason:
-        warnings.warn(
-            f"stackbounce runs as plain Python, about a hundred times slower: {reason}",
-            NoCompiledCode,
-            stacklevel=2,
-        )
-        return None
-
-
-def reason() -> str:
-    """Return why there is no compiled code."""
-    try:
-        _load()
-    except _NoLibraryError as found:
-        return str(found)
-    return "the compiled code was not there when it was first asked for"
+    result: Callable[..., Any] = function
+    return result
 
 
 class _NoLibraryError(Exception):
     """Why no library is loaded."""
 
 
+@functools.cache
+def _library() -> tuple[Any, str] | str:
+    """Return the library of this machine and the processor level to use, or why there is none."""
+    try:
+        return _load()
+    except _NoLibraryError as error:
+        warnings.warn(
+            f"drops run as plain Python, about a hundred times slower: {error}",
+            NoCompiledCode,
+            stacklevel=2,
+        )
+        return str(error)
+
+
 def _load() -> tuple[Any, str]:
     """Return the library of this machine and the processor level to use."""
-    name = platform_name()
-    try:
-        manifest = json.loads((FOLDER / MANIFEST).read_text("utf-8"))
-        built, entry = manifest["sources"], manifest["libraries"].get(name)
-    except (OSError, ValueError, KeyError, AttributeError, TypeError):
-        raise _NoLibraryError(
-            "the package was built without compiled code (install a wheel, or run make kernels)"
-        ) from None
-    if entry is None:
-        raise _NoLibraryError(f"this package has no compiled code for {name}")
-    if built != digest_of_sources():
-        raise _NoLibraryError("the engine's sources have changed: run make kernels")
-    path = FOLDER / entry["file"]
+    path, digest, levels = _described(platform_name())
     try:
         content = path.read_bytes()
     except OSError as error:
-        raise _NoLibraryError(f"{path.name} cannot be read ({error.strerror})") from None
-    if hashlib.sha256(content).hexdigest() != entry["sha256"]:
+        raise _NoLibraryError(
+            f"{path.name} cannot be read ({error.strerror}): install stackbounce again"
+        ) from None
+    if hashlib.sha256(content).hexdigest() != digest:
         raise _NoLibraryError(f"{path.name} is damaged or foreign: install stackbounce again")
     try:
         library = ctypes.CDLL(str(path))
     except OSError as error:
-        raise _NoLibraryError(f"{path.name} cannot be loaded ({error})") from None
-    levels = entry["levels"]
+        raise _NoLibraryError(
+            f"{path.name} cannot be loaded ({error}): install stackbounce again"
+        ) from None
     if not levels:
         return library, ""
-    library.processor_level.restype = ctypes.c_int64
-    fitting = [level for level in levels if int(level[1:]) <= library.processor_level()]
+    level = _processor_level(library)
+    fitting = [name for name in levels if int(name[1:]) <= level]
     if not fitting:
-        raise _NoLibraryError(f"this processor is older than x86-64-{levels[0]}")
+        raise _NoLibraryError(
+            f"this processor lacks instructions of x86-64-{levels[0]}: use a newer one"
+        )
     return library, max(fitting)
+
+
+def _described(name: str) -> tuple[Path, str, list[str]]:
+    """Return path, digest and processor levels of a platform's library, from the manifest."""
+    try:
+        manifest = json.loads((FOLDER / MANIFEST).read_text("utf-8"))
+        built, entry = str(manifest["sources"]), manifest["libraries"].get(name)
+        described = entry and (FOLDER / entry["file"], str(entry["sha256"]), list(entry["levels"]))
+    except FileNotFoundError:
+        raise _NoLibraryError(
+            "the package was built without compiled code (install a wheel that has it, or run "
+            "make kernels)"
+        ) from None
+    except (OSError, ValueError, KeyError, AttributeError, TypeError):
+        raise _NoLibraryError(f"{MANIFEST} is damaged: install stackbounce again") from None
+    if described is None:
+        raise _NoLibraryError(
+            f"this package has no compiled code for {name}: install one for it, if there is one"
+        )
+    if built != digest_of_sources():
+        raise _NoLibraryError("the engine's sources have changed: run make kernels")
+    return described
+
+
+def _processor_level(library: Any) -> int:
+    """Return the level of this processor among those of x86-64, as the library tells it."""
+    library.processor_level.restype = ctypes.c_int64
+    return int(library.processor_level())

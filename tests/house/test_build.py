@@ -1,0 +1,162 @@
+"""How the kernels are compiled when the package is built, and put into its wheel."""
+
+import hashlib
+import json
+import sys
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from types import SimpleNamespace
+
+import hatch_build
+import pytest
+from kernel_build import __main__ as builder
+from kernel_build import lowering, machine_code
+from kernel_build.targets import TARGETS, WASM
+
+from stackbounce.engine import native
+
+ROOT = Path(__file__).parents[2]
+NAMES = ["linux-x86_64", WASM]
+
+
+@pytest.fixture
+def quick(monkeypatch):
+    """Let libraries be long files of nothing, quick to make."""
+    monkeypatch.setattr(lowering, "lower", lambda _: "")
+    monkeypatch.setattr(machine_code, "make_library", lambda _, t: t.file.encode() * 100_000)
+
+
+def test_the_tools_have_the_versions_of_the_constraints():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    needs = [one.split(";")[0].strip() for one in project["build-system"]["requires"]]
+    pinned = (ROOT / "constraints.txt").read_text("utf-8").splitlines()
+    names = [one.partition("==")[0] for one in needs]
+    assert names == ["hatchling", "llvmlite", "numba", "numpy", "ziglang"]
+    assert set(needs) - {"hatchling"} <= set(pinned)
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_build_is_up_to_date_until_something_changes(tmp_path, monkeypatch):
+    assert not builder._is_up_to_date(tmp_path, NAMES)
+    builder.build(NAMES, tmp_path)
+    assert builder._is_up_to_date(tmp_path, NAMES)
+    assert not builder._is_up_to_date(tmp_path, [*NAMES, "macos-aarch64"])
+    for digest in ("digest_of_sources", "_digest_of_builder"):
+        with monkeypatch.context() as patch:
+            patch.setattr(builder, digest, lambda: "another")
+            assert not builder._is_up_to_date(tmp_path, NAMES)
+    (tmp_path / "engine.wasm").write_bytes(b"")
+    assert not builder._is_up_to_date(tmp_path, NAMES)
+
+
+@pytest.mark.usefixtures("quick")
+def test_builds_at_once_never_show_half_a_file(tmp_path):
+    """Two threads build the same while another one reads."""
+    names = ["manifest.json", *(TARGETS[name].file for name in NAMES)]
+    builder.build(NAMES, tmp_path)
+    whole = {name: (tmp_path / name).read_bytes() for name in names}
+    with ThreadPoolExecutor(2) as pool:
+        builds = [pool.submit(builder.build, NAMES, tmp_path) for _ in range(20)]
+        while not all(build.done() for build in builds):
+            for name in names:
+                assert (tmp_path / name).read_bytes() == whole[name]
+    assert [build.result() for build in builds] == [None] * 20
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(names)
+
+
+def test_what_cannot_be_compiled_is_said_in_a_line(monkeypatch, tmp_path, capsys):
+    monkeypatch.setattr(sys, "argv", ["", "--platform", "sunos-sparc"])
+    assert builder.main() == builder.IMPOSSIBLE
+    monkeypatch.setattr(sys, "argv", ["", "--folder", str(tmp_path)])
+    monkeypatch.setitem(sys.modules, "numba", None)
+    assert builder.main() == builder.IMPOSSIBLE
+    monkeypatch.undo()
+    monkeypatch.setattr(sys, "argv", ["", "--folder", str(tmp_path)])
+    monkeypatch.setattr(sys, "executable", "no-such-python")
+    assert builder.main() == builder.IMPOSSIBLE
+    platform, numba, zig = capsys.readouterr().err.splitlines()
+    assert platform == "kernels are not compiled for sunos-sparc; drops run as plain Python"
+    assert numba.startswith("compiling kernels needs numba: ")
+    assert zig.startswith("compiling kernels needs zig: ")
+
+
+class Aborted(Exception):
+    """What hatchling's abort does here."""
+
+
+def abort(message):
+    raise Aborted(message)
+
+
+def hook_with(monkeypatch, status, platform=""):
+    """Return a hook for which the compilation ends with a status, and the commands that it ran."""
+    commands = []
+
+    def run(command, **_):
+        commands.append(command)
+        folder = Path(command[-1])
+        if status == 0 and not folder.exists():
+            builder.build([platform, WASM], folder)
+        return SimpleNamespace(returncode=status)
+
+    monkeypatch.setattr(hatch_build.subprocess, "run", run)
+    monkeypatch.setenv("STACKBOUNCE_PLATFORM", platform)
+    monkeypatch.setattr(sys, "path", [*sys.path])
+    hook = object.__new__(hatch_build.KernelHook)
+    monkeypatch.setattr(hatch_build.KernelHook, "root", str(ROOT))
+    monkeypatch.setattr(hatch_build.KernelHook, "app", SimpleNamespace(abort=abort))
+    return hook, commands
+
+
+def put(hook, version="standard"):
+    """Return what a hook sets of a build, and the files that it puts into the wheel."""
+    data = {"force_include": {}}
+    hook.initialize(version, data)
+    return data, {place: Path(file) for file, place in data["force_include"].items()}
+
+
+def test_a_wheel_of_this_machine_has_its_library_and_that_of_browsers(monkeypatch):
+    hook, commands = hook_with(monkeypatch, 0)
+    data, files = put(hook)
+    target = TARGETS[native.platform_name()]
+    assert (data["pure_python"], data["tag"]) == (False, f"py3-none-{target.wheel}")
+    prefix = "stackbounce/engine/native/"
+    manifest = json.loads(files.pop(f"{prefix}manifest.json").read_text())
+    assert set(files) == {f"{prefix}{target.file}", f"{prefix}engine.wasm"}
+    assert manifest["sources"] == native.digest_of_sources()
+    for entry in manifest["libraries"].values():
+        content = files[prefix + entry["file"]].read_bytes()
+        assert hashlib.sha256(content).hexdigest() == entry["sha256"]
+    assert len(commands) == 1
+
+
+@pytest.mark.usefixtures("quick")
+def test_a_wheel_of_another_platform_leaves_the_sources_alone(monkeypatch, tmp_path):
+    monkeypatch.setattr(hatch_build, "BUILT", str(tmp_path))
+    hook, commands = hook_with(monkeypatch, 0, "macos-aarch64")
+    data, files = put(hook)
+    assert data["tag"] == "py3-none-macosx_11_0_arm64"
+    assert "stackbounce/engine/native/macos-aarch64.dylib" in files
+    assert all(tmp_path in file.parents for file in files.values())
+    assert commands[0][-3:] == ["macos-aarch64", "--folder", str(tmp_path / "macos-aarch64")]
+
+
+def test_an_installation_of_the_sources_takes_their_folder(monkeypatch):
+    hook, commands = hook_with(monkeypatch, 0, "macos-aarch64")
+    data, _ = put(hook, "editable")
+    assert data == {"force_include": {}}
+    assert commands[0][-1] == str(native.FOLDER)
+    assert commands[0][-3] == native.platform_name()
+
+
+def test_where_nothing_can_be_compiled_the_wheel_is_pure(monkeypatch):
+    hook, _ = hook_with(monkeypatch, builder.IMPOSSIBLE)
+    assert put(hook)[0] == {"force_include": {}}
+
+
+@pytest.mark.parametrize(("status", "platform"), [(1, ""), (builder.IMPOSSIBLE, "macos-aarch64")])
+def test_a_failure_ends_the_build(status, platform, monkeypatch):
+    hook, _ = hook_with(monkeypatch, status, platform)
+    with pytest.raises(Aborted, match="the kernels could not be compiled for"):
+        put(hook)
