@@ -6,7 +6,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 from kernel_build.jit import compile_kernel
-from stackbounce.engine.structure import Structure
 
 from fuzz import drive
 from fuzz.draw import BATCH, Drops, balls_of, drops_of, is_rigid
@@ -18,6 +17,7 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
+from stackbounce.engine.tables import Table
 
 _LOG_ROWS = 256
 
@@ -35,7 +35,7 @@ class Batch(NamedTuple):
 def _arrays(balls: int, rigid: bool) -> tuple[Any, ...]:
     """Return a stack, the arrays that its own lie in, and no samples."""
     stack, room = in_one_room((new_rigid_stack if rigid else new_stack)(balls))
-    return Structure(stack), room, as_arrays(new_samples([], balls))
+    return Table(stack), room, Table(as_arrays(new_samples([], balls)))
 
 
 def run_batch(seed: int, index: int, count: int = BATCH) -> Batch:
