@@ -12,7 +12,7 @@ import re
 import subprocess
 import sys
 from collections import defaultdict
-from time import perf_counter, sleep
+from time import perf_counter
 from typing import Any
 
 import httpx
@@ -99,8 +99,6 @@ def main() -> None:
         try:
             assert server.stdout is not None
             address = server.stdout.readline().split()[2]
-            while not httpx.get(f"{address}api/status").json()["ready"]:
-                sleep(0.1)
             seen, seconds = asyncio.run(run(address, told.users, told.moves))
         finally:
             server.terminate()

@@ -9,27 +9,39 @@ from time import perf_counter
 from typing import Any
 
 import numpy as np
-from kernel_build.jit import compile_kernel
 from rich.console import Console
 
 from benchmarks.random_drops import random
-from stackbounce.engine import codes
-from stackbounce.engine.two_springs import new_scratch, run_two_springs
+from stackbounce.engine import codes, native
+from stackbounce.engine.batch import Drops, Outcomes
+from stackbounce.engine.tables import Table
+from stackbounce.engine.two_springs import run_two_springs
+from stackbounce.run.memory import spring_workspace
 
 _LIMIT = 10**6
 
 
 def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     """Return what solves random drops when it is called, and where their statuses will be."""
-    drops = random(count, seed)
-    given = drops.masses, drops.stiffnesses, np.ascontiguousarray(drops.gaps), np.ones(count)
-    pairs = [np.empty((count, 2)) for _ in range(3)]
-    collisions, status = np.empty((count, 2), np.int64), np.empty(count, np.int64)
-    out = pairs[0], collisions, *pairs[1:], status
-    solve, room = compile_kernel(run_two_springs), new_scratch()
+    drawn, table = random(count, seed), (count, 2)
+    drops = Drops(
+        mass=np.ascontiguousarray(drawn.masses),
+        kind=np.full(table, codes.POWER),
+        stiffness=np.ascontiguousarray(drawn.stiffnesses),
+        exponent=np.ones(table),
+        law_parameter=np.zeros(table),
+        gap=np.column_stack([np.zeros(count), drawn.gaps]),
+        velocity=np.full(table, -1.0),
+        gravity=np.zeros(count),
+    )
+    pairs = [np.empty(table) for _ in range(4)]
+    collisions, status = np.empty(table, np.int64), np.empty(count, np.int64)
+    out = Outcomes(*pairs[:2], collisions, *pairs[2:], np.empty(count), status)
+    solve = native.compiled(run_two_springs)
+    given = Table(drops), _LIMIT, Table(out), Table(spring_workspace(compiled=True))
 
     def call() -> None:
-        solve(*given, _LIMIT, *out, room)
+        solve(*given)
 
     return call, status
 

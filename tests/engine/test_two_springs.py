@@ -2,12 +2,14 @@
 
 import numpy as np
 import pytest
-from kernel_build.jit import compile_kernel
 
 import stackbounce as sb
 from reference import make_data, springs
-from stackbounce.engine import codes
+from stackbounce.engine import codes, native
+from stackbounce.engine.batch import Drops, Outcomes
+from stackbounce.engine.tables import Table
 from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
+from stackbounce.run.memory import spring_workspace
 
 SPEED = 1e-12
 TIME = 1e-11
@@ -16,20 +18,35 @@ NAMES = ("velocity", "collisions", "first_touch", "last_release", "status")
 
 
 def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
-    n = len(gap)
-    out = {
-        "velocity": np.empty((n, 2)),
-        "collisions": np.empty((n, 2), np.int64),
-        "first_touch": np.empty((n, 2)),
-        "last_release": np.empty((n, 2)),
-        "status": np.empty(n, np.int64),
-    }
-    run = run_two_springs if plain else compile_kernel(run_two_springs)
-    room = [0.0] * SCRATCH if plain else new_scratch()
-    run(mass, stiffness, gap, speed, event_limit, *(out[name] for name in NAMES), room)
-    ratio = out["velocity"] / np.asarray(speed)[:, None]
-    out["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
-    return out
+    n, table = len(gap), (len(gap), 2)
+    drops = Drops(
+        mass=np.array(mass, order="C"),
+        kind=np.full(table, codes.POWER),
+        stiffness=np.array(stiffness, order="C"),
+        exponent=np.ones(table),
+        law_parameter=np.zeros(table),
+        gap=np.column_stack([np.zeros(n), gap]),
+        velocity=-np.column_stack([speed, speed]),
+        gravity=np.zeros(n),
+    )
+    out = Outcomes(
+        velocity=np.empty(table),
+        rebound_ratio=np.empty(table),
+        collisions=np.empty(table, np.int64),
+        first_touch=np.empty(table),
+        last_release=np.empty(table),
+        energy_retained=np.empty(n),
+        status=np.empty(n, np.int64),
+    )
+    space = spring_workspace(not plain)
+    if plain:
+        run_two_springs(drops, event_limit, out, space)
+    else:
+        native.compiled(run_two_springs)(Table(drops), event_limit, Table(out), Table(space))
+    found = {name: getattr(out, name) for name in NAMES}
+    ratio = out.velocity / np.asarray(speed)[:, None]
+    found["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)
+    return found
 
 
 def log_uniform(random, low, high, n):

@@ -1,8 +1,4 @@
-"""Kernels that load random drops into one stack's arrays, run them, and check what came out.
-
-All that numba freezes into them is in this file or in the engine, whose hash names numba's folder:
-what is compiled is never older than its sources.
-"""
+"""Kernels that load random drops into one stack's arrays, run them, and check what came out."""
 
 import math
 from typing import Any

@@ -78,9 +78,17 @@ def mix() -> str:
     return f"balls: {balls}\none in {RIGID_EVERY} rigid\nrtol of the others: {odds}"
 
 
-def tally_of(seed: int, index: int, count: int = BATCH, plain: int = 0, other: int = 0) -> Tally:
+def tally_of(
+    seed: int,
+    index: int,
+    count: int = BATCH,
+    plain: int = 0,
+    other: int = 0,
+    *,
+    compiled: bool = True,
+) -> Tally:
     """Run a batch, and compare some of its drops with plain Python and with another method."""
-    batch = run_batch(seed, index, count)
+    batch = run_batch(seed, index, count, compiled=compiled)
     tally = Tally(drops=count, seconds=batch.seconds, slowest=(batch.seconds, index))
     family = "rigid" if is_rigid(index) else "finite", batch.drops.mass.shape[1]
     tally.times[family] += batch.seconds

@@ -15,7 +15,8 @@ PROJECT = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text
 ]
 CORE = {"pandas", "pydantic"}  # which xarray and typer bring
 BROUGHT = sorted({module for modules in EXTRAS.values() for module in modules} - CORE)
-PLAIN = f"import sys; sys.modules |= dict.fromkeys({BROUGHT}); "
+COMPILERS = ["numba", "llvmlite"]  # for developers and benchmarks only
+PLAIN = f"import sys; sys.modules |= dict.fromkeys({BROUGHT + COMPILERS}); "
 COMMAND = PLAIN + "from stackbounce.cli import main; sys.exit(main(sys.argv[1:]))"
 
 

@@ -39,6 +39,21 @@ def test_the_package_imports_nothing_until_it_is_used():
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
 
 
+def test_nothing_is_compiled_at_run_time():
+    code = (
+        "import sys, stackbounce as sb\n"
+        "drop = sb.Drop([sb.Ball(0.1)] * 2, [sb.Hertz(1e5)] * 2, impact_speed=1.0)\n"
+        "sb.simulate(drop).sample([0.0, 1e-3])\n"
+        "sb.sweep(drop, {'balls.0.mass': [0.1, 0.2], 'gaps.0': [0.0, 1e-3]})\n"
+        "data = {'rebound_ratios': [None, '1.2 ± 0.01']}\n"
+        "fit = sb.fit(drop, data, {'balls.0.mass': (0.1, 0.3)})\n"
+        "assert fit.drop.balls[0].mass > 0.1\n"
+        "sys.exit(', '.join({'numba', 'llvmlite'} & set(sys.modules)))\n"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert run.stderr.strip() == ""
+
+
 def test_a_name_that_is_not_there_is_an_attribute_error():
     for name in ("simulat", "_simulate", "__wrapped__"):
         with pytest.raises(AttributeError, match=f"no attribute '{name}'"):

@@ -1,4 +1,4 @@
-"""Where engine and mode are chosen, and which exceptions of plain Python mean a lost number."""
+"""Where the engine and compiled code are chosen, and which exceptions mean a lost number."""
 
 import dataclasses
 
@@ -6,17 +6,16 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from stackbounce.engine import native
+from stackbounce.engine.batch import run_drop
+from stackbounce.errors import InvalidValue
 from stackbounce.run import batch, driver
 from stackbounce.run.engines import (
     FINITE,
     OUT_OF_RANGE,
-    PLAIN_BALLS,
-    PLAIN_DROPS,
-    PLAIN_EVENTS,
     RIGID,
-    Mode,
+    choose_compiled,
     choose_engine,
-    choose_mode,
     suits_two_springs,
 )
 from stackbounce.run.options import run_options
@@ -29,24 +28,41 @@ STONES = sb.Drop(BALLS, [sb.Rigid(0.9)] * 2, impact_speed=3.53)
 BUGS = (TypeError, AttributeError, NameError, IndexError, KeyError, AssertionError)
 
 
-@pytest.mark.parametrize(
-    ("asked", "drops", "balls", "mode"),
-    [
-        (None, 1, 2, Mode.TRIAL),
-        (None, PLAIN_DROPS, PLAIN_BALLS, Mode.TRIAL),
-        (None, PLAIN_DROPS + 1, 2, Mode.COMPILED),
-        (None, 1, PLAIN_BALLS + 1, Mode.COMPILED),
-        (True, 1, 1, Mode.COMPILED),
-        (False, 10**6, 100, Mode.PLAIN),
-    ],
-)
-def test_mode(asked, drops, balls, mode):
-    assert choose_mode(asked, drops, balls) is mode
+@pytest.fixture
+def nothing_compiled(monkeypatch):
+    """Let there be no compiled code for this machine."""
+
+    def none():
+        raise native._NoLibraryError("there is none")
+
+    monkeypatch.setattr(native, "_load", none)
+    native._library.cache_clear()
+    native.compiled.cache_clear()
+    yield
+    native._library.cache_clear()
+    native.compiled.cache_clear()
 
 
-def test_a_trial_alone_has_a_limit_of_its_own():
-    assert [mode.event_limit(10**6) for mode in Mode] == [10**6, PLAIN_EVENTS, 10**6]
-    assert Mode.TRIAL.event_limit(5) == 5
+@pytest.mark.parametrize("asked", [None, True, False])
+def test_compiled_unless_plain_python_is_asked_for(asked):
+    assert choose_compiled(asked) is (asked is not False)
+
+
+def masses(drop):
+    return sb.sweep(drop, {"balls.0.mass": [0.1, 0.2]}).rebound_ratio.values.tolist()
+
+
+def test_without_compiled_code_all_runs_as_plain_python(request):
+    drops = (SPRINGS, HERTZ, STONES)
+    before = [(sb.simulate(drop).rebound_speeds.tolist(), masses(drop)) for drop in drops]
+    request.getfixturevalue("nothing_compiled")
+    with pytest.warns(native.NoCompiledCode, match="runs as plain Python.*: there is none$"):
+        assert choose_compiled(None) is False
+    assert [(sb.simulate(drop).rebound_speeds.tolist(), masses(drop)) for drop in drops] == before
+    with pytest.raises(InvalidValue, match="compiled must be False or None here: there is none"):
+        sb.simulate(SPRINGS, compiled=True)
+    with pytest.raises(RuntimeError, match="there is none"):
+        native.compiled(run_drop)
 
 
 def test_engine():
@@ -63,14 +79,15 @@ def test_two_springs_of_any_mass_have_an_engine_of_their_own():
 
 
 def broken(monkeypatch, error):
-    """Let the finite engine's kernels raise an exception."""
+    """Let the finite engine's kernels raise an exception, as plain Python."""
 
     def raising(*_):
         raise error
 
-    engine = dataclasses.replace(FINITE, advance=raising, run_batch=raising)
+    engine = dataclasses.replace(FINITE, run_drop=raising, run_batch=raising)
     for module in (driver, batch):
         monkeypatch.setattr(module, "choose_engine", lambda _: engine)
+        monkeypatch.setattr(module, "choose_compiled", lambda _: False)
 
 
 @pytest.mark.parametrize("bug", BUGS)
@@ -86,6 +103,8 @@ def test_a_programming_error_is_not_taken_for_numbers_out_of_range(monkeypatch, 
 def test_numbers_out_of_range_make_a_run_invalid(monkeypatch, error):
     broken(monkeypatch, error("math"))
     assert sb.simulate(HERTZ).status is sb.Status.INVALID
+    swept = sb.sweep(HERTZ, {"balls.0.mass": [1.0, 2.0]})
+    assert swept.status.values.tolist() == [sb.Status.INVALID] * 2
 
 
 @pytest.mark.parametrize("stiffness", [1e5, 1e308])

@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import time
 
 import httpx
 import pytest
@@ -29,10 +28,8 @@ def address():
 
 @pytest.fixture(scope="session")
 def server(address):
-    """Return a client of the server, whose kernels are compiled."""
+    """Return a client of the server."""
     with httpx.Client(base_url=address, timeout=120.0) as client:
-        while not client.get("/api/status").json()["ready"]:
-            time.sleep(0.1)
         yield client
 
 

@@ -5,7 +5,6 @@ import dataclasses
 import os
 import signal
 import socket
-import threading
 import time
 
 import pytest
@@ -13,7 +12,6 @@ import uvicorn
 
 from stackbounce.errors import InvalidValue
 from stackbounce.web import LIMITS, timeouts
-from stackbounce.web.answers import kernels
 from stackbounce.web.guard import Guard
 from stackbounce.web.worker_pool import Busy, TooLong, Workers
 
@@ -230,15 +228,6 @@ def test_processes_that_were_ended_while_idle_are_made_anew(workers):
 
     first, second = asyncio.run(run())
     assert second != first
-
-
-def test_the_process_that_compiles_may_be_ended(monkeypatch):
-    monkeypatch.setattr(kernels, "_COMPILING", 0.1)
-    held, ready = threading.Lock(), threading.Event()
-    held.acquire()  # by a process that is no more
-    kernels.load_kernels(held, ready)
-    assert ready.is_set()
-    assert held.locked()
 
 
 def test_silent_connections_are_closed():

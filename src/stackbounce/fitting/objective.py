@@ -181,7 +181,7 @@ class Objective:
         """Return outcomes, impact speeds and gravity (n,) of one drop in trials (n, parameters)."""
         drop, rows = self.drops[key], self.rows(key, x)
         options = Options(math.inf, self.rtol, _EVENTS)
-        out = solve(drop, rows, (len(x),), options, compiled=True)
+        out = solve(drop, rows, (len(x),), options)
         bad = ~np.isin(out.status, _DONE)
         if np.any(bad):
             self.unsolved.update(Status(code).name for code in out.status[bad])

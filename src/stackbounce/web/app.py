@@ -144,8 +144,8 @@ def _add_queries(app: FastAPI, workers: Workers, limits: Limits) -> None:
 
     @app.get("/api/status", response_model=schema.State)
     async def read_status() -> dict[str, Any]:
-        """Tell whether the compiled kernels are loaded: the first start compiles them."""
-        return {"stackbounce": __version__, "ready": workers.ready}
+        """Tell that the server runs, and its version."""
+        return {"stackbounce": __version__}
 
     @app.get("/api/catalogue", response_model=schema.Catalogue)
     async def list_choices() -> Response:

@@ -221,10 +221,9 @@ class Problem(BaseModel):
 
 
 class State(BaseModel):
-    """Whether the compiled kernels are loaded."""
+    """The version of the server."""
 
     stackbounce: str
-    ready: bool
 
 
 class Catalogue(BaseModel):

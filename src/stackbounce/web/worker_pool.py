@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import Any
 
 from stackbounce.errors import StackbounceError
-from stackbounce.web.answers.kernels import check_ready, start_process
 from stackbounce.web.limits import Limits
 
 __all__ = ["Busy", "TooLong", "Workers"]
@@ -19,6 +18,14 @@ class Busy(StackbounceError):
 
 class TooLong(StackbounceError):
     """A job exceeded its time limit, or its process ended."""
+
+
+def _import_answers() -> None:
+    """Import what most answers need, so that no request waits for it."""
+    import xarray  # noqa: F401
+
+    import stackbounce.web.answers.maps
+    import stackbounce.web.answers.play  # noqa: F401
 
 
 class Workers:
@@ -33,15 +40,12 @@ class Workers:
     --------
     >>> from stackbounce.web import LIMITS
     >>> workers = Workers(LIMITS)
-    >>> workers.ready
-    False
     >>> workers.stop()
     """
 
     def __init__(self, limits: Limits) -> None:
         self._context = multiprocessing.get_context("spawn")  # a fork would copy the threads
         self._limits = limits
-        self._ready = self._context.Event()
         self._jobs = 0
         self._stopped = False
         self._pool = self._make_pool()
@@ -49,22 +53,11 @@ class Workers:
     def _make_pool(self) -> Any:
         from pebble import ProcessPool
 
-        return ProcessPool(
-            self._limits.workers,
-            initializer=start_process,
-            initargs=(self._context.Lock(), self._ready),
-            context=self._context,
-        )
-
-    @property
-    def ready(self) -> bool:
-        """Whether some process has the compiled kernels; the first start compiles them."""
-        return self._ready.is_set()
+        return ProcessPool(self._limits.workers, initializer=_import_answers, context=self._context)
 
     def start(self) -> None:
-        """Start the processes, which begin to load the compiled kernels."""
-        for _ in range(self._limits.workers):
-            self._pool.submit(check_ready, None)
+        """Start the processes, before the first request comes."""
+        self._pool.submit(_import_answers, None)
 
     def stop(self) -> None:
         """End the processes, also in the middle of a job."""

@@ -73,9 +73,8 @@ class Visit:
 
 
 @pytest.fixture
-def visits(browser, server, address):
+def visits(browser, address):
     """Open pages of their own settings; check at the end that none complained."""
-    assert server.get("/api/status").json()["ready"]
     opened = []
 
     def visit(**settings):

@@ -7,6 +7,5 @@ catalogue balls, laws and the paper's cases; a law from measurements
 records   a file -> its results; a drop -> the drop fitted to it
 exports   a drop -> a file: data, picture, scenario, lines of Python
 paper     the paper's pages
-kernels   the compiled kernels, loaded as a process starts
 ========= ===================================================================
 """

@@ -13,7 +13,6 @@ from stackbounce.run.paths import number_at, numbers_of
 from stackbounce.run.result import Status
 from stackbounce.sweeps import sweep
 from stackbounce.version import __version__
-from stackbounce.web.answers.kernels import check_ready
 from stackbounce.web.limits import LIMITS
 
 if TYPE_CHECKING:
@@ -83,11 +82,6 @@ def map_drop(drop: Drop, x: "Axis", y: "Axis", show: str) -> str:
     if points > LIMITS.map_points:
         raise InvalidValue(
             f"x.count times y.count must be at most {LIMITS.map_points}, got {points}"
-        )
-    if not check_ready(wait=True):
-        raise InvalidValue(
-            "the fast engine is being prepared, which takes a minute or two at the first start: "
-            "try again soon"
         )
     if x.path == y.path:
         raise InvalidValue(f"x and y must be two numbers, got {x.path} twice")

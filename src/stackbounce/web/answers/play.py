@@ -15,7 +15,6 @@ from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from stackbounce.version import __version__
-from stackbounce.web.answers.kernels import check_ready
 from stackbounce.web.limits import LIMITS
 
 __all__ = ["play_drop", "run_drop"]
@@ -28,9 +27,8 @@ _DIGITS = 9  # of a frame's largest number
 
 
 def run_drop(drop: Drop, until: float | None) -> Result:
-    """Return the result of a drop, from compiled kernels if this process has loaded them."""
-    swift = True if check_ready() else None
-    return simulate(drop, until=until, rtol=_RTOL, event_limit=LIMITS.events, compiled=swift)
+    """Return the result of a drop within the limits of a request."""
+    return simulate(drop, until=until, rtol=_RTOL, event_limit=LIMITS.events)
 
 
 def play_drop(drop: Drop, until: float | None, frames: int) -> str:

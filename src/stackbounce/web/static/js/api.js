@@ -36,7 +36,6 @@ async function upload(path, form) {
   return (await ask(path, { method: "POST", body: form })).json();
 }
 
-export const status = () => get("api/status");
 export const catalogue = () => get("api/catalogue");
 export const simulate = (drop, until = null, frames = 1500) =>
   send("api/simulate", { drop, until, frames });

@@ -39,8 +39,8 @@ export function mount(root, store, api) {
     }
     parts.figure.classList.toggle("stale", Boolean(news.problem));
     if (news.problem) {
-      write(parts.message, news.preparing ? `${capital(news.problem)} …` : news.problem);
-      parts.again.hidden = Boolean(news.preparing);
+      write(parts.message, news.problem);
+      parts.again.hidden = false;
     }
   });
   const refresh = () => {

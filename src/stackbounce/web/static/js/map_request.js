@@ -7,23 +7,16 @@ import { depends } from "./map_words.js";
 const COARSE = [24, 18];
 const FINE = [120, 90]; // springs are solved in closed form
 const SLOWER = [60, 45];
-const AGAIN = 1500; // ms until the next try, while the server loads its kernels
-const PREPARING = /being prepared/;
 
 /** Return how many points the last map of a drop has along its sides; `laws` are the catalogue's. */
 export function fineness(drop, laws) {
   return drop.contacts.every(({ law }) => lawOf(laws, law).exact) ? FINE : SLOWER;
 }
 
-/** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, {answer} or {problem, preparing}. */
+/** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, {answer} or {problem}. */
 export function mapper(api, tell) {
   let newest = 0;
-  let ready = false;
   let laws = null;
-  const prepare = async () => {
-    ready ||= (await api.status()).ready;
-    if (!ready) throw new Error("the fast engine is being prepared, which takes a minute or two at the first start");
-  };
   const ask = async (drop, wanted) => {
     newest += 1;
     const mine = newest;
@@ -32,7 +25,6 @@ export function mapper(api, tell) {
       if (mine !== newest) return;
       const settings = complete(wanted, paths, shows, drop);
       tell({ settings, paths, shows });
-      await prepare();
       laws ??= (await api.catalogue()).laws;
       for (const [across, up] of [COARSE, fineness(drop, laws)]) {
         const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
@@ -41,10 +33,7 @@ export function mapper(api, tell) {
         tell({ answer });
       }
     } catch (error) {
-      if (mine !== newest) return;
-      const preparing = PREPARING.test(error.message);
-      tell({ problem: error.message, preparing });
-      if (preparing) setTimeout(() => mine === newest && ask(drop, wanted), AGAIN);
+      if (mine === newest) tell({ problem: error.message });
     }
   };
   return { ask, drop: () => (newest += 1) };

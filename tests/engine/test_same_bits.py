@@ -1,0 +1,140 @@
+"""Plain Python, and the compiled code of every processor level: the same bits of random drops."""
+
+import functools
+import json
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from fuzz.draw import balls_of, drops_of, is_rigid
+from fuzz.replay import drop_of, options_of
+from stackbounce.engine import native
+from stackbounce.engine.batch import Drops, Outcomes, find_ratios
+from stackbounce.engine.tables import Table
+from stackbounce.engine.two_springs import run_two_springs
+from stackbounce.run.engines import FINITE, RIGID
+from stackbounce.run.memory import memory, spring_workspace
+from stackbounce.run.options import Options
+
+SEED = 11
+BATCHES = [batch for batch in range(50) if balls_of(batch) > 1]  # of 2 to 6 balls
+EVENTS = 100  # at most
+TIMES = 20  # of samples
+EACH = 500  # drops of a batch that the processor levels are given
+
+
+def bits(values):
+    """Return the bits of numbers, where all that is not a number is alike."""
+    array = np.asarray(values)
+    if array.dtype.kind == "f":
+        array = np.where(np.isnan(array), np.nan, array)
+    return array.tobytes()
+
+
+def everything(result):
+    """Return the bits of all that is known of a run: its log, its end, and samples."""
+    known = [result.status, result.end_time, result.rebound_speeds, result._rows]
+    if np.isfinite(result.end_time) and result.end_time > 0.0:
+        sample = result.sample(np.linspace(0.0, result.end_time, TIMES))
+        known += [sample[name].values for name in sample.data_vars]
+    return list(map(bits, known))
+
+
+@pytest.mark.parametrize(
+    "drops", [200, pytest.param(2000, marks=pytest.mark.slow)], ids=["few", "many"]
+)
+def test_plain_python_and_compiled_code(drops):
+    share = drops // len(BATCHES)
+    for batch in BATCHES:
+        drawn = drops_of(SEED, batch, share)
+        for row in range(share):
+            drop, options = drop_of(drawn, row), options_of(drawn, row)
+            options["event_limit"] = min(options["event_limit"], EVENTS)
+            one, other = (
+                everything(sb.simulate(drop, **options, compiled=way)) for way in (False, True)
+            )
+            assert one == other, (batch, row)
+
+
+def levels():
+    """Return the processor levels of this machine's library that its processor can run."""
+    library, chosen = native._library()
+    manifest = json.loads((native.FOLDER / native.MANIFEST).read_text("utf-8"))
+    known = manifest["libraries"][native.platform_name()]["levels"]
+    return [level for level in known if level <= chosen], library
+
+
+@pytest.fixture
+def at_level(monkeypatch):
+    """Let one level be chosen."""
+
+    def choose(library, level):
+        monkeypatch.setattr(native, "_library", lambda: (library, level))
+        native.compiled.cache_clear()
+
+    yield choose
+    native.compiled.cache_clear()
+
+
+@functools.cache
+def batches():
+    """Return ten thousand random drops as kernels take them, and how precisely to run them."""
+    found = []
+    for batch in BATCHES[: 10_000 // EACH]:
+        drawn = drops_of(SEED, batch, EACH)
+        kept = [
+            getattr(drawn, "extra" if name == "law_parameter" else name) for name in Drops._fields
+        ]
+        options = Options(np.inf, 1e-6, EVENTS)
+        found.append((RIGID if is_rigid(batch) else FINITE, Drops(*kept), options))
+    return found
+
+
+def empty(drops):
+    """Return room for outcomes."""
+    table = drops.mass.shape
+    return Outcomes(
+        *(np.zeros(table), np.zeros(table), np.zeros(table, np.int64)),
+        *(np.zeros(table), np.zeros(table)),
+        *(np.zeros(table[0]), np.zeros(table[0], np.int64)),
+    )
+
+
+def outcomes():
+    """Return the bits of all outcomes of the drops of `batches`, by the level that is chosen."""
+    told, statuses = [], set()
+    for engine, drops, options in batches():
+        out = empty(drops)
+        memory(engine, drops.mass.shape[1], compiled=True).run_batch(
+            engine.run_batch, drops, options, out
+        )
+        native.compiled(find_ratios)(Table(drops), Table(out))
+        told.append([bits(array) for array in out])
+        statuses |= set(out.status.tolist())
+    assert sb.Status.FINISHED in statuses
+    return told
+
+
+def springs():
+    """Return the bits of the outcomes of ten thousand drops of two balls on springs."""
+    drawn = drops_of(SEED, 0, 10_000)
+    kept = [getattr(drawn, "extra" if name == "law_parameter" else name) for name in Drops._fields]
+    drops = Drops(*kept)._replace(velocity=np.repeat(-np.abs(drawn.velocity[:, :1]), 2, axis=1))
+    out = empty(drops)
+    run = native.compiled(run_two_springs)
+    run(Table(drops), 10_000, Table(out), Table(spring_workspace(compiled=True)))
+    done = out.status == sb.Status.FINISHED
+    assert done.any()
+    return [bits(array[done]) for array in out] + [bits(out.status)]
+
+
+def test_processor_levels(at_level):
+    known, library = levels()
+    if len(known) < 2:
+        pytest.skip("the library of this machine has one level")
+    told = []
+    for level in known:
+        at_level(library, level)
+        told.append((outcomes(), springs()))
+    assert all(one == told[0] for one in told)
