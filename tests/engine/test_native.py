@@ -78,9 +78,21 @@ def another_manifest(folder, _):
     (folder / "manifest.json").write_text('{"sources": 1, "libraries": [2]}')
 
 
+def write_entry(folder, entry):
+    manifest = {"sources": "", "libraries": {native.platform_name(): entry}}
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+
+
+def empty_entry(folder, _):
+    write_entry(folder, {})
+
+
 def half_an_entry(folder, _):
-    libraries = {native.platform_name(): {"file": "x.so"}}
-    (folder / "manifest.json").write_text(json.dumps({"sources": "", "libraries": libraries}))
+    write_entry(folder, {"file": "x.so"})
+
+
+def odd_levels(folder, _):
+    write_entry(folder, {"file": "x.so", "sha256": "", "levels": ["new"]})
 
 
 def truncated(folder, _):
@@ -129,6 +141,8 @@ BAD = {
     no_folder: "was built without compiled code",
     garbage: "manifest.json is damaged: install stackbounce again",
     another_manifest: "manifest.json is damaged: install stackbounce again",
+    empty_entry: "manifest.json is damaged: install stackbounce again",
+    odd_levels: "manifest.json is damaged: install stackbounce again",
     half_an_entry: "manifest.json is damaged: install stackbounce again",
     truncated: "is damaged or foreign: install stackbounce again",
     foreign: "is damaged or foreign: install stackbounce again",
@@ -221,6 +235,7 @@ def site(tmp_path):
         path.chmod(0o755)
 
 
+@pytest.mark.slow
 def test_processes_at_once_without_a_home_write_nothing(site, tmp_path):
     empty = tmp_path / "empty"
     empty.mkdir()

@@ -115,20 +115,24 @@ def _load() -> tuple[Any, str]:
     if not levels:
         return library, ""
     level = _processor_level(library)
-    fitting = [name for name in levels if int(name[1:]) <= level]
+    fitting = [name for name, number in levels.items() if number <= level]
     if not fitting:
+        least = min(levels, key=levels.__getitem__)
         raise _NoLibraryError(
-            f"this processor lacks instructions of x86-64-{levels[0]}: use a newer one"
+            f"this processor lacks instructions of x86-64-{least}: use a newer one"
         )
-    return library, max(fitting)
+    return library, max(fitting, key=levels.__getitem__)
 
 
-def _described(name: str) -> tuple[Path, str, list[str]]:
+def _described(name: str) -> tuple[Path, str, dict[str, int]]:
     """Return path, digest and processor levels of a platform's library, from the manifest."""
+    described = None
     try:
         manifest = json.loads((FOLDER / MANIFEST).read_text("utf-8"))
         built, entry = str(manifest["sources"]), manifest["libraries"].get(name)
-        described = entry and (FOLDER / entry["file"], str(entry["sha256"]), list(entry["levels"]))
+        if entry is not None:
+            levels = {str(level): int(level[1:]) for level in entry["levels"]}
+            described = FOLDER / entry["file"], str(entry["sha256"]), levels
     except FileNotFoundError:
         raise _NoLibraryError(
             "the package was built without compiled code (install a wheel that has it, or run "
