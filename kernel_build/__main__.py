@@ -7,6 +7,7 @@ import os
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from kernel_build.layout import FILE, write_layout
 from kernel_build.targets import TARGETS, WASM
 from stackbounce.engine.native import FOLDER, MANIFEST, digest_of_sources, platform_name
 
@@ -41,7 +42,8 @@ def build(names: list[str], folder: Path) -> None:
         }
         for name, path in zip(names, paths, strict=True)
     }
-    manifest = {"sources": digest_of_sources(), "libraries": libraries}
+    write_layout(folder)
+    manifest = {"sources": digest_of_sources(), "layout": FILE, "libraries": libraries}
     (folder / MANIFEST).write_text(json.dumps(manifest, indent=2) + "\n", "utf-8")
 
 
@@ -53,6 +55,7 @@ def _is_up_to_date(folder: Path, names: list[str]) -> bool:
         return False
     built = manifest.get("libraries", {})
     there = all(name in built and (folder / built[name]["file"]).is_file() for name in names)
+    there = there and (folder / manifest.get("layout", FILE)).is_file()
     return there and manifest.get("sources") == digest_of_sources()
 
 

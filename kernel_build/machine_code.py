@@ -11,6 +11,7 @@ import llvmlite.binding as llvm
 from kernel_build.targets import Target
 
 _PROCESSOR_LEVEL = Path(__file__).with_name("processor_level.c")
+_WINDOWS = Path(__file__).with_name("windows.c")
 _INLINING = 275  # LLVM's threshold at its third level of optimisation
 
 
@@ -27,6 +28,7 @@ def make_library(ir: str, target: Target, folder: Path) -> Path:
     exported: list[str] = []
     with tempfile.TemporaryDirectory() as room:
         parts = [] if "" in target.levels else [_PROCESSOR_LEVEL]
+        parts += [_WINDOWS] if "windows" in target.zig else []
         for level, processor in target.levels.items():
             text = ir.replace("@level@", f"_{level}" if level else "")
             exported += _exported(text)
@@ -71,7 +73,7 @@ def _link(parts: list[Path], exported: list[str], target: Target, path: Path) ->
     shape = ["-shared", "-nostdlib", "-s", "-O1"]
     if target.zig.startswith("wasm"):
         shape = ["-nostdlib", "-Wl,--no-entry", "-Wl,--export-memory", "-s"]
-        shape += [f"-Wl,--export={name}" for name in exported]
+        shape += [f"-Wl,--export={name}" for name in (*exported, "__heap_base")]
     command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *shape]
     done = subprocess.run(
         [*command, *map(str, parts), "-o", str(path)], capture_output=True, text=True, check=False
