@@ -1,6 +1,7 @@
 """From IR to libraries: LLVM optimises and emits, zig's linker links."""
 
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -34,7 +35,9 @@ def make_library(ir: str, target: Target, folder: Path) -> Path:
             exported += _exported(text)
             parts.append(Path(room) / f"kernels{level}.o")
             parts[-1].write_bytes(_emit(text, target, processor))
-        return _link(parts, exported, target, folder / target.file)
+        made = _link(parts, exported, target, Path(room) / target.file)
+        folder.mkdir(parents=True, exist_ok=True)
+        return Path(shutil.copyfile(made, folder / target.file))
 
 
 def _exported(text: str) -> list[str]:
@@ -69,8 +72,9 @@ def _emit(text: str, target: Target, processor: str) -> bytes:
 
 def _link(parts: list[Path], exported: list[str], target: Target, path: Path) -> Path:
     """Link object files and C to a library that needs no other; return its path."""
-    path.parent.mkdir(parents=True, exist_ok=True)
     shape = ["-shared", "-nostdlib", "-s", "-O1"]
+    if target.file.endswith(".dylib"):
+        shape.append(f"-Wl,-install_name,@rpath/{target.file}")
     if target.zig.startswith("wasm"):
         shape = ["-nostdlib", "-Wl,--no-entry", "-Wl,--export-memory", "-s"]
         shape += [f"-Wl,--export={name}" for name in (*exported, "__heap_base")]
@@ -80,6 +84,4 @@ def _link(parts: list[Path], exported: list[str], target: Target, path: Path) ->
     )
     if done.returncode:
         raise RuntimeError(f"the linker failed for {path.name}: {done.stderr.strip()}")
-    for extra in (path.with_suffix(".lib"), path.with_suffix(".pdb")):
-        extra.unlink(missing_ok=True)
     return path
