@@ -57,7 +57,7 @@ class KernelHook(BuildHookInterface[Any]):
         ours = Path(self.root) / BUILT / f"{names[0]}.json"
         ours.parent.mkdir(parents=True, exist_ok=True)
         ours.write_text(json.dumps(manifest, indent=2) + "\n", "utf-8")
-        files = [entry["file"] for entry in manifest["libraries"].values()]
+        files = [entry["file"] for entry in manifest["libraries"].values()] + [manifest["layout"]]
         return {str(folder / file): f"{NATIVE}/{file}" for file in files} | {
             str(ours): f"{NATIVE}/{MANIFEST}"
         }

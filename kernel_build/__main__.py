@@ -11,13 +11,15 @@ import os
 import subprocess
 import sys
 import tempfile
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 
 from kernel_build.targets import TARGETS, WASM
 from stackbounce.engine.native import FOLDER, MANIFEST, digest_of_sources, platform_name
 
 IMPOSSIBLE = 3
+_HALF = ("run_drop", "run_batch")  # entries that take as long to compile as all others
 
 
 def main() -> int:
@@ -46,14 +48,19 @@ def build(names: list[str], folder: Path) -> None:
     Each file appears whole, and the manifest last: whoever reads meanwhile, or builds the same,
     never gets half a file.
     """
-    from kernel_build.lowering import lower
-    from kernel_build.machine_code import make_library
+    from kernel_build.layout import FILE, layout
+    from kernel_build.machine_code import link
     from stackbounce.engine.entries import ENTRIES
 
     sources = digest_of_sources()
-    ir = lower(ENTRIES)
-    with ThreadPoolExecutor(os.cpu_count()) as pool:
-        made = list(pool.map(lambda name: make_library(ir, TARGETS[name]), names))
+    entries = [entry.__name__ for entry in ENTRIES]
+    halves = [name for name in entries if name in _HALF], [e for e in entries if e not in _HALF]
+    with ProcessPoolExecutor(len(halves), mp_context=get_context("spawn")) as pool:
+        parts = list(pool.map(_compile, halves, [names] * len(halves)))
+    with ThreadPoolExecutor(os.cpu_count()) as threads:
+        objects = [[one for part in parts for one in part[name]] for name in names]
+        targets = [TARGETS[name] for name in names]
+        made = list(threads.map(link, objects, [entries] * len(names), targets))
     libraries = {
         name: {
             "file": TARGETS[name].file,
@@ -62,11 +69,27 @@ def build(names: list[str], folder: Path) -> None:
         }
         for name, content in zip(names, made, strict=True)
     }
-    manifest = {"sources": sources, "builder": _digest_of_builder(), "libraries": libraries}
+    manifest = {
+        "sources": sources,
+        "builder": _digest_of_builder(),
+        "layout": FILE,
+        "libraries": libraries,
+    }
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in zip(names, made, strict=True):
         _write(folder / TARGETS[name].file, content)
+    _write(folder / FILE, (json.dumps(layout(), indent=1) + "\n").encode())
     _write(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
+
+
+def _compile(entries: list[str], names: list[str]) -> dict[str, list[bytes]]:
+    """Return the object files of some entries for each target, one for each level."""
+    from kernel_build.lowering import lower
+    from kernel_build.machine_code import compile_levels
+    from stackbounce.engine.entries import ENTRIES
+
+    ir = lower([entry for entry in ENTRIES if entry.__name__ in entries])
+    return {name: compile_levels(ir, TARGETS[name]) for name in names}
 
 
 def _write(path: Path, content: bytes) -> None:

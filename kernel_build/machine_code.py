@@ -1,7 +1,6 @@
 """From IR to libraries: LLVM optimises and emits, zig's linker links."""
 
 import os
-import re
 import subprocess
 import sys
 import tempfile
@@ -12,33 +11,61 @@ import llvmlite.binding as llvm
 from kernel_build.targets import Target
 
 _PROCESSOR_LEVEL = Path(__file__).with_name("processor_level.c")
+_WINDOWS = Path(__file__).with_name("windows.c")
 _INLINING = 275  # LLVM's threshold at its third level of optimisation
 
 
-def make_library(ir: str, target: Target) -> bytes:
-    """Compile the IR of `lowering.lower` for a target; return the library's content.
+def compile_levels(ir: str, target: Target) -> list[bytes]:
+    """Compile the IR of `lowering.lower`; return an object file for each level of a target.
 
     Raises
     ------
     RuntimeError
-        If the machine code needs a function that is not its own, or the linker fails.
+        If the machine code needs a function that is not its own.
     """
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    exported: list[str] = []
+    return [
+        _emit(ir.replace("@level@", f"_{level}" if level else ""), target, processor)
+        for level, processor in target.levels.items()
+    ]
+
+
+def link(objects: list[bytes], entries: list[str], target: Target) -> bytes:
+    """Link object files to a library that exports the entries and needs no other library.
+
+    Nothing is written but to a folder of its own, with zig's cache in it: neither a path nor the
+    time comes into the library.
+
+    Raises
+    ------
+    RuntimeError
+        If the linker fails.
+    """
     with tempfile.TemporaryDirectory() as room:
-        parts = [] if "" in target.levels else [_PROCESSOR_LEVEL]
-        for level, processor in target.levels.items():
-            text = ir.replace("@level@", f"_{level}" if level else "")
-            exported += _exported(text)
-            parts.append(Path(room) / f"kernels{level}.o")
-            parts[-1].write_bytes(_emit(text, target, processor))
-        return _link(parts, exported, target, Path(room))
-
-
-def _exported(text: str) -> list[str]:
-    """Return the names of the functions that IR exports."""
-    return re.findall(r'^define i64 @"?(\w+)"?\(', text, re.MULTILINE)
+        parts = [] if "" in target.levels else [str(_PROCESSOR_LEVEL)]
+        for k, content in enumerate(objects):
+            Path(room, f"{k}.o").write_bytes(content)
+            parts.append(f"{k}.o")
+        shape = ["-shared", "-nostdlib", "-s", "-O1"]
+        if target.file.endswith(".dylib"):
+            shape.append(f"-Wl,-install_name,@rpath/{target.file}")
+        if target.zig.startswith("wasm"):
+            shape = ["-nostdlib", "-Wl,--no-entry", "-Wl,--export-memory", "-s"]
+            shape += [f"-Wl,--export={name}" for name in (*entries, "__heap_base")]
+        command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *shape]
+        caches = {f"ZIG_{which}_CACHE_DIR": str(Path(room, "zig")) for which in ("GLOBAL", "LOCAL")}
+        done = subprocess.run(
+            [*command, *parts, "-o", target.file],
+            capture_output=True,
+            text=True,
+            check=False,
+            cwd=room,
+            env=os.environ | caches,
+        )
+        if done.returncode:
+            raise RuntimeError(f"the linker failed for {target.file}: {done.stderr.strip()}")
+        return Path(room, target.file).read_bytes()
 
 
 def _emit(text: str, target: Target, processor: str) -> bytes:
@@ -64,28 +91,3 @@ def _emit(text: str, target: Target, processor: str) -> bytes:
     if foreign:
         raise RuntimeError(f"kernels call {', '.join(foreign)}, which is no function of their own")
     return bytes(machine.emit_object(module))
-
-
-def _link(parts: list[Path], exported: list[str], target: Target, room: Path) -> bytes:
-    """Link object files and C to a library that needs no other; return its content.
-
-    It is linked in a room of its own, with zig's cache: nothing else is written, and neither a path
-    nor the time comes into the library.
-    """
-    shape = ["-shared", "-nostdlib", "-s", "-O1"]
-    if target.zig.startswith("wasm"):
-        shape = ["-nostdlib", "-Wl,--no-entry", "-Wl,--export-memory", "-s"]
-        shape += [f"-Wl,--export={name}" for name in exported]
-    command = [sys.executable, "-m", "ziglang", "cc", "-target", target.zig, *shape]
-    caches = {f"ZIG_{which}_CACHE_DIR": str(room / "zig") for which in ("GLOBAL", "LOCAL")}
-    done = subprocess.run(
-        [*command, *map(str, parts), "-o", target.file],
-        capture_output=True,
-        text=True,
-        check=False,
-        cwd=room,
-        env=os.environ | caches,
-    )
-    if done.returncode:
-        raise RuntimeError(f"the linker failed for {target.file}: {done.stderr.strip()}")
-    return (room / target.file).read_bytes()

@@ -49,14 +49,14 @@ TARGETS = {
     ),
     "macos-x86_64": Target(
         "x86_64-apple-macosx11.0.0",
-        "x86_64-macos",
+        "x86_64-macos.11.0",
         "macos-x86_64.dylib",
         _X86,
         wheel="macosx_11_0_x86_64",
     ),
     "macos-aarch64": Target(
         "arm64-apple-macosx11.0.0",
-        "aarch64-macos",
+        "aarch64-macos.11.0",
         "macos-aarch64.dylib",
         {"": "apple-m1"},
         wheel="macosx_11_0_arm64",

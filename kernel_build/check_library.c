@@ -1,0 +1,72 @@
+/* Call the kernels of a library on the memory in a file: check_library LIBRARY SUFFIX BEFORE AFTER
+
+   The file has words of 64 bits, little-endian: the numbers of addresses, calls and words of memory;
+   then the places of the addresses in memory; the calls, each an entry and eight arguments; and the
+   memory. Addresses are offsets in bytes. The memory after the calls is written to another file. */
+
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#ifdef _WIN32
+#include <windows.h>
+#define OPEN(name) LoadLibraryA(name)
+#define FIND(library, name) (void *)GetProcAddress(library, name)
+typedef HMODULE Library;
+#else
+#include <dlfcn.h>
+#define OPEN(name) dlopen(name, RTLD_NOW)
+#define FIND(library, name) dlsym(library, name)
+typedef void *Library;
+#endif
+
+enum { ARGUMENTS = 8, LINE = 64 };
+static const char *const entries[] = {"run_batch", "run_rigid_batch", "run_two_springs", "find_ratios"};
+typedef int64_t Batch(void *, void *, void *, void *, double, double, int64_t, void *);
+typedef int64_t Springs(void *, int64_t, void *, void *);
+typedef int64_t Ratios(void *, void *);
+
+static double real(int64_t word) {
+  double value;
+  memcpy(&value, &word, sizeof value);
+  return value;
+}
+
+static int64_t *words(FILE *file, int64_t count) {
+  char *room = calloc((size_t)count * 8 + LINE, 1);
+  int64_t *first = (int64_t *)(room + LINE - (uintptr_t)room % LINE);
+  if (!room || fread(first, 8, (size_t)count, file) != (size_t)count) exit(3);
+  return first;
+}
+
+int main(int count, char **given) {
+  if (count != 5) return 2;
+  Library library = OPEN(given[1]);
+  FILE *file = fopen(given[3], "rb");
+  if (!library || !file) return 2;
+  int64_t *sizes = words(file, 3), *places = words(file, sizes[0]);
+  int64_t *calls = words(file, sizes[1] * (1 + ARGUMENTS)), *memory = words(file, sizes[2]);
+  char *begin = (char *)memory;
+  for (int64_t k = 0; k < sizes[0]; k++) memory[places[k]] += (int64_t)(intptr_t)begin;
+  for (int64_t k = 0; k < sizes[1]; k++) {
+    const int64_t entry = calls[k * (1 + ARGUMENTS)], *a = calls + k * (1 + ARGUMENTS) + 1;
+    char name[64];
+    snprintf(name, sizeof name, "%s%s", entries[entry], given[2]);
+    void *found = FIND(library, name);
+    if (!found) return 4;
+    int64_t answer;
+    if (entry < 2)
+      answer = ((Batch *)found)(begin + a[0], begin + a[1], begin + a[2], begin + a[3], real(a[4]),
+                                real(a[5]), a[6], begin + a[7]);
+    else if (entry == 2)
+      answer = ((Springs *)found)(begin + a[0], a[1], begin + a[2], begin + a[3]);
+    else
+      answer = ((Ratios *)found)(begin + a[0], begin + a[1]);
+    if (answer < 0) return 5;
+  }
+  for (int64_t k = 0; k < sizes[0]; k++) memory[places[k]] -= (int64_t)(intptr_t)begin;
+  FILE *out = fopen(given[4], "wb");
+  if (!out || fwrite(memory, 8, (size_t)sizes[2], out) != (size_t)sizes[2]) return 6;
+  return fclose(out) ? 6 : 0;
+}
