@@ -5,21 +5,15 @@ is not in `targets`, or without numba or zig.
 """
 
 import argparse
-import hashlib
-import json
-import os
 import subprocess
 import sys
-import tempfile
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
-from multiprocessing import get_context
 from pathlib import Path
 
+from kernel_build.build import build, is_up_to_date
 from kernel_build.targets import TARGETS, WASM
-from stackbounce.engine.native import FOLDER, MANIFEST, digest_of_sources, platform_name
+from stackbounce.engine.native import FOLDER, platform_name
 
 IMPOSSIBLE = 3
-_HALF = ("run_drop", "run_batch")  # entries that take as long to compile as all others
 
 
 def main() -> int:
@@ -33,100 +27,13 @@ def main() -> int:
     if given.platform not in TARGETS and not given.all:
         return _impossible(f"kernels are not compiled for {given.platform}")
     names = list(TARGETS) if given.all else list(dict.fromkeys((given.platform, WASM)))
-    if given.force or not _is_up_to_date(given.folder, names):
+    if given.force or not is_up_to_date(given.folder, names):
         missing = _missing_tool()
         if missing:
             return _impossible(missing)
         print("Compiling the kernels: a minute or two", flush=True)  # noqa: T201
         build(names, given.folder)
     return 0
-
-
-def build(names: list[str], folder: Path) -> None:
-    """Write the libraries of some targets, and a manifest, to a folder.
-
-    Each file appears whole, and the manifest last: whoever reads meanwhile, or builds the same,
-    never gets half a file.
-    """
-    from kernel_build.layout import FILE, layout
-    from kernel_build.machine_code import link
-    from stackbounce.engine.entries import ENTRIES
-
-    sources = digest_of_sources()
-    entries = [entry.__name__ for entry in ENTRIES]
-    halves = [name for name in entries if name in _HALF], [e for e in entries if e not in _HALF]
-    with ProcessPoolExecutor(len(halves), mp_context=get_context("spawn")) as pool:
-        parts = list(pool.map(_compile, halves, [names] * len(halves)))
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        objects = [[one for part in parts for one in part[name]] for name in names]
-        targets = [TARGETS[name] for name in names]
-        made = list(threads.map(link, objects, [entries] * len(names), targets))
-    libraries = {
-        name: {
-            "file": TARGETS[name].file,
-            "sha256": hashlib.sha256(content).hexdigest(),
-            "levels": [level for level in TARGETS[name].levels if level],
-        }
-        for name, content in zip(names, made, strict=True)
-    }
-    manifest = {
-        "sources": sources,
-        "builder": _digest_of_builder(),
-        "layout": FILE,
-        "libraries": libraries,
-    }
-    folder.mkdir(parents=True, exist_ok=True)
-    for name, content in zip(names, made, strict=True):
-        _write(folder / TARGETS[name].file, content)
-    _write(folder / FILE, (json.dumps(layout(), indent=1) + "\n").encode())
-    _write(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
-
-
-def _compile(entries: list[str], names: list[str]) -> dict[str, list[bytes]]:
-    """Return the object files of some entries for each target, one for each level."""
-    from kernel_build.lowering import lower
-    from kernel_build.machine_code import compile_levels
-    from stackbounce.engine.entries import ENTRIES
-
-    ir = lower([entry for entry in ENTRIES if entry.__name__ in entries])
-    return {name: compile_levels(ir, TARGETS[name]) for name in names}
-
-
-def _write(path: Path, content: bytes) -> None:
-    """Write a file that is there as a whole or not at all."""
-    with tempfile.NamedTemporaryFile(dir=path.parent, prefix=f".{path.name}.", delete=False) as new:
-        new.write(content)
-    written = Path(new.name)
-    try:
-        written.chmod(0o644)
-        written.replace(path)
-    except BaseException:
-        written.unlink(missing_ok=True)
-        raise
-
-
-def _is_up_to_date(folder: Path, names: list[str]) -> bool:
-    """Return whether a folder has the libraries, made of the present sources by this folder."""
-    try:
-        manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
-        libraries = [manifest["libraries"][name] for name in names]
-        whole = all(
-            hashlib.sha256((folder / library["file"]).read_bytes()).hexdigest() == library["sha256"]
-            for library in libraries
-        )
-        made_of = manifest["sources"], manifest["builder"]
-    except (OSError, ValueError, KeyError, TypeError):
-        return False
-    return whole and made_of == (digest_of_sources(), _digest_of_builder())
-
-
-def _digest_of_builder() -> str:
-    """Return a hash of the files in this folder."""
-    digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.[pc]*")):
-        if source.is_file():
-            digest.update(source.name.encode() + b"\0" + source.read_bytes() + b"\0")
-    return digest.hexdigest()
 
 
 def _missing_tool() -> str:
