@@ -4,22 +4,11 @@
    then the places of the addresses in memory; the calls, each an entry and eight arguments; and the
    memory. Addresses are offsets in bytes. The memory after the calls is written to another file. */
 
+#include <dlfcn.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#ifdef _WIN32
-#include <windows.h>
-#define OPEN(name) LoadLibraryA(name)
-#define FIND(library, name) (void *)GetProcAddress(library, name)
-typedef HMODULE Library;
-#else
-#include <dlfcn.h>
-#define OPEN(name) dlopen(name, RTLD_NOW)
-#define FIND(library, name) dlsym(library, name)
-typedef void *Library;
-#endif
 
 enum { ARGUMENTS = 8, LINE = 64 };
 static const char *const entries[] = {"run_batch", "run_rigid_batch", "run_two_springs", "find_ratios"};
@@ -42,7 +31,7 @@ static int64_t *words(FILE *file, int64_t count) {
 
 int main(int count, char **given) {
   if (count != 5) return 2;
-  Library library = OPEN(given[1]);
+  void *library = dlopen(given[1], RTLD_NOW);
   FILE *file = fopen(given[3], "rb");
   if (!library || !file) return 2;
   int64_t *sizes = words(file, 3), *places = words(file, sizes[0]);
@@ -53,7 +42,7 @@ int main(int count, char **given) {
     const int64_t entry = calls[k * (1 + ARGUMENTS)], *a = calls + k * (1 + ARGUMENTS) + 1;
     char name[64];
     snprintf(name, sizeof name, "%s%s", entries[entry], given[2]);
-    void *found = FIND(library, name);
+    void *found = dlsym(library, name);
     if (!found) return 4;
     int64_t answer;
     if (entry < 2)

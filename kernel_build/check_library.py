@@ -40,7 +40,7 @@ _ARGUMENTS = 8
 _WORD, _LINE = 8, 8  # bytes of a word, words of a cache line
 _LIMIT, _RTOL = 300, 1e-9
 _PROGRAM = Path(__file__).with_suffix(".c")
-_C = {"windows-x86_64": "x86_64-windows-gnu", "linux-aarch64": "aarch64-linux-gnu.2.28"}
+_C = {"linux-x86_64": "x86_64-linux-gnu.2.28", "linux-aarch64": "aarch64-linux-gnu.2.28"}
 
 
 class Image:

@@ -51,10 +51,10 @@ class Engine {
   simulate(drop, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, times = [] } = {}) {
     const { stages, after, statuses, counter, sizes } = this.layout;
     const balls = drop.mass.length;
-    const { stack, space, one } = this.stack(drop.rigid, balls);
+    const { stack, space, one, none } = this.stack(drop.rigid, balls);
     this.put(one, { ...drop, gravity: [drop.gravity] });
     return this.room.lend((room) => {
-      const samples = room.make("Samples", { balls, times: times.length });
+      const samples = times.length ? room.make("Samples", { balls, times: times.length }) : none;
       for (const name of Object.keys(samples.arrays)) room.floats(samples, name).fill(0);
       room.floats(samples, "time").set(times);
       const entry = drop.rigid ? "run_rigid_drop" : "run_drop";
@@ -226,7 +226,9 @@ class Room {
   read(record, name) {
     const { at, length, whole } = record.arrays[name];
     if (!whole) return this.f64.slice(at, at + length);
-    return Int32Array.from({ length }, (_, k) => this.i32[2 * (at + k)]);
+    const numbers = new Int32Array(length);
+    for (let k = 0; k < length; k += 1) numbers[k] = this.i32[2 * (at + k)];
+    return numbers;
   }
 
   readAll(record) {
