@@ -28,13 +28,10 @@ def build(names: list[str], folder: Path) -> None:
 
     sources = digest_of_sources()
     entries = [entry.__name__ for entry in ENTRIES]
-    halves = [name for name in entries if name in _HALF], [e for e in entries if e not in _HALF]
-    with ProcessPoolExecutor(len(halves), mp_context=get_context("spawn")) as pool:
-        parts = list(pool.map(_compile, halves, [names] * len(halves)))
-    with ThreadPoolExecutor(os.cpu_count()) as threads:
-        objects = [[one for part in parts for one in part[name]] for name in names]
-        targets = [TARGETS[name] for name in names]
-        made = list(threads.map(link, objects, [entries] * len(names), targets))
+    objects = compile_entries(entries, names)
+    targets = [TARGETS[name] for name in names]
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
+        made = list(pool.map(link, objects, [entries] * len(names), targets))
     libraries = {
         name: {
             "file": TARGETS[name].file,
@@ -56,14 +53,23 @@ def build(names: list[str], folder: Path) -> None:
     _write(folder / MANIFEST, (json.dumps(manifest, indent=2) + "\n").encode())
 
 
-def _compile(entries: list[str], names: list[str]) -> dict[str, list[bytes]]:
+def compile_entries(entries: list[str], names: list[str]) -> list[list[bytes]]:
+    """Return the object files for each target; two processes compile half of the entries each."""
+    halves = [one for one in entries if one in _HALF], [one for one in entries if one not in _HALF]
+    os.environ["PYTHONHASHSEED"] = "0"  # numba writes what it keeps in sets in another order else
+    with ProcessPoolExecutor(len(halves), mp_context=get_context("spawn")) as pool:
+        parts = list(pool.map(_compile, halves, [names] * len(halves)))
+    return [[one for part in parts for one in part[k]] for k in range(len(names))]
+
+
+def _compile(entries: list[str], names: list[str]) -> list[list[bytes]]:
     """Return the object files of some entries for each target, one for each level."""
     from kernel_build.lowering import lower
     from kernel_build.machine_code import compile_levels
     from stackbounce.engine.entries import ENTRIES
 
     ir = lower([entry for entry in ENTRIES if entry.__name__ in entries])
-    return {name: compile_levels(ir, TARGETS[name]) for name in names}
+    return [compile_levels(ir, TARGETS[name]) for name in names]
 
 
 def _write(path: Path, content: bytes) -> None:
@@ -84,7 +90,7 @@ def is_up_to_date(folder: Path, names: list[str]) -> bool:
     try:
         manifest = json.loads((folder / MANIFEST).read_text("utf-8"))
         libraries = [manifest["libraries"][name] for name in names]
-        whole = all(
+        whole = (folder / manifest["layout"]).is_file() and all(
             hashlib.sha256((folder / library["file"]).read_bytes()).hexdigest() == library["sha256"]
             for library in libraries
         )

@@ -44,6 +44,8 @@ def link(objects: list[bytes], entries: list[str], target: Target) -> bytes:
     """
     with tempfile.TemporaryDirectory() as room:
         parts = [] if "" in target.levels else [str(_PROCESSOR_LEVEL)]
+        if target.file.endswith(".dll"):
+            parts.append(str(_WINDOWS))
         for k, content in enumerate(objects):
             Path(room, f"{k}.o").write_bytes(content)
             parts.append(f"{k}.o")

@@ -10,8 +10,9 @@ from types import SimpleNamespace
 
 import hatch_build
 import pytest
-from kernel_build import __main__ as builder
-from kernel_build import lowering, machine_code
+from kernel_build import __main__ as command
+from kernel_build import build as builder
+from kernel_build import machine_code
 from kernel_build.targets import TARGETS, WASM
 
 from stackbounce.engine import native
@@ -23,8 +24,8 @@ NAMES = ["linux-x86_64", WASM]
 @pytest.fixture
 def quick(monkeypatch):
     """Let libraries be long files of nothing, quick to make."""
-    monkeypatch.setattr(lowering, "lower", lambda _: "")
-    monkeypatch.setattr(machine_code, "make_library", lambda _, t: t.file.encode() * 100_000)
+    monkeypatch.setattr(builder, "compile_entries", lambda _, names: [[b""]] * len(names))
+    monkeypatch.setattr(machine_code, "link", lambda *_: _[-1].file.encode() * 100_000)
 
 
 def test_the_tools_have_the_versions_of_the_constraints():
@@ -38,16 +39,16 @@ def test_the_tools_have_the_versions_of_the_constraints():
 
 @pytest.mark.usefixtures("quick")
 def test_a_build_is_up_to_date_until_something_changes(tmp_path, monkeypatch):
-    assert not builder._is_up_to_date(tmp_path, NAMES)
+    assert not builder.is_up_to_date(tmp_path, NAMES)
     builder.build(NAMES, tmp_path)
-    assert builder._is_up_to_date(tmp_path, NAMES)
-    assert not builder._is_up_to_date(tmp_path, [*NAMES, "macos-aarch64"])
+    assert builder.is_up_to_date(tmp_path, NAMES)
+    assert not builder.is_up_to_date(tmp_path, [*NAMES, "macos-aarch64"])
     for digest in ("digest_of_sources", "_digest_of_builder"):
         with monkeypatch.context() as patch:
             patch.setattr(builder, digest, lambda: "another")
-            assert not builder._is_up_to_date(tmp_path, NAMES)
+            assert not builder.is_up_to_date(tmp_path, NAMES)
     (tmp_path / "engine.wasm").write_bytes(b"")
-    assert not builder._is_up_to_date(tmp_path, NAMES)
+    assert not builder.is_up_to_date(tmp_path, NAMES)
 
 
 @pytest.mark.usefixtures("quick")
@@ -67,14 +68,14 @@ def test_builds_at_once_never_show_half_a_file(tmp_path):
 
 def test_what_cannot_be_compiled_is_said_in_a_line(monkeypatch, tmp_path, capsys):
     monkeypatch.setattr(sys, "argv", ["", "--platform", "sunos-sparc"])
-    assert builder.main() == builder.IMPOSSIBLE
+    assert command.main() == command.IMPOSSIBLE
     monkeypatch.setattr(sys, "argv", ["", "--folder", str(tmp_path)])
     monkeypatch.setitem(sys.modules, "numba", None)
-    assert builder.main() == builder.IMPOSSIBLE
+    assert command.main() == command.IMPOSSIBLE
     monkeypatch.undo()
     monkeypatch.setattr(sys, "argv", ["", "--folder", str(tmp_path)])
     monkeypatch.setattr(sys, "executable", "no-such-python")
-    assert builder.main() == builder.IMPOSSIBLE
+    assert command.main() == command.IMPOSSIBLE
     platform, numba, zig = capsys.readouterr().err.splitlines()
     assert platform == "kernels are not compiled for sunos-sparc; drops run as plain Python"
     assert numba.startswith("compiling kernels needs numba: ")
@@ -151,11 +152,11 @@ def test_an_installation_of_the_sources_takes_their_folder(monkeypatch):
 
 
 def test_where_nothing_can_be_compiled_the_wheel_is_pure(monkeypatch):
-    hook, _ = hook_with(monkeypatch, builder.IMPOSSIBLE)
+    hook, _ = hook_with(monkeypatch, command.IMPOSSIBLE)
     assert put(hook)[0] == {"force_include": {}}
 
 
-@pytest.mark.parametrize(("status", "platform"), [(1, ""), (builder.IMPOSSIBLE, "macos-aarch64")])
+@pytest.mark.parametrize(("status", "platform"), [(1, ""), (command.IMPOSSIBLE, "macos-aarch64")])
 def test_a_failure_ends_the_build(status, platform, monkeypatch):
     hook, _ = hook_with(monkeypatch, status, platform)
     with pytest.raises(Aborted, match="the kernels could not be compiled for"):

@@ -1,8 +1,10 @@
 """The solvers: functions on numbers and flat arrays that never raise and return a status.
 
 ============= =====================================================================
-compiler      marks kernels: plain Python for a few drops, compiled by numba for many
-structure     how compiled kernels access a stack's arrays
+kernels       marks kernels: plain Python that is compiled when the package is built
+tables        how a compiled kernel receives a record of arrays: by one address
+entries       the kernels that the compiled code offers
+native        loads the compiled code of this machine
 codes         integer codes of statuses, phases and events
 slots         names of the slots of a stack's small arrays
 stack         the arrays that hold a stack of balls
@@ -21,7 +23,7 @@ contacts      force curves, and how events change them
 next_event    the next event of a contact, from rigorous bounds that miss no event
 rest          when balls on finite contacts have come to rest under gravity
 simultaneous  the event loop of a stack with finite contacts
-batch         many drops one after the other in the arrays of one stack
+batch         one drop, or many one after the other, in the arrays of one stack
 two_springs   two balls on springs without gravity: many drops, fast
 lockstep      one step of many drops of two balls on springs at the same time
 elementary    exponential, logarithm, power, sine and cosine, the same bits on every system
