@@ -7,7 +7,6 @@
 `machine_code`  IR -> optimised object files, by llvmlite -> a library, by zig's linker
 `layout`        `layout.json`: records, entries and codes, for callers in other languages
 `build`         all of that, for some targets, and a manifest of the libraries
-`layout`        what a caller in another language must know of the kernels: `layout.json`
 `jit`           compiles any kernel for the tests and benchmarks of this machine
 `check_library` compares a library for another processor, run by an emulator
 =============== ==============================================================================

@@ -54,7 +54,7 @@ def test_a_build_is_up_to_date_until_something_changes(tmp_path, monkeypatch):
 @pytest.mark.usefixtures("quick")
 def test_builds_at_once_never_show_half_a_file(tmp_path):
     """Two threads build the same while another one reads."""
-    names = ["manifest.json", *(TARGETS[name].file for name in NAMES)]
+    names = ["layout.json", "manifest.json", *(TARGETS[name].file for name in NAMES)]
     builder.build(NAMES, tmp_path)
     whole = {name: (tmp_path / name).read_bytes() for name in names}
     with ThreadPoolExecutor(2) as pool:
@@ -124,7 +124,7 @@ def test_a_wheel_of_this_machine_has_its_library_and_that_of_browsers(monkeypatc
     assert (data["pure_python"], data["tag"]) == (False, f"py3-none-{target.wheel}")
     prefix = "stackbounce/engine/native/"
     manifest = json.loads(files.pop(f"{prefix}manifest.json").read_text())
-    assert set(files) == {f"{prefix}{target.file}", f"{prefix}engine.wasm"}
+    assert set(files) == {f"{prefix}{name}" for name in (target.file, "engine.wasm", "layout.json")}
     assert manifest["sources"] == native.digest_of_sources()
     for entry in manifest["libraries"].values():
         content = files[prefix + entry["file"]].read_bytes()
