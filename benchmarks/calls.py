@@ -33,6 +33,7 @@ LAWS = {
 }
 """The law of both contacts, in Python."""
 
+HEADS = ["law", "kernel (µs)", "whole (µs)", "plain (µs)", "plain/whole", "first sweep (s)"]
 _ROUNDS = 6
 _FIRST = (
     "import numpy, stackbounce as sb; "
@@ -94,25 +95,29 @@ def _ratios(drop: sb.Drop, compiled: bool | None) -> object:
     return sb.simulate(drop, compiled=compiled).rebound_ratios
 
 
+def rows(calls: list[Call], sweeps: dict[str, float]) -> list[list[str]]:
+    """Return rows of text: times of calls in µs, their ratio, and of first sweeps in s."""
+    return [
+        [
+            one.law,
+            *(f"{1e6 * seconds:.1f}" for seconds in (one.kernel, one.whole, one.plain)),
+            f"{one.plain / one.whole:.0f}",
+            f"{sweeps[one.law]:.2f}",
+        ]
+        for one in calls
+    ]
+
+
 def main() -> None:
     """Measure and print."""
     console = Console(highlight=False)
     with console.status("starting") as status:
-        calls, sweeps = measure(status.update), first_sweeps(status.update)
+        found = measure(status.update), first_sweeps(status.update)
     table = Table(title="One call, two balls, rtol 1e-12", title_justify="left", box=None)
-    for head in (
-        "law",
-        "kernel (µs)",
-        "whole (µs)",
-        "plain (µs)",
-        "plain/whole",
-        "first sweep (s)",
-    ):
-        table.add_column(head, justify="left" if head == "law" else "right")
-    for one in calls:
-        times = [f"{1e6 * seconds:.1f}" for seconds in (one.kernel, one.whole, one.plain)]
-        ratio = f"{one.plain / one.whole:.0f}"
-        table.add_row(one.law, *times, ratio, f"{sweeps[one.law]:.2f}")
+    for head in HEADS:
+        table.add_column(head, justify="left" if head == HEADS[0] else "right")
+    for row in rows(*found):
+        table.add_row(*row)
     console.print(table)
 
 
