@@ -22,7 +22,7 @@ from stackbounce.engine import batch, codes, forces, slots, two_springs
 from stackbounce.engine.batch import Drops, Outcomes, Workspace
 from stackbounce.engine.codes import LOG_COLUMNS
 from stackbounce.engine.entries import ENTRIES, signature
-from stackbounce.engine.kernels import FloatTable, Integers, IntegerTable
+from stackbounce.engine.kernels import FloatTable, IntegerColumn, Integers, IntegerTable
 from stackbounce.engine.stack import (
     RigidStack,
     Samples,
@@ -80,7 +80,7 @@ def _numbered(names: str) -> dict[str, int]:
 
 
 def _field(name: str, kind: Any, rows: Terms, columns: Terms) -> dict[str, Any]:
-    number = "int" if kind in (Integers, IntegerTable) else "float"
+    number = "int" if kind in (Integers, IntegerColumn, IntegerTable) else "float"
     return {"name": name, "kind": number, "rows": rows, "columns": columns}
 
 

@@ -56,7 +56,7 @@ def test_without_compiled_code_all_runs_as_plain_python(request):
     drops = (SPRINGS, HERTZ, STONES)
     before = [(sb.simulate(drop).rebound_speeds.tolist(), masses(drop)) for drop in drops]
     request.getfixturevalue("nothing_compiled")
-    with pytest.warns(native.NoCompiledCode, match="runs as plain Python.*: there is none$"):
+    with pytest.warns(native.NoCompiledCode, match="run as plain Python.*: there is none$"):
         assert choose_compiled(None) is False
     assert [(sb.simulate(drop).rebound_speeds.tolist(), masses(drop)) for drop in drops] == before
     with pytest.raises(InvalidValue, match="compiled must be False or None here: there is none"):
