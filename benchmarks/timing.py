@@ -15,7 +15,7 @@ def best(
     rounds: int = 4,
     least: float = 0.01,
 ) -> list[float]:
-    """Return the shortest time in s of each call. All should have been called before, to compile.
+    """Return the shortest time in s of each call. Call all of them once before.
 
     Parameters
     ----------
