@@ -17,11 +17,11 @@ from rich.table import Table
 
 import stackbounce as sb
 from benchmarks.timing import best
-from stackbounce.engine.batch import BEGIN_WITH_PEAKS
-from stackbounce.run.columns import drop_numbers
+from stackbounce.engine.records import BEGIN_WITH_PEAKS
 from stackbounce.run.engines import choose_engine
 from stackbounce.run.memory import memory
 from stackbounce.run.options import run_options
+from stackbounce.run.parameters import drop_numbers
 
 LAWS = {
     "springs": "Spring(2500.0)",
@@ -59,12 +59,11 @@ def measure(progress: Callable[[str], None], rounds: int = _ROUNDS) -> list[Call
         contact = eval(f"sb.{law}")
         drop = sb.Drop([sb.Ball(0.6), sb.Ball(0.06)], [contact, contact], impact_speed=3.0)
         room = memory(choose_engine(drop), 2, compiled=True)
-        kernel = room.kernel(choose_engine(drop).run_drop, room.samples(()))
         options = run_options(drop, None, 1e-12, 1_000_000)
         numbers = drop_numbers(drop)
         room.put(numbers)
         calls += [
-            partial(_run_kernel, room.put, numbers, partial(kernel, BEGIN_WITH_PEAKS, *options)),
+            partial(_run_kernel, room.put, numbers, partial(room.run, BEGIN_WITH_PEAKS, *options)),
             partial(_ratios, drop, None),
             partial(_ratios, drop, False),
         ]

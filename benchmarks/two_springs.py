@@ -13,9 +13,8 @@ from rich.console import Console
 
 from benchmarks.random_drops import random
 from stackbounce.engine import codes, native
-from stackbounce.engine.batch import Drops, Outcomes
+from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.run.memory import spring_workspace
 
 _LIMIT = 10**6
@@ -37,7 +36,7 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
     pairs = [np.empty(table) for _ in range(4)]
     collisions, status = np.empty(table, np.int64), np.empty(count, np.int64)
     out = Outcomes(*pairs[:2], collisions, *pairs[2:], np.empty(count), status)
-    solve = native.compiled(run_two_springs)
+    solve = native.compiled("run_two_springs")
     given = Table(drops), _LIMIT, Table(out), Table(spring_workspace(compiled=True))
 
     def call() -> None:

@@ -4,9 +4,11 @@ import hashlib
 import json
 import os
 import tempfile
+from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
+from typing import Any
 
 from kernel_build.targets import TARGETS
 from stackbounce.engine.native import MANIFEST, digest_of_sources
@@ -24,10 +26,13 @@ def build(names: list[str], folder: Path) -> None:
     """
     from kernel_build.layout import FILE, layout
     from kernel_build.machine_code import link
+    from stackbounce.engine.codes import FORMS
     from stackbounce.engine.entries import ENTRIES
+    from stackbounce.engine.forces import check_form
 
-    sources = digest_of_sources()
-    entries = [entry.__name__ for entry in ENTRIES]
+    for form in FORMS.values():
+        check_form(form)
+    sources, entries = digest_of_sources(), list(ENTRIES)
     objects = compile_entries(entries, names)
     targets = [TARGETS[name] for name in names]
     with ThreadPoolExecutor(os.cpu_count()) as pool:
@@ -44,6 +49,7 @@ def build(names: list[str], folder: Path) -> None:
         "sources": sources,
         "builder": _digest_of_builder(),
         "layout": FILE,
+        "entries": {name: _kinds(entry) for name, entry in ENTRIES.items()},
         "libraries": libraries,
     }
     folder.mkdir(parents=True, exist_ok=True)
@@ -68,8 +74,16 @@ def _compile(entries: list[str], names: list[str]) -> list[list[bytes]]:
     from kernel_build.machine_code import compile_levels
     from stackbounce.engine.entries import ENTRIES
 
-    ir = lower([entry for entry in ENTRIES if entry.__name__ in entries])
+    ir = lower([ENTRIES[name] for name in entries])
     return [compile_levels(ir, TARGETS[name]) for name in names]
+
+
+def _kinds(entry: Callable[..., Any]) -> list[str]:
+    """Return what an entry takes: records, floats and integers."""
+    from stackbounce.engine.entries import signature
+
+    scalars = {float: "float", int: "int"}
+    return [scalars.get(kind, "record") for kind in signature(entry).arguments]
 
 
 def _write(path: Path, content: bytes) -> None:

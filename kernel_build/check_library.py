@@ -16,7 +16,6 @@ import struct
 import subprocess
 import sys
 import tempfile
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -25,17 +24,11 @@ import numpy as np
 from fuzz import draw
 from kernel_build.targets import TARGETS
 from stackbounce.engine import codes, native
-from stackbounce.engine.batch import Drops, Outcomes, find_ratios, run_batch, run_rigid_batch
-from stackbounce.engine.two_springs import run_two_springs
+from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.run.engines import FINITE, RIGID
 from stackbounce.run.memory import memory, spring_workspace
 
-_ENTRIES: tuple[Callable[..., Any], ...] = (
-    run_batch,
-    run_rigid_batch,
-    run_two_springs,
-    find_ratios,
-)
+_ENTRIES = ("run_batch", "run_rigid_batch", "run_two_springs", "find_ratios")
 _ARGUMENTS = 8
 _WORD, _LINE = 8, 8  # bytes of a word, words of a cache line
 _LIMIT, _RTOL = 300, 1e-9
@@ -60,7 +53,7 @@ class Image:
         self.places += range(begin // _WORD, begin // _WORD + 3 * len(rows), 3)
         return begin
 
-    def call(self, entry: Callable[..., Any], *arguments: float) -> None:
+    def call(self, entry: str, *arguments: float) -> None:
         """Add a call of an entry with records, given by where they are, and numbers."""
         words = [_bits(value) if isinstance(value, float) else value for value in arguments]
         words += [0] * (_ARGUMENTS - len(words))
@@ -103,9 +96,9 @@ def random_image(batch: int, count: int) -> Image:
     drops = image.record(Drops._make(getattr(drawn, name) for name in names))
     out = image.record(_outcomes(count, balls))
     none = image.record(room.no_samples.record)
-    entry = run_rigid_batch if rigid else run_batch
+    entry = engine.run_batch
     image.call(entry, stack, space, drops, none, math.inf, _RTOL, _LIMIT, out)
-    image.call(find_ratios, drops, out)
+    image.call("find_ratios", drops, out)
     return image
 
 
@@ -119,8 +112,8 @@ def springs_image(count: int) -> Image:
     image = Image()
     drops, out = image.record(numbers), image.record(_outcomes(count, 2))
     space = image.record(spring_workspace(compiled=True))
-    image.call(run_two_springs, drops, _LIMIT, out, space)
-    image.call(find_ratios, drops, out)
+    image.call("run_two_springs", drops, _LIMIT, out, space)
+    image.call("find_ratios", drops, out)
     return image
 
 

@@ -18,11 +18,11 @@ The rows and columns of an array are sums of products of sizes: ``{"": 3, "balls
 from collections.abc import Callable, Sequence
 from typing import Any, get_type_hints
 
-from stackbounce.engine import batch, codes, forces, slots, two_springs
-from stackbounce.engine.batch import Drops, Outcomes, Workspace
-from stackbounce.engine.codes import LOG_COLUMNS
+from stackbounce.engine import codes, records, slots, two_springs
+from stackbounce.engine.codes import FORMS, LOG_COLUMNS
 from stackbounce.engine.entries import ENTRIES, signature
 from stackbounce.engine.kernels import FloatTable, IntegerColumn, Integers, IntegerTable
+from stackbounce.engine.records import Drops, Outcomes, Workspace
 from stackbounce.engine.stack import (
     RigidStack,
     Samples,
@@ -36,7 +36,6 @@ FILE = "layout.json"
 _LOG_ROWS = 512  # besides one for each ball
 _STATUSES = "RUNNING FINISHED SETTLED COLLAPSED TIME_REACHED EVENT_LIMIT INVALID ASK"
 _EVENTS = "TOUCH RELEASE COLLISION PEAK DIP LINEARISED CURVED RELOADED CLIPPED RESUMED JOINED"
-_FORMS = "ABSENT POWER HYSTERETIC LOSSY DASHPOT VISCOELASTIC HUNT_CROSSLEY HARDENING RIGID"
 _COLUMNS = "TIME CONTACT KIND LOWER_VELOCITY UPPER_VELOCITY START PEAK_FORCE PEAK_COMPRESSION"
 
 _TRIALS = ((1, 1), (2, 1), (1, 2), (2, 2), (5, 7))  # balls and times
@@ -48,8 +47,8 @@ def layout() -> dict[str, Any]:
     """Return what `layout.json` says."""
     return {
         "entries": {
-            entry.__name__: [kind.__name__ for kind in signature(entry).arguments]
-            for entry in ENTRIES
+            name: [kind.__name__ for kind in signature(entry).arguments]
+            for name, entry in ENTRIES.items()
         },
         "records": {
             "Stack": _fields(Stack, lambda balls, _: new_stack(balls)),
@@ -61,22 +60,20 @@ def layout() -> dict[str, Any]:
         },
         "sizes": {"scratch": two_springs.SCRATCH, "log_columns": LOG_COLUMNS},
         "stages": {
-            name: getattr(batch, name) for name in ("CONTINUE", "BEGIN", "BEGIN_WITH_PEAKS")
+            name: getattr(records, name) for name in ("CONTINUE", "BEGIN", "BEGIN_WITH_PEAKS")
         },
-        "after": {name: getattr(batch, name) for name in ("UNIT", "END", "AFTER")},
+        "after": {name: getattr(records, name) for name in ("UNIT", "END", "AFTER")},
         "counter": {"LOG_ROWS": slots.LOG_ROWS},
         "log": _numbered(f"{_COLUMNS} IMPULSE"),
         "statuses": _numbered(_STATUSES),
         "events": _numbered(_EVENTS),
-        "forms": _numbered(_FORMS),
+        "forms": FORMS,
     }
 
 
 def _numbered(names: str) -> dict[str, int]:
     """Return the codes of some names."""
-    return {
-        name: getattr(forces if hasattr(forces, name) else codes, name) for name in names.split()
-    }
+    return {name: getattr(codes, name) for name in names.split()}
 
 
 def _field(name: str, kind: Any, rows: Terms, columns: Terms) -> dict[str, Any]:
@@ -121,7 +118,7 @@ def _workspace() -> list[dict[str, Any]]:
         "floats": {"scratch": 1},
         "integers": {},
         "log": {"": _LOG_ROWS * LOG_COLUMNS, "balls": LOG_COLUMNS},
-        "after": {"": batch.AFTER, "balls": 1},
+        "after": {"": records.AFTER, "balls": 1},
     }
     hints = get_type_hints(Workspace, include_extras=True)
     return [_field(name, kind, rows[name], {"": 1}) for name, kind in hints.items()]

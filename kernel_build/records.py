@@ -25,7 +25,7 @@ from stackbounce.engine.kernels import (
     IntegerTable,
     Rows,
 )
-from stackbounce.engine.series import TERMS
+from stackbounce.engine.stack import TERMS
 from stackbounce.engine.tables import COLUMNS, Table
 
 _extending: Any = numba.extending

@@ -5,7 +5,6 @@ with the name, so that the reader of a file can prefix the path (``mass must be 
 ``balls.1.mass must be …``).
 """
 
-import difflib
 import math
 from collections.abc import Callable, Iterable
 from numbers import Integral, Real
@@ -98,6 +97,8 @@ def positive(name: str, value: object, of: str = "") -> float:
         ...
     stackbounce.errors.InvalidValue: mass must be a positive number of kilograms, got -0.057
     """
+    if type(value) is float and 0.0 < value < math.inf:  # without a message that nobody sees
+        return value
     return _checked(name, value, "a positive number" + _of(of), lambda number: number > 0.0)
 
 
@@ -109,6 +110,8 @@ def non_negative(name: str, value: object, of: str = "") -> float:
     >>> non_negative("gap", 0)
     0.0
     """
+    if type(value) is float and 0.0 <= value < math.inf:
+        return value
     right = "a number" + _of(of) + ", 0 or above"
     return _checked(name, value, right, lambda number: number >= 0.0)
 
@@ -135,6 +138,8 @@ def between(name: str, value: object, low: float, high: float = math.inf, of: st
     >>> between("exponent", 1.5, 1.0)
     1.5
     """
+    if type(value) is float and low <= value <= high and value < math.inf:
+        return value
     right = "a number" + _of(of) + _range(low, high)
     return _checked(name, value, right, lambda number: low <= number <= high)
 
@@ -154,6 +159,8 @@ def whole(name: str, value: object, low: int = 0, high: float = math.inf) -> int
     >>> whole("event_limit", 100, 1)
     100
     """
+    if type(value) is int and low <= value <= high:
+        return value
     message = f"{name} must be a whole number{_range(low, high)}, got {shown(value)}"
     if not _is(Integral, value):
         raise InvalidType(message)
@@ -171,6 +178,8 @@ def nearest(name: object, known: Iterable[str]) -> str:
     >>> nearest("sprung", ["Rigid", "Spring"])
     'did you mean Spring? Known: Rigid, Spring'
     """
+    import difflib
+
     names = list(known)
     folded = {one.casefold(): one for one in names}
     word = name[:60] if isinstance(name, str) else shown(name)

@@ -5,7 +5,6 @@ import math
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
-from decimal import Decimal
 from typing import TYPE_CHECKING, Annotated, Any, get_args, get_origin
 
 from stackbounce.errors import InvalidType, UnitError, finite, shown
@@ -131,8 +130,9 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
     number, written = found[1], found[2]
     if not written:
         return finite(name, float(number), unit)
+    from decimal import Decimal  # its arithmetic makes "24.8 g" exactly 0.0248
+
     factor = _factor(written, unit, _message(name, value, unit))
-    # decimal arithmetic, so that "24.8 g" is exactly 0.0248
     return finite(name, float(Decimal(number) * Decimal(repr(factor))), unit)
 
 

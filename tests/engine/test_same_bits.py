@@ -2,6 +2,7 @@
 
 import functools
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,9 +11,8 @@ import stackbounce as sb
 from fuzz.draw import balls_of, drops_of, is_rigid
 from fuzz.replay import drop_of, options_of
 from stackbounce.engine import native
-from stackbounce.engine.batch import Drops, Outcomes, find_ratios
+from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.run.engines import FINITE, RIGID
 from stackbounce.run.memory import memory, spring_workspace
 from stackbounce.run.options import Options
@@ -59,10 +59,10 @@ def test_plain_python_and_compiled_code(drops):
 
 def levels():
     """Return the processor levels of this machine's library that its processor can run."""
-    library, chosen = native._library()
-    manifest = json.loads((native.FOLDER / native.MANIFEST).read_text("utf-8"))
+    library = native._library()
+    manifest = json.loads((Path(native.FOLDER) / native.MANIFEST).read_text("utf-8"))
     known = manifest["libraries"][native.platform_name()]["levels"]
-    return [level for level in known if level <= chosen], library
+    return [level for level in known if level <= library.level], library
 
 
 @pytest.fixture
@@ -70,7 +70,7 @@ def at_level(monkeypatch):
     """Let one level be chosen."""
 
     def choose(library, level):
-        monkeypatch.setattr(native, "_library", lambda: (library, level))
+        monkeypatch.setattr(native, "_library", lambda: library._replace(level=level))
         native.compiled.cache_clear()
 
     yield choose
@@ -109,7 +109,7 @@ def outcomes():
         memory(engine, drops.mass.shape[1], compiled=True).run_batch(
             engine.run_batch, drops, options, out
         )
-        native.compiled(find_ratios)(Table(drops), Table(out))
+        native.compiled("find_ratios")(Table(drops), Table(out))
         told.append([bits(array) for array in out])
         statuses |= set(out.status.tolist())
     assert sb.Status.FINISHED in statuses
@@ -122,7 +122,7 @@ def springs():
     kept = [getattr(drawn, "extra" if name == "law_parameter" else name) for name in Drops._fields]
     drops = Drops(*kept)._replace(velocity=np.repeat(-np.abs(drawn.velocity[:, :1]), 2, axis=1))
     out = empty(drops)
-    run = native.compiled(run_two_springs)
+    run = native.compiled("run_two_springs")
     run(Table(drops), 10_000, Table(out), Table(spring_workspace(compiled=True)))
     done = out.status == sb.Status.FINISHED
     assert done.any()

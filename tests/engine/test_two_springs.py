@@ -6,7 +6,7 @@ import pytest
 import stackbounce as sb
 from reference import make_data, springs
 from stackbounce.engine import codes, native
-from stackbounce.engine.batch import Drops, Outcomes
+from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
 from stackbounce.run.memory import spring_workspace
@@ -42,7 +42,7 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
     if plain:
         run_two_springs(drops, event_limit, out, space)
     else:
-        native.compiled(run_two_springs)(Table(drops), event_limit, Table(out), Table(space))
+        native.compiled("run_two_springs")(Table(drops), event_limit, Table(out), Table(space))
     found = {name: getattr(out, name) for name in NAMES}
     ratio = out.velocity / np.asarray(speed)[:, None]
     found["energy"] = (mass * ratio**2).sum(axis=1) / np.sum(mass, axis=1)

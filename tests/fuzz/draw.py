@@ -15,7 +15,7 @@ from fuzz.drive import (
     SPRING,
     VISCOELASTIC,
 )
-from stackbounce.engine import codes, forces
+from stackbounce.engine import codes
 
 BATCH = 500
 BALLS = (2, 3, 1, 2, 4, 3, 2, 1, 5, 2, 3, 4, 2, 1, 3, 2, 6, 1, 2, 3, 4, 2, 5, 1, 2)  # by batch
@@ -32,12 +32,12 @@ KINDS = (  # of the laws by their numbers in `drive`
     codes.POWER,
     codes.POWER,
     codes.POWER,
-    forces.DASHPOT,
-    forces.VISCOELASTIC,
-    forces.HUNT_CROSSLEY,
+    codes.DASHPOT,
+    codes.VISCOELASTIC,
+    codes.HUNT_CROSSLEY,
     codes.HYSTERETIC,
     codes.LOSSY,
-    forces.RIGID,
+    codes.RIGID,
 )
 TOLERANCE_ODDS = (0.6, 0.1, 0.15, 0.1, 0.03, 0.02)
 
@@ -47,7 +47,7 @@ class Drops(NamedTuple):
 
     mass: np.ndarray
     law: np.ndarray  # by the numbers of `drive`
-    kind: np.ndarray  # the form of its force, by `engine.forces`
+    kind: np.ndarray  # the form of its force, by `engine.codes`
     stiffness: np.ndarray
     exponent: np.ndarray
     extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution

@@ -147,7 +147,7 @@ def test_an_installation_of_the_sources_takes_their_folder(monkeypatch):
     hook, commands = hook_with(monkeypatch, 0, "macos-aarch64")
     data, _ = put(hook, "editable")
     assert data == {"force_include": {}}
-    assert commands[0][-1] == str(native.FOLDER)
+    assert commands[0][-1] == native.FOLDER
     assert commands[0][-3] == native.platform_name()
 
 

@@ -12,7 +12,7 @@ import pytest
 import stackbounce as sb
 from hardening import Hardening
 from stackbounce.cli import main, tables
-from stackbounce.engine import forces
+from stackbounce.engine import codes, forces
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named
@@ -205,20 +205,25 @@ def test_an_incomplete_law_is_refused():
 
 
 def test_a_form_with_a_squared_and_a_rate_term_is_refused(monkeypatch):
-    """Only `forces` knows the form: a HARDENING whose force also depends on the rate."""
+    """A HARDENING whose force also depends on the rate; `kernel_build` checks all forms so."""
     usual = forces.take_law
 
     def take(stack, i, kind, *numbers):
-        usual(stack, i, forces.HARDENING if kind == 10 else kind, *numbers)
+        usual(stack, i, codes.HARDENING if kind == 10 else kind, *numbers)
         if kind == 10:
             stack.gain_rate[i] = 0.1
 
-    class Clay(Hardening):
-        form = "DAMPED_HARDENING"
-
-    monkeypatch.setattr(forces, "DAMPED_HARDENING", 10, raising=False)
+    forces.check_form(10)
     monkeypatch.setattr(forces, "take_law", take)
-    words = "Clay has the form of force DAMPED_HARDENING: a gain has a term in c^2 or one in c'"
+    with pytest.raises(ValueError, match=re.escape("a gain has a term in c^2 or one in c'")):
+        forces.check_form(10)
+
+
+def test_a_law_of_an_unknown_form_is_refused():
+    class Clay(Hardening):
+        form = "HARDENED"
+
+    words = "Clay has the form of force HARDENED; did you mean HARDENING?"
     with pytest.raises(TypeError, match=re.escape(words)):
         register(Clay)
     assert "Clay" not in LAWS

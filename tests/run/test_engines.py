@@ -1,13 +1,11 @@
 """Where the engine and compiled code are chosen, and which exceptions mean a lost number."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 
 import stackbounce as sb
 from stackbounce.engine import native
-from stackbounce.engine.batch import run_drop
+from stackbounce.engine.entries import ENTRIES
 from stackbounce.errors import InvalidValue
 from stackbounce.run import batch, driver
 from stackbounce.run.engines import (
@@ -62,7 +60,7 @@ def test_without_compiled_code_all_runs_as_plain_python(request):
     with pytest.raises(InvalidValue, match="compiled must be False or None here: there is none"):
         sb.simulate(SPRINGS, compiled=True)
     with pytest.raises(RuntimeError, match="there is none"):
-        native.compiled(run_drop)
+        native.compiled("run_drop")
 
 
 def test_engine():
@@ -84,9 +82,9 @@ def broken(monkeypatch, error):
     def raising(*_):
         raise error
 
-    engine = dataclasses.replace(FINITE, run_drop=raising, run_batch=raising)
+    for name in (FINITE.run_drop, FINITE.run_batch):
+        monkeypatch.setitem(ENTRIES, name, raising)
     for module in (driver, batch):
-        monkeypatch.setattr(module, "choose_engine", lambda _: engine)
         monkeypatch.setattr(module, "choose_compiled", lambda _: False)
 
 

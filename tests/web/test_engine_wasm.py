@@ -11,17 +11,8 @@ import pytest
 
 from fuzz import draw
 from stackbounce.engine import codes, native
-from stackbounce.engine.batch import (
-    AFTER,
-    BEGIN_WITH_PEAKS,
-    CONTINUE,
-    END,
-    Drops,
-    Outcomes,
-    find_ratios,
-)
+from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.run.engines import FINITE, RIGID
 from stackbounce.run.memory import memory, spring_workspace
 from stackbounce.run.options import Options
@@ -69,7 +60,7 @@ def simulated(drop, rigid, options, times=()):
     room = memory(engine, balls, compiled=True)
     room.put(Drops._make(array[0] for array in drop))
     samples = room.samples(list(times))
-    run, log, stage, status = room.kernel(engine.run_drop, samples), [], BEGIN_WITH_PEAKS, 0
+    run, log, stage, status = room.run_with(samples), [], BEGIN_WITH_PEAKS, 0
     while status == codes.RUNNING:
         status, stage = run(stage, options.until, options.rtol, options.event_limit), CONTINUE
         log += room.take_log()
@@ -91,7 +82,7 @@ def swept(drops, rigid, options, springs=False):
     out = new_outcomes(count, balls)
     if springs:
         table, space = Table(out), Table(spring_workspace(compiled=True))
-        native.compiled(run_two_springs)(Table(drops), options.event_limit, table, space)
+        native.compiled("run_two_springs")(Table(drops), options.event_limit, table, space)
         asked = np.flatnonzero(out.status == codes.ASK)
         answers = swept(Drops._make(array[asked] for array in drops), rigid, options)
         for array, answer in zip(out, answers, strict=True):
@@ -99,7 +90,7 @@ def swept(drops, rigid, options, springs=False):
     else:
         room = memory(engine, balls, compiled=True)
         room.run_batch(engine.run_batch, drops, options, out)
-    native.compiled(find_ratios)(Table(drops), Table(out))
+    native.compiled("find_ratios")(Table(drops), Table(out))
     return out
 
 
@@ -161,7 +152,7 @@ def test_two_springs(tmp_path, count):
     assert (out.status == codes.FINISHED).any()
     if count > 1:
         raw, space = new_outcomes(count, 2), Table(spring_workspace(compiled=True))
-        native.compiled(run_two_springs)(Table(drops), 1_000_000, Table(raw), space)
+        native.compiled("run_two_springs")(Table(drops), 1_000_000, Table(raw), space)
         assert 0 < (raw.status == codes.ASK).sum() < count // 2
 
 

@@ -5,67 +5,26 @@ on that row only.
 """
 
 import math
-from typing import NamedTuple
 
 from stackbounce.engine import codes
 from stackbounce.engine.codes import LOG_COLUMNS
-from stackbounce.engine.kernels import (
-    FloatColumn,
-    Floats,
-    FloatTable,
-    IntegerColumn,
-    Integers,
-    IntegerTable,
-    kernel,
-)
+from stackbounce.engine.kernels import Floats, Integers, kernel
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
+from stackbounce.engine.records import (
+    AFTER,
+    BEGIN,
+    CONTINUE,
+    END,
+    UNIT,
+    Drops,
+    Outcomes,
+    Workspace,
+)
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
 from stackbounce.engine.slots import LAST_CHECK, LAST_EVENT, LOG_ROWS, RECORDS_PEAKS
 from stackbounce.engine.stack import RigidStack, Samples, Stack
-
-
-class Drops(NamedTuple):
-    """The numbers of drops: (rows, balls) arrays, and (rows,) gravity; see `preparation`."""
-
-    mass: FloatTable
-    kind: IntegerTable  # of law, see `preparation`
-    stiffness: FloatTable
-    exponent: FloatTable
-    law_parameter: FloatTable
-    gap: FloatTable  # below each ball; the lowest one's is 0
-    velocity: FloatTable
-    gravity: FloatColumn
-
-
-class Outcomes(NamedTuple):
-    """The results of drops: (rows, balls) arrays, and (rows,) energy and status.
-
-    `run_batch` and `run_rigid_batch` fill in all fields except the rebound ratios and the retained
-    energies, which `find_ratios` computes.
-    """
-
-    velocity: FloatTable  # after, m/s
-    rebound_ratio: FloatTable  # velocity over the impact speed v0
-    collisions: IntegerTable  # -1 where infinitely many
-    first_touch: FloatTable  # s; nan where none
-    last_release: FloatTable  # s; nan where none, infinity where the run stopped in an interval
-    energy_retained: FloatColumn  # kinetic energy after over that before
-    status: IntegerColumn
-
-
-class Workspace(NamedTuple):
-    """The memory of a run, besides its stack."""
-
-    floats: Floats  # the array of all floats of the stack; empty for a stack that is new
-    integers: Integers
-    log: Floats  # rows of `codes.LOG_COLUMNS`, in SI units
-    after: Floats  # unit of time (s) and end of the run (s), then the balls' velocities (m/s)
-
-
-CONTINUE, BEGIN, BEGIN_WITH_PEAKS = 0, 1, 2  # stages: the latter records peaks and impulses
-UNIT, END, AFTER = 0, 1, 2  # slots of `Workspace.after`; AFTER is that of the lowest ball
 
 
 @kernel
@@ -215,40 +174,6 @@ def run_rigid_batch(
         for i in range(len(stack.infinite)):
             if stack.infinite[i] == 1:
                 out.collisions[row, i] = -1
-
-
-@kernel
-def find_ratios(drops: Drops, out: Outcomes) -> None:
-    """Compute rebound ratios and retained energies from the velocities before and after."""
-    for row in range(len(out.status)):
-        before, after = drops.velocity[row], out.velocity[row]
-        out.energy_retained[row] = energy_kept(drops.mass[row], before, after)
-        speed = _largest_speed(before)
-        for b in range(len(after)):
-            out.rebound_ratio[row, b] = after[b] / speed
-
-
-@kernel
-def energy_kept(mass: Floats, before: Floats, after: Floats) -> float:
-    """Return the ratio of the kinetic energies after and before the impact; nan if it was 0."""
-    heaviest, speed = 0.0, _largest_speed(before)
-    for m in mass:
-        heaviest = max(heaviest, m)
-    came, left = 0.0, 0.0
-    for b in range(len(mass)):
-        share, start, end = mass[b] / heaviest, before[b] / speed, after[b] / speed
-        came += share * (start * start)
-        left += share * (end * end)
-    return left / came if came > 0.0 else math.nan
-
-
-@kernel
-def _largest_speed(velocity: Floats) -> float:
-    """Return the largest absolute velocity: the impact speed v0, the unit of rebound ratios."""
-    speed = 0.0
-    for v in velocity:
-        speed = max(speed, abs(v))
-    return speed
 
 
 @kernel

@@ -10,12 +10,29 @@ EVENT_LIMIT = 5
 INVALID = 6
 ASK = 7  # the fast engine left a drop undecided: the general one solves it
 
-# forms of the force of a contact, in the stack; `forces` has more, which it makes PRODUCT
+# forms of the force of a contact, see `forces`
 ABSENT = 0  # no floor
 POWER = 1  # a power of the compression, loading and unloading alike
 HYSTERETIC = 2  # another power when unloading
 LOSSY = 3  # the same, with another one after each reloading
-PRODUCT = 4  # a power of the compression times a gain, which may depend on the rate
+PRODUCT = 4  # in the stack only: all forms from DASHPOT to HARDENING but RIGID
+DASHPOT = 5
+VISCOELASTIC = 6
+HUNT_CROSSLEY = 7
+RIGID = 8
+HARDENING = 9
+FORMS = {
+    "ABSENT": ABSENT,
+    "POWER": POWER,
+    "HYSTERETIC": HYSTERETIC,
+    "LOSSY": LOSSY,
+    "DASHPOT": DASHPOT,
+    "VISCOELASTIC": VISCOELASTIC,
+    "HUNT_CROSSLEY": HUNT_CROSSLEY,
+    "HARDENING": HARDENING,
+    "RIGID": RIGID,
+}
+"""Those that a law can have, by the names that it gives as its `form`."""
 
 # phases of a contact; from COMPRESSING on it presses and joins its balls into a cluster
 OPEN = 0

@@ -7,16 +7,22 @@ any other argument as a float or an integer of 64 bits.
 from collections.abc import Callable
 from typing import Any, NamedTuple, get_type_hints
 
-from stackbounce.engine.batch import (
-    find_ratios,
-    run_batch,
-    run_drop,
-    run_rigid_batch,
-    run_rigid_drop,
-)
+from stackbounce.engine.batch import run_batch, run_drop, run_rigid_batch, run_rigid_drop
+from stackbounce.engine.ratios import find_ratios
 from stackbounce.engine.two_springs import run_two_springs
 
-ENTRIES = (run_drop, run_rigid_drop, run_batch, run_rigid_batch, run_two_springs, find_ratios)
+ENTRIES: dict[str, Callable[..., Any]] = {
+    entry.__name__: entry
+    for entry in (
+        run_drop,
+        run_rigid_drop,
+        run_batch,
+        run_rigid_batch,
+        run_two_springs,
+        find_ratios,
+    )
+}
+"""The entries by their names."""
 
 
 class Signature(NamedTuple):

@@ -1,4 +1,4 @@
-"""The forms of a contact's force: no other file of the engine knows them.
+"""The forms of a contact's force: all that the engine knows of them but their codes (`codes`).
 
 A contact is told by the code of its form and three numbers: the stiffness k, the exponent p, and z,
 the law parameter. The force depends on the compression c > 0 and its rate c'.
@@ -23,9 +23,10 @@ Those from DASHPOT to HARDENING are one form in the stack, a PRODUCT of a power 
     F = max(0, k c^q g),    g = a + b c + s c^2 + d c'
 
 Its leading elastic term is k c^p: either a is 1, b is 0 and p = q, or a is 0, b is 1 and p = q + 1.
-Either s or d is 0, which `check_form` enforces. Only a linear spring with a dashpot has q = 0. A
-new form that is such a product needs a code and its numbers in `take_law`; any other one also a
-force, an energy, a static compression, and the terms of its power series (`find_terms`).
+Only a linear spring with a dashpot has q = 0. Either s or d is 0; `check_form` refuses a form for
+which both are not, when the kernels are compiled. A new form that is such a product needs a code
+(`codes`) and its numbers in `take_law`; any other one also a force, an energy, a static
+compression, and the terms of its power series (`find_terms`).
 """
 
 import math
@@ -33,22 +34,19 @@ import math
 from stackbounce.engine.codes import (
     ABSENT,
     COMPRESSING,
+    DASHPOT,
+    HUNT_CROSSLEY,
     HYSTERETIC,
     LOSSY,
     OPEN,
     POWER,
     PRODUCT,
+    VISCOELASTIC,
 )
 from stackbounce.engine.elementary import power
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import Stack, new_stack
-
-DASHPOT = 5
-VISCOELASTIC = 6
-HUNT_CROSSLEY = 7
-RIGID = 8
-HARDENING = 9
 
 _NEWTON = 8  # steps from at most twice the force; the last ones change no bit
 

@@ -14,9 +14,9 @@ from stackbounce.engine.modes import (
     modal_position,
     start_modes,
 )
-from stackbounce.engine.series import ORDER, TERMS, evaluate, integrate, shift
+from stackbounce.engine.series import ORDER, evaluate, integrate, shift
 from stackbounce.engine.slots import GRAVITY, NONLINEAR, RECORDS_PEAKS, SPEED, TOLERANCE
-from stackbounce.engine.stack import MODES, WIDTH, Stack
+from stackbounce.engine.stack import MODES, TERMS, WIDTH, Stack
 from stackbounce.engine.taylor import (
     ROOT_POWERS,
     expand_motion,

@@ -10,15 +10,21 @@ import ctypes
 import functools
 import hashlib
 import json
+import os
 import platform
 import sys
 import warnings
 from collections.abc import Callable
-from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-FOLDER = Path(__file__).parent / "native"
+_HERE = os.path.dirname(__file__)
+FOLDER = os.path.join(_HERE, "native")
 MANIFEST = "manifest.json"
+_KINDS: dict[str, Any] = {
+    "record": ctypes.c_void_p,
+    "float": ctypes.c_double,
+    "int": ctypes.c_int64,
+}
 
 
 class NoCompiledCode(UserWarning):
@@ -28,8 +34,8 @@ class NoCompiledCode(UserWarning):
 def digest_of_sources() -> str:
     """Return a hash of all source files of the engine."""
     digest = hashlib.sha256()
-    for source in sorted(Path(__file__).parent.glob("*.py")):
-        digest.update(source.name.encode() + b"\0" + source.read_bytes() + b"\0")
+    for name in sorted(one for one in os.listdir(_HERE) if one.endswith(".py")):
+        digest.update(name.encode() + b"\0" + _content(name) + b"\0")
     return digest.hexdigest()
 
 
@@ -54,27 +60,41 @@ def reason() -> str:
 
 
 @functools.cache
-def compiled(entry: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the compiled form of one of `entries.ENTRIES`; records are passed as a `Table`.
+def compiled(entry: str) -> Callable[..., Any]:
+    """Return the compiled form of one of `entries.ENTRIES`, by its name.
+
+    A record is passed as the address of its `tables.Table`.
 
     Raises
     ------
     RuntimeError
         If there is no compiled code for this machine, see `available`.
     """
-    from stackbounce.engine.entries import signature
-
     found = _library()
     if isinstance(found, str):
         raise RuntimeError(found)  # noqa: TRY004 - no wrong type: it says why there is none
-    library, level = found
-    takes = signature(entry)
-    kinds: dict[type, Any] = {float: ctypes.c_double, int: ctypes.c_int64}
-    function = library[f"{entry.__name__}_{level}" if level else entry.__name__]
-    function.argtypes = [kinds.get(kind, ctypes.c_void_p) for kind in takes.arguments]
-    function.restype = ctypes.c_int64 if takes.returns else None
+    function = found.library[f"{entry}_{found.level}" if found.level else entry]
+    function.argtypes = [_KINDS[kind] for kind in found.entries[entry]]
+    function.restype = ctypes.c_int64
     result: Callable[..., Any] = function
     return result
+
+
+class _Library(NamedTuple):
+    """A library, as it is loaded."""
+
+    library: Any
+    level: str  # of the processor; empty where the library has one only
+    entries: dict[str, list[str]]  # the kinds of the arguments of each entry
+
+
+class _Described(NamedTuple):
+    """What the manifest says of a platform's library."""
+
+    file: str
+    digest: str
+    levels: dict[str, int]
+    entries: dict[str, list[str]]
 
 
 class _NoLibraryError(Exception):
@@ -82,7 +102,7 @@ class _NoLibraryError(Exception):
 
 
 @functools.cache
-def _library() -> tuple[Any, str] | str:
+def _library() -> _Library | str:
     """Return the library of this machine and the processor level to use, or why there is none."""
     try:
         return _load()
@@ -95,25 +115,25 @@ def _library() -> tuple[Any, str] | str:
         return str(error)
 
 
-def _load() -> tuple[Any, str]:
+def _load() -> _Library:
     """Return the library of this machine and the processor level to use."""
-    path, digest, levels = _described(platform_name())
+    file, digest, levels, entries = _described(platform_name())
     try:
-        content = path.read_bytes()
+        content = _content(file, FOLDER)
     except OSError as error:
         raise _NoLibraryError(
-            f"{path.name} cannot be read ({error.strerror}): install stackbounce again"
+            f"{file} cannot be read ({error.strerror}): install stackbounce again"
         ) from None
     if hashlib.sha256(content).hexdigest() != digest:
-        raise _NoLibraryError(f"{path.name} is damaged or foreign: install stackbounce again")
+        raise _NoLibraryError(f"{file} is damaged or foreign: install stackbounce again")
     try:
-        library = ctypes.CDLL(str(path))
+        library = ctypes.CDLL(os.path.join(FOLDER, file))
     except OSError as error:
         raise _NoLibraryError(
-            f"{path.name} cannot be loaded ({error}): install stackbounce again"
+            f"{file} cannot be loaded ({error}): install stackbounce again"
         ) from None
     if not levels:
-        return library, ""
+        return _Library(library, "", entries)
     level = _processor_level(library)
     fitting = [name for name, number in levels.items() if number <= level]
     if not fitting:
@@ -121,18 +141,19 @@ def _load() -> tuple[Any, str]:
         raise _NoLibraryError(
             f"this processor lacks instructions of x86-64-{least}: use a newer one"
         )
-    return library, max(fitting, key=levels.__getitem__)
+    return _Library(library, max(fitting, key=levels.__getitem__), entries)
 
 
-def _described(name: str) -> tuple[Path, str, dict[str, int]]:
-    """Return path, digest and processor levels of a platform's library, from the manifest."""
+def _described(name: str) -> _Described:
+    """Return what the manifest says of a platform's library."""
     described = None
     try:
-        manifest = json.loads((FOLDER / MANIFEST).read_text("utf-8"))
+        manifest = json.loads(_content(MANIFEST, FOLDER))
         built, entry = str(manifest["sources"]), manifest["libraries"].get(name)
         if entry is not None:
             levels = {str(level): int(level[1:]) for level in entry["levels"]}
-            described = FOLDER / entry["file"], str(entry["sha256"]), levels
+            file, digest = str(entry["file"]), str(entry["sha256"])
+            described = _Described(file, digest, levels, manifest["entries"])
     except FileNotFoundError:
         raise _NoLibraryError(
             "the package was built without compiled code (install a wheel that has it, or run "
@@ -147,6 +168,11 @@ def _described(name: str) -> tuple[Path, str, dict[str, int]]:
     if built != digest_of_sources():
         raise _NoLibraryError("the engine's sources have changed: run make kernels")
     return described
+
+
+def _content(name: str, folder: str = _HERE) -> bytes:
+    with open(os.path.join(folder, name), "rb") as file:
+        return file.read()
 
 
 def _processor_level(library: Any) -> int:

@@ -17,9 +17,8 @@ import math
 from stackbounce.engine.codes import COMPRESSING, POWER, PRODUCT
 from stackbounce.engine.forces import is_damped, potential, static_compression
 from stackbounce.engine.kernels import kernel
-from stackbounce.engine.series import TERMS
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
-from stackbounce.engine.stack import Stack
+from stackbounce.engine.stack import TERMS, Stack
 
 _STILL = 1e-9
 _HYSTERETIC = 0.5  # of that energy: the limit where a higher peak can still change the static state

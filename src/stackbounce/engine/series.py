@@ -3,11 +3,11 @@
 import math
 
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.stack import TERMS
 
 ORDER = 24  # highest order of the power series of clusters without modes
-ROOT_ORDER = 36  # highest order of a series in the root of time
+ROOT_ORDER = TERMS - 4  # highest order of a series in the root of time; two more integrate it
 _PARABOLAS = 100  # trials of one search for an event
-TERMS = ROOT_ORDER + 4  # room for a series that is integrated twice
 
 
 @kernel

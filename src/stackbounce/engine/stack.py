@@ -13,10 +13,10 @@ from typing import Any, NamedTuple
 
 from stackbounce.engine import slots
 from stackbounce.engine.kernels import Floats, Integers, Rows
-from stackbounce.engine.series import TERMS
 
 MODES = 8  # the most linear contacts of a cluster that moves in normal modes
 WIDTH = MODES + 1  # balls of that cluster, without a floor
+TERMS = 40  # numbers of a power series
 
 
 class Stack(NamedTuple):

@@ -7,7 +7,6 @@ drop near the limits of accuracy is left to the general engine, with the status 
 import math
 from typing import Any
 
-from stackbounce.engine.batch import Drops, Outcomes, Workspace
 from stackbounce.engine.codes import ASK, EVENT_LIMIT, FINISHED, INVALID
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.lockstep import (
@@ -48,6 +47,7 @@ from stackbounce.engine.lockstep import (
     X2,
     advance_lanes,
 )
+from stackbounce.engine.records import Drops, Outcomes, Workspace
 
 # The slots of waiting drops: initial values, and the numbers given.
 NEXT = SLOTS * LANES

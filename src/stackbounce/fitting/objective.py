@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.batch import Outcomes
+from stackbounce.engine.records import Outcomes
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.measurements import Measured
 from stackbounce.fitting.parameters import Parameter, find_numbers, value_in

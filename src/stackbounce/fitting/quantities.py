@@ -6,7 +6,7 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.batch import Outcomes
+from stackbounce.engine.records import Outcomes
 from stackbounce.errors import InvalidValue, finite, nearest, positive, shown
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.model import STANDARD_GRAVITY, Drop

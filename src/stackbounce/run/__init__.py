@@ -1,14 +1,15 @@
 """Run drops: one module chooses the engine, and compiled code or plain Python, for all of them.
 
-======== ============================================================================
-options  the end time, the tolerance and the event limit of a run
-columns  the parameters of one drop, and of many drops, as arrays for the engine
-engines  chooses the engine, and plain Python or compiled code
-memory   the arrays in which drops are run, or lists for plain Python
-driver   one drop: `simulate`
-batch    many drops in blocks and threads
-result   the `Result` of one drop
-paths    the parameters of a drop by their paths, such as ``balls.0.mass``
-blocks   a grid of drops cut into blocks
-======== ============================================================================
+=========== ===========================================================================
+options     the end time, the tolerance and the event limit of a run
+parameters  the parameters of one drop, as the engine takes them
+columns     the parameters of many drops, as arrays for the engine
+engines     chooses the engine, and plain Python or compiled code
+memory      the arrays in which drops are run, or lists for plain Python
+driver      one drop: `simulate`
+batch       many drops in blocks and threads
+result      the `Result` of one drop
+paths       the parameters of a drop by their paths, such as ``balls.0.mass``
+blocks      a grid of drops cut into blocks
+=========== ===========================================================================
 """

@@ -15,10 +15,9 @@ from typing import TypeAlias
 
 import numpy as np
 
-from stackbounce.engine import codes, native
-from stackbounce.engine.batch import UNIT, Drops, Outcomes, find_ratios
+from stackbounce.engine import codes
+from stackbounce.engine.records import UNIT, Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.engine.two_springs import run_two_springs
 from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
 from stackbounce.run.columns import Rows, base_rows, fill
@@ -29,6 +28,7 @@ from stackbounce.run.engines import (
     Engine,
     choose_compiled,
     choose_engine,
+    kernel_named,
     suits_two_springs,
 )
 from stackbounce.run.memory import memory, spring_workspace
@@ -118,12 +118,11 @@ def _new_outcomes(count: int, balls: int) -> Outcomes:
 
 def _run_two_springs(drops: Drops, out: Outcomes, options: Options, compiled: bool) -> None:
     """Run drops by the engine for two springs, and those with the status ASK by the general one."""
-    space = spring_workspace(compiled)
+    space, run = spring_workspace(compiled), kernel_named("run_two_springs", compiled)
     if compiled:
-        run = native.compiled(run_two_springs)
         run(Table(drops), TWO_SPRINGS_EVENTS, Table(out), Table(space))
     else:
-        run_two_springs(drops, TWO_SPRINGS_EVENTS, out, space)
+        run(drops, TWO_SPRINGS_EVENTS, out, space)
     asked = np.flatnonzero(out.status == codes.ASK)
     if len(asked):
         some = Drops._make(array[asked] for array in drops)
@@ -141,13 +140,14 @@ def _run_rows(
     if compiled:
         memory(engine, balls, compiled).run_batch(engine.run_batch, drops, options, out)
         return
+    run = kernel_named(engine.run_batch, compiled)
     for row in range(len(out.status)):
         room = memory(engine, balls, compiled)
         stack, space, _ = room.arguments
         one = Drops._make(array[row : row + 1].tolist() for array in drops)
         outcome = Outcomes._make(array[row : row + 1] for array in out)
         try:
-            engine.run_batch(stack, space, one, room.no_samples, *options, outcome)
+            run(stack, space, one, room.no_samples, *options, outcome)
         except OUT_OF_RANGE:
             outcome.status[0] = codes.INVALID
             unit = space.after[UNIT] or 1.0
@@ -156,8 +156,9 @@ def _run_rows(
 
 def _find_ratios(drops: Drops, out: Outcomes, compiled: bool) -> None:
     """Compute rebound ratios and retained energies."""
+    find_ratios = kernel_named("find_ratios", compiled)
     if compiled:
-        native.compiled(find_ratios)(Table(drops), Table(out))
+        find_ratios(Table(drops), Table(out))
         return
     with np.errstate(all="ignore"):
         find_ratios(drops, out)

@@ -1,4 +1,4 @@
-"""The parameters of one drop, or of many drops, as arrays for the engine, and their validation."""
+"""The parameters of many drops, as arrays for the engine, and their validation."""
 
 import itertools
 import math
@@ -8,32 +8,17 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.batch import Drops
+from stackbounce.engine.records import Drops
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.model.laws import contact_numbers
+from stackbounce.run.parameters import drop_numbers
 from stackbounce.run.paths import Number, drop_at
 
-__all__ = ["Rows", "base_rows", "check", "drop_numbers", "fill"]
+__all__ = ["Rows", "base_rows", "check", "fill"]
 
 Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
 """The numbers that vary, in SI units: arrays that broadcast with each other."""
-
-
-def drop_numbers(drop: Drop) -> Drops:
-    """Return the parameters of a drop in the form that `prepare` takes, as lists."""
-    rows = zip(*map(contact_numbers, drop.contacts), strict=True)
-    kind, stiffness, exponent, law_parameter = map(list, rows)
-    return Drops(
-        mass=[ball.mass for ball in drop.balls],
-        kind=kind,
-        stiffness=stiffness,
-        exponent=exponent,
-        law_parameter=law_parameter,
-        gap=[0.0, *drop.gaps],
-        velocity=list(drop.start_velocities),
-        gravity=drop.gravity,
-    )
 
 
 def base_rows(drop: Drop, count: int) -> Drops:

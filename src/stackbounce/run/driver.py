@@ -1,6 +1,6 @@
 """One drop: from a `Drop` to a `Result`.
 
-The parameters of the drop (`columns.drop_numbers`) are written to this thread's `memory`. The
+The parameters of the drop (`parameters.drop_numbers`) are written to this thread's `memory`. The
 kernel `engine.batch.run_drop` goes from event to event until the drop ends or the log is full, in
 one call for a stack of few balls. The log, in SI units, becomes a `Result`.
 """
@@ -10,14 +10,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from stackbounce.engine import codes
-from stackbounce.engine.batch import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, UNIT
+from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, UNIT
 from stackbounce.engine.slots import LAST_EVENT
 from stackbounce.engine.stack import Samples
 from stackbounce.model import Drop
-from stackbounce.run.columns import drop_numbers
-from stackbounce.run.engines import OUT_OF_RANGE, choose_compiled, choose_engine
+from stackbounce.run.engines import OUT_OF_RANGE, RIGID, choose_compiled, choose_engine
 from stackbounce.run.memory import memory
 from stackbounce.run.options import Options, run_options
+from stackbounce.run.parameters import drop_numbers
 from stackbounce.run.result import Result, Status
 
 if TYPE_CHECKING:
@@ -121,7 +121,7 @@ def _run(drop: Drop, options: Options, compiled: bool, times: Sequence[float]) -
     room = memory(engine, balls, compiled)
     room.put(drop_numbers(drop))
     samples = room.samples(times)
-    run = room.kernel(engine.run_drop, samples)
+    run = room.run_with(samples)
     log: list[float] = []
     try:
         status = run(BEGIN_WITH_PEAKS, *options)
@@ -135,5 +135,5 @@ def _run(drop: Drop, options: Options, compiled: bool, times: Sequence[float]) -
         unit = room.space.after[UNIT] or 1.0
         ends = [velocity / unit for velocity in room.stack.velocity]
         status, after = codes.INVALID, [unit, room.stack.clock[LAST_EVENT] * unit, *ends]
-    infinite = room.numbers(room.stack.infinite) if drop.rigid else [0] * balls
+    infinite = room.numbers(room.stack.infinite) if engine is RIGID else [0] * balls
     return _Run(status, after[END], after[AFTER:], log, infinite, samples)

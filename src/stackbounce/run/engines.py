@@ -15,11 +15,9 @@ the same bits, about a hundred times slower.
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from stackbounce.engine import native
-from stackbounce.engine.batch import run_batch, run_drop, run_rigid_batch, run_rigid_drop
 from stackbounce.engine.codes import POWER
 from stackbounce.engine.stack import new_rigid_stack, new_stack
 from stackbounce.errors import InvalidType, InvalidValue, shown
@@ -34,8 +32,10 @@ __all__ = [
     "RIGID",
     "TWO_SPRINGS_EVENTS",
     "Engine",
+    "Kernel",
     "choose_compiled",
     "choose_engine",
+    "kernel_named",
     "suits_two_springs",
 ]
 
@@ -52,27 +52,35 @@ kernel is a programming error and is not caught.
 Kernel: TypeAlias = Callable[..., Any]
 
 
-@dataclass(frozen=True)
-class Engine:
-    """The kernels that solve stacks of one kind.
+class Engine(NamedTuple):
+    """What solves stacks of one kind: how a stack is made, and the names of the kernels.
 
     Parameters
     ----------
     new_stack : callable
         Returns an empty stack for a number of balls.
-    run_drop : kernel
-        Runs one drop until it ends or the log is full.
-    run_batch : kernel
-        Runs many drops one after the other.
+    run_drop : str
+        The kernel that runs one drop until it ends or the log is full.
+    run_batch : str
+        The kernel that runs many drops one after the other.
     """
 
     new_stack: Callable[[int], Any]
-    run_drop: Kernel
-    run_batch: Kernel
+    run_drop: str
+    run_batch: str
 
 
-FINITE = Engine(new_stack, run_drop, run_batch)
-RIGID = Engine(new_rigid_stack, run_rigid_drop, run_rigid_batch)
+FINITE = Engine(new_stack, "run_drop", "run_batch")
+RIGID = Engine(new_rigid_stack, "run_rigid_drop", "run_rigid_batch")
+
+
+def kernel_named(name: str, compiled: bool) -> Kernel:
+    """Return a kernel as compiled code or in plain Python, which is imported only then."""
+    if compiled:
+        return native.compiled(name)
+    from stackbounce.engine.entries import ENTRIES
+
+    return ENTRIES[name]
 
 
 def choose_compiled(compiled: bool | None) -> bool:

@@ -7,13 +7,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.engine import codes, native
-from stackbounce.engine.batch import AFTER, Drops, Outcomes, Workspace
+from stackbounce.engine import codes
+from stackbounce.engine.records import AFTER, Drops, Outcomes, Workspace
 from stackbounce.engine.slots import LOG_ROWS
 from stackbounce.engine.stack import Samples, as_arrays, in_one_room, new_samples
 from stackbounce.engine.tables import Table
-from stackbounce.engine.two_springs import SCRATCH, new_scratch
-from stackbounce.run.engines import Engine, Kernel
+from stackbounce.run.engines import Engine, Kernel, kernel_named
 from stackbounce.run.options import Options
 
 __all__ = ["Memory", "memory", "spring_workspace"]
@@ -24,36 +23,41 @@ _local = threading.local()
 
 
 class Memory(NamedTuple):
-    """The memory of runs of stacks of one height."""
+    """The memory of runs of stacks of one height, by one engine."""
 
     compiled: bool
     stack: Any
     space: Workspace
     drop: Drops  # room for one drop
     arguments: tuple[Any, ...]  # stack, space and drop as a kernel takes them
-    no_samples: Any
+    nothing: Samples  # no samples
+    no_samples: Any  # the same as a kernel takes them
+    run: functools.partial[Any]  # the engine's run_drop on all of these: takes stage and options
 
     def put(self, numbers: Drops) -> None:
         """Set the parameters of the one drop."""
         for room, values in zip(self.drop, numbers, strict=True):
             room[0] = values
 
-    def kernel(self, entry: Kernel, samples: Samples) -> Kernel:
-        """Return an entry that runs the one drop, to be called with its stage and options."""
-        if not self.compiled:
-            return functools.partial(entry, *self.arguments, samples, 0)
-        table = Table(samples) if len(samples.time) else self.no_samples
-        return functools.partial(native.compiled(entry), *self.arguments, table, 0)
+    def run_with(self, samples: Samples) -> Kernel:
+        """Return `run` with samples."""
+        if samples is self.nothing:
+            return self.run
+        table = Table(samples) if self.compiled else samples
+        return functools.partial(self.run.func, *self.arguments, table, 0)
 
-    def run_batch(self, entry: Kernel, drops: Drops, options: Options, out: Outcomes) -> None:
+    def run_batch(self, entry: str, drops: Drops, options: Options, out: Outcomes) -> None:
         """Run many drops by compiled code, and write their outcomes."""
         stack, space, _ = self.arguments
-        native.compiled(entry)(stack, space, Table(drops), self.no_samples, *options, Table(out))
+        run = kernel_named(entry, compiled=True)
+        run(stack, space, Table(drops), self.no_samples, *options, Table(out))
 
     def samples(self, times: Sequence[float]) -> Samples:
         """Return room for samples at times in s, in ascending order."""
+        if not times:
+            return self.nothing
         samples = new_samples(times, len(self.stack.mass))
-        return as_arrays(samples) if self.compiled and times else samples
+        return as_arrays(samples) if self.compiled else samples
 
     def take_log(self) -> list[float]:
         """Return the rows of the log in a flat list."""
@@ -76,6 +80,8 @@ def memory(engine: Engine, balls: int, compiled: bool) -> Memory:
 
 def spring_workspace(compiled: bool) -> Workspace:
     """Return scratch space for the engine for two springs."""
+    from stackbounce.engine.two_springs import SCRATCH, new_scratch
+
     space = Workspace([0.0] * SCRATCH, [], [], [])
     return _arrays(space)._replace(floats=new_scratch()) if compiled else space
 
@@ -86,12 +92,19 @@ def _new_memory(engine: Engine, balls: int, compiled: bool) -> Memory:
     space = Workspace([], [], log, after)
     drop = Drops._make([[0.0] * balls] for _ in Drops._fields)._replace(gravity=[0.0])
     if not compiled:
-        return Memory(compiled, stack, space, drop, (stack, space, drop), samples)
-    stack, (floats, integers) = in_one_room(stack)
-    space = _arrays(space)._replace(floats=floats, integers=integers)
-    drop = Drops._make(map(np.array, drop))._replace(kind=np.zeros((1, balls), dtype=np.int64))
-    arguments = Table(stack), Table(space), Table(drop)
-    return Memory(compiled, stack, space, drop, arguments, Table(as_arrays(samples)))
+        arguments: Any = stack, space, drop
+        none: Any = samples
+    else:
+        stack, (floats, integers) = in_one_room(stack)
+        space = _arrays(space)._replace(floats=floats, integers=integers)
+        drop = Drops._make(map(np.array, drop))
+        drop = drop._replace(kind=np.zeros((1, balls), dtype=np.int64))
+        arguments, none = (Table(stack), Table(space), Table(drop)), Table(as_arrays(samples))
+    kernel = kernel_named(engine.run_drop, compiled)
+    # addresses, which the Tables keep valid, are taken faster than Tables
+    given = [one.address for one in (*arguments, none)] if compiled else [*arguments, none]
+    run = functools.partial(kernel, *given, 0)
+    return Memory(compiled, stack, space, drop, arguments, samples, none, run)
 
 
 def _arrays(space: Workspace) -> Any:

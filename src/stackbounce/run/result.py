@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.engine import codes
-from stackbounce.engine.batch import energy_kept
+from stackbounce.engine.ratios import energy_kept
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown
 from stackbounce.model import Drop
 from stackbounce.version import __version__
@@ -133,8 +133,8 @@ class Result:
     @functools.cached_property
     def rebound_ratios(self) -> NDArray[np.float64]:
         """(N,) rebound speed of each ball over the impact speed v0."""
-        with np.errstate(over="ignore"):
-            return _frozen(self.rebound_speeds / self.drop.reference_speed)
+        speed = self.drop.reference_speed
+        return _frozen(np.array([after / speed for after in self.final_velocities], dtype=float))
 
     @functools.cached_property
     def collisions(self) -> NDArray[np.int64]:

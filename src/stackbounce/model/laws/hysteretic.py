@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
 from typing import Annotated, Any, ClassVar, Self
 
+from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidType, InvalidValue, between, fraction, nearest, shown
 from stackbounce.model.collision import elastic
 from stackbounce.model.laws.law import (
@@ -15,7 +16,6 @@ from stackbounce.model.laws.law import (
     Flanks,
     Given,
     Quantity,
-    form_code,
     stiffness_in,
 )
 from stackbounce.model.laws.registry import register
@@ -153,7 +153,7 @@ class Hysteretic(ContactLaw):
 
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> tuple[int, Any, Any, Any]:
         """Return the law's numbers, with n from e where e is what is known of the loss."""
-        form = form_code("LOSSY" if self.reloading == "lossy" else self.form)
+        form = FORMS["LOSSY" if self.reloading == "lossy" else self.form]
         k, p = (varied.get(name, getattr(self, name)) for name in ("stiffness", "exponent"))
         n = varied.get("unloading_exponent", self.unloading_exponent)
         by_restitution = self.derived == "unloading_exponent" and "unloading_exponent" not in varied

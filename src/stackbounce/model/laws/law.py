@@ -29,7 +29,6 @@ __all__ = [
     "Given",
     "Quantity",
     "contact_numbers",
-    "form_code",
     "stiffness_in",
 ]
 
@@ -206,12 +205,14 @@ class ContactLaw:
         varied : mapping of str to ndarray, optional
             Fields that vary, with one value for each of many drops.
         """
-        known = {"stiffness": 1.0, "exponent": 1.0, "": 0.0}
-        numbers = [
-            varied.get(name, getattr(self, name, known.get(name)))
-            for name in ("stiffness", "exponent", self.law_parameter)
-        ]
-        return form_code(self.form), numbers[0], numbers[1], numbers[2]
+        stiffness = getattr(self, "stiffness", 1.0)
+        exponent = getattr(self, "exponent", 1.0)
+        parameter = getattr(self, self.law_parameter) if self.law_parameter else 0.0
+        if varied:
+            stiffness = varied.get("stiffness", stiffness)
+            exponent = varied.get("exponent", exponent)
+            parameter = varied.get(self.law_parameter, parameter)
+        return codes.FORMS[self.form], stiffness, exponent, parameter
 
     # one collision
 
@@ -313,13 +314,6 @@ def _quantities(kind: type[ContactLaw]) -> Mapping[str, Quantity]:
     hints = get_type_hints(kind, include_extras=True)
     found = {name: unit_of(hint) for name, hint in hints.items()}
     return {name: one for name, one in found.items() if isinstance(one, Quantity)}
-
-
-def form_code(name: str) -> int:
-    """Return the engine's code of a form of force."""
-    from stackbounce.engine import forces
-
-    return int(getattr(forces, name))
 
 
 def contact_numbers(

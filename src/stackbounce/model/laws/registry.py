@@ -2,8 +2,9 @@
 
 from typing import TypeVar
 
+from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidValue, nearest, shown
-from stackbounce.model.laws.law import ContactLaw, form_code
+from stackbounce.model.laws.law import ContactLaw
 
 __all__ = ["LAWS", "law_named", "register", "usual_laws"]
 
@@ -28,7 +29,7 @@ def register(law: type[_Law]) -> type[_Law]:
     ------
     TypeError
         If the class lacks `says`, `formula`, `source` or `form`, or another law has its name, or
-        the engine cannot solve its form.
+        the engine does not know its form.
     """
     missing = [name for name in ("says", "formula", "source", "form") if not hasattr(law, name)]
     if missing:
@@ -36,12 +37,10 @@ def register(law: type[_Law]) -> type[_Law]:
     other = LAWS.get(law.__name__, law)
     if (other.__module__, other.__qualname__) != (law.__module__, law.__qualname__):
         raise TypeError(f"{law.__name__} is the name of a law in {other.__module__} already")
-    from stackbounce.engine.forces import check_form
-
-    try:
-        check_form(form_code(law.form))
-    except ValueError as error:
-        raise TypeError(f"{law.__name__} has the form of force {law.form}: {error}") from error
+    if law.form not in FORMS:
+        hint = nearest(law.form, FORMS)
+        hint = nearest(law.form, FORMS)
+        raise TypeError(f"{law.__name__} has the form of force {law.form}; {hint}")
     LAWS[law.__name__] = law
     return law
 

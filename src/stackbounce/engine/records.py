@@ -1,0 +1,57 @@
+"""The records of arrays that a run takes besides its stack: drops, outcomes, and its memory.
+
+No kernel is imported here: who only loads the compiled code needs these.
+"""
+
+from typing import NamedTuple
+
+from stackbounce.engine.kernels import (
+    FloatColumn,
+    Floats,
+    FloatTable,
+    IntegerColumn,
+    Integers,
+    IntegerTable,
+)
+
+
+class Drops(NamedTuple):
+    """The numbers of drops: (rows, balls) arrays, and (rows,) gravity; see `preparation`."""
+
+    mass: FloatTable
+    kind: IntegerTable  # of law, see `preparation`
+    stiffness: FloatTable
+    exponent: FloatTable
+    law_parameter: FloatTable
+    gap: FloatTable  # below each ball; the lowest one's is 0
+    velocity: FloatTable
+    gravity: FloatColumn
+
+
+class Outcomes(NamedTuple):
+    """The results of drops: (rows, balls) arrays, and (rows,) energy and status.
+
+    The batch kernels fill in all fields except the rebound ratios and the retained energies, which
+    `ratios.find_ratios` computes.
+    """
+
+    velocity: FloatTable  # after, m/s
+    rebound_ratio: FloatTable  # velocity over the impact speed v0
+    collisions: IntegerTable  # -1 where infinitely many
+    first_touch: FloatTable  # s; nan where none
+    last_release: FloatTable  # s; nan where none, infinity where the run stopped in an interval
+    energy_retained: FloatColumn  # kinetic energy after over that before
+    status: IntegerColumn
+
+
+class Workspace(NamedTuple):
+    """The memory of a run, besides its stack."""
+
+    floats: Floats  # the array of all floats of the stack; empty for a stack that is new
+    integers: Integers
+    log: Floats  # rows of `codes.LOG_COLUMNS`, in SI units
+    after: Floats  # unit of time (s) and end of the run (s), then the balls' velocities (m/s)
+
+
+CONTINUE, BEGIN, BEGIN_WITH_PEAKS = 0, 1, 2  # stages: the latter records peaks and impulses
+UNIT, END, AFTER = 0, 1, 2  # slots of `Workspace.after`; AFTER is that of the lowest ball
