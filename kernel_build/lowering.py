@@ -21,6 +21,21 @@ _SCALARS = {float: types.float64, int: types.int64}
 _IN_IR = {float: "double", int: "i64"}
 # functions of a C library that are instructions of all targets, and round as IEEE 754 says
 _INSTRUCTIONS = ("sqrt", "floor", "fabs")
+# `math.frexp` of a normal number by its bits: kernels give it no other
+_FREXP = """
+define internal double @numba_frexp(double %x, ptr %e) alwaysinline {
+  %bits = bitcast double %x to i64
+  %shifted = lshr i64 %bits, 52
+  %field = and i64 %shifted, 2047
+  %power = sub i64 %field, 1022
+  %small = trunc i64 %power to i32
+  store i32 %small, ptr %e
+  %fraction = and i64 %bits, -9218868437227405313
+  %half = or i64 %fraction, 4602678819172646912
+  %m = bitcast i64 %half to double
+  ret double %m
+}
+"""
 
 
 class _Library(codegen.JITCodeLibrary):
@@ -103,4 +118,6 @@ def _without_library(text: str) -> str:
         text = text.replace(f"@{name}(", f"@llvm.{name}.f64(")
         if f"@llvm.{name}.f64(" in text and f"declare double @llvm.{name}.f64" not in text:
             text += f"declare double @llvm.{name}.f64(double)\n"
+    if "@numba_frexp" in text:
+        text = re.sub(r"^declare double @numba_frexp\(.*\n", "", text, flags=re.MULTILINE) + _FREXP
     return re.sub(r"^(define .*) \{$", r'\1 "no-builtins" {', text, flags=re.MULTILINE)

@@ -5,13 +5,16 @@ only operations that IEEE 754 rounds exactly (+ - * / and the square root), neve
 multiply-add. They give the same bits everywhere: in plain Python, or compiled for any processor.
 None raises: where Python's `math` would, the result is an infinity or not a number.
 
-Arguments are reduced, and polynomials evaluated, in the manner of fdlibm (Sun Microsystems, 1993).
-The polynomials here are fitted at Chebyshev nodes. Where a double has too few digits, a number is
-the sum of two doubles (Dekker, Numerische Mathematik 18, 224, 1971). Errors are given in units of
-the last place; subnormal results have at most 1.
+Sine, cosine and `log` reduce their arguments, and evaluate polynomials, in the manner of fdlibm
+(Sun Microsystems, 1993); the polynomials are fitted at Chebyshev nodes. Exponentials and powers
+look up the nearest of 128 steps (P. T. P. Tang, ACM Trans. Math. Softw. 15, 144, 1989; 16, 378,
+1990), and so need no division. Where a double has too few digits, a number is the sum of two
+doubles (Dekker, Numerische Mathematik 18, 224, 1971). Errors are given in units of the last place;
+subnormal results have at most 1.
 """
 
 import math
+from decimal import Decimal, localcontext
 
 from stackbounce.engine.kernels import kernel
 
@@ -19,15 +22,48 @@ _ROUND = 6755399441055744.0  # 1.5 * 2^52: adding and subtracting it rounds a nu
 _SPLIT = 134217729.0  # 2^27 + 1
 _ROOT_TWO = 1.4142135623730951
 _POWERS_OF_TWO = tuple(math.ldexp(1.0, n) for n in range(-1022, 1024))
+_SMALLEST_NORMAL = 2.2250738585072014e-308
 
-_PER_LN2 = 1.4426950408889634  # 1/ln 2
 _LN2 = 0.6931471803691238  # ln 2 to 32 bits: whole multiples up to 2^21 are exact
 _LN2_REST = 1.9082149292705877e-10
 _LARGEST = 709.782712893384  # its exponential is the last finite one
 _SMALLEST = -745.1332191019412  # its exponential is the last above 0
 
 _THIRD = 0.3333333333333333
-_THIRD_REST = 1.850371707708594e-17
+
+_STEPS = 128  # of the tables: powers of two from 1 to 2, and numbers from 1 to 2
+_STEPS_PER_LN2 = 184.6649652337873  # 128/ln 2
+_STEP = _LN2 / _STEPS
+_STEP_REST = _LN2_REST / _STEPS
+_LOW_END = 0.70703125  # 90.5/128: the least significand of which a logarithm is looked up
+_TO_22_BITS = 1.5 * 2.0**30  # adding and subtracting it rounds to multiples of 2^-22
+
+
+def _two_to_the_steps() -> list[tuple[float, float]]:
+    """Return 2^(j/128) as sums of two doubles, for j from 0 to 127."""
+    with localcontext(prec=50):
+        exact = [Decimal(2) ** (Decimal(j) / _STEPS) for j in range(_STEPS)]
+        return [(float(value), float(value - Decimal(float(value)))) for value in exact]
+
+
+def _logarithms() -> list[tuple[float, float, float]]:
+    """Return 1/c to 9 bits and -ln of it as a sum of two doubles, the first a multiple of 2^-42.
+
+    The numbers c are those in the middle of steps of 1/128. On both sides of 1, c is 1.
+    """
+    found = []
+    with localcontext(prec=50):
+        for j in range(2 * _STEPS):
+            near = j in (_STEPS - 1, _STEPS)
+            inverse = 1.0 if near else math.floor(512.0 * _STEPS / (j + 0.5) + 0.5) / 512.0
+            exact = -Decimal(inverse).ln()
+            high = math.floor(float(exact) * 2.0**42 + 0.5) / 2.0**42
+            found.append((inverse, high, float(exact - Decimal(high))))
+    return found
+
+
+_TWO_TO_STEP, _TWO_TO_STEP_REST = zip(*_two_to_the_steps(), strict=True)
+_INVERSE, _LOG, _LOG_REST = zip(*_logarithms(), strict=True)
 
 _PER_QUARTER_TURN = 0.6366197723675814  # 2/pi
 _QUARTER_TURN = 1.570796325802803  # pi/2 to 29 bits: whole multiples up to 2^24 are exact
@@ -74,30 +110,12 @@ def times_power_of_two(x: float, n: int) -> float:
 @kernel
 def _significand(x: float) -> tuple[float, int]:
     """Return m from 1 to below 2, and e, with x = m 2^e, for finite x > 0."""
-    e = -16
-    while x >= 65536.0:
-        x *= 2.3283064365386963e-10  # 2^-32
-        e += 32
-    while x < 1.52587890625e-05:  # 2^-16
-        x *= 4294967296.0
-        e -= 32
-    x *= 65536.0
-    far = x >= 65536.0  # selections, not branches, which a processor would have to guess
-    x *= 1.52587890625e-05 if far else 1.0
-    e += 16 if far else 0
-    far = x >= 256.0
-    x *= 0.00390625 if far else 1.0
-    e += 8 if far else 0
-    far = x >= 16.0
-    x *= 0.0625 if far else 1.0
-    e += 4 if far else 0
-    far = x >= 4.0
-    x *= 0.25 if far else 1.0
-    e += 2 if far else 0
-    far = x >= 2.0
-    x *= 0.5 if far else 1.0
-    e += 1 if far else 0
-    return x, e
+    shift = 1
+    if x < _SMALLEST_NORMAL:
+        x *= 18014398509481984.0  # 2^54
+        shift = 55
+    m, e = math.frexp(x)
+    return 2.0 * m, e - shift
 
 
 @kernel
@@ -124,22 +142,21 @@ def exp(x: float) -> float:
 
 @kernel
 def _exp_of_sum(x: float, low: float) -> float:
-    """Return e^(x + low), for a small second part.
-
-    With e^r = 1 + 2 r/(R - r), R = r coth(r/2) is a series in r^2.
-    """
+    """Return e^(x + low), for a small second part: 2^(k/128) e^r, with |r| <= ln 2/256."""
     if not x <= _LARGEST:
         return x if x != x else math.inf
     if x < _SMALLEST:
         return 0.0
-    k = (x * _PER_LN2 + _ROUND) - _ROUND
-    high = x - k * _LN2
-    low = k * _LN2_REST - low
-    r = high - low
+    steps = (x * _STEPS_PER_LN2 + _ROUND) - _ROUND
+    r = (x - steps * _STEP) - (steps * _STEP_REST - low)
     t = r * r
-    c = 6.613756469419941e-05 + t * (-1.6534056620335676e-06 + t * 4.143604353281816e-08)
-    c = r - t * (0.1666666666666666 + t * (-0.002777777777755998 + t * c))
-    return times_power_of_two(1.0 - ((low - r * c / (2.0 - c)) - high), int(k))
+    p = r + t * (
+        (0.5 + r * 0.16666666666666666) + t * (0.041666666666666664 + r * 0.008333333333333333)
+    )
+    k = int(steps)
+    j = k & (_STEPS - 1)
+    value = _TWO_TO_STEP[j]
+    return times_power_of_two(value + (_TWO_TO_STEP_REST[j] + value * p), k >> 7)
 
 
 @kernel
@@ -179,32 +196,35 @@ def log(x: float) -> float:
 def _log_in_two(x: float) -> tuple[float, float]:
     """Return the natural logarithm as a sum of two doubles, relative error 2^-64, 0 < x < inf.
 
-    As `log`, with s and the terms up to s^3 in two doubles.
+    With x = 2^e m and an inverse 1/c looked up, ln x = e ln 2 - ln(1/c) + ln(1 + r), r = m/c - 1.
+    Of m = a + b, a has few bits: a/c - 1, its square, and its sum with the first two logarithms are
+    exact, and so is b/c.
     """
     m, e = _significand(x)
-    if m > _ROOT_TWO:
+    if m >= 2.0 * _LOW_END:
         m *= 0.5
         e += 1
-    f = m - 1.0
-    d = m + 1.0
-    s = f / d
-    product, rest = exact_product(s, d)
-    s_low = ((f - product) - rest - s * (m - (d - 1.0))) / d
-    z, z_low = exact_product(s, s)
-    z_low += 2.0 * s * s_low
-    tail = z * _log_series(z)
-    g = _THIRD + tail  # 1/3 + s^2/5 + ...
-    g_low = (_THIRD - g) + tail + _THIRD_REST
-    q, q_low = exact_product(z, g)
-    q_low += z * g_low + z_low * g
-    cube, cube_low = exact_product(s, q)
-    cube_low += s * q_low + s_low * q
-    half = s + cube
-    half_low = (s - half) + cube + (cube_low + s_low)
-    large = e * _LN2
-    total = large + 2.0 * half
-    low = (large - total) + 2.0 * half + (2.0 * half_low + e * _LN2_REST)
-    return total, low
+    j = int(_STEPS * m)
+    inverse = _INVERSE[j]
+    a = (m + _TO_22_BITS) - _TO_22_BITS
+    r = a * inverse - 1.0
+    r_low = (m - a) * inverse
+    s = r + r_low
+    t = s * s
+    series = (_THIRD - 0.25 * s) + t * (
+        (0.2 - s * 0.16666666666666666)
+        + t * ((0.14285714285714285 - 0.125 * s) + t * 0.1111111111111111)
+    )
+    exact = (e * _LN2 + _LOG[j]) + r
+    square = 0.5 * r * r
+    high = exact - square
+    low = (exact - high) - square
+    first = high + r_low
+    low += (high - first) + r_low
+    rest = e * _LN2_REST + _LOG_REST[j]
+    low += rest + (s * t * series - r_low * (r + 0.5 * r_low))
+    total = first + low
+    return total, (first - total) + low
 
 
 @kernel
