@@ -14,6 +14,7 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bounces import INFERRED, bounces
 from stackbounce.measure.reading.roles import ACCELERATIONS, Column
 from stackbounce.measure.reading.series import in_time, step_of
+from stackbounce.measure.reading.video import rows_by_frame
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -166,8 +167,10 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     """Return the Dataset of tracks: x, y and further columns of each, and doubts."""
     import xarray as xr
 
+    columns, values, several = rows_by_frame(columns, values)
     at = _at(columns, "time")
     rows, doubts = in_time(values[:, at], run, gaps=False)
+    doubts = several + doubts
     values = values[rows]
     others = [k for k in range(len(columns)) if k != at]
     tracks = list(dict.fromkeys(columns[k].track for k in others))

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
+from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.reading.headings import slug
 from stackbounce.measure.reading.roles import Column
@@ -24,6 +24,8 @@ class ReadOptions:
     names: Mapping[_Key, str] | None = None
     units: Mapping[_Key, str] | None = None
     decimal: str | None = None
+    frame_rate: float | None = None
+    scale: float | None = None
 
     def __post_init__(self) -> None:
         if self.holds is not None and not (isinstance(self.holds, str) and self.holds in KINDS):
@@ -37,6 +39,9 @@ class ReadOptions:
             raise InvalidType(f"run must be a name or a number, got {shown(self.run)}")
         if not isinstance(self.decimal, str | None):
             raise InvalidType(f'decimal must be "." or ",", got {shown(self.decimal)}')
+        for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
+            if getattr(self, option) is not None:
+                positive(option, getattr(self, option), unit)
         for name in _checked("names", self.names):
             if not name.isidentifier():
                 raise InvalidValue(f"names: {shown(name)} is no name, such as 'force'")

@@ -1,7 +1,9 @@
 """`read`: the file of any program -> a Dataset with the kind of measurement that it holds."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,7 +11,8 @@ import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import wav, zipped
+from stackbounce.measure.reading import arrays, wav
+from stackbounce.measure.reading.containers import tables_in
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import Layout
@@ -17,7 +20,9 @@ from stackbounce.measure.reading.limits import content_of, refuse_others
 from stackbounce.measure.reading.numbers import Table, rows_of
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run
 from stackbounce.measure.reading.roles import Column
+from stackbounce.measure.reading.tables import Tables, chosen
 from stackbounce.measure.reading.text import decode, tabulate
+from stackbounce.measure.reading.video import on_frames
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -34,6 +39,8 @@ def read(
     names: Mapping[str | int, str] | None = None,
     units: Mapping[str | int, str] | None = None,
     decimal: str | None = None,
+    frame_rate: float | None = None,
+    scale: float | None = None,
 ) -> "xr.Dataset":
     r"""Return what a file of measurements holds, recognised by its content, in SI units.
 
@@ -60,6 +67,10 @@ def read(
         Units of columns, by their names or counted from 1, such as ``{"x": "cm", "y": "cm"}``.
     decimal : str, optional
         The decimal mark, ``"."`` or ``","``.
+    frame_rate : float, optional
+        Frames per second of a video, where positions are told by frame and not by time.
+    scale : float, optional
+        Metres per pixel, where positions are in pixels.
 
     Returns
     -------
@@ -103,7 +114,7 @@ def read(
     >>> data.force.values
     array([   0., 1500.,  100.])
     """
-    told = ReadOptions(holds, table, run, names, units, decimal)
+    told = ReadOptions(holds, table, run, names, units, decimal, frame_rate, scale)
     return _named(*content_of(path), told)
 
 
@@ -144,7 +155,7 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
 
 def _named(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     try:
-        data = _read(content, told)
+        data = _read(name, content, told)
     except StackbounceError as error:
         raise type(error)(f"{name}: {error}") from error
     except MemoryError as error:
@@ -153,28 +164,30 @@ def _named(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     return data
 
 
-def _read(content: bytearray, told: ReadOptions) -> "xr.Dataset":
+def _read(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if told.holds not in (None, "sound"):
             raise InvalidValue(f"holds: the file is a sound, got {shown(told.holds)}")
         return _signed(data, "WAV", why, "sound", doubts)
-    if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-        return _from_zip(content, told)
+    tables = tables_in(content)
+    if tables is not None:
+        return _from_tables(tables, told)
     if told.table is not None:
-        raise InvalidValue("table: there is one only, as it is no zip archive")
-    return _from_text(content, told)
+        raise InvalidValue("table: there is one only, as it is no zip archive or spreadsheet")
+    return _from_table(name, content, told)
 
 
-def _from_zip(content: bytearray, told: ReadOptions) -> "xr.Dataset":
-    members, by_phyphox = zipped.members(content)
-    names = sorted(members, key=lambda one: (one.count("/"), one))
+def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
+    """Read the first table that holds a known kind of measurement, or the one that is asked for."""
+    names = sorted(tables.members, key=lambda one: one.count("/"))
     if told.table is not None:
-        names = [zipped.chosen(names, told.table)]
+        names = [chosen(tables, told.table)]
+    told = replace(told, table=None, decimal=tables.decimal or told.decimal)
     read: list[tuple[str, xr.Dataset]] = []
     for name in names:
         try:
-            read.append((name, _from_text(bytearray(members.pop(name)), told)))
+            read.append((name, _read(name, bytearray(tables.members.pop(name)), told)))
         except StackbounceError as error:
             if name == names[-1] and not read:
                 raise type(error)(f"{name}: {error}") from error
@@ -182,9 +195,9 @@ def _from_zip(content: bytearray, told: ReadOptions) -> "xr.Dataset":
         if read[-1][1].attrs["holds"] != "table":
             break
     name, data = next((one for one in read if one[1].attrs["holds"] != "table"), read[0])
-    if by_phyphox and not data.attrs["format"].startswith("phyphox"):
-        data.attrs["format"] = "phyphox"
-        data.attrs["why"] = f"its meta/device.csv is phyphox's; {data.attrs['why']}"
+    if tables.program and not data.attrs["format"].startswith(tables.program):
+        data.attrs["format"] = tables.program
+    data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
     others = [one for one in names if one != name]
     if others:
         more = f"{name} of it is read; table={others[0]!r} reads another"
@@ -192,10 +205,9 @@ def _from_zip(content: bytearray, told: ReadOptions) -> "xr.Dataset":
     return data
 
 
-def _from_text(content: bytearray, told: ReadOptions) -> "xr.Dataset":
-    layout, columns, table, doubts, runs = _table(content, told)
-    if layout.clock:
-        table.values[:, 0] = layout.clock[0] + layout.clock[1] * table.values[:, 0]
+def _from_table(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
+    layout, columns, table, doubts, runs = _table(name, content, told)
+    _count(layout, columns, table)
     doubts += _flaws(table)
     values = table.values
     if layout.holds != "bounces":
@@ -208,20 +220,40 @@ def _from_text(content: bytearray, told: ReadOptions) -> "xr.Dataset":
 
 
 def _table(
-    content: bytearray, told: ReadOptions
+    name: str, content: bytearray, told: ReadOptions
 ) -> tuple[Layout, list[Column], Table, list[str], bool]:
-    """Return the layout of a text, its columns, numbers and doubts, and whether it has runs.
+    """Return the layout of a table, its columns, numbers and doubts, and whether it has runs.
 
     The text is freed on return, as it may be larger than all of these.
     """
-    refuse_others(content)
-    text = tabulate(decode(content), told.decimal)
-    layout = layout_of(text)
+    numbers: Callable[[Sequence[int]], Table]
+    if arrays.is_array(content):
+        array = arrays.array_in(content)
+        layout, numbers, doubts = arrays.layout_of_array(array), partial(arrays.rows_of_array, array), []
+    else:
+        refuse_others(content)
+        text = tabulate(decode(content), told.decimal, Path(name).name)
+        layout = layout_of(text)
+        numbers, doubts = partial(rows_of, text, layout.first), list(text.doubts)
     columns = apply_options(layout.columns, told)
-    doubts = [*text.doubts, *(() if told.names else layout.doubts)]
+    doubts += () if told.names else layout.doubts
     columns, runs = of_run(columns, told.run, doubts)
-    table = rows_of(text, layout.first, [one.index for one in columns])
-    return layout, columns, table, doubts, runs
+    columns, more = on_frames(columns, told.frame_rate, told.scale)
+    table = numbers([one.index for one in columns if one.index >= 0])
+    return layout, columns, table, doubts + more, runs
+
+
+def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
+    """Put in the numbers of a column that counts rows, and the times of a clock."""
+    at = next((k for k, one in enumerate(columns) if one.index < 0), None)
+    if at is not None:
+        rows = np.arange(len(table.values), dtype=np.float64)
+        table.values = np.insert(table.values, at, rows, axis=1)
+        table.strange = np.insert(table.strange, at, 0)
+    if layout.clock:
+        time = next((k for k, one in enumerate(columns) if one.role == "time"), None)
+        if time is not None:
+            table.values[:, time] = layout.clock[0] + layout.clock[1] * table.values[:, time]
 
 
 def _signed(

@@ -6,14 +6,23 @@ from dataclasses import dataclass, replace
 from stackbounce.measure.reading.headings import Heading, slug
 from stackbounce.units import in_si
 
-__all__ = ["ACCELERATIONS", "Column", "column"]
+__all__ = ["ACCELERATIONS", "FRAME", "PIXEL", "Column", "column"]
+
+FRAME, PIXEL = "frame", "px"
+"""The units of time and of length in a video whose frame rate and scale are not known."""
 
 _WORDS = {  # role: the whole name, folded, in the languages that files are often in
     "knock_time": r"(event|knock|bounce|impact)s?[ _]?(times?)?|ereigniszeit",
-    "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|seconds?|sec",
+    "frame": r"frames?([ #]*(no|nr|number|index|n°)?\.?)?|slices?( n°)?|bild(nummer)?",
+    "track_id": r"track[ ]?(id|no|nr|number|n°)\.?",
+    "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|tijd|tid|czas|x value"
+    r"|seconds?( elapsed)?|sec|s|position t",
     "compression": r"(crosshead |compressive |standard)?(compress\w*|extension|deflection|stroke"
-    r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung)|c",
-    "force": r"((standard|normal|impact|contact) ?)?(force|kraft|load|last|fuerza|forza)"
+    r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung|dehnung"
+    r"|verlängerung|extensión|extensão|alargamento|estensione|allongement|déplacement"
+    r"|desplazamiento|deslocamento|compresión|compressão|standardweg)|c",
+    "force": r"((standard|normal|impact|contact) ?)?(force|kraft|load|last|fuerza|forza|força"
+    r"|carga|carico|charge|kracht|belastning)"
     r"( ?[a-z0-9])?|f([_ ]?[xyzn0-9])?",
     "voltage": r"(voltage|volts?|spannung|tension|potential|signal|sensor|piezo|u)([ _]?[a-z0-9])?"
     r"|ch(annel|an)?[ _]?[a-z0-9]|math[ _]?\d?",
@@ -23,13 +32,15 @@ _WORDS = {  # role: the whole name, folded, in the languages that files are ofte
 }
 _ROLES = {role: re.compile(words) for role, words in _WORDS.items()}
 _ACCELERATION = re.compile(
-    r"(?P<before>.*\b)?(acceleration|beschleunigung)(?P<rest>.*)|a(?P<axis>[_ ]?[xyz])?"
+    r"(?P<before>.*\b)?(acceleration|accelerometer|beschleunigung|accélération|aceleración"
+    r"|aceleração|accelerazione|acc)(?P<rest>\b.*)|a(?P<axis>[_ ]?[xyz])?"
 )
 _WANTED = {  # the SI units that a column in a role can have
     "knock_time": "s", "time": "s", "compression": "m", "force": "N kg", "voltage": "V A",
-    "sound": "V Pa 1", "x": "m", "y": "m",
+    "sound": "V Pa 1", "x": "m px", "y": "m px", "frame": "1", "track_id": "1",
 }  # fmt: skip
 _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
+_PIXELS = re.compile(r"px|pix|pixels?", re.IGNORECASE)
 _BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
 _ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
@@ -103,6 +114,8 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     word = " ".join(name.casefold().replace("_", " ").split())
     factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
     doubt = ""
+    if _PIXELS.fullmatch(unit):
+        symbol = PIXEL
     if unit and not symbol and re.search(r"\w", unit) and unit not in _ARBITRARY:
         doubt = f"unit {unit!r} of {name!r} is not known here: its numbers are left as they are"
     bend = _ACCELERATION.fullmatch(word)
@@ -110,6 +123,10 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
         factor, symbol = (G, "m/s^2") if unit == "g" else (factor, symbol)
         axis = _axis(bend["rest"] or bend["axis"] or bend["before"] or "")
         return told or axis, factor, symbol, doubt
+    if not told and symbol == "m/s^2" and word in ("x", "y", "z"):
+        return f"acceleration_{word}", factor, symbol, doubt
+    if not told and unit.casefold() in ("frame", "frames"):
+        return "frame", 1.0, "", ""
     role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
     if symbol and role and symbol not in _WANTED.get(role, symbol).split():
         role = ""

@@ -41,6 +41,8 @@ class Text:
         Where each of these begins in `content`.
     doubts : list of str, optional
         What is unsure about delimiter and decimal mark.
+    name : str, optional
+        That of the file, for programs that tell by it what they wrote.
     """
 
     content: str
@@ -49,6 +51,7 @@ class Text:
     head: list[list[str]]
     starts: list[int]
     doubts: list[str] = field(default_factory=list)
+    name: str = ""
 
     def line(self, index: int) -> str:
         """Return one of the first lines."""
@@ -149,7 +152,7 @@ _GROUPED = {
 _POINTS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+")
 
 
-def tabulate(content: str, decimal: str | None = None) -> Text:
+def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
     """Find the delimiter and the decimal mark of a table in its first lines.
 
     Raises
@@ -172,12 +175,12 @@ def tabulate(content: str, decimal: str | None = None) -> Text:
     if wide > COLUMNS:
         raise FileError(f"it has a line of {wide} cells: at most {COLUMNS} columns are read")
     mark, doubts = (decimal, []) if decimal else _decimal(head, delimiter)
-    if not any(_numbers(row, mark) for row in head):
+    if not any(_numbers(row, mark) or _labelled(row, mark) for row in head):
         raise FileError(
             f"it has no row of numbers in its first {len(head)} lines; "
             f"it begins with {shown(next((one for one in lines if one.strip()), ''))}"
         )
-    return Text(content, delimiter, mark, head, starts, doubts)
+    return Text(content, delimiter, mark, head, starts, doubts, name)
 
 
 def _head(content: str) -> tuple[list[int], list[str]]:
@@ -204,6 +207,11 @@ def _numbers(row: list[str], decimal: str) -> int:
             return 0
         count += value == value  # NaN is not itself
     return count
+
+
+def _labelled(row: list[str], decimal: str) -> bool:
+    """Tell whether a row has numbers after a word that labels it."""
+    return len(row) > 2 and _numbers(row[1:], decimal) > 1
 
 
 def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:

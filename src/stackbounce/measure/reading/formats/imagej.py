@@ -1,0 +1,46 @@
+"""ImageJ: the results table, manual tracking, MTrack2; positions by slice or frame of a stack."""
+
+import re
+
+from stackbounce.measure.reading.headings import heading
+from stackbounce.measure.reading.layouts import Layout, first_row, layout
+from stackbounce.measure.reading.roles import Column, column
+from stackbounce.measure.reading.text import Text
+
+_MEASURED = {"area", "mean", "min", "max", "counter", "label", "slice", "slice n°", "distance", ""}
+_NUMBERED = re.compile(r"([xy]) ?([0-9]{1,3})")
+
+
+@layout
+def mtrack2(text: Text) -> Layout | None:
+    """Recognise MTrack2: ``Frame, X1, Y1, Flag1, X2 …``, often over ``Tracks 1 to 6``."""
+    names = [cell.casefold() for cell in text.head[0]]
+    if names[:1] != ["frame"] or not {"x1", "y1"} <= set(names):
+        return None
+    found = [column(0, heading("Frame"), "frame")]
+    for k, name in enumerate(names):
+        if place := _NUMBERED.fullmatch(name):
+            found.append(column(k, heading(place[1].upper()), place[1], f"track {place[2]}"))
+    why = "Frame, X1, Y1 are the columns of MTrack2, a plugin of ImageJ"
+    return Layout("ImageJ: MTrack2", why, tuple(found), first_row(text, 1))
+
+
+@layout
+def results(text: Text) -> Layout | None:
+    """Recognise a results table of ImageJ: X and Y, by slice or else by row."""
+    names = [cell.casefold() for cell in text.head[0]]
+    pair = next((one for one in (("x", "y"), ("xm", "ym")) if set(one) <= set(names)), None)
+    others = set(names) - {"x", "y"}
+    if pair is None or len(others & _MEASURED) < 2 - ("slice n°" in others):
+        return None
+    if any(name in ("t", "time") for name in names):
+        return None
+    found = [column(names.index(name), heading(name[0].upper()), name[0]) for name in pair]
+    frames = [column(k, heading(cell)) for k, cell in enumerate(text.head[0]) if cell]
+    frames = [one for one in frames if one.role in ("frame", "track_id")]
+    if not any(one.role == "frame" for one in frames):
+        frames.append(column(-1, heading("row"), "frame"))
+    told = "by slice" if frames[-1].index >= 0 else "by row"
+    why = f"X and Y beside other results are a table of ImageJ; they are read {told}"
+    ordered: tuple[Column, ...] = (*frames, *found)
+    return Layout("ImageJ", why, ordered, first_row(text, 1))

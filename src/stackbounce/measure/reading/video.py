@@ -1,0 +1,126 @@
+"""Positions by frame of a video: frames as times, pixels as lengths, one row for each frame."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.reading.roles import FRAME, PIXEL, Column
+
+__all__ = ["on_frames", "rows_by_frame"]
+
+_TRACKS = 12
+"""Tracks below each other that are read, at most: the longest ones."""
+
+
+def on_frames(
+    columns: Sequence[Column], frame_rate: float | None, scale: float | None
+) -> tuple[list[Column], list[str]]:
+    """Return columns in which frames are times, where there is no clock, and what is unsure.
+
+    Parameters
+    ----------
+    columns : sequence of Column
+        As the header has them; without a position they stay as they are.
+    frame_rate : float or None
+        In 1/s; without it a frame is the unit of time.
+    scale : float or None
+        Metres per pixel; without it a pixel is the unit of length.
+    """
+    found, doubts = list(columns), []
+    positions = [k for k, one in enumerate(found) if one.role in ("x", "y")]
+    if not positions:
+        return found, doubts
+    clock = any(one.role == "time" for one in found)
+    at = next((k for k, one in enumerate(found) if one.role == "frame"), None)
+    if not clock and at is not None:
+        said = replace(found[at].heading, unit=FRAME)
+        factor, unit = (1.0, FRAME) if frame_rate is None else (1.0 / frame_rate, "s")
+        found[at] = replace(found[at], heading=said, role="time", factor=factor, unit=unit)
+        if frame_rate is None:
+            doubts.append(
+                "it has no times, so that a frame is the unit of time: the frame rate tells them"
+            )
+    elif frame_rate is not None:
+        doubts.append("the frame rate is not used, as the file has times")
+    pixels = [
+        k for k in positions
+        if found[k].unit == PIXEL or (not clock and at is not None and not found[k].heading.unit)
+    ]  # fmt: skip
+    bare = [k for k in positions if not found[k].heading.unit] if scale is not None else []
+    for k in {*pixels, *bare}:
+        factor, unit = (1.0, PIXEL) if scale is None else (scale, "m")
+        found[k] = replace(found[k], factor=factor, unit=unit, doubt="")
+    if pixels and scale is None:
+        names = " and ".join(dict.fromkeys(found[k].role for k in pixels))
+        doubts.append(f"{names} are taken as pixels: the scale, in metres per pixel, tells lengths")
+    if scale is not None and not {*pixels, *bare}:
+        doubts.append("the scale is not used, as the positions have units")
+    return found, doubts
+
+
+def rows_by_frame(
+    columns: Sequence[Column], values: Array
+) -> tuple[list[Column], Array, list[str]]:
+    """Return a table of tracks with one row for each time, and what is unsure.
+
+    Tracks that stand below each other, told apart by a column of their numbers, are put side by
+    side. Of several points in a frame that belong to no track, the one next to the point before is
+    taken.
+    """
+    at = next((k for k, one in enumerate(columns) if one.role == "track_id"), None)
+    time = next(k for k, one in enumerate(columns) if one.role == "time")
+    if at is not None:
+        return _side_by_side(columns, values, time, at)
+    if columns[time].heading.unit != FRAME or len({one.track for one in columns}) > 1:
+        return list(columns), values, []
+    places = [k for k, one in enumerate(columns) if one.role in ("x", "y")]
+    kept = _nearest(values[:, time], values[:, places])
+    if len(kept) == len(values):
+        return list(columns), values, []
+    many = len(values) - len(kept)
+    doubt = f"{many} rows are further points in a frame: the one next to the point before is taken"
+    return list(columns), values[kept], [doubt]
+
+
+def _side_by_side(
+    columns: Sequence[Column], values: Array, time: int, at: int
+) -> tuple[list[Column], Array, list[str]]:
+    ids, counts = np.unique(values[np.isfinite(values[:, at]), at], return_counts=True)
+    longest = np.sort(ids[np.argsort(-counts, kind="stable")[:_TRACKS]])
+    rows = [np.flatnonzero(values[:, at] == one) for one in longest]
+    if not rows:
+        without = [k for k in range(len(columns)) if k != at]
+        return [columns[k] for k in without], values[:, without], []
+    places = [k for k, one in enumerate(columns) if one.role in ("x", "y")]
+    times = np.unique(values[np.concatenate(rows), time])
+    times = times[np.isfinite(times)]
+    table = np.full((len(times), 1 + len(rows) * len(places)), np.nan)
+    table[:, 0] = times
+    found = [columns[time]]
+    for one, own in zip(longest, rows, strict=True):
+        own = own[np.isfinite(values[own, time])]
+        to = np.searchsorted(times, values[own, time])
+        for k in places:
+            table[to, len(found)] = values[own, k]
+            found.append(replace(columns[k], track=f"track {one:g}"))
+    left = len(ids) - len(longest)
+    doubts = [f"{left} shorter tracks are left out"] if left else []
+    return found, table, doubts
+
+
+def _nearest(frames: Array, places: Array) -> list[int]:
+    """Return one row of each run of equal frames, that next to the row kept before."""
+    kept: list[int] = []
+    start = 0
+    edges = np.flatnonzero(np.diff(frames) != 0.0) + 1
+    for end in [*edges.tolist(), len(frames)]:
+        own = places[start:end]
+        if end - start == 1 or not kept:
+            kept.append(start)
+        else:
+            far = np.nansum((own - places[kept[-1]]) ** 2, axis=1)
+            kept.append(start + int(np.argmin(far)))
+        start = end
+    return kept
