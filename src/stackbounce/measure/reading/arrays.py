@@ -1,6 +1,7 @@
 """Arrays of NumPy (.npy): their columns, or the fields of records; nothing is unpickled."""
 
 import io
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -33,24 +34,18 @@ def array_in(content: bytes | bytearray) -> NDArray[Any]:
     FileError
         If it is cut off, too large, or holds no numbers.
     """
-    stream = io.BytesIO(content)
     try:
-        version = np.lib.format.read_magic(stream)
-        reader = (np.lib.format.read_array_header_1_0, np.lib.format.read_array_header_2_0)
-        shape, fortran, kind = reader[version[0] > 1](stream)
-        begin, count = stream.tell(), int(np.prod(shape, dtype=object))
-        if kind.hasobject or any(kind[n].kind not in _NUMBERS for n in kind.names or ()) or (
-            kind.names is None and kind.kind not in _NUMBERS
-        ):  # fmt: skip
-            raise FileError(f"it is a NumPy array of {kind}: save one of plain numbers")
-        if len(content) - begin < count * kind.itemsize:
-            raise FileError("it is a NumPy array that is cut off")
-        flat = np.frombuffer(content, kind, count, begin)
-    except FileError:
-        raise
+        shape, fortran, kind, begin = _header(content)
     except (ValueError, TypeError, KeyError, IndexError, SyntaxError, EOFError) as error:
         why = " ".join(str(error).split())[:200]
         raise FileError(f"it is a NumPy array that cannot be read ({why})") from error
+    kinds = [kind[name] for name in kind.names] if kind.names else [kind]
+    if any(one.kind not in _NUMBERS for one in kinds):
+        raise FileError(f"it is a NumPy array of {kind}: save one of plain numbers")
+    count = math.prod(shape)
+    if not 0 < count <= (len(content) - begin) // max(kind.itemsize, 1):
+        raise FileError(f"it is a NumPy array of shape {shape} that is empty or cut off")
+    flat = np.frombuffer(content, kind, count, begin)
     array = flat.reshape(shape, order="F" if fortran else "C")
     if kind.names is not None and array.ndim == 1:
         return array
@@ -59,6 +54,15 @@ def array_in(content: bytes | bytearray) -> NDArray[Any]:
     if array.ndim != 2 or kind.names is not None:
         raise FileError(f"it is a NumPy array of shape {shape}: save one with rows and columns")
     return array.T if array.shape[1] > COLUMNS >= array.shape[0] else array
+
+
+def _header(content: bytes | bytearray) -> tuple[tuple[int, ...], bool, np.dtype[Any], int]:
+    """Return the shape of an array, whether its columns come first, its type, and where it is."""
+    stream = io.BytesIO(content[:20000])
+    version = np.lib.format.read_magic(stream)
+    one, two = np.lib.format.read_array_header_1_0, np.lib.format.read_array_header_2_0
+    shape, fortran, kind = (one if version[0] == 1 else two)(stream)
+    return shape, fortran, kind, stream.tell()
 
 
 def layout_of_array(array: NDArray[Any]) -> Layout:
@@ -77,7 +81,7 @@ def layout_of_array(array: NDArray[Any]) -> Layout:
         why = f"a NumPy array with the fields {', '.join(names[:3])}"
         return Layout("NumPy", why, columns_of(names, width), 0)
     found = guess(np.asarray(array[:200], dtype=np.float64))
-    return Layout("NumPy", "a NumPy array", found.columns, 0, (found.doubt,))
+    return Layout("NumPy", "a NumPy array", columns_of([], width), 0, guess=found)
 
 
 def rows_of_array(array: NDArray[Any], used: Sequence[int]) -> Table:

@@ -8,12 +8,12 @@ from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.roles import Column, column
 
-__all__ = ["Guess", "guess"]
+__all__ = ["NOT_NAMED", "Guess", "guess"]
 
 _LEAST = 5  # rows that tell it
 _SCOPE, _VIDEO = 1e-3, 0.2  # s, the longest step of samples and that of frames
-_SAID = "no header names the columns: "
 _TELL = "name them, as in names={1: 'time', 2: 'force'}"
+NOT_NAMED = f"no header names the columns: {_TELL}"
 
 
 @dataclass(frozen=True)
@@ -36,8 +36,8 @@ def guess(rows: Array) -> Guess:
     """Return what columns look like by their first rows, (rows, columns).
 
     Counted rows with two more columns are frames with x and y in an image. Evenly rising numbers
-    are times: with steps up to 1 ms beside voltages, with longer ones beside x and y. Anything
-    else stays without a meaning.
+    are times: with steps up to 1 ms beside the voltage of one channel, with longer ones beside x
+    and y. Anything else stays without a meaning.
 
     Examples
     --------
@@ -50,14 +50,14 @@ def guess(rows: Array) -> Guess:
     step = _step(known[:, 0]) if len(known) >= _LEAST and width > 1 else 0.0
     if step == 1.0 and width == 3 and (known[:, 0] == np.round(known[:, 0])).all():
         return _named(("frame", "x", "y"), "the first counts frames, so that x and y follow")
-    if 0.0 < step <= _SCOPE:
-        roles = ("time", *["voltage"] * (width - 1))
-        said = f"the first rises in steps of {step:g}, so that it is taken as time in s, the others"
-        return _named(roles, f"{said} as voltages")
+    said = f"the first rises in steps of {step:.4g}, so that it is taken as time in s"
+    if 0.0 < step <= _SCOPE and width == 2:
+        return _named(("time", "voltage"), f"{said}, the other as the voltage of a scope")
     if _SCOPE < step <= _VIDEO and width == 3:
-        said = f"the first rises in steps of {step:g}, so that it is taken as time in s"
         return _named(("time", "x", "y"), f"{said}, the others as x and y")
-    return Guess(tuple(column(k, heading("")) for k in range(width)), f"{_SAID}{_TELL}")
+    if 0.0 < step <= _SCOPE:
+        return _named(("time", *[""] * (width - 1)), said)
+    return Guess(tuple(column(k, heading("")) for k in range(width)), NOT_NAMED)
 
 
 def _named(roles: tuple[str, ...], said: str) -> Guess:
@@ -65,7 +65,7 @@ def _named(roles: tuple[str, ...], said: str) -> Guess:
     columns = tuple(
         column(k, heading("", units.get(role, "")), role) for k, role in enumerate(roles)
     )
-    return Guess(columns, f"{_SAID}{said}; if that is wrong, {_TELL}")
+    return Guess(columns, f"no header names the columns: {said}; if that is wrong, {_TELL}")
 
 
 def _step(numbers: Array) -> float:

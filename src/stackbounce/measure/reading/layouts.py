@@ -13,7 +13,7 @@ import numpy as np
 
 from stackbounce.errors import FileError
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.bare import guess
+from stackbounce.measure.reading.bare import Guess, guess
 from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
 from stackbounce.measure.reading.text import Text, number
@@ -41,6 +41,10 @@ class Layout:
         Start and step in s, where the column of times counts samples or rows.
     holds : str, optional
         The kind of measurement, if it does not follow from the columns.
+    guess : Guess, optional
+        What columns without names look like.
+    end : int, optional
+        Where in the text the table ends, if something else follows.
     """
 
     format: str
@@ -50,6 +54,8 @@ class Layout:
     doubts: tuple[str, ...] = ()
     clock: tuple[float, float] | None = None
     holds: str = ""
+    guess: Guess | None = None
+    end: int | None = None
 
 
 _Recognise: TypeAlias = Callable[[Text], Layout | None]
@@ -116,7 +122,7 @@ def general(text: Text) -> Layout:
     if not above or first - above[-1] > 2:
         found = guess(_numbers(text, first, width))
         why = "rows of numbers without a header"
-        return Layout("table of numbers", why, found.columns, first, (found.doubt,))
+        return Layout("table of numbers", why, columns_of([], width), first, guess=found)
     names = _named(text, above[-1], width)
     units = None
     if len(above) > 1 and all(is_unit(cell) for cell in names if cell):
@@ -144,7 +150,11 @@ def _beside(text: Text, width: int, index: int) -> list[str]:
     if any(number(cell, text.decimal) is None for cell in cells[:width]) or not any(cells[:width]):
         return []
     names = [cell for cell in cells[width:] if cell]
-    return names if len(names) == width and all(number(one, text.decimal) is None for one in names) else []
+    return (
+        names
+        if len(names) == width and all(number(one, text.decimal) is None for one in names)
+        else []
+    )
 
 
 def _numbers(text: Text, first: int, width: int) -> Array:

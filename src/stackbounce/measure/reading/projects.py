@@ -130,7 +130,8 @@ def _logger_pro(tree: "Element") -> Tables:
             cells = (column.findtext("ColumnCells") or "").strip("\n").split("\n")
             if any(cell.strip() for cell in cells):
                 name, unit = (
-                    (column.findtext(key) or "").strip() for key in ("DataObjectName", "ColumnUnits")
+                    (column.findtext(key) or "").strip()
+                    for key in ("DataObjectName", "ColumnUnits")
                 )
                 names.append(f"{run}: {name or 'column'}" + f" ({unit})" * bool(unit))
                 columns.append(cells)

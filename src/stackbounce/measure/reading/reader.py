@@ -11,7 +11,8 @@ import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import arrays, wav
+from stackbounce.measure.reading import arrays, projects, wav
+from stackbounce.measure.reading.bare import NOT_NAMED
 from stackbounce.measure.reading.containers import tables_in
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
@@ -187,7 +188,10 @@ def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
     read: list[tuple[str, xr.Dataset]] = []
     for name in names:
         try:
-            read.append((name, _read(name, bytearray(tables.members.pop(name)), told)))
+            content = bytearray(tables.members.pop(name))
+            inner = projects.tables(content)  # one of Tracker in a zip archive
+            own = _from_tables(inner, told) if inner else _from_table(name, content, told)
+            read.append((name, own))
         except StackbounceError as error:
             if name == names[-1] and not read:
                 raise type(error)(f"{name}: {error}") from error
@@ -229,18 +233,35 @@ def _table(
     numbers: Callable[[Sequence[int]], Table]
     if arrays.is_array(content):
         array = arrays.array_in(content)
-        layout, numbers, doubts = arrays.layout_of_array(array), partial(arrays.rows_of_array, array), []
+        layout, numbers, doubts = (
+            arrays.layout_of_array(array),
+            partial(arrays.rows_of_array, array),
+            [],
+        )
     else:
         refuse_others(content)
         text = tabulate(decode(content), told.decimal, Path(name).name)
         layout = layout_of(text)
+        if layout.end is not None:
+            text = replace(text, content=text.content[: layout.end])
         numbers, doubts = partial(rows_of, text, layout.first), list(text.doubts)
-    columns = apply_options(layout.columns, told)
-    doubts += () if told.names else layout.doubts
+    named, unsure = _meant(layout, told)
+    columns = apply_options(named, told)
+    doubts += () if told.names else unsure
     columns, runs = of_run(columns, told.run, doubts)
     columns, more = on_frames(columns, told.frame_rate, told.scale)
     table = numbers([one.index for one in columns if one.index >= 0])
     return layout, columns, table, doubts + more, runs
+
+
+def _meant(layout: Layout, told: ReadOptions) -> tuple[Sequence[Column], Sequence[str]]:
+    """Return the columns of a layout, or what they look like, and what is unsure."""
+    found = layout.guess
+    if found is None:
+        return layout.columns, layout.doubts
+    if told.names or told.holds not in (None, holds_of(on_frames(found.columns, None, None)[0])):
+        return layout.columns, (NOT_NAMED,)
+    return found.columns, (found.doubt,)
 
 
 def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:

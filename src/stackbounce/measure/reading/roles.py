@@ -6,10 +6,13 @@ from dataclasses import dataclass, replace
 from stackbounce.measure.reading.headings import Heading, slug
 from stackbounce.units import in_si
 
-__all__ = ["ACCELERATIONS", "FRAME", "PIXEL", "Column", "column"]
+__all__ = ["ACCELERATIONS", "FRAME", "PIXEL", "POINT", "Column", "column"]
 
 FRAME, PIXEL = "frame", "px"
 """The units of time and of length in a video whose frame rate and scale are not known."""
+
+POINT = "point "
+"""Begins the name of a track whose points are in no order, those of any ball in each frame."""
 
 _WORDS = {  # role: the whole name, folded, in the languages that files are often in
     "knock_time": r"(event|knock|bounce|impact)s?[ _]?(times?)?|ereigniszeit",
@@ -25,7 +28,7 @@ _WORDS = {  # role: the whole name, folded, in the languages that files are ofte
     r"|carga|carico|charge|kracht|belastning)"
     r"( ?[a-z0-9])?|f([_ ]?[xyzn0-9])?",
     "voltage": r"(voltage|volts?|spannung|tension|potential|signal|sensor|piezo|u)([ _]?[a-z0-9])?"
-    r"|ch(annel|an)?[ _]?[a-z0-9]|math[ _]?\d?",
+    r"|ch(annel|an)?[ _]?[a-z0-9]v?|math[ _]?\d?",
     "sound": r"(recording|audio|sound|sound pressure|microphone|mic|amplitude|aufnahme)",
     "x": r"x|(x[ _-]?position|position[ _-]?x)",
     "y": r"y|(y[ _-]?position|position[ _-]?y)|position|distance|height|höhe|abstand|ort",
@@ -33,7 +36,7 @@ _WORDS = {  # role: the whole name, folded, in the languages that files are ofte
 _ROLES = {role: re.compile(words) for role, words in _WORDS.items()}
 _ACCELERATION = re.compile(
     r"(?P<before>.*\b)?(acceleration|accelerometer|beschleunigung|accélération|aceleración"
-    r"|aceleração|accelerazione|acc)(?P<rest>\b.*)|a(?P<axis>[_ ]?[xyz])?"
+    r"|aceleração|accelerazione|acc\b)(?P<rest>.*)|a(?P<axis>[_ ]?[xyz])?"
 )
 _WANTED = {  # the SI units that a column in a role can have
     "knock_time": "s", "time": "s", "compression": "m", "force": "N kg", "voltage": "V A",

@@ -50,7 +50,9 @@ def from_xls(content: bytearray) -> Tables:
     return _opened(_xls, content)
 
 
-def _opened(sheets: Callable[[bytearray], Iterator[tuple[str, _Rows]]], content: bytearray) -> Tables:
+def _opened(
+    sheets: Callable[[bytearray], Iterator[tuple[str, _Rows]]], content: bytearray
+) -> Tables:
     """Return the sheets with cells in them; a broken file fails in too many ways to list them."""
     left = [_CELLS]
     try:

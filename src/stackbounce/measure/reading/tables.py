@@ -37,12 +37,12 @@ class Tables:
 
 
 def as_text(rows: Iterable[Sequence[object]]) -> bytes:
-    """Return rows of cells as the bytes of a table, with tabs and decimal points.
+    r"""Return rows of cells as the bytes of a table, with tabs and decimal points.
 
     Examples
     --------
     >>> as_text([("t (s)", "y"), (0.5, None)])
-    b't (s)\\ty\\n0.5\\t\\n'
+    b't (s)\ty\n0.5\t\n'
     """
     text = io.StringIO()
     for row in rows:

@@ -6,12 +6,17 @@ from dataclasses import replace
 import numpy as np
 
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.roles import FRAME, PIXEL, Column
+from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column
 
 __all__ = ["on_frames", "rows_by_frame"]
 
 _TRACKS = 12
 """Tracks below each other that are read, at most: the longest ones."""
+
+_LEAST = 5  # points of a track that is put together
+_REACH = 0.05  # of the range of all points: how far from its path the next point of a track may be
+_LOST = 5  # frames after which a track has no path any more
+_STILL = 0.1  # of the range of the track that moves most: tracks that move less are specks
 
 
 def on_frames(
@@ -28,7 +33,8 @@ def on_frames(
     scale : float or None
         Metres per pixel; without it a pixel is the unit of length.
     """
-    found, doubts = list(columns), []
+    found = list(columns)
+    doubts: list[str] = []
     positions = [k for k, one in enumerate(found) if one.role in ("x", "y")]
     if not positions:
         return found, doubts
@@ -73,6 +79,8 @@ def rows_by_frame(
     time = next(k for k, one in enumerate(columns) if one.role == "time")
     if at is not None:
         return _side_by_side(columns, values, time, at)
+    if any(one.track.startswith(POINT) for one in columns):
+        return _linked(columns, values, time)
     if columns[time].heading.unit != FRAME or len({one.track for one in columns}) > 1:
         return list(columns), values, []
     places = [k for k, one in enumerate(columns) if one.role in ("x", "y")]
@@ -124,3 +132,61 @@ def _nearest(frames: Array, places: Array) -> list[int]:
             kept.append(start + int(np.argmin(far)))
         start = end
     return kept
+
+
+def _linked(
+    columns: Sequence[Column], values: Array, time: int
+) -> tuple[list[Column], Array, list[str]]:
+    """Return tracks that are put together from points, each next to where it should be."""
+    back = np.flatnonzero(np.diff(values[:, time]) < 0.0)
+    values = values[: back[0] + 1] if back.size else values
+    axes = [[k for k, one in enumerate(columns) if one.role == axis] for axis in ("x", "y")]
+    points = np.stack([values[:, own] for own in axes], axis=-1)
+    tracks = _together(values[:, time], points)
+    table = np.full((len(values), 1 + 2 * len(tracks)), np.nan)
+    table[:, 0] = values[:, time]
+    found = [columns[time]]
+    for one in tracks:
+        for axis, own in enumerate(axes):
+            table[list(one), len(found)] = [place[axis] for place in one.values()]
+            found.append(replace(columns[own[0]], track=f"track {(len(found) + 1) // 2}"))
+    return found, table, []
+
+
+def _together(times: Array, points: Array) -> list[dict[int, Array]]:
+    """Return moving tracks as points by row, the longest first, of points (rows, any, x and y)."""
+    known = np.asarray(np.isfinite(points).all(axis=2))
+    reach = _REACH * float(np.ptp(points[known], axis=0).max()) if known.any() else 0.0
+    live: list[dict[int, Array]] = []
+    done: list[dict[int, Array]] = []
+    for row, now in enumerate(times.tolist()):
+        done += [one for one in live if now - times[max(one)] > _LOST and len(one) >= _LEAST]
+        live = [one for one in live if now - times[max(one)] <= _LOST]
+        left = list(points[row][known[row]])
+        paths = [_expected(one, times, now) for one in live]
+        far = {
+            (k, j): float(np.hypot(*(path - place)))
+            for k, path in enumerate(paths)
+            for j, place in enumerate(left)
+        }
+        taken: set[int] = set()
+        for (k, j), distance in sorted(far.items(), key=lambda item: item[1]):
+            if distance <= reach and row not in live[k] and j not in taken:
+                live[k][row] = left[j]
+                taken.add(j)
+        live += [{row: place} for j, place in enumerate(left) if j not in taken]
+    done += [one for one in live if len(one) >= _LEAST]
+    ranges = [float(np.ptp(list(one.values()), axis=0).max()) for one in done]
+    moving = [one for one, wide in zip(done, ranges, strict=True) if wide > _STILL * max(ranges)]
+    return sorted(moving, key=len, reverse=True)[:_TRACKS]
+
+
+def _expected(track: dict[int, Array], times: Array, now: float) -> Array:
+    """Return where a track would go on to, by its last two points."""
+    *_, last = track
+    before = next((row for row in list(track)[-2:-1]), last)
+    since = float(times[last] - times[before])
+    if not since > 0.0:
+        return track[last]
+    ahead = float(now - times[last]) / since
+    return np.asarray(track[last] + ahead * (track[last] - track[before]))

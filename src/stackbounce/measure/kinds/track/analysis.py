@@ -18,6 +18,7 @@ from stackbounce.measure.kinds.track.paths import (
 )
 from stackbounce.measure.kinds.track.result import Track, Tracks
 from stackbounce.measure.kinds.track.time_base import check_time_base
+from stackbounce.measure.kinds.track.units import TrackUnits, uncalibrated, units_of
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -103,7 +104,8 @@ def track(
         notes.append(f"{up.axis} points down; heights are counted upwards.")
     up, fitted = _fitted(found, up, gravity, notes)
     level = None if floor is None else ruler * finite("floor", floor, "metres")
-    balls = [_track(name, *one, level) for name, one in fitted]
+    units = units_of(data)
+    balls = [_track(name, *one, level, units) for name, one in fitted]
     if not balls:
         raise InvalidValue(
             "data must hold a ball that falls and bounces, with three points or more of each "
@@ -113,11 +115,13 @@ def track(
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
     rate = float(1.0 / np.median(np.diff(found.times)))
     base = check_time_base(_common_gravity(balls), gravity, rate)
+    if not units.known:
+        base = uncalibrated(base, units, gravity)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
     sign = "" if up.sign > 0.0 else "-"
     first = balls[0].impact_times[0]
-    return Tracks(tuple(balls), ratios, first, base, sign + up.axis, up.tilt, tuple(notes))
+    return Tracks(tuple(balls), ratios, first, base, sign + up.axis, up.tilt, tuple(notes), units)
 
 
 _Found = tuple[Array, Array, Flights, list[int]]
@@ -165,7 +169,13 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
 
 
 def _track(
-    name: str, times: Array, heights: Array, fit: Flights, bounces: list[int], floor: float | None
+    name: str,
+    times: Array,
+    heights: Array,
+    fit: Flights,
+    bounces: list[int],
+    floor: float | None,
+    units: TrackUnits,
 ) -> Track:
     """Return a ball's bounces from its parabolas."""
     from uncertainties import correlated_values
@@ -202,8 +212,12 @@ def _track(
         fit,
         tuple(bounces),
         (
-            *notes_of(name, times, fit, bounces, moments[0], impacts[0] / fall),
-            *(stays_long(name, times, fit, bounces[0], impacts[0], fall) if floor is None else ()),
+            *notes_of(name, times, fit, bounces, moments[0], impacts[0] / fall, units.time),
+            *(
+                stays_long(name, times, fit, bounces[0], impacts[0], fall)
+                if floor is None and units.known
+                else ()
+            ),
         ),
     )
 

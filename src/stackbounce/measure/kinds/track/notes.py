@@ -14,16 +14,22 @@ _NOTICED = 1.0  # error of a speed, beyond which it is said to be off
 
 
 def notes_of(
-    name: str, times: Array, fit: Flights, bounces: list[int], impact: Any, fallen: Any
+    name: str,
+    times: Array,
+    fit: Flights,
+    bounces: list[int],
+    impact: Any,
+    fallen: Any,
+    unit: str = "s",
 ) -> tuple[str, ...]:
-    """Return the notes on a ball's track; `fallen` is its time of fall from rest."""
+    """Return the notes on a ball's track; `fallen` is its time of fall from rest, in a unit."""
     notes = []
     first = fit.flights[bounces[0]]
     late = float(times[first.first] - (impact - fallen).nominal_value)
     if late > 0.2 * fallen.nominal_value:
         notes.append(
-            f"{name}: its track begins {late:.2g} s after the fall did; the drop height is that of "
-            "a fall from rest with the same impact speed."
+            f"{name}: its track begins {late:.2g} {unit} after the fall did; the drop height is "
+            "that of a fall from rest with the same impact speed."
         )
     elif late < -0.1 * fallen.nominal_value:
         notes.append(

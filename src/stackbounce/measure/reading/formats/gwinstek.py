@@ -21,7 +21,9 @@ def gwinstek(text: Text) -> Layout | None:
         )
     unit = _second(keys, "Horizontal Units") or "s"
     columns = [column(0, Heading("time", "time", unit), "time")]
-    count = sum(cell == "Source" for cell in [*text.head[lines["Source"]]]) if "Source" in keys else 1
+    count = (
+        sum(cell == "Source" for cell in [*text.head[lines["Source"]]]) if "Source" in keys else 1
+    )
     for k in range(max(count, 1)):
         source = _at(keys.get("Source", []), 2 * k) or f"CH{k + 1}"
         volt = _at(keys.get("Vertical Units", []), 2 * k) or "V"

@@ -4,10 +4,15 @@ import re
 
 from stackbounce.measure.reading.headings import heading
 from stackbounce.measure.reading.layouts import Layout, first_row, layout
-from stackbounce.measure.reading.roles import Column, column
-from stackbounce.measure.reading.text import Text
+from stackbounce.measure.reading.roles import POINT, Column, column
+from stackbounce.measure.reading.text import Text, number
 
 _MEASURED = {"area", "mean", "min", "max", "counter", "label", "slice", "slice n°", "distance", ""}
+_CLOSED_UP = (
+    "blank cells were lost, so that numbers stand under Flag: points are put together to tracks by "
+    "where they are"
+)
+_SUMMARY = re.compile(r"\n+Track\s")  # a line for each track, below all points
 _NUMBERED = re.compile(r"([xy]) ?([0-9]{1,3})")
 
 
@@ -17,12 +22,27 @@ def mtrack2(text: Text) -> Layout | None:
     names = [cell.casefold() for cell in text.head[0]]
     if names[:1] != ["frame"] or not {"x1", "y1"} <= set(names):
         return None
-    found = [column(0, heading("Frame"), "frame")]
-    for k, name in enumerate(names):
-        if place := _NUMBERED.fullmatch(name):
-            found.append(column(k, heading(place[1].upper()), place[1], f"track {place[2]}"))
+    first, doubts = first_row(text, 1), list[str]()
+    places = [(k, place) for k, name in enumerate(names) if (place := _NUMBERED.fullmatch(name))]
+    found = [column(k, heading(one[1].upper()), one[1], f"track {one[2]}") for k, one in places]
+    if _closed_up(text, first, len(names)):
+        doubts.append(_CLOSED_UP)
+        found = [
+            column(k, heading("XY"[k % 2 == 0]), "xy"[k % 2 == 0], f"{POINT}{(k + 1) // 2}")
+            for k in range(1, 1 + 2 * sum(one[1] == "x" for _, one in places))
+        ]
     why = "Frame, X1, Y1 are the columns of MTrack2, a plugin of ImageJ"
-    return Layout("ImageJ: MTrack2", why, tuple(found), first_row(text, 1))
+    columns = (column(0, heading("Frame"), "frame"), *found)
+    summary = _SUMMARY.search(text.content, text.starts[first])
+    end = summary.start() if summary else None
+    return Layout("ImageJ: MTrack2", why, columns, first, tuple(doubts), end=end)
+
+
+def _closed_up(text: Text, first: int, width: int) -> bool:
+    """Tell whether numbers stand where flags should: blank cells were lost, as in a spreadsheet."""
+    flags = [row[3] for row in text.head[first:] if 4 < len(row) <= width and row[3]]
+    numbers = sum(number(cell, text.decimal) is not None and cell != "*" for cell in flags)
+    return 2 * numbers > len(flags)
 
 
 @layout

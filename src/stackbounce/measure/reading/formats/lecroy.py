@@ -11,14 +11,12 @@ def lecroy(text: Text) -> Layout | None:
     """Recognise LeCroy: its name, segments, then ``Time,Ampl`` over seconds and volts."""
     if not text.head[0] or not text.head[0][0].casefold().startswith("lecroy"):
         return None
-    for k, row in enumerate(text.head):
-        if len(row) > 1 and row[0] == "Time" and row[1].startswith("Ampl"):
-            break
-    else:
+    k = next((k for k, row in enumerate(text.head) if row[:1] == ["Time"] and len(row) > 1), 0)
+    if not k:
         return None
     columns = [
         column(i, Heading(name, name, "V" if i else "s"), "voltage" if i else "time")
-        for i, name in enumerate(row)
+        for i, name in enumerate(text.head[k])
         if name
     ]
     why = f"its first cell {text.head[0][0]!r} is that of a LeCroy"

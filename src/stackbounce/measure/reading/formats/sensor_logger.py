@@ -35,6 +35,4 @@ def sensor_logger(text: Text) -> Layout | None:
     why = f"its columns {', '.join(names[:3])} … are those of Sensor Logger"
     what = "acceleration with g" if with_g else "acceleration without g"
     doubts = (doubt,)
-    return Layout(
-        f"Sensor Logger: {what}", why, tuple(columns), first_row(text, 1), doubts
-    )
+    return Layout(f"Sensor Logger: {what}", why, tuple(columns), first_row(text, 1), doubts)
