@@ -18,7 +18,7 @@ from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
 from stackbounce.measure.reading.text import Text, number
 
-__all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "general", "layout"]
+__all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "first_with", "general", "layout"]
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,23 @@ def first_row(text: Text, start: int = 0) -> int:
     for index in range(start, len(text.head)):
         values = [number(cell, text.decimal) for cell in text.head[index]]
         if None not in values and any(value == value for value in values):
+            return index
+    raise FileError("it has a header and no row of numbers below it")
+
+
+def first_with(text: Text, columns: Sequence[int], start: int = 0) -> int:
+    """Return the index of the first row with numbers in some columns, whatever the others hold.
+
+    Raises
+    ------
+    FileError
+        If there is none.
+    """
+    for index in range(start, len(text.head)):
+        row = text.head[index]
+        cells = [row[k] if k < len(row) else "" for k in columns]
+        values = [number(cell, text.decimal) for cell in cells]
+        if all(value is not None and value == value for value in values):
             return index
     raise FileError("it has a header and no row of numbers below it")
 

@@ -249,9 +249,11 @@ def _table(
     columns = apply_options(named, told)
     doubts += () if told.names else unsure
     columns, runs = of_run(columns, told.run, doubts)
-    columns, more = on_frames(columns, told.frame_rate, told.scale)
+    if told.holds in (None, "track"):
+        columns, more = on_frames(columns, told.frame_rate, told.scale)
+        doubts += more
     table = numbers([one.index for one in columns if one.index >= 0])
-    return layout, columns, table, doubts + more, runs
+    return layout, columns, table, doubts, runs
 
 
 def _meant(layout: Layout, told: ReadOptions) -> tuple[Sequence[Column], Sequence[str]]:
@@ -259,7 +261,7 @@ def _meant(layout: Layout, told: ReadOptions) -> tuple[Sequence[Column], Sequenc
     found = layout.guess
     if found is None:
         return layout.columns, layout.doubts
-    if told.names or told.holds not in (None, holds_of(on_frames(found.columns, None, None)[0])):
+    if told.names or told.holds not in (None, holds_of(on_frames(found.columns)[0])):
         return layout.columns, (NOT_NAMED,)
     return found.columns, (found.doubt,)
 

@@ -210,8 +210,9 @@ def _numbers(row: list[str], decimal: str) -> int:
 
 
 def _labelled(row: list[str], decimal: str) -> bool:
-    """Tell whether a row has numbers after a word that labels it."""
-    return len(row) > 2 and _numbers(row[1:], decimal) > 1
+    """Tell whether a row has numbers beside words, such as the label of a point."""
+    values = [number(cell, decimal) for cell in row[:COLUMNS]]
+    return len(row) > 2 and sum(value is not None and value == value for value in values) > 1
 
 
 def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:

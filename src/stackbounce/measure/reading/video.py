@@ -6,13 +6,15 @@ from dataclasses import replace
 import numpy as np
 
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column
+from stackbounce.measure.reading.headings import heading
+from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, column
 
 __all__ = ["on_frames", "rows_by_frame"]
 
 _TRACKS = 12
 """Tracks below each other that are read, at most: the longest ones."""
 
+_ROLES = {"", "x", "y", "track_id"}  # of columns beside which rows are frames
 _LEAST = 5  # points of a track that is put together
 _REACH = 0.05  # of the range of all points: how far from its path the next point of a track may be
 _LOST = 5  # frames after which a track has no path any more
@@ -20,9 +22,11 @@ _STILL = 0.1  # of the range of the track that moves most: tracks that move less
 
 
 def on_frames(
-    columns: Sequence[Column], frame_rate: float | None, scale: float | None
+    columns: Sequence[Column], frame_rate: float | None = None, scale: float | None = None
 ) -> tuple[list[Column], list[str]]:
     """Return columns in which frames are times, where there is no clock, and what is unsure.
+
+    x and y without any count of frames are taken frame by frame.
 
     Parameters
     ----------
@@ -40,13 +44,16 @@ def on_frames(
         return found, doubts
     clock = any(one.role == "time" for one in found)
     at = next((k for k, one in enumerate(found) if one.role == "frame"), None)
+    if not clock and at is None and {"x", "y"} <= {one.role for one in found} <= _ROLES:
+        at, found = len(found), [*found, column(-1, heading("row"), "frame")]
+        doubts.append("it does not count frames either, so that each row is one")
     if not clock and at is not None:
         said = replace(found[at].heading, unit=FRAME)
         factor, unit = (1.0, FRAME) if frame_rate is None else (1.0 / frame_rate, "s")
         found[at] = replace(found[at], heading=said, role="time", factor=factor, unit=unit)
         if frame_rate is None:
             doubts.append(
-                "it has no times, so that a frame is the unit of time: the frame rate tells them"
+                "it has no times, so that a frame is the unit of time: the frame rate tells another"
             )
     elif frame_rate is not None:
         doubts.append("the frame rate is not used, as the file has times")

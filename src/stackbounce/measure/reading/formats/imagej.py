@@ -3,11 +3,11 @@
 import re
 
 from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.layouts import Layout, first_row, layout
-from stackbounce.measure.reading.roles import POINT, Column, column
+from stackbounce.measure.reading.layouts import Layout, first_row, first_with, layout
+from stackbounce.measure.reading.roles import POINT, column
 from stackbounce.measure.reading.text import Text, number
 
-_MEASURED = {"area", "mean", "min", "max", "counter", "label", "slice", "slice n°", "distance", ""}
+_MEASURED = {"", "area", "mean", "label", "counter", "slice", "slice n°", "xm", "bx", "intden"}
 _CLOSED_UP = (
     "blank cells were lost, so that numbers stand under Flag: points are put together to tracks by "
     "where they are"
@@ -47,20 +47,14 @@ def _closed_up(text: Text, first: int, width: int) -> bool:
 
 @layout
 def results(text: Text) -> Layout | None:
-    """Recognise a results table of ImageJ: X and Y, by slice or else by row."""
+    """Recognise a results table of ImageJ, or of its manual tracking: X and Y, by slice or row."""
     names = [cell.casefold() for cell in text.head[0]]
     pair = next((one for one in (("x", "y"), ("xm", "ym")) if set(one) <= set(names)), None)
-    others = set(names) - {"x", "y"}
-    if pair is None or len(others & _MEASURED) < 2 - ("slice n°" in others):
-        return None
-    if any(name in ("t", "time") for name in names):
+    if pair is None or not _MEASURED & set(names) or {"t", "time"} & set(names):
         return None
     found = [column(names.index(name), heading(name[0].upper()), name[0]) for name in pair]
-    frames = [column(k, heading(cell)) for k, cell in enumerate(text.head[0]) if cell]
-    frames = [one for one in frames if one.role in ("frame", "track_id")]
-    if not any(one.role == "frame" for one in frames):
-        frames.append(column(-1, heading("row"), "frame"))
-    told = "by slice" if frames[-1].index >= 0 else "by row"
-    why = f"X and Y beside other results are a table of ImageJ; they are read {told}"
-    ordered: tuple[Column, ...] = (*frames, *found)
-    return Layout("ImageJ", why, ordered, first_row(text, 1))
+    others = [column(k, heading(cell)) for k, cell in enumerate(text.head[0]) if cell]
+    others = [one for one in others if one.role in ("frame", "track_id")]
+    first = first_with(text, [one.index for one in found], 1)
+    why = f"{', '.join(filter(None, text.head[0][:8]))} are columns of ImageJ's results"
+    return Layout("ImageJ", why, (*others, *found), first)

@@ -1,9 +1,9 @@
 """Oscilloscopes of Siglent."""
 
 from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.layouts import Layout, layout
+from stackbounce.measure.reading.layouts import Layout, first_with, layout
 from stackbounce.measure.reading.roles import column
-from stackbounce.measure.reading.text import Text, number
+from stackbounce.measure.reading.text import Text
 
 
 @layout
@@ -16,9 +16,6 @@ def siglent(text: Text) -> Layout | None:
             break
     else:
         return None
-    first = k + 1
-    while first < len(text.head) - 1 and not _sample(text, first, at):
-        first += 1
     channels = [
         column(i, heading(name, row[i] if row[i] != "Value" else "V"), "voltage")
         for i, name in enumerate(above)
@@ -26,9 +23,4 @@ def siglent(text: Text) -> Layout | None:
     ]
     columns = (column(at, heading("Second", "s"), "time"), *channels)
     why = f"'Source,{above[at + 1]}' over 'Second,{row[at + 1]}' is how a Siglent writes"
-    return Layout("Siglent oscilloscope", why, columns, first)
-
-
-def _sample(text: Text, index: int, at: int) -> bool:
-    cells = text.head[index][at : at + 2]
-    return len(cells) > 1 and all(number(cell, text.decimal) is not None for cell in cells)
+    return Layout("Siglent oscilloscope", why, columns, first_with(text, [at, at + 1], k + 1))

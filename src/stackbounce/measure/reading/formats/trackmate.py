@@ -1,10 +1,9 @@
 """TrackMate: spots in the frames of a video, with the tracks that they belong to."""
 
-from stackbounce.errors import FileError
 from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.layouts import Layout, layout
+from stackbounce.measure.reading.layouts import Layout, first_with, layout
 from stackbounce.measure.reading.roles import column
-from stackbounce.measure.reading.text import Text, number
+from stackbounce.measure.reading.text import Text
 
 _ROLES = {
     "TRACK_ID": "track_id", "FRAME": "frame", "POSITION_X": "x", "POSITION_Y": "y",
@@ -18,20 +17,12 @@ def trackmate(text: Text) -> Layout | None:
     names = text.head[0]
     if not {"FRAME", "POSITION_X", "POSITION_Y"} <= set(names):
         return None
-    at = names.index("POSITION_X")
-    rows = [k for k, row in enumerate(text.head) if len(row) > at and _is_number(row[at], text)]
-    if not rows:
-        raise FileError("it begins as a table of TrackMate and has no row of numbers below")
-    units = text.head[rows[0] - 1] if rows[0] > 1 else []
+    first = first_with(text, [names.index("POSITION_X"), names.index("POSITION_Y")], 1)
+    units = text.head[first - 1] if first > 1 else []
     columns = []
     for k, name in enumerate(names):
         unit = units[k].strip("() ") if k < len(units) else ""
         if name in _ROLES and not (name == "POSITION_T" and unit in ("", "frame", "frames")):
             columns.append(column(k, heading(name, unit), _ROLES[name]))
     why = "FRAME, POSITION_X, POSITION_Y are columns of TrackMate's spots"
-    return Layout("TrackMate", why, tuple(columns), rows[0])
-
-
-def _is_number(cell: str, text: Text) -> bool:
-    value = number(cell, text.decimal)
-    return value is not None and value == value
+    return Layout("TrackMate", why, tuple(columns), first)
