@@ -133,9 +133,11 @@ def test_on_the_command_line(tmp_path, capfd):
 
 
 def test_wrong_frame_rates_and_scales_are_refused(read):
-    with pytest.raises(InvalidValue, match="frame_rate must be a positive number of frames per second"):
+    with pytest.raises(
+        InvalidValue, match="frame_rate must be a positive number of frames per second"
+    ):
         read(imagej(), frame_rate=0)
-    with pytest.raises(InvalidType, match="scale must be a number"):
+    with pytest.raises(InvalidType, match="scale must be a positive number of metres per pixel"):
         read(imagej(), scale="big")
 
 
