@@ -45,9 +45,10 @@ def read(
 ) -> "xr.Dataset":
     r"""Return what a file of measurements holds, recognised by its content, in SI units.
 
-    Tables of Tracker, phyphox (also its zip archives), Vernier, Logger Pro, PASCO Capstone,
-    oscilloscopes of Rigol, Pico and Tektronix, any other table of numbers with names and units in
-    its header, and WAV sound. Options are needed only where a file is not recognised correctly.
+    Tables of Tracker, ImageJ, TrackMate, phyphox, Sensor Logger, Vernier, Logger Pro, PASCO
+    Capstone, LabVIEW and oscilloscopes, also in zip archives and spreadsheets; any other table of
+    numbers with names and units in its header; arrays of NumPy; and WAV sound. Options are needed
+    only where a file is not recognised correctly.
 
     Parameters
     ----------
@@ -57,7 +58,8 @@ def read(
         What it holds: ``"waveform"``, ``"sound"``, ``"track"``, ``"knocks"``, ``"bounces"``,
         ``"press curve"``, ``"acceleration"`` or ``"table"``.
     table : str, optional
-        Which table of a zip archive, such as ``"Raw Data.csv"`` or ``"Raw Data"``.
+        Which table of a zip archive, such as ``"Raw Data.csv"`` or ``"Raw Data"``, or sheet of a
+        spreadsheet.
     run : str or int, optional
         Which run of a table with several, by its name or counted from 1; by default the first.
     names : mapping, optional
@@ -82,7 +84,8 @@ def read(
         - waveform: `force` or `voltage` (time), further channels `force_2` …
         - sound: `sound` (time) of full scale 1, channels averaged; its attribute `rate` in Hz
         - acceleration: `acceleration_x`, `_y`, `_z`, `_absolute` (time), as far as they are there
-        - track: `x`, `y` (time, track), NaN where a track has no point
+        - track: `x`, `y` (time, track), NaN where a track has no point; in ``px`` and over frames
+          where neither the file nor an option tells scale and frame rate
         - knocks: `knock_time` (knock)
         - bounces: `knock_time` (knock), `height` and `energy` (bounce), by phyphox
         - press curve: `compression`, `force` (point)
@@ -98,6 +101,8 @@ def read(
         (a zip archive: unpacked), or has more than 1000 columns or 67 million numbers.
     InvalidValue, InvalidType
         If an option makes no sense for this file.
+    MissingExtra
+        If the package is not installed that opens a spreadsheet or a program's own file.
 
     Notes
     -----
