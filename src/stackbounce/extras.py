@@ -18,7 +18,7 @@ EXTRAS = {
     "plots": _PLOTS,
     "masses": ("scipy",),
     "measure": _MEASURE,
-    "sheets": ("defusedxml", "openpyxl", "xlrd"),
+    "sheets": ("openpyxl", "xlrd"),
     "fit": _FIT,
     "paper": _PAPER,
     "web": (*_PAPER, "fastapi", "pebble", "pydantic", "python_multipart", "uvicorn"),

@@ -38,7 +38,7 @@ Files = Annotated[
         metavar="FILE...",
         readable=False,
         help="Sound, force waveform, video track, acceleration, times or heights of bounces, or "
-        "press curve, as Tracker, phyphox, Vernier, PASCO, oscilloscopes or spreadsheets write it.",
+        "press curve, as Tracker, ImageJ, phyphox, oscilloscopes or spreadsheets write it.",
         show_default=False,
     ),
 ]

@@ -203,6 +203,8 @@ def test_bare_columns_that_may_be_anything_stay_a_table(read):
     assert data.attrs["holds"] == "table"
     assert "taken as time in s" in data.attrs["doubt"]
     assert read(lines(TIMES**2, VOLTS)).attrs["holds"] == "table"
+    drops = read(lines(np.arange(9) + 1, 0.6 ** np.arange(9), 0.6 ** np.arange(1, 10)))
+    assert drops.attrs["holds"] == "table"  # nine counted rows are no frames
     told = read(lines(TIMES, VOLTS, VOLTS), names={1: "time", 3: "force"})
     assert told.attrs["holds"] == "waveform"
 

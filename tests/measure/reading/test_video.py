@@ -220,6 +220,14 @@ def test_points_whose_blank_cells_were_lost_are_put_together(read):
     bounces(data)
 
 
+def test_a_point_of_which_a_coordinate_is_missing_everywhere_is_left_out(read):
+    rows = "".join(f"{k} {x:.3f} {y:.3f} 5.0\n" for k, (x, y) in enumerate(zip(X, Y, strict=True)))
+    shifted = "0 1.0 2.0 5.0 9.0\n" * 3
+    data = read("Frame X1 Y1 Flag1 X2 Y2 Flag2\n" + shifted.replace("9.0", "*") + rows)
+    assert "blank cells were lost" in data.attrs["doubt"]
+    assert data.track.values.tolist() == ["track 1"]
+
+
 def test_manual_tracking(read):
     head = "\tTrack n°\tSlice n°\tX\tY\tDistance\tVelocity\tPixel Value\n"
     rows = "".join(

@@ -3,6 +3,7 @@
 import io
 import math
 from collections.abc import Mapping, Sequence
+from tokenize import TokenError
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from stackbounce.measure.reading.numbers import Table
 __all__ = ["array_in", "is_array", "joined", "layout_of_array", "rows_of_array"]
 
 _NUMBERS = "biuf"
+_BROKEN = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionError, TokenError)
 
 
 def is_array(content: bytes | bytearray) -> bool:
@@ -36,7 +38,7 @@ def array_in(content: bytes | bytearray) -> NDArray[Any]:
     """
     try:
         shape, fortran, kind, begin = _header(content)
-    except (ValueError, TypeError, KeyError, IndexError, SyntaxError, EOFError) as error:
+    except _BROKEN as error:
         why = " ".join(str(error).split())[:200]
         raise FileError(f"it is a NumPy array that cannot be read ({why})") from error
     kinds = [kind[name] for name in kind.names] if kind.names else [kind]

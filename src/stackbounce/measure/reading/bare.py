@@ -10,7 +10,8 @@ from stackbounce.measure.reading.roles import Column, column
 
 __all__ = ["NOT_NAMED", "Guess", "guess"]
 
-_LEAST = 5  # rows that tell it
+_LEAST, _MANY = 5, 20  # rows that tell times, and that tell frames or samples of a scope
+_UNEVEN = 0.1  # of a step, by which rounding may move times
 _SCOPE, _VIDEO = 1e-3, 0.2  # s, the longest step of samples and that of frames
 _TELL = "name them, as in names={1: 'time', 2: 'force'}"
 NOT_NAMED = f"no header names the columns: {_TELL}"
@@ -41,17 +42,18 @@ def guess(rows: Array) -> Guess:
 
     Examples
     --------
-    >>> found = guess(np.array([[7, 1.5, 2], [8, 1.6, 2], [9, 1.7, 2], [10, 1.8, 3], [11, 1, 4]]))
+    >>> found = guess(np.stack([np.arange(30), np.ones(30), np.arange(30) ** 2], axis=1))
     >>> [one.role for one in found.columns]
     ['frame', 'x', 'y']
     """
     width = rows.shape[1]
     known = rows[np.isfinite(rows).all(axis=1)]
     step = _step(known[:, 0]) if len(known) >= _LEAST and width > 1 else 0.0
-    if step == 1.0 and width == 3 and (known[:, 0] == np.round(known[:, 0])).all():
+    many = len(known) >= _MANY
+    if many and step == 1.0 and width == 3 and (known[:, 0] == np.round(known[:, 0])).all():
         return _named(("frame", "x", "y"), "the first counts frames, so that x and y follow")
     said = f"the first rises in steps of {step:.4g}, so that it is taken as time in s"
-    if 0.0 < step <= _SCOPE and width == 2:
+    if many and 0.0 < step <= _SCOPE and width == 2:
         return _named(("time", "voltage"), f"{said}, the other as the voltage of a scope")
     if _SCOPE < step <= _VIDEO and width == 3:
         return _named(("time", "x", "y"), f"{said}, the others as x and y")
@@ -73,4 +75,4 @@ def _step(numbers: Array) -> float:
     step = float(numbers[-1] - numbers[0]) / (len(numbers) - 1)
     even = numbers[0] + step * np.arange(len(numbers))
     rising = step > 0.0 and bool((np.diff(numbers) > 0.0).all())
-    return step if rising and float(np.abs(numbers - even).max()) < 0.6 * step else 0.0
+    return step if rising and float(np.abs(numbers - even).max()) < _UNEVEN * step else 0.0

@@ -1,20 +1,16 @@
 """The own files of Tracker (.trk) and Logger Pro (.cmbl), both XML -> the tables in them.
 
-The XML is parsed without document types, and so without entities and references to other files.
+XML with a document type is refused: without one there are no entities, nor other files to read.
 """
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
-from xml.etree.ElementTree import ParseError
+from typing import NamedTuple
+from xml.etree.ElementTree import Element, ParseError, fromstring
 
 from stackbounce.errors import FileError
-from stackbounce.extras import need
 from stackbounce.measure.reading.tables import Tables, as_text
 from stackbounce.measure.reading.text import decode
-
-if TYPE_CHECKING:
-    from xml.etree.ElementTree import Element
 
 __all__ = ["tables"]
 
@@ -50,8 +46,6 @@ def tables(content: bytearray) -> Tables | None:
     ------
     FileError
         If it is too large, broken, has a document type, or no table.
-    MissingExtra
-        If defusedxml is not installed.
     """
     if not content[:64].removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
         return None
@@ -63,26 +57,24 @@ def tables(content: bytearray) -> Tables | None:
     return None
 
 
-def _tree(content: bytearray, program: str) -> "Element":
-    need("sheets", f"a file of {program} (XML)")
-    from defusedxml.common import DefusedXmlException
-    from defusedxml.ElementTree import fromstring
-
+def _tree(content: bytearray, program: str) -> Element:
     if len(content) > _BYTES:
         raise FileError(
             f"it is a file of {program} larger than {_BYTES >> 20} MiB: export its table as text"
         )
+    text = decode(content)
+    if "<!DOCTYPE" in text:
+        raise FileError(f"it is a file of {program} with a document type, which none has")
     try:
-        tree: Element = fromstring(decode(content), forbid_dtd=True)
-    except (ParseError, DefusedXmlException, ValueError, RecursionError) as error:
+        return fromstring(text)
+    except (ParseError, ValueError, RecursionError) as error:
         why = " ".join(str(error).split())[:200]
         raise FileError(
             f"it is a file of {program} that cannot be read ({why}): export its table as text"
         ) from error
-    return tree
 
 
-def _tracker(tree: "Element") -> Tables:
+def _tracker(tree: Element) -> Tables:
     """Return the positions of all point masses: from pixels by the clip's clock and axes."""
     clip, control = _first(tree, "media.core.VideoClip"), _first(tree, "ClipControl")
     start, begin = _number(clip, "startframe", 0.0), _number(clip, "starttime", 0.0)
@@ -120,7 +112,7 @@ def _tracker(tree: "Element") -> Tables:
     return Tables({"tracks": as_text(rows)}, "Tracker", why, "file", ".")
 
 
-def _logger_pro(tree: "Element") -> Tables:
+def _logger_pro(tree: Element) -> Tables:
     """Return the data sets side by side, each column named with its run before it."""
     names: list[str] = []
     columns: list[list[str]] = []
@@ -144,32 +136,32 @@ def _logger_pro(tree: "Element") -> Tables:
     return Tables(members, "Logger Pro", why, "file", ".")
 
 
-def _objects(tree: "Element", of: str) -> Iterator["Element"]:
+def _objects(tree: Element, of: str) -> Iterator[Element]:
     return (one for one in tree.iter("object") if one.get("class", "").endswith(of))
 
 
-def _first(tree: "Element", of: str) -> "Element | None":
+def _first(tree: Element, of: str) -> Element | None:
     return next(_objects(tree, of), None)
 
 
-def _property(one: "Element | None", name: str) -> "Element | None":
+def _property(one: Element | None, name: str) -> Element | None:
     own = () if one is None else one.findall("property")
     return next((each for each in own if each.get("name") == name), None)
 
 
-def _text(one: "Element | None", name: str) -> str:
+def _text(one: Element | None, name: str) -> str:
     found = _property(one, name)
     return "" if found is None else " ".join((found.text or "").split())
 
 
-def _number(one: "Element | None", name: str, default: float) -> float:
+def _number(one: Element | None, name: str, default: float) -> float:
     try:
         return float(_text(one, name) or default)
     except ValueError as error:
         raise FileError(f"it is a file of Tracker whose {name} is no number") from error
 
 
-def _frames(one: "Element | None") -> Iterator[tuple[int, "Element"]]:
+def _frames(one: Element | None) -> Iterator[tuple[int, Element]]:
     """Yield the objects in the array framedata of an object, with their places in it."""
     array = _property(one, "framedata")
     for each in () if array is None else array.findall("property"):

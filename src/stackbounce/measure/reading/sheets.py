@@ -6,17 +6,17 @@ import warnings
 import zipfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from stackbounce.errors import FileError
+from stackbounce.errors import FileError, shown
 from stackbounce.extras import need
 from stackbounce.measure.reading.tables import Tables, as_text
 
 __all__ = ["from_xls", "from_xlsx"]
 
-_CELLS = 2**20
+_CELLS = 2**19
 """Cells of a spreadsheet, at most: some seconds."""
 
 _BYTES = 2**26
-"""Bytes of XML in it, at most."""
+"""Bytes of its parts, unpacked, at most."""
 
 _COMMA = re.compile(r"\s*[+-]?[0-9]+,[0-9]+(?:[eE][+-]?[0-9]{1,4})?\s*")
 _Rows = Iterable[Sequence[object]]
@@ -77,8 +77,12 @@ def _xlsx(content: bytearray) -> Iterator[tuple[str, _Rows]]:
     import openpyxl
 
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
-        if sum(entry.file_size for entry in archive.infolist()) > _BYTES:
-            raise FileError(f"its sheets would unpack to more than {_BYTES >> 20} MiB")
+        entries = archive.infolist()
+        if sum(entry.file_size for entry in entries) > _BYTES:
+            raise FileError(f"its parts would unpack to more than {_BYTES >> 20} MiB")
+        for entry in entries:  # without a document type there are no entities; \0 is of UTF-16
+            if b"<!DOCTYPE" in archive.read(entry).replace(b"\0", b""):
+                raise FileError(f"its {shown(entry.filename)} has a document type, which none has")
     book = openpyxl.load_workbook(io.BytesIO(content), read_only=True, data_only=True)
     for sheet in book.worksheets:
         sheet.reset_dimensions()  # what the file says of its size may be wrong

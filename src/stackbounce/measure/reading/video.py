@@ -147,7 +147,8 @@ def _linked(
     """Return tracks that are put together from points, each next to where it should be."""
     back = np.flatnonzero(np.diff(values[:, time]) < 0.0)
     values = values[: back[0] + 1] if back.size else values
-    axes = [[k for k, one in enumerate(columns) if one.role == axis] for axis in ("x", "y")]
+    x, y = ({one.track: k for k, one in enumerate(columns) if one.role == axis} for axis in "xy")
+    axes = [[own[track] for track in x if track in y] for own in (x, y)]
     points = np.stack([values[:, own] for own in axes], axis=-1)
     tracks = _together(values[:, time], points)
     table = np.full((len(values), 1 + 2 * len(tracks)), np.nan)
