@@ -37,38 +37,45 @@ def on_frames(
     scale : float or None
         Metres per pixel; without it a pixel is the unit of length.
     """
-    found = list(columns)
-    doubts: list[str] = []
-    positions = [k for k, one in enumerate(found) if one.role in ("x", "y")]
-    if not positions:
-        return found, doubts
-    clock = any(one.role == "time" for one in found)
-    at = next((k for k, one in enumerate(found) if one.role == "frame"), None)
-    if not clock and at is None and {"x", "y"} <= {one.role for one in found} <= _ROLES:
-        at, found = len(found), [*found, column(-1, heading("row"), "frame")]
+    roles = {one.role for one in columns}
+    if not roles & {"x", "y"}:
+        return list(columns), []
+    found, doubts = list(columns), []
+    if "time" not in roles and "frame" not in roles and {"x", "y"} <= roles <= _ROLES:
+        found.append(column(-1, heading("row"), "frame"))
         doubts.append("it does not count frames either, so that each row is one")
-    if not clock and at is not None:
-        said = replace(found[at].heading, unit=FRAME)
-        factor, unit = (1.0, FRAME) if frame_rate is None else (1.0 / frame_rate, "s")
-        found[at] = replace(found[at], heading=said, role="time", factor=factor, unit=unit)
-        if frame_rate is None:
-            doubts.append(
-                "it has no times, so that a frame is the unit of time: the frame rate tells another"
-            )
-    elif frame_rate is not None:
-        doubts.append("the frame rate is not used, as the file has times")
-    pixels = [
-        k for k in positions
-        if found[k].unit == PIXEL or (not clock and at is not None and not found[k].heading.unit)
-    ]  # fmt: skip
-    bare = [k for k in positions if not found[k].heading.unit] if scale is not None else []
-    for k in {*pixels, *bare}:
+    found, more = _timed(found, frame_rate)
+    return _scaled(found, scale, [*more, *doubts])
+
+
+def _timed(found: list[Column], frame_rate: float | None) -> tuple[list[Column], list[str]]:
+    """Return columns in which frames are times, where there are no others."""
+    at = next((k for k, one in enumerate(found) if one.role == "frame"), None)
+    if at is None or any(one.role == "time" for one in found):
+        unused = ["the frame rate is not used, as the file has times"]
+        return found, [] if frame_rate is None else unused
+    said = replace(found[at].heading, unit=FRAME)
+    factor, unit = (1.0, FRAME) if frame_rate is None else (1.0 / frame_rate, "s")
+    found[at] = replace(found[at], heading=said, role="time", factor=factor, unit=unit)
+    doubt = "it has no times, so that a frame is the unit of time: the frame rate tells another"
+    return found, [doubt] if frame_rate is None else []
+
+
+def _scaled(
+    found: list[Column], scale: float | None, doubts: list[str]
+) -> tuple[list[Column], list[str]]:
+    """Return columns with positions in m, or in pixels where no scale is known."""
+    by_frame = any(one.role == "time" and one.heading.unit == FRAME for one in found)
+    places = [k for k, one in enumerate(found) if one.role in ("x", "y")]
+    bare = [k for k in places if not found[k].heading.unit and (by_frame or scale is not None)]
+    pixels = [k for k in places if found[k].unit == PIXEL or k in bare]
+    for k in pixels:
         factor, unit = (1.0, PIXEL) if scale is None else (scale, "m")
         found[k] = replace(found[k], factor=factor, unit=unit, doubt="")
     if pixels and scale is None:
         names = " and ".join(dict.fromkeys(found[k].role for k in pixels))
         doubts.append(f"{names} are taken as pixels: the scale, in metres per pixel, tells lengths")
-    if scale is not None and not {*pixels, *bare}:
+    if scale is not None and not pixels:
         doubts.append("the scale is not used, as the positions have units")
     return found, doubts
 

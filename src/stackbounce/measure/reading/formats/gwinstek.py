@@ -19,24 +19,17 @@ def gwinstek(text: Text) -> Layout | None:
             "it is a file of a GW Instek in the mode Fast, with counts instead of volts: save it "
             "in the mode Detail"
         )
-    unit = _second(keys, "Horizontal Units") or "s"
+    unit = _cell(keys, "Horizontal Units", 0) or "s"
     columns = [column(0, Heading("time", "time", unit), "time")]
-    count = (
-        sum(cell == "Source" for cell in [*text.head[lines["Source"]]]) if "Source" in keys else 1
-    )
-    for k in range(max(count, 1)):
-        source = _at(keys.get("Source", []), 2 * k) or f"CH{k + 1}"
-        volt = _at(keys.get("Vertical Units", []), 2 * k) or "V"
+    for k in range(1 + keys.get("Source", []).count("Source")):  # channels beside each other
+        source = _cell(keys, "Source", 2 * k) or f"CH{k + 1}"
+        volt = _cell(keys, "Vertical Units", 2 * k) or "V"
         columns.append(column(2 * k + 1, Heading(source, source, volt), "voltage"))
     why = "'Memory Length' … 'Waveform Data' over pairs of numbers are how a GW Instek writes"
-    return Layout(
-        "GW Instek oscilloscope", why, tuple(columns), first_row(text, lines["Waveform Data"] + 1)
-    )
+    first = first_row(text, lines["Waveform Data"] + 1)
+    return Layout("GW Instek oscilloscope", why, tuple(columns), first)
 
 
-def _second(keys: dict[str, list[str]], name: str) -> str:
-    return _at(keys.get(name, []), 0)
-
-
-def _at(cells: list[str], index: int) -> str:
+def _cell(keys: dict[str, list[str]], name: str, index: int) -> str:
+    cells = keys.get(name, [])
     return cells[index] if index < len(cells) else ""
