@@ -12,6 +12,7 @@ from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bounces import INFERRED, bounces
+from stackbounce.measure.reading.clock import on_the_clock
 from stackbounce.measure.reading.roles import ACCELERATIONS, Column
 from stackbounce.measure.reading.series import in_time, step_of
 
@@ -67,15 +68,17 @@ def assemble(
     """
     if holds == "bounces":
         return bounces(columns, values), [INFERRED]
-    columns = _fitting(holds, columns)
-    doubts = [one.doubt for one in columns if one.doubt]
-    columns = _assumed(columns, doubts)
-    for k, one in enumerate(columns):
-        if one.factor != 1.0:
-            values[:, k] *= one.factor
     kind = KINDS[holds]
-    builders = {"time": _series, "track": _track}
-    data, more = builders.get(kind.dimension, partial(_rows, kind))(columns, values, run)
+    over_time = {"time": _series, "track": _track}.get(kind.dimension)
+    build = over_time or partial(_rows, kind)
+    columns, told = on_the_clock(kind, _fitting(holds, columns), values)
+    doubts = [one.doubt for one in columns if one.doubt] + told
+    columns = _assumed(columns, doubts)
+    clock = _at(columns, "time") if over_time else -1  # left as written: its digits tell
+    for k, one in enumerate(columns):
+        if one.factor != 1.0 and k != clock:
+            values[:, k] *= one.factor
+    data, more = build(columns, values, run)
     return data, doubts + more
 
 
@@ -154,12 +157,12 @@ def _series(columns: Sequence[Column], values: Values, run: object) -> _Built:
     import xarray as xr
 
     at = _at(columns, "time")
-    rows, doubts = in_time(values[:, at], run, gaps=True)
+    rows, times, doubts = in_time(values[:, at], columns[at].factor, run, gaps=True)
     values = values[rows]
     data = _data(columns, values, "time", skip=at)
     if "sound" in data:
-        data["sound"][2]["rate"] = 1.0 / step if (step := step_of(values[:, at])) > 0.0 else np.nan
-    return xr.Dataset(data, coords={"time": ("time", values[:, at], _said(columns[at]))}), doubts
+        data["sound"][2]["rate"] = 1.0 / step if (step := step_of(times)) > 0.0 else np.nan
+    return xr.Dataset(data, coords={"time": ("time", times, _said(columns[at]))}), doubts
 
 
 def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
@@ -167,7 +170,7 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     import xarray as xr
 
     at = _at(columns, "time")
-    rows, doubts = in_time(values[:, at], run, gaps=False)
+    rows, times, doubts = in_time(values[:, at], columns[at].factor, run, gaps=False)
     values = values[rows]
     others = [k for k in range(len(columns)) if k != at]
     tracks = list(dict.fromkeys(columns[k].track for k in others))
@@ -183,7 +186,7 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
             place[1][:, k] = values[:, j]
             place[2].update(_said(columns[j]))
     coords = {
-        "time": ("time", values[:, at], _said(columns[at])),
+        "time": ("time", times, _said(columns[at])),
         "track": [one or f"track {k}" for k, one in enumerate(tracks, 1)],
     }
     if not any(columns[k].role == "x" for k in others):

@@ -10,7 +10,8 @@ __all__ = ["ACCELERATIONS", "Column", "column"]
 
 _WORDS = {  # role: the whole name, folded, in the languages that files are often in
     "knock_time": r"(event|knock|bounce|impact)s?[ _]?(times?)?|ereigniszeit",
-    "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|seconds?|sec",
+    "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|time elapsed"
+    r"|seconds?( elapsed)?|secs?|elapsed( seconds)?",
     "compression": r"(crosshead |compressive |standard)?(compress\w*|extension|deflection|stroke"
     r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung)|c",
     "force": r"((standard|normal|impact|contact) ?)?(force|kraft|load|last|fuerza|forza)"
@@ -101,6 +102,7 @@ def column(index: int, said: Heading, role: str = "", track: str = "") -> Column
 def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     """Return role, factor to SI, SI unit and a doubt; `told` is a role that is already known."""
     word = " ".join(name.casefold().replace("_", " ").split())
+    unit = "s" if unit == "S" else unit  # oscilloscopes mean seconds, not siemens
     factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
     doubt = ""
     if unit and not symbol and re.search(r"\w", unit) and unit not in _ARBITRARY:
@@ -113,6 +115,8 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
     if symbol and role and symbol not in _WANTED.get(role, symbol).split():
         role = ""
+    if role == "time" and not unit and "sec" in word:
+        symbol = "s"
     if role == "sound" and unit in _ARBITRARY:
         symbol = "1"
     if not role and symbol in _BY_UNIT and not _BETWEEN.search(word):
