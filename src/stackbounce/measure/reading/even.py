@@ -75,9 +75,9 @@ def _line(low: Array, high: Array, slope: float, most: float) -> tuple[float, fl
             return 0.5 * float(highest + lowest), slope
         more = np.union1d(used, tight)
         if len(more) == len(used):
-            break
+            return (0.5 * float(highest + lowest), slope) if highest - lowest <= slack else None
         used = more
-    return (0.5 * float(highest + lowest), slope) if highest - lowest <= slack else None
+    return None
 
 
 def _steepness(

@@ -10,13 +10,16 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from stackbounce.errors import FileError
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
 from stackbounce.measure.reading.text import Text, number
 
 __all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "general", "layout"]
 
-_NOT_NAMED = "no header names the columns: name them, as in names={1: 'time', 2: 'force'}"
+_NOT_NAMED = Said(
+    "no header names the columns: name them, as in ", Hint({"names": {1: "time", 2: "force"}})
+)
 
 
 @dataclass(frozen=True)

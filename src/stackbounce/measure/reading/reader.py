@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
+from stackbounce.measure.hints import Hint, Said, about, joined
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import wav, zipped
 from stackbounce.measure.reading.dataset import assemble, holds_of
@@ -31,7 +32,7 @@ def read(
     holds: str | None = None,
     table: str | None = None,
     run: str | int | None = None,
-    names: Mapping[str | int, str] | None = None,
+    names: Mapping[str | int, str | int] | None = None,
     units: Mapping[str | int, str] | None = None,
     decimal: str | None = None,
 ) -> "xr.Dataset":
@@ -56,6 +57,7 @@ def read(
         What columns are, by their names in the file or counted from 1, such as
         ``{1: "time", 2: "force"}``: ``"time"``, ``"force"``, ``"voltage"``, ``"compression"``,
         ``"x"``, ``"y"``, ``"sound"``, ``"knock_time"``, ``"acceleration_x"`` … or any other name.
+        What can be measured may also stand first: ``{"time": 1, "y": "height"}``.
     units : mapping, optional
         Units of columns, by their names or counted from 1, such as ``{"x": "cm", "y": "cm"}``.
     decimal : str, optional
@@ -146,7 +148,7 @@ def _named(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     try:
         data = _read(content, told)
     except StackbounceError as error:
-        raise type(error)(f"{name}: {error}") from error
+        raise about(name, error) from error
     except MemoryError as error:
         raise FileError(f"{name} is too large for the memory of this machine") from error
     data.attrs["source"] = Path(name).name
@@ -157,12 +159,14 @@ def _read(content: bytearray, told: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if told.holds not in (None, "sound"):
-            raise InvalidValue(f"holds: the file is a sound, got {shown(told.holds)}")
+            holds = Hint({"holds": None})
+            raise InvalidValue(Said(holds, f": the file is a sound, got {shown(told.holds)}"))
         return _signed(data, "WAV", why, "sound", doubts)
     if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
         return _from_zip(content, told)
     if told.table is not None:
-        raise InvalidValue("table: there is one only, as it is no zip archive")
+        table = Hint({"table": None})
+        raise InvalidValue(Said(table, ": there is one only, as it is no zip archive"))
     return _from_text(content, told)
 
 
@@ -177,7 +181,7 @@ def _from_zip(content: bytearray, told: ReadOptions) -> "xr.Dataset":
             read.append((name, _from_text(bytearray(members.pop(name)), told)))
         except StackbounceError as error:
             if name == names[-1] and not read:
-                raise type(error)(f"{name}: {error}") from error
+                raise about(name, error) from error
             continue
         if read[-1][1].attrs["holds"] != "table":
             break
@@ -187,8 +191,8 @@ def _from_zip(content: bytearray, told: ReadOptions) -> "xr.Dataset":
         data.attrs["why"] = f"its meta/device.csv is phyphox's; {data.attrs['why']}"
     others = [one for one in names if one != name]
     if others:
-        more = f"{name} of it is read; table={others[0]!r} reads another"
-        data.attrs["doubt"] = "; ".join(filter(None, [data.attrs["doubt"], more]))
+        more = Said(f"{name} of it is read; ", Hint({"table": others[0]}), " reads another")
+        data.attrs["doubt"] = joined("; ", filter(None, [data.attrs["doubt"], more]))
     return data
 
 
@@ -202,7 +206,8 @@ def _from_text(content: bytearray, told: ReadOptions) -> "xr.Dataset":
         columns, values = _numeric(columns, table)
     holds = told.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
-        raise InvalidValue("holds: only phyphox's (in)elastic collision holds bounces")
+        whose = ": only phyphox's (in)elastic collision holds bounces"
+        raise InvalidValue(Said(Hint({"holds": None}), whose))
     data, more = assemble(holds, columns, values, None if runs else told.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 
@@ -227,7 +232,7 @@ def _table(
 def _signed(
     data: "xr.Dataset", form: str, why: str, holds: str, doubts: Sequence[str]
 ) -> "xr.Dataset":
-    doubt = "; ".join(dict.fromkeys(doubts))
+    doubt = joined("; ", dict.fromkeys(doubts))
     data.attrs = {"format": form, "why": why, "doubt": doubt, "holds": holds}
     return data
 

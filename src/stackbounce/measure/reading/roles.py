@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from stackbounce.measure.reading.headings import Heading, slug
 from stackbounce.units import in_si
 
-__all__ = ["ACCELERATIONS", "Column", "column"]
+__all__ = ["ACCELERATIONS", "ROLES", "Column", "column"]
 
 _WORDS = {  # role: the whole name, folded, in the languages that files are often in
     "knock_time": r"(event|knock|bounce|impact)s?[ _]?(times?)?|ereigniszeit",
@@ -34,6 +34,8 @@ _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
 _BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
 _ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
+ROLES = (*_WORDS, *ACCELERATIONS)
+"""What a column can be."""
 G = 9.80665
 
 

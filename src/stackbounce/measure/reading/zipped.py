@@ -5,6 +5,7 @@ import zipfile
 import zlib
 
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.reading.limits import BYTES
 
 __all__ = ["chosen", "members"]
@@ -82,7 +83,6 @@ def chosen(names: list[str], table: object) -> str:
         if word in (whole, last, last.rpartition(".")[0]):
             found.append(name)
     if len(found) != 1:
-        raise InvalidValue(
-            f"table must be one in the archive, got {shown(table)}; {nearest(table, names)}"
-        )
+        told = f" must be one in the archive, got {shown(table)}; {nearest(table, names)}"
+        raise InvalidValue(Said(Hint({"table": None}), told))
     return found[0]
