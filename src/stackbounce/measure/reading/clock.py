@@ -11,12 +11,31 @@ from stackbounce.measure.kind import Kind
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.roles import Column
 
-__all__ = ["on_the_clock"]
+__all__ = ["on_the_clock", "without_counts"]
 
 _UNITS = {"s": (1.0, "seconds"), "ms": (1e-3, "milliseconds"), "µs": (1e-6, "microseconds"),
           "ns": (1e-9, "nanoseconds")}  # fmt: skip
 _EPOCH = (631152000.0, 4102444800.0)  # s since 1970, from 1990 to 2100
 _SHORTEST = 1e-9  # s: no step is shorter
+
+
+def without_counts(columns: Sequence[Column], values: Array) -> list[Column]:
+    """Return columns, those called ``bounce`` or ``event`` that count rows being no times.
+
+    Parameters
+    ----------
+    columns : sequence of Column
+        What they are.
+    values : numpy.ndarray, shape (rows, columns)
+        Their numbers.
+    """
+    found = list(columns)
+    for k, one in enumerate(found):
+        if one.role == "knock_time" and not (one.unit or one.heading.unit or one.named):
+            steps = np.diff(values[:, k][np.isfinite(values[:, k])])
+            if steps.size and (steps == 1.0).all():
+                found[k] = replace(one, role="")
+    return found
 
 
 def on_the_clock(

@@ -11,6 +11,7 @@ from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
 from stackbounce.measure.hints import Hint, Said, about, joined
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import wav, zipped
+from stackbounce.measure.reading.clock import without_counts
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import Layout
@@ -204,6 +205,7 @@ def _from_text(content: bytearray, told: ReadOptions) -> "xr.Dataset":
     values = table.values
     if layout.holds != "bounces":
         columns, values = _numeric(columns, table)
+        columns = without_counts(columns, values)
     holds = told.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
         whose = ": only phyphox's (in)elastic collision holds bounces"
