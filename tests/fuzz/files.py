@@ -30,7 +30,7 @@ from stackbounce.measure import measurement
 KEPT = Path(__file__).parents[2] / "build" / "fuzz" / "files"
 SECONDS = 10.0
 MEBIBYTES = 1024.0
-_HANGS = 3.0  # times `SECONDS`: then its process is ended
+_HANGS = 6.0  # times `SECONDS` by the clock: then its process is ended
 _INNER = re.compile(
     r"unexpected|Traceback|\w+Error\b|array|slice|nan\b|singular matrix|broadcast|out of bounds"
 )
@@ -70,12 +70,13 @@ def measured(sources: dict[str, bytes], seed: int, index: int, folder: Path) -> 
     refusal = measurement._refusal
 
     def noted(data: object) -> object:
-        inner.append("".join(traceback.format_exc().splitlines(keepends=True)[-4:]))
+        error = sys.exception()
+        inner.append(f"{error!r}: {_places(error)}")
         return refusal(data)
 
-    begun, code = time.perf_counter(), 1
-    signal.signal(signal.SIGALRM, _end)
-    signal.setitimer(signal.ITIMER_REAL, SECONDS)
+    begun, code = time.process_time(), 1
+    signal.signal(signal.SIGPROF, _end)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)  # of the processor: others may be at work
     try:
         with (
             mock.patch.object(measurement, "_refusal", noted),
@@ -84,15 +85,22 @@ def measured(sources: dict[str, bytes], seed: int, index: int, folder: Path) -> 
         ):
             code = main(["measure", str(path), *options])
         wrong = _wrong(code, err.getvalue())
-    except _TooLongError:
-        wrong = f"longer than {SECONDS:g} s: {traceback.format_exc().splitlines()[-4:-1]}"
+    except _TooLongError as error:
+        wrong = f"longer than {SECONDS:g} s: {_places(error)}"
     finally:
-        signal.setitimer(signal.ITIMER_REAL, 0.0)
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     if not wrong and most > MEBIBYTES:
         wrong = f"more than {MEBIBYTES:g} MiB of memory"
-    seconds = time.perf_counter() - begun
+    seconds = time.process_time() - begun
     return Case(index, name, options, wrong, "".join(inner), seconds, most, code)
+
+
+def _places(error: BaseException | None) -> str:
+    """Return where in the package an error came from, the innermost place last."""
+    frames = traceback.extract_tb(None if error is None else error.__traceback__)
+    own = [one for one in frames if "stackbounce" in one.filename]
+    return ", ".join(f"{Path(one.filename).name}:{one.lineno} {one.name}" for one in own[-4:])
 
 
 def _end(*_: object) -> None:
@@ -105,7 +113,7 @@ def _wrong(code: int, err: str) -> str:
         return f"exit status {code}: {err}"
     if err.count("\n") != (code == 2):
         return f"not one line: {err}"
-    own = re.sub(r"'[^']*'|got .*", "", err)  # what the file itself says
+    own = re.sub(r"'[^']*'|--column \S+|got .*", "", err)  # what the file itself says
     return f"inner words: {err}" if _INNER.search(own) else ""
 
 
@@ -134,12 +142,13 @@ def run(sources: dict[str, bytes], seed: int, count: int) -> list[Case]:
                 name, _, options = made(sources, seed, len(cases))
                 case = Case(len(cases), name, options, "its process hung or died", "", 30.0, 0.0, 1)
             cases.append(case)
-            sys.stderr.write(f"\r{len(cases)} files, {sum(bool(c.wrong) for c in cases)} wrong ")
+            if sys.stderr.isatty():
+                wrong = sum(bool(one.wrong) for one in cases)
+                sys.stderr.write(f"\r{len(cases)} files, {wrong} wrong ")
             if case.mebibytes > MEBIBYTES or not case.mebibytes:
                 break
         worker.kill()
         worker.join()
-    sys.stderr.write("\n")
     return cases
 
 
@@ -147,10 +156,10 @@ def report(cases: list[Case], sources: dict[str, bytes], seed: int) -> str:
     """Return what came of all files; those that went wrong are kept."""
     codes = collections.Counter(case.code for case in cases)
     slowest = max(cases, key=lambda case: case.seconds)
+    most = max(case.mebibytes for case in cases)
     lines = [
-        f"{len(cases)} files: {codes[0]} measured, {codes[2]} refused; slowest {slowest.seconds:.1f} s "
-        f"(number {slowest.index}, of {slowest.source}), at most "
-        f"{max(case.mebibytes for case in cases):.0f} MiB"
+        f"{len(cases)} files: {codes[0]} measured, {codes[2]} refused; at most {most:.0f} MiB",
+        f"slowest: {slowest.seconds:.1f} s, number {slowest.index}, of {slowest.source}",
     ]
     inner = collections.Counter(case.inner for case in cases if case.inner)
     lines += [f"{count} times an inner error became a refusal:\n{what}" for what, count in

@@ -10,9 +10,13 @@ from measure.make_files import MAKERS
 Random = np.random.Generator
 MOST = 4  # changes of one file
 _NUMBER = re.compile(r"[-+]?\d+(?:[.,]\d+)?(?:[eE][-+]?\d+)?")
-_CELLS = ("", "nan", "inf", "-", "0", "-1", "1e300", "1e-300", "9" * 25, "text", "1,5", "1.5.2", '"')
-_NAMES = ("time", "t", "bounce", "event time", "force", "F (N)", "x", "y", "height (cm)", "CH1", "sound",
-          "acceleration x", "time (ms)", "frame", "compression", "", "1", "=", "a;b")  # fmt: skip
+_CELLS = (
+    "", "nan", "inf", "-", "0", "-1", "1e300", "1e-300", "9" * 25, "text", "1,5", "1.5.2", '"',
+)  # fmt: skip
+_NAMES = (
+    "time", "t", "bounce", "event time", "force", "F (N)", "x", "y", "height (cm)", "CH1", "sound",
+    "acceleration x", "time (ms)", "frame", "compression", "", "1", "=", "a;b",
+)  # fmt: skip
 OPTIONS = (
     *((),) * 12, ("--holds", "waveform"), ("--holds", "track"), ("--holds", "sound"),
     ("--holds", "press-curve"), ("--holds", "acceleration"), ("--holds", "knocks"),
@@ -133,17 +137,17 @@ def _column(lines: list[str], random: Random) -> list[str]:
     mark = _mark(lines)
     place = int(random.integers(max(line.count(mark) for line in lines) + 1))
     what = int(random.integers(7))
-    scale, digits = 10.0 ** random.integers(-9, 12), int(random.integers(1, 6))
+    scale, digits = 10.0 ** int(random.integers(-9, 12)), int(random.integers(1, 6))
     changed = []
     for row, line in enumerate(lines):
         cells = line.split(mark)
         if place < len(cells) and _NUMBER.fullmatch(cells[place].strip()):
             value = float(cells[place].replace(",", "."))
-            told = (
+            single = float(np.float32(np.clip(value, -1e38, 1e38)))
+            cells[place] = (
                 "1", str(row), f"{value:.{digits}g}", repr(value * scale), repr(value + scale),
-                repr(-value), repr(float(np.float32(value))),
+                repr(-value), repr(single),
             )[what]  # fmt: skip
-            cells[place] = told
         changed.append(mark.join(cells))
     return changed
 

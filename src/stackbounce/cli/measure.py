@@ -108,7 +108,9 @@ def _words(hint: Hint) -> str:
         several = value.items() if isinstance(value, Mapping) else ()
         typed += [f"{known[name]} {shlex.quote(f'{key}={one}')}" for key, one in several]
         if not several:
-            typed.append(known[name] if value is None else f"{known[name]} {shlex.quote(value)}")
+            typed.append(
+                known[name] if value is None else f"{known[name]} {shlex.quote(str(value))}"
+            )
     if hint.file:
         return " ".join(["stackbounce measure", shlex.quote(hint.file), *typed])
     all_names = all(value is None for value in hint.options.values())

@@ -41,12 +41,15 @@ class Measurement:
         What was read.
     found : tuple of Finding
         What was found in it.
+    words : callable, optional
+        What the user interface makes of hints in notes.
     """
 
     source: str
     told: Mapping[str, str]
     data: Any
     found: tuple[Finding, ...]
+    words: Words = in_python
 
     @property
     def rows(self) -> list[Row]:
@@ -56,7 +59,8 @@ class Measurement:
     @property
     def notes(self) -> list[str]:
         """The notes of all results, each once."""
-        return list(dict.fromkeys(note for one in self.found for note in one.notes))
+        every = (note for one in self.found for note in one.notes)
+        return list(dict.fromkeys(in_words(note, self.words) for note in every))
 
     @property
     def measured(self) -> dict[str, str]:
@@ -128,7 +132,7 @@ def _measured(file: File, options: Mapping[str, Any], words: Words) -> Measureme
             raise about(name, InvalidValue(_refusal(data))) from error
     told = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
     told["doubt"] = in_words(told["doubt"], words)
-    return Measurement(name, told, data, found)
+    return Measurement(name, told, data, found, words)
 
 
 def _refusal(data: Any) -> Said:

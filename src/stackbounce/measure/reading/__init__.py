@@ -11,7 +11,10 @@ roles    names and units -> what a column is
 layouts  which program wrote a table, and where its columns are
 formats/ a file for each program whose tables are recognised
 dataset  columns -> the Dataset of what they hold
-series   its rows in time: runs, gaps, repeats
+clock    what a column of times counts: since when, in which unit
+series   the rows in time: runs, gaps, repeats
+even     rounded times -> the even ones that they were
+rounding to what steps numbers were rounded, told from their digits
 bounces  the table of phyphox's (in)elastic collision
 zipped   the tables of a zip archive
 wav      sound, decoded by scipy

@@ -183,7 +183,7 @@ def _series(columns: Sequence[Column], values: Values, run: object) -> _Built:
     import xarray as xr
 
     at = _at(columns, "time")
-    rows, times, doubts = in_time(values[:, at], columns[at].factor, run, gaps=True)
+    rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=True)
     values = values[rows]
     data = _data(columns, values, "time", skip=at)
     if "sound" in data:
@@ -196,7 +196,7 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     import xarray as xr
 
     at = _at(columns, "time")
-    rows, times, doubts = in_time(values[:, at], columns[at].factor, run, gaps=False)
+    rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=False)
     values = values[rows]
     others = [k for k in range(len(columns)) if k != at]
     tracks = list(dict.fromkeys(columns[k].track for k in others))

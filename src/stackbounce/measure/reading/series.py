@@ -9,6 +9,7 @@ from stackbounce.errors import InvalidValue, shown
 from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.even import even_times, spread
+from stackbounce.measure.reading.roles import Column
 from stackbounce.measure.reading.rounding import Rounding, rounding_of
 
 __all__ = ["Series", "in_time", "step_of"]
@@ -25,7 +26,7 @@ class Series(NamedTuple):
     doubts: list[str]
 
 
-def in_time(time: Array, factor: float, run: object, *, gaps: bool) -> Series:
+def in_time(time: Array, column: Column, run: object, *, gaps: bool) -> Series:
     """Return the rows of one run, in which time never decreases, and their times.
 
     Times that are even within their rounding become even. Those that repeat are spread over what
@@ -35,8 +36,8 @@ def in_time(time: Array, factor: float, run: object, *, gaps: bool) -> Series:
     ----------
     time : numpy.ndarray
         Times as written in the file; rows where it is NaN are left out.
-    factor : float
-        The unit of these in s.
+    column : Column
+        Whose they are; its factor converts them.
     run : object
         The run that is wanted, counted from 1, or None: the first.
     gaps : bool
@@ -53,10 +54,11 @@ def in_time(time: Array, factor: float, run: object, *, gaps: bool) -> Series:
     if not own.size:
         raise InvalidValue("time: there is none in any row")
     rows, own, doubts = _of_run(rows, own, run)
+    factor, unit = column.factor, column.unit or "s"
     if own.size > 1 and own[0] == own[-1]:
         raise InvalidValue(
             Said(
-                f"time is {factor * own[0]:.6g} s in all of {own.size} rows: ",
+                f"time is {factor * own[0]:.6g} {unit} in all of {own.size} rows: ",
                 Hint({"names": {2: "time"}}),
                 " tells that it is another column, such as the second",
             )
@@ -64,18 +66,18 @@ def in_time(time: Array, factor: float, run: object, *, gaps: bool) -> Series:
     rounded = rounding_of(own)
     even = even_times(own, rounded)
     if even is not None:
-        doubts.append(_even_doubt(own, factor, rounded))
+        doubts.append(_even_doubt(own, factor, unit, rounded))
         return Series(rows, factor * even, doubts)
     repeated = int(np.count_nonzero(np.diff(own) == 0.0))
     if repeated:
         step = factor * float(np.median(rounded.steps(own)))
         doubts.append(
-            f"{repeated} times are repeated: spread over the {step:.2g} s of their digits"
+            f"{repeated} times are repeated: spread over the {step:.2g} {unit} of their digits"
         )
         own = spread(own, rounded)
     own = own if factor == 1.0 else factor * own
     if gaps:
-        doubts.extend(_gaps(own))
+        doubts.extend(_gaps(own, unit))
     return Series(rows, own, doubts)
 
 
@@ -103,17 +105,18 @@ def _of_run(
     return rows, own[first:last], [doubt]
 
 
-def _even_doubt(own: Array, factor: float, rounded: Rounding) -> str:
+def _even_doubt(own: Array, factor: float, unit: str, rounded: Rounding) -> str:
     """Return that rounded times were taken as even, with the step and what they were rounded to."""
     count = own.size
     step = factor * (own[-1] - own[0]) / (count - 1)
     digits = factor * float(rounded.steps(own[[0, -1]]).max())
     repeated = int(np.count_nonzero(np.diff(own) == 0.0))
     more = f" ({repeated} repeat)" if repeated else ""
-    return f"times are rounded to {digits:.2g} s{more}: taken as even, with a step of {step:.6g} s"
+    to = f"{digits:.2g} {unit}{more}"
+    return f"times are rounded to {to}: taken as even, with a step of {step:.6g} {unit}"
 
 
-def _gaps(own: Array) -> list[str]:
+def _gaps(own: Array, unit: str) -> list[str]:
     steps = np.diff(own)
     usual = float(np.median(steps)) if steps.size else 0.0
     if not usual > 0.0:
@@ -123,7 +126,7 @@ def _gaps(own: Array) -> list[str]:
     wide = np.flatnonzero(steps > 1.5 * usual)
     if not (regular and wide.size):
         return []
-    return [f"{wide.size} gaps in time, the first after {own[wide[0]]:.6g} s"]
+    return [f"{wide.size} gaps in time, the first after {own[wide[0]]:.6g} {unit}"]
 
 
 def step_of(time: Array) -> float:

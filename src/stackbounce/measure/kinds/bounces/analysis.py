@@ -108,7 +108,7 @@ def bounces(
         height = gravity * flights[0] ** 2 / 8.0 / _energy_kept(kept)
         notes.append(
             "The drop height is inferred from the mean fraction of energy retained; give "
-            "drop_height if it is known: the first bounce, the fastest, usually retains less."
+            "it if it is known: the first bounce, the fastest, usually retains less."
         )
     return Bounces(
         tuple(found.moments),
