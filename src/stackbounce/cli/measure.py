@@ -105,12 +105,12 @@ def _words(hint: Hint) -> str:
     known = {one.name: one.on_command_line for one in OPTIONS}
     typed = []
     for name, value in hint.options.items():
-        several = value.items() if isinstance(value, Mapping) else ()
-        typed += [f"{known[name]} {shlex.quote(f'{key}={one}')}" for key, one in several]
-        if not several:
-            typed.append(
-                known[name] if value is None else f"{known[name]} {shlex.quote(str(value))}"
-            )
+        columns = value.items() if isinstance(value, Mapping) else ()
+        texts = [f"{key}={one}" for key, one in columns] or [value]
+        typed += [
+            known[name] if text is None else f"{known[name]} {shlex.quote(str(text))}"
+            for text in texts
+        ]
     if hint.file:
         return " ".join(["stackbounce measure", shlex.quote(hint.file), *typed])
     all_names = all(value is None for value in hint.options.values())
