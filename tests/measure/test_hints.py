@@ -209,3 +209,8 @@ def test_numbers_that_break_an_analysis_are_refused_with_what_they_are(monkeypat
         caught.value
     )
     assert "SVD" not in str(caught.value)
+
+
+def test_equal_intervals_are_no_bounces():
+    with pytest.raises(InvalidValue, match="come faster and faster, got 8 equal intervals"):
+        sb.measure.bounces(0.5 * np.arange(9))

@@ -179,3 +179,17 @@ def test_a_capital_s_is_seconds(read):
     data = read("TIME [S],F (N)", np.arange(20) / 100, noise(20))
     assert data.time.attrs["units"] == "s"
     assert data.attrs["doubt"] == ""
+
+
+# --- values
+
+
+def test_a_number_beyond_the_range_of_an_instrument_is_missing(read):
+    data = read("t (s),F (N)", np.arange(8) / 10, [1, 2, "9.9E37", 3, "-1e300", 2, 1, 1])
+    assert np.isnan(data.force.values[[2, 4]]).all()
+    assert "2 numbers are infinite, beyond the range: taken as missing" in data.attrs["doubt"]
+
+
+@pytest.mark.parametrize("unit", ["nan", "inf", "5", "1e3"])
+def test_a_unit_that_is_a_number_is_no_unit(read, unit):
+    assert read(f"t [s],F [{unit}]", np.arange(8) / 10, noise(8)).force.attrs["units"] in ("", "N")

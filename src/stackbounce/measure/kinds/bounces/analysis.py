@@ -15,6 +15,8 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["bounces"]
 
+_EQUAL = 1e-9  # of an interval, by which equal ones differ
+
 
 def bounces(
     times: Any,
@@ -211,6 +213,12 @@ def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float)
                 f"interval of {nominal(flight) + contact_time:g} s"
             )
         flights.append(None if lost else flight)
+    known = [nominal(one) for one in flights if one is not None]
+    if len(known) > 1 and max(known) - min(known) < _EQUAL * max(known):
+        raise InvalidValue(
+            "times must be those of bounces, which come faster and faster, got "
+            f"{len(known)} equal intervals of {known[0]:.4g} s"
+        )
     return flights
 
 
