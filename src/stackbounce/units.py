@@ -196,7 +196,7 @@ def _factor(written: str, unit: str, message: str) -> float:
         return float(registry.Quantity(1.0, units).m_as(unit))
     except pint.UndefinedUnitError as error:
         raise UnitError(f"{message}, of unknown unit") from error
-    except (pint.PintError, ArithmeticError) as error:
+    except (pint.PintError, ArithmeticError, ValueError) as error:  # ValueError: of "nan"
         raise UnitError(message) from error
 
 

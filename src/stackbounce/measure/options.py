@@ -166,7 +166,8 @@ _TABLE: dict[str, tuple[Option, ...]] = {
               says=f"Kind of measurement in the file, if not recognised: {_listed(KINDS)}."),
         _told("names", "Columns", "1=time, 2=force", form="columns", metavar="COLUMN=MEANING",
               flag="--column",
-              says="What a column is, by its name or its number from 1: 2=force; once per column."),
+              says="What a column is, by its name or its number from 1: 2=force or force=2; once "
+              "per column."),
         _told("units", "Units of columns", "x=cm, y=cm", form="columns", metavar="COLUMN=UNIT",
               flag="--unit", says="Unit of a column: x=cm; once per column."),
         _told("table", "Table", "Energy", metavar="NAME", rare=True,

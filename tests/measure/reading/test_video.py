@@ -145,8 +145,8 @@ def test_they_are_not_used_where_the_file_has_times_and_units(read):
     table = "t (s),x (cm),y (cm)\n0,1,2\n0.1,2,3\n0.2,3,4\n"
     data = read(table, frame_rate=100, scale=2.0)
     assert data.y.values[:, 0].tolist() == [0.02, 0.03, 0.04]
-    assert "the frame rate is not used" in data.attrs["doubt"]
-    assert "the scale is not used" in data.attrs["doubt"]
+    assert "frame_rate is not used" in data.attrs["doubt"]
+    assert "scale is not used" in data.attrs["doubt"]
     bare = read(table.replace(" (cm)", ""), scale=0.5)
     assert bare.y.values[:, 0].tolist() == [1.0, 1.5, 2.0]
 

@@ -13,7 +13,10 @@ formats/   a file for each program whose tables are recognised
 bare       columns without names -> what their numbers look like
 video      frames as times, pixels as lengths, one row for each frame
 dataset    columns -> the Dataset of what they hold
-series     its rows in time: runs, gaps, repeats
+clock      what a column of times counts: since when, in which unit
+series     the rows in time: runs, gaps, repeats
+even       rounded times -> the even ones that they were
+rounding   to what steps numbers were rounded, told from their digits
 bounces    the table of phyphox's (in)elastic collision
 containers files with several tables, or in a packing of their own
 tables     these tables, as bytes

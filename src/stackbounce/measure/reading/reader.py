@@ -10,9 +10,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
+from stackbounce.measure.hints import Hint, Said, about, joined
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import arrays, projects, wav
 from stackbounce.measure.reading.bare import NOT_NAMED
+from stackbounce.measure.reading.clock import without_counts
 from stackbounce.measure.reading.containers import tables_in
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
@@ -37,7 +39,7 @@ def read(
     holds: str | None = None,
     table: str | None = None,
     run: str | int | None = None,
-    names: Mapping[str | int, str] | None = None,
+    names: Mapping[str | int, str | int] | None = None,
     units: Mapping[str | int, str] | None = None,
     decimal: str | None = None,
     frame_rate: float | None = None,
@@ -66,6 +68,7 @@ def read(
         What columns are, by their names in the file or counted from 1, such as
         ``{1: "time", 2: "force"}``: ``"time"``, ``"force"``, ``"voltage"``, ``"compression"``,
         ``"x"``, ``"y"``, ``"sound"``, ``"knock_time"``, ``"acceleration_x"`` … or any other name.
+        What can be measured may also stand first: ``{"time": 1, "y": "height"}``.
     units : mapping, optional
         Units of columns, by their names or counted from 1, such as ``{"x": "cm", "y": "cm"}``.
     decimal : str, optional
@@ -163,7 +166,7 @@ def _named(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     try:
         data = _read(name, content, told)
     except StackbounceError as error:
-        raise type(error)(f"{name}: {error}") from error
+        raise about(name, error) from error
     except MemoryError as error:
         raise FileError(f"{name} is too large for the memory of this machine") from error
     data.attrs["source"] = Path(name).name
@@ -174,13 +177,16 @@ def _read(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if told.holds not in (None, "sound"):
-            raise InvalidValue(f"holds: the file is a sound, got {shown(told.holds)}")
+            holds = Hint({"holds": None})
+            raise InvalidValue(Said(holds, f": the file is a sound, got {shown(told.holds)}"))
         return _signed(data, "WAV", why, "sound", doubts)
     tables = tables_in(content)
     if tables is not None:
         return _from_tables(tables, told)
     if told.table is not None:
-        raise InvalidValue("table: there is one only, as it is no zip archive or spreadsheet")
+        table = Hint({"table": None})
+        kind = "as it is no zip archive or spreadsheet"
+        raise InvalidValue(Said(table, f": there is one only, {kind}"))
     return _from_table(name, content, told)
 
 
@@ -199,7 +205,7 @@ def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
             read.append((name, own))
         except StackbounceError as error:
             if name == names[-1] and not read:
-                raise type(error)(f"{name}: {error}") from error
+                raise about(name, error) from error
             continue
         if read[-1][1].attrs["holds"] != "table":
             break
@@ -209,8 +215,8 @@ def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
     data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
     others = [one for one in names if one != name]
     if others:
-        more = f"{name} of it is read; table={others[0]!r} reads another"
-        data.attrs["doubt"] = "; ".join(filter(None, [data.attrs["doubt"], more]))
+        more = Said(f"{name} of it is read; ", Hint({"table": others[0]}), " reads another")
+        data.attrs["doubt"] = joined("; ", filter(None, [data.attrs["doubt"], more]))
     return data
 
 
@@ -221,9 +227,11 @@ def _from_table(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset
     values = table.values
     if layout.holds != "bounces":
         columns, values = _numeric(columns, table)
+        columns = without_counts(columns, values)
     holds = told.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
-        raise InvalidValue("holds: only phyphox's (in)elastic collision holds bounces")
+        whose = ": only phyphox's (in)elastic collision holds bounces"
+        raise InvalidValue(Said(Hint({"holds": None}), whose))
     data, more = assemble(holds, columns, values, None if runs else told.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 
@@ -287,7 +295,7 @@ def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
 def _signed(
     data: "xr.Dataset", form: str, why: str, holds: str, doubts: Sequence[str]
 ) -> "xr.Dataset":
-    doubt = "; ".join(dict.fromkeys(doubts))
+    doubt = joined("; ", dict.fromkeys(doubts))
     data.attrs = {"format": form, "why": why, "doubt": doubt, "holds": holds}
     return data
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from stackbounce.measure.reading.headings import Heading, slug
 from stackbounce.units import in_si
 
-__all__ = ["ACCELERATIONS", "FRAME", "PIXEL", "POINT", "Column", "column"]
+__all__ = ["ACCELERATIONS", "FRAME", "PIXEL", "POINT", "ROLES", "Column", "column"]
 
 FRAME, PIXEL = "frame", "px"
 """The units of time and of length in a video whose frame rate and scale are not known."""
@@ -19,7 +19,7 @@ _WORDS = {  # role: the whole name, folded, in the languages that files are ofte
     "frame": r"frames?([ #]*(no|nr|number|index|n°)?\.?)?|slices?( n°)?|bild(nummer)?",
     "track_id": r"track[ ]?(id|no|nr|number|n°)\.?",
     "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|tijd|tid|czas|x value"
-    r"|seconds?( elapsed)?|sec|s|position t",
+    r"|time elapsed|seconds?( elapsed)?|secs?|s|elapsed( seconds)?|position t",
     "compression": r"(crosshead |compressive |standard)?(compress\w*|extension|deflection|stroke"
     r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung|dehnung"
     r"|verlängerung|extensión|extensão|alargamento|estensione|allongement|déplacement"
@@ -47,6 +47,8 @@ _PIXELS = re.compile(r"px|pix|pixels?", re.IGNORECASE)
 _BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
 _ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
+ROLES = (*_WORDS, *ACCELERATIONS)
+"""What a column can be."""
 G = 9.80665
 
 
@@ -115,6 +117,7 @@ def column(index: int, said: Heading, role: str = "", track: str = "") -> Column
 def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     """Return role, factor to SI, SI unit and a doubt; `told` is a role that is already known."""
     word = " ".join(name.casefold().replace("_", " ").split())
+    unit = "s" if unit == "S" else unit  # oscilloscopes mean seconds, not siemens
     factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
     doubt = ""
     if _PIXELS.fullmatch(unit):
@@ -133,6 +136,8 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
     if symbol and role and symbol not in _WANTED.get(role, symbol).split():
         role = ""
+    if role == "time" and not unit and "sec" in word:
+        symbol = "s"
     if role == "sound" and unit in _ARBITRARY:
         symbol = "1"
     if not role and symbol in _BY_UNIT and not _BETWEEN.search(word):

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.measure.hints import Hint, Said
 
 __all__ = ["Tables", "as_text", "chosen"]
 
@@ -75,8 +76,7 @@ def chosen(tables: Tables, table: object) -> str:
         if word in (whole, last, last.rpartition(".")[0]):
             found.append(name)
     if len(found) != 1:
-        raise InvalidValue(
-            f"table must be one in the {tables.kind}, got {shown(table)}; "
-            f"{nearest(table, tables.members)}"
-        )
+        near = nearest(table, tables.members)
+        told = f" must be one in the {tables.kind}, got {shown(table)}; {near}"
+        raise InvalidValue(Said(Hint({"table": None}), told))
     return found[0]

@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from stackbounce.errors import FileError, InvalidValue, shown
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.reading.limits import COLUMNS, LINE
 
 __all__ = ["MISSING", "Text", "decode", "number", "split", "tabulate"]
@@ -161,7 +162,8 @@ def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
         If a line is too long, there are too many columns, or there is no row of numbers.
     """
     if decimal not in (None, ".", ","):
-        raise InvalidValue(f'decimal must be "." or ",", got {shown(decimal)}')
+        option = Hint({"decimal": None})
+        raise InvalidValue(Said(option, f' must be "." or ",", got {shown(decimal)}'))
     starts, lines = _head(content)
     marks = decimal or ".,"
     found = [_score(lines, delimiter, marks) for delimiter in _DELIMITERS]
@@ -245,5 +247,11 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
         mixed = [one for one in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", one)]
         return ("," if mixed and delimiter != "," else "."), []
     if len(grouped) == len(commas):
-        return ",", [f"{grouped[0]!r} is read with a decimal comma: decimal='.' if it is not one"]
+        return ",", [
+            Said(
+                f"{grouped[0]!r} is read with a decimal comma: ",
+                Hint({"decimal": "."}),
+                " if it is not one",
+            )
+        ]
     return ",", []
