@@ -6,7 +6,7 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
-from stackbounce.measure.kinds.track.flights import Flights
+from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.notes import notes_of, stays_long
 from stackbounce.measure.kinds.track.paths import (
     Columns,

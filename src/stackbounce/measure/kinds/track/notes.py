@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.kinds.track.flights import Flights
+from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.quantities import Array
 
 __all__ = ["notes_of", "stays_long"]

@@ -5,15 +5,11 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.measure.kinds.track.flights import (
-    Flight,
-    Flights,
-    find_flights,
-    fit_flights,
-    unexplained,
-)
+from stackbounce.measure.kinds.track.flights import Flight, find_flights, unexplained
+from stackbounce.measure.kinds.track.parabolas import Flights, Parabolas, fit_flights
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
 
@@ -23,6 +19,8 @@ _MOVES = 0.03  # of the range of a track, within a window
 _JUMP = 5.0  # errors that make a velocity's jump a bounce
 _LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand
 _ROUNDS = 4
+_STRETCH, _STRETCHES = 256, 8  # points of a stretch; stretches that tell the acceleration
+_AT_ONCE = 8  # one in so many of the weakest jumps is taken out before the next fit
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
 _UNSEEN = 4.0  # errors by which a ball must have fallen for its fall to be significant
 _SURE = 5  # points that a fall keeps
@@ -108,6 +106,8 @@ def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
             times, heights = found.times[good], position[name][good]
             if good.sum() < 5 or np.ptp(heights) == 0.0:
                 continue
+            told = _moving(times, heights)
+            times, heights = times[told], heights[told]
             falls = _guesses(times, heights, gravity)
             both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
             costs = unexplained(times, heights, _noise(heights), both)
@@ -149,27 +149,39 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
 def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, list[int]] | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
-    The acceleration is fitted, as the frame rate and the scale of the track may be wrong.
+    The acceleration is fitted, as the frame rate and the scale of the track may be wrong. In a long
+    track it is found where the ball moves most.
     """
+    told = _moving(times, heights)
+    t, u = times[told], heights[told]
     sigma = _noise(heights)
-    guesses = _guesses(times, heights, gravity)
-    acceleration = float(guesses[np.argmin(unexplained(times, heights, sigma, guesses))])
-    fitted: Flights | None = None
-    jumps: list[int] = []
+    guesses = _guesses(t, u, gravity)
+    acceleration = float(guesses[np.argmin(unexplained(t, u, sigma, guesses))])
     for _ in range(_ROUNDS):
-        flights = find_flights(times, heights, sigma, acceleration)
-        fitted, jumps = _joined(times, heights, flights)
-        if fitted is None or not jumps:
+        fitted, jumps = _joined(t, u, find_flights(t, u, sigma, acceleration))
+        if fitted is None:
             return None
-        new = float(fitted.values[0])
-        wider = max(_noise_floor(heights), fitted.sigma)
+        new, wider = fitted.fall, max(_noise_floor(heights), fitted.sigma)
         steady = abs(new / acceleration - 1.0) < 1e-3 and abs(wider / sigma - 1.0) < 0.05
         if new <= 0.0 or steady:
             break
         acceleration, sigma = new, wider
-    if fitted is None or fitted.values[0] <= 0.0:
+    if len(t) < len(times):
+        fitted, jumps = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
+    if fitted is None or fitted.fall <= 0.0:
         return None
-    return fit_flights(times, heights, _released(times, fitted, jumps)), jumps
+    kept = fitted.together()
+    return fit_flights(times, heights, _released(times, kept, jumps)), jumps
+
+
+def _moving(times: Array, heights: Array) -> NDArray[np.intp] | slice:
+    """Return the points of a long track in the stretches in which the ball moves most."""
+    if len(times) <= _STRETCH * _STRETCHES:
+        return slice(None)
+    starts = np.arange(0, len(times) - _STRETCH + 1, _STRETCH)
+    ranges = [float(np.ptp(heights[start : start + _STRETCH])) for start in starts.tolist()]
+    most = np.sort(starts[np.argsort(ranges)[-_STRETCHES:]])
+    return np.concatenate([np.arange(start, start + _STRETCH) for start in most.tolist()])
 
 
 def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]:
@@ -206,39 +218,39 @@ def _noise_floor(heights: Array) -> float:
 
 def _joined(
     times: Array, heights: Array, flights: list[Flight]
-) -> tuple[Flights | None, list[int]]:
-    """Return the fit of the flights, joined where no bounce separates them, and the bounces."""
+) -> tuple[Parabolas | None, list[int]]:
+    """Return the fit of the flights, joined where no bounce separates them, and the bounces.
+
+    The fit is None where there is no bounce.
+    """
     while flights:
-        fitted = fit_flights(times, heights, flights)
-        if fitted.freedom < 1 or fitted.values[0] <= 0.0:
+        fitted = Parabolas(times, heights, flights)
+        if fitted.freedom < 1 or fitted.fall <= 0.0:
             return None, []
-        jumps = [_jump(times, fitted, j) for j in range(len(flights) - 1)]
-        weak = [j for j, (jump, error, *_) in enumerate(jumps) if abs(jump) < _JUMP * error]
-        if weak:
-            j = min(weak, key=lambda k: abs(jumps[k][0]))
-            joined = Flight(flights[j].first, flights[j + 1].last)
-            flights = [*flights[:j], joined, *flights[j + 2 :]]
+        jumps, errors, before = fitted.jumps()
+        weak = np.flatnonzero(np.abs(jumps) < _JUMP * errors)
+        if weak.size:
+            flights = _united(flights, weak[np.argsort(np.abs(jumps[weak]))])
             continue
-        least = _LEAST_JUMP * max((jump for jump, *_ in jumps), default=0.0)
-        bounces = [j for j, (jump, _, before) in enumerate(jumps) if jump > least and before < 0.0]
+        bouncing = (before < 0.0) & (before + jumps > 0.0)
+        bounces = np.flatnonzero(bouncing & (jumps > _LEAST_JUMP * jumps.max(initial=0.0))).tolist()
         used = sorted({j for b in bounces for j in (b, b + 1)})
-        if len(used) == len(flights) or not used:
+        if not used:
+            return None, []
+        if len(used) == len(flights):
             return fitted, bounces
         flights = [flights[j] for j in used]
     return None, []
 
 
-def _jump(times: Array, fitted: Flights, j: int) -> tuple[float, float, float]:
-    """Return the jump of the velocity after flight j, its error, and the velocity before it."""
-    middle = 0.5 * (times[fitted.flights[j].last - 1] + times[fitted.flights[j + 1].first])
-    since = middle - fitted.origins[j : j + 2]
-    gradient = np.zeros(len(fitted.values))
-    gradient[0] = since[0] - since[1]
-    gradient[2 + 2 * j], gradient[4 + 2 * j] = -1.0, 1.0
-    jump = float(gradient @ fitted.values)
-    error = math.sqrt(max(float(gradient @ fitted.covariance @ gradient), 0.0))
-    before = float(fitted.values[2 + 2 * j] - fitted.values[0] * since[0])
-    return jump, error, before
+def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:
+    """Return the flights, the first of the weakest jumps taken out; none beside another."""
+    taken: set[int] = set()
+    for j in weakest[: max(1, len(weakest) // _AT_ONCE)].tolist():
+        if j - 1 not in taken and j + 1 not in taken:
+            taken.add(j)
+    rest = [one for j, one in enumerate(flights) if j not in taken and j - 1 not in taken]
+    return sorted([*rest, *(Flight(flights[j].first, flights[j + 1].last) for j in taken)])
 
 
 def tilt_of(balls: Sequence[tuple[Array, Array, Array, list[Flight]]]) -> tuple[float, float]:
