@@ -6,8 +6,14 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
-from stackbounce.measure.kinds.track.parabolas import Flights
+from stackbounce.measure.kinds.track.free_flight import (
+    comparable,
+    no_flight,
+    no_gain,
+    what_is_seen,
+)
 from stackbounce.measure.kinds.track.notes import notes_of, stays_long
+from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.paths import (
     Columns,
     Upward,
@@ -26,6 +32,7 @@ __all__ = ["track"]
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
 _LEAST_TILT = math.radians(0.5)
+_WANTED = "data must hold a ball that falls and bounces, got "
 
 
 def track(
@@ -102,15 +109,13 @@ def track(
     if axis is None and up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
     up, fitted = _fitted(found, up, gravity, notes)
+    fitted = _bouncing(found, up, fitted, gravity if comparable(data) else None, notes)
     level = None if floor is None else ruler * finite("floor", floor, "metres")
     balls = [_track(name, *one, level) for name, one in fitted]
-    if not balls:
-        raise InvalidValue(
-            "data must hold a ball that falls and bounces, with three points or more of each "
-            "flight, got none: is the axis right?"
-        )
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
+    if gains := no_gain(balls[0].restitutions, balls[0].impact_times):
+        raise InvalidValue(_WANTED + gains)
     rate = float(1.0 / np.median(np.diff(found.times)))
     base = check_time_base(_common_gravity(balls), gravity, rate)
     notes.extend([base.note] * (not base.agrees))
@@ -145,9 +150,40 @@ def _fitted(
                     "vertical, as the flights show; heights are counted along the vertical."
                 )
                 return tilted, again
-    without = [name for name in found.names if name not in dict(fitted)]
-    notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
     return up, fitted
+
+
+def _bouncing(
+    found: Columns,
+    up: Upward,
+    fitted: list[tuple[str, _Found]],
+    gravity: float | None,
+    notes: list[str],
+) -> list[tuple[str, _Found]]:
+    """Return the balls that fly freely and bounce, with notes on the others.
+
+    `gravity` is None where the scale or the clock is not known.
+    """
+    reasons = {name: no_flight(*one, up.axis, gravity) for name, one in fitted}
+    kept = [(name, one) for name, one in fitted if not reasons[name]]
+    if kept:
+        without = [name for name in found.names if name not in dict(kept)]
+        notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
+        return kept
+    reason = next(iter(reasons.values()), "")
+    raise InvalidValue(_WANTED + (reason or _seen(found, up, gravity)))
+
+
+def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
+    """Return what the track of the ball that moves most shows."""
+    axis = up.axis if "y" not in found.positions[0] else "y"
+    every = [position[axis] for position in found.positions]
+    ranges = [
+        float(np.ptp(one[np.isfinite(one)])) if np.isfinite(one).any() else 0.0 for one in every
+    ]
+    most = every[int(np.argmax(ranges))] * (up.sign if axis == up.axis else 1.0)
+    good = np.isfinite(most)
+    return what_is_seen(found.times[good], most[good], axis, gravity)
 
 
 def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Found]]:

@@ -198,7 +198,9 @@ class Parabolas:
         each = [self._fit(values, phi**self._apart) for phi in correlations.tolist()]
         return _Fits(*(np.array(column) for column in zip(*each, strict=True)))
 
-    def _fit(self, values: Array, kept: Array) -> tuple[float, Array, Array, Array, float, float, float]:
+    def _fit(
+        self, values: Array, kept: Array
+    ) -> tuple[float, Array, Array, Array, float, float, float]:
         """Return the fit to values with a correlation `kept` to the point before."""
         since = self.since
         columns = np.stack([np.ones(len(since)), since, -0.5 * since**2, values])

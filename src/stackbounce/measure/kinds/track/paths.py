@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.kinds.track.flights import Flight, find_flights, unexplained
 from stackbounce.measure.kinds.track.parabolas import Flights, Parabolas, fit_flights
+from stackbounce.measure.kinds.track.shape import curvatures
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
 
@@ -137,13 +138,7 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
     t, u = (np.lib.stride_tricks.sliding_window_view(one, wide) for one in (times, heights))
     moves = np.ptp(u, axis=1) > _MOVES * np.ptp(heights)
     t, u = t[moves], u[moves]
-    since = t - t.mean(axis=1, keepdims=True)
-    # Least squares of 1, t, t² in each window, by making t² orthogonal to the others.
-    square = since**2
-    slope = (square * since).sum(axis=1) / np.maximum((since**2).sum(axis=1), 1e-300)
-    square = square - square.mean(axis=1, keepdims=True) - slope[:, None] * since
-    curve = (square * u).sum(axis=1) / np.maximum((square**2).sum(axis=1), 1e-300)
-    return np.asarray(2.0 * curve)
+    return curvatures(t, u)
 
 
 def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, list[int]] | None:
@@ -157,6 +152,8 @@ def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, l
     sigma = _noise(heights)
     guesses = _guesses(t, u, gravity)
     acceleration = float(guesses[np.argmin(unexplained(t, u, sigma, guesses))])
+    fitted: Parabolas | None = None
+    jumps: list[int] = []
     for _ in range(_ROUNDS):
         fitted, jumps = _joined(t, u, find_flights(t, u, sigma, acceleration))
         if fitted is None:
