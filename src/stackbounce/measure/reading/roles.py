@@ -32,6 +32,7 @@ _WANTED = {  # the SI units that a column in a role can have
 _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
 _BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
 _ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
+_FAR = 1e3  # m: positions in such a unit are no heights of a ball
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
 G = 9.80665
 
@@ -112,6 +113,8 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
         return told or axis, factor, symbol, doubt
     role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
     if symbol and role and symbol not in _WANTED.get(role, symbol).split():
+        role = ""
+    if role in ("x", "y") and not told and factor >= _FAR:
         role = ""
     if role == "sound" and unit in _ARBITRARY:
         symbol = "1"

@@ -12,7 +12,7 @@ from stackbounce.measure.kinds.track.free_flight import (
     no_gain,
     what_is_seen,
 )
-from stackbounce.measure.kinds.track.notes import notes_of, stays_long
+from stackbounce.measure.kinds.track.notes import notes_of, stays_long, uneven
 from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.paths import (
     Columns,
@@ -23,6 +23,7 @@ from stackbounce.measure.kinds.track.paths import (
     upward,
 )
 from stackbounce.measure.kinds.track.result import Track, Tracks
+from stackbounce.measure.kinds.track.shape import shape_of
 from stackbounce.measure.kinds.track.time_base import check_time_base
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.regression import widening
@@ -105,6 +106,8 @@ def track(
     ruler = positive("scale", scale)
     found = positions_of(data, clock, ruler)
     notes: list[str] = []
+    if found.many > 1:
+        notes.append(f"It is so long that means of {found.many} neighbouring points were taken.")
     up = upward(found, axis, gravity)
     if axis is None and up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
@@ -171,7 +174,8 @@ def _bouncing(
         notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
         return kept
     reason = next(iter(reasons.values()), "")
-    raise InvalidValue(_WANTED + (reason or _seen(found, up, gravity)))
+    shorter = f" (means of {found.many} of its points were taken: cut it to the bounces)"
+    raise InvalidValue(_WANTED + (reason or _seen(found, up, gravity)) + shorter * (found.many > 1))
 
 
 def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
@@ -206,7 +210,8 @@ def _track(
     """Return a ball's bounces from its parabolas."""
     from uncertainties import correlated_values
 
-    wider = widening(max(fit.freedom, 1)) ** 2
+    shape = shape_of(times, heights, fit.flights)
+    wider = (widening(max(fit.freedom, 1)) * shape.widening) ** 2
     numbers = correlated_values(fit.values, wider * fit.covariance)
     fall = numbers[0]
     rows = []
@@ -238,6 +243,7 @@ def _track(
         fit,
         tuple(bounces),
         (
+            *uneven(name, shape),
             *notes_of(name, times, fit, bounces, moments[0], impacts[0] / fall),
             *(stays_long(name, times, fit, bounces[0], impacts[0], fall) if floor is None else ()),
         ),

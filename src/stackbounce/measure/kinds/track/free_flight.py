@@ -27,6 +27,7 @@ _CHANGE, _ERRORS = 0.4, 4.0  # of the acceleration within a flight; its errors t
 _SCATTER = 0.3  # of the flights' own accelerations, over their mean
 _LASTS = 0.12  # s: a contact; longer ones are legs or hands
 _SHARE, _FRAMES = 0.5, 4  # of the flights beside it, and frames, that a contact does not reach
+_MANY = 100  # bounces of a ball
 _CLOSE = 3  # frames between two pieces of one flight
 _GAIN = 0.02  # above 1, and 3 errors, that a restitution does not reach
 _LINE = 0.03  # of the range: a track that is one parabola is no further from it
@@ -73,6 +74,8 @@ def no_flight(
     gravity : float or None
         In m/s², to compare with; None where the scale or the clock is not known.
     """
+    if len(bounces) > _MANY:
+        return f"{len(bounces)} bounces, more than a ball has ({_MANY}): an oscillation, or noise?"
     fall, error = float(fit.values[0]), math.sqrt(max(float(fit.covariance[0, 0]), 0.0))
     if error > _TOLD * fall:
         return "no free flight: the pieces have no common acceleration"
@@ -193,6 +196,6 @@ def _usual_acceleration(times: Array, heights: Array) -> float:
         some = slice(None, None, max(1, len(heights) // _TRIED))
         t, u = (windows(one, wide)[some] for one in (times, heights))
         found = float(np.median(np.abs(curvatures(t, u))))
-        if noise * math.sqrt(720.0 / wide**5) / step**2 < 0.2 * found:
+        if noise * math.sqrt(720.0 / wide**5) / step**2 < 0.03 * found:
             break
     return found

@@ -16,6 +16,8 @@ __all__ = ["Flights", "Parabolas", "fit_flights"]
 
 _TELLING = 8  # degrees of freedom, above which residuals tell a correlation
 _CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # below 0: interlaced frames
+_COLUMNS, _ROWS = (part.tolist() for part in np.tril_indices(4))  # pairs of columns
+_FAR = 100  # steps, beyond which errors are taken as independent
 _ALMOST_NONE = 1e-9  # degrees of freedom of as many points as parameters
 
 
@@ -192,38 +194,55 @@ class Parabolas:
         usual = max(float(np.median(np.diff(self.times))), 1e-300)
         frames = np.round(self.times / usual)[self.rows]
         steps = np.maximum(np.diff(frames, prepend=-np.inf), 1.0)  # uneven frames may round to one
-        return np.where(np.diff(self.owner, prepend=-1) > 0, np.inf, steps)
+        begins = np.diff(self.owner, prepend=-1) > 0
+        return np.where(begins | (steps > _FAR), np.inf, steps)
 
     def _fits(self, values: Array, correlations: Array) -> _Fits:
-        each = [self._fit(values, phi**self._apart) for phi in correlations.tolist()]
-        return _Fits(*(np.array(column) for column in zip(*each, strict=True)))
-
-    def _fit(
-        self, values: Array, kept: Array
-    ) -> tuple[float, Array, Array, Array, float, float, float]:
-        """Return the fit to values with a correlation `kept` to the point before."""
-        since = self.since
-        columns = np.stack([np.ones(len(since)), since, -0.5 * since**2, values])
-        innovations = 1.0 - kept**2
-        columns[:, 1:] -= kept[1:] * columns[:, :-1]
-        columns /= np.sqrt(innovations)
-        one, speed, bend, seen = columns
-        pairs = [one * one, one * speed, speed * speed, one * bend, speed * bend, one * seen,
-                 speed * seen]  # fmt: skip
-        a, b, c, *rest = np.add.reduceat(np.stack(pairs), self.begins, axis=1)
-        sizes = np.maximum(a * c - b * b, 1e-300)
-        inverse = np.stack([c, -b, -b, a], axis=-1).reshape(-1, 2, 2) / sizes[:, None, None]
-        bent, told = np.stack(rest[:2], axis=-1), np.stack(rest[2:], axis=-1)
-        slope = np.einsum("nij,nj->ni", inverse, bent)
-        strength = max(float(bend @ bend) - float((bent * slope).sum()), 1e-300)
-        fall = (float(bend @ seen) - float((told * slope).sum())) / strength
-        own = np.einsum("nij,nj->ni", inverse, told) - fall * slope
-        square = float(seen @ seen) - fall * float(bend @ seen) - float((told * own).sum())
+        """Return the fits to values of all points for each of K correlations."""
+        total, log_innovations = self._whitened(values, correlations)
+        ones, firsts, seconds, bent_ones, bent, bends, seen_ones, seen, both, squares = total
+        sizes = np.maximum(ones * seconds - firsts**2, 1e-300)
+        inverse = np.stack([seconds, -firsts, -firsts, ones], axis=-1) / sizes[..., None]
+        inverse = inverse.reshape(*sizes.shape, 2, 2)
+        own_bent, own_seen = np.stack([bent_ones, bent], axis=-1), np.stack([seen_ones, seen], -1)
+        slope = np.einsum("knij,knj->kni", inverse, own_bent)
+        strength = np.maximum(bends.sum(axis=1) - (own_bent * slope).sum(axis=(1, 2)), 1e-300)
+        told = both.sum(axis=1)
+        fall = (told - (own_seen * slope).sum(axis=(1, 2))) / strength
+        own = np.einsum("knij,knj->kni", inverse, own_seen) - fall[:, None, None] * slope
+        square = squares.sum(axis=1) - fall * told - (own_seen * own).sum(axis=(1, 2))
         freedom = max(self.freedom, _ALMOST_NONE)
-        variance = max(square, 1e-300) / freedom
-        log_det = float(np.log(innovations).sum() + np.log(sizes).sum()) + np.log(strength)
+        variance = np.maximum(square, 1e-300) / freedom
+        log_det = log_innovations + np.log(sizes).sum(axis=1) + np.log(strength)
         likelihood = -0.5 * (freedom * np.log(variance) + log_det)
-        return fall, own, inverse, slope, strength, likelihood, variance
+        return _Fits(fall, own, inverse, slope, strength, likelihood, variance)
+
+    def _whitened(self, values: Array, correlations: Array) -> tuple[Array, Array]:
+        """Return the sums of products of columns over each flight, (10, K, N), and ln det, (K,).
+
+        The columns are 1, t, -t²/2 and the values, less the correlated part of the point before.
+        The sums over points that are equally many steps from that point are found once for all
+        correlations.
+        """
+        since = self.since
+        now = np.stack([np.ones(len(since)), since, -0.5 * since**2, values])
+        last = np.roll(now, 1, axis=1)
+        products = np.stack(
+            [now[_ROWS] * now[_COLUMNS],
+             now[_ROWS] * last[_COLUMNS] + last[_ROWS] * now[_COLUMNS],
+             last[_ROWS] * last[_COLUMNS]]
+        )  # fmt: skip
+        total = np.zeros((len(_ROWS), len(correlations), len(self.flights)))
+        log_det = np.zeros(len(correlations))
+        for steps in np.unique(self._apart).tolist():
+            among = self._apart == steps
+            sums = np.add.reduceat(products * among, self.begins, axis=2)
+            kept = (correlations**steps)[:, None]
+            innovation = 1.0 - kept**2
+            here, cross, before = sums[:, :, None, :]
+            total += (here - kept * cross + kept**2 * before) / innovation
+            log_det += float(among.sum()) * np.log(innovation[:, 0])
+        return total, log_det
 
 
 def fit_flights(times: Array, heights: Array, flights: list[Flight]) -> Flights:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.measure.kinds.track.flights import Flight, find_flights, unexplained
 from stackbounce.measure.kinds.track.parabolas import Flights, Parabolas, fit_flights
-from stackbounce.measure.kinds.track.shape import curvatures
+from stackbounce.measure.kinds.track.shape import curvatures, own_noise
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
 
@@ -20,21 +20,28 @@ _MOVES = 0.03  # of the range of a track, within a window
 _JUMP = 5.0  # errors that make a velocity's jump a bounce
 _LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand
 _ROUNDS = 4
+_MOST = 20_000  # points of a track; of more, means of neighbours are taken
 _STRETCH, _STRETCHES = 256, 8  # points of a stretch; stretches that tell the acceleration
 _AT_ONCE = 8  # one in so many of the weakest jumps is taken out before the next fit
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
 _UNSEEN = 4.0  # errors by which a ball must have fallen for its fall to be significant
 _SURE = 5  # points that a fall keeps
 _ALIKE = 0.05
+_DIFFER = 1.5  # scatter around one acceleration, over that around each flight's own
+_BESIDE = 3  # points between two pieces of one flight, at most
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
 
 
 class Columns(NamedTuple):
-    """Times (N,) in s and, for each ball, its name and positions by axis, (N,) in m."""
+    """Times (N,) in s and, for each ball, its name and positions by axis, (N,) in m.
+
+    Of a very long track each is the mean of `many` neighbours.
+    """
 
     times: Array
     names: list[str]
     positions: list[dict[str, Array]]
+    many: int = 1
 
 
 class Upward(NamedTuple):
@@ -69,7 +76,21 @@ def positions_of(data: Any, clock: float, ruler: float) -> Columns:
             + " that do not ascend" * (len(times) > 3)
         )
     positions = [{axis: ruler * one[good] for axis, one in p.items()} for p in found.positions]
-    return Columns(times / clock, found.names, positions)
+    return _thinned(Columns(times / clock, found.names, positions))
+
+
+def _thinned(found: Columns) -> Columns:
+    """Return a very long track with means of neighbours; those of a parabola lie on one."""
+    many = -(-len(found.times) // _MOST)
+    if many < 2:
+        return found
+    count = len(found.times) // many
+
+    def means(values: Array) -> Array:
+        return np.asarray(values[: count * many].reshape(count, many).mean(axis=1))
+
+    positions = [{axis: means(one) for axis, one in own.items()} for own in found.positions]
+    return Columns(means(found.times), found.names, positions, many)
 
 
 def _from_dataset(data: Any) -> Columns:
@@ -158,7 +179,7 @@ def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, l
         fitted, jumps = _joined(t, u, find_flights(t, u, sigma, acceleration))
         if fitted is None:
             return None
-        new, wider = fitted.fall, max(_noise_floor(heights), fitted.sigma)
+        new, wider = fitted.fall, max(_noise_floor(heights), _spread(fitted))
         steady = abs(new / acceleration - 1.0) < 1e-3 and abs(wider / sigma - 1.0) < 0.05
         if new <= 0.0 or steady:
             break
@@ -169,6 +190,12 @@ def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, l
         return None
     kept = fitted.together()
     return fit_flights(times, heights, _released(times, kept, jumps)), jumps
+
+
+def _spread(fitted: Parabolas) -> float:
+    """Return the error of a point; where flights differ in acceleration, that beside their own."""
+    own = own_noise(fitted.times, fitted.heights, fitted.flights)
+    return own if fitted.sigma > _DIFFER * own else fitted.sigma
 
 
 def _moving(times: Array, heights: Array) -> NDArray[np.intp] | slice:
@@ -229,6 +256,10 @@ def _joined(
         if weak.size:
             flights = _united(flights, weak[np.argsort(np.abs(jumps[weak]))])
             continue
+        small = _small(fitted, jumps)
+        if small.size:
+            flights = _united(flights, small)
+            continue
         bouncing = (before < 0.0) & (before + jumps > 0.0)
         bounces = np.flatnonzero(bouncing & (jumps > _LEAST_JUMP * jumps.max(initial=0.0))).tolist()
         used = sorted({j for b in bounces for j in (b, b + 1)})
@@ -238,6 +269,20 @@ def _joined(
             return fitted, bounces
         flights = [flights[j] for j in used]
     return None, []
+
+
+def _small(fitted: Parabolas, jumps: Array) -> NDArray[np.intp]:
+    """Return the jumps within a flight, smallest first, that a scale which changes makes.
+
+    A lens, or a distance to the camera that changes, gives the pieces of one flight accelerations
+    of their own. The pieces of a hand are shorter, or apart.
+    """
+    first, last = fitted.firsts, fitted.lasts
+    size = np.abs(jumps)
+    count = last - first
+    beside = (first[1:] - last[:-1] <= _BESIDE) & (np.minimum(count[:-1], count[1:]) > _SURE)
+    small = np.flatnonzero(beside & (size < _LEAST_JUMP * jumps.max(initial=0.0)))
+    return small[np.argsort(size[small])]
 
 
 def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:

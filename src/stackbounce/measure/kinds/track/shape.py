@@ -10,11 +10,11 @@ from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.ar_noise import correlation_factor
 
-__all__ = ["Shape", "curvatures", "shape_of"]
+__all__ = ["Shape", "curvatures", "own_noise", "shape_of"]
 
 _OWN = 5  # points of a flight that tell its own acceleration
 _BENT = 8  # points of a flight that tell how its acceleration changes
-_RARE = 1e-3  # p-value of accelerations that differ
+_RARE = 1e-5  # p-value of accelerations that differ
 
 
 class Shape(NamedTuple):
@@ -51,6 +51,25 @@ def shape_of(times: Array, heights: Array, flights: Sequence[Flight]) -> Shape:
     True
     """
     return Shape(*_scatter(times, heights, flights), *_change(times, heights, flights))
+
+
+def own_noise(times: Array, heights: Array, flights: Sequence[Flight]) -> float:
+    """Return the scatter around parabolas of each flight's own acceleration; infinite if unknown.
+
+    Examples
+    --------
+    >>> times = np.linspace(0.0, 1.0, 1000)
+    >>> noise = np.random.default_rng(1).normal(0.0, 1e-3, 1000)
+    >>> round(own_noise(times, 3.0 * times**2 + noise, [Flight(0, 1000)]), 4)
+    0.001
+    """
+    square, freedom = 0.0, 0
+    for first, last in flights:
+        if last - first >= _OWN:
+            *_, rest = _polynomial(times, heights, Flight(first, last), 2)
+            square += float(rest @ rest)
+            freedom += last - first - 3
+    return math.sqrt(square / freedom) if freedom else math.inf
 
 
 def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:
@@ -96,25 +115,29 @@ def _polynomials(
 
     The time runs from -1 to 1 in each flight.
     """
-    found, residuals, freedom = [], [], 0
-    for first, last in flights:
-        if last - first < least:
-            continue
-        half = 0.5 * float(times[last - 1] - times[first])
-        z = (times[first:last] - times[first]) / half - 1.0
-        design = np.vander(z, degree + 1, increasing=True)
-        inverse = np.linalg.pinv(design)
-        level = heights[first:last] - heights[first:last].mean()
-        terms = inverse @ level
-        residuals.append(level - design @ terms)
-        freedom += last - first - degree - 1
-        found.append((terms, np.sqrt((inverse**2).sum(axis=1)), half))
+    own = [one for one in flights if one.last - one.first >= least]
+    found = [_polynomial(times, heights, one, degree) for one in own]
     if not found:
         return []
-    rest = np.concatenate(residuals)
+    rest = np.concatenate([one for *_, one in found])
+    freedom = len(rest) - len(own) * (degree + 1)
     sigma = math.sqrt(float(rest @ rest) / max(freedom, 1) * correlation_factor(rest))
     sigma = max(sigma, 1e-9 * float(np.ptp(heights)))
-    return [(terms, sigma * error, half) for terms, error, half in found]
+    return [(terms, sigma * error, half) for terms, error, half, _ in found]
+
+
+def _polynomial(
+    times: Array, heights: Array, flight: Flight, degree: int
+) -> tuple[Array, Array, float, Array]:
+    """Return terms, their errors over that of a point, half the duration, and residuals."""
+    part = slice(*flight)
+    half = 0.5 * float(times[part][-1] - times[part][0])
+    z = (times[part] - times[part][0]) / half - 1.0
+    design = np.vander(z, degree + 1, increasing=True)
+    inverse = np.linalg.pinv(design)
+    level = heights[part] - heights[part].mean()
+    terms = inverse @ level
+    return terms, np.sqrt((inverse**2).sum(axis=1)), half, level - design @ terms
 
 
 def curvatures(times: Array, heights: Array) -> Array:
