@@ -46,6 +46,7 @@ _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
 _PIXELS = re.compile(r"px|pix|pixels?", re.IGNORECASE)
 _BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
 _ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
+_FAR = 1e3  # m: positions in such a unit are no heights of a ball
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
 ROLES = (*_WORDS, *ACCELERATIONS)
 """What a column can be."""
@@ -138,6 +139,8 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
         role = ""
     if role == "time" and not unit and "sec" in word:
         symbol = "s"
+    if role in ("x", "y") and not told and factor >= _FAR:
+        role = ""
     if role == "sound" and unit in _ARBITRARY:
         symbol = "1"
     if not role and symbol in _BY_UNIT and not _BETWEEN.search(word):

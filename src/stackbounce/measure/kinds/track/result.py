@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from stackbounce.measure.finding import Curve, Finding, as_ratios, rigid_contact
-from stackbounce.measure.kinds.track.flights import Flights
+from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.time_base import TimeBase
 from stackbounce.measure.kinds.track.units import SI, TrackUnits
 from stackbounce.measure.quantities import Array, Number, Row, nominal
