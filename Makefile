@@ -8,6 +8,9 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 # Twice quiet: only errors are shown.
 INSTALL := $(PIP) install --quiet --quiet --constraint constraints.txt
 DROPS ?= 1000000
+# Files of measurements, changed at random: so many, of those of a folder, or of minimal ones.
+FILES ?= 5000
+FOLDER ?=
 SEED ?= 1
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
 # Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.
@@ -45,8 +48,9 @@ check: kernels lint types imports docs  ## everything: lint, types, import rules
 	@tests/web/browser/chromium.sh
 	@$(PYTEST)
 
-fuzz: $(DEV) kernels  ## random drops in great number: make fuzz DROPS=1000000 SEED=1
+fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS=1000000 FILES=5000 FOLDER= SEED=1
 	@cd tests && ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
+	@cd tests && ../$(BIN)/python -m fuzz.files --count $(FILES) --seed $(SEED) $(abspath $(FOLDER))
 
 frozen: $(DEV) kernels  ## compare all answers with those that were kept in tests/frozen
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m frozen

@@ -18,6 +18,7 @@ EXTRAS = {
     "plots": _PLOTS,
     "masses": ("scipy",),
     "measure": _MEASURE,
+    "sheets": ("openpyxl", "xlrd"),
     "fit": _FIT,
     "paper": _PAPER,
     "web": (*_PAPER, "fastapi", "pebble", "pydantic", "python_multipart", "uvicorn"),

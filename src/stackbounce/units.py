@@ -42,7 +42,7 @@ _HANDY = {  # unit: (from this value on, its name, how many of it the unit has),
 _SI = ("s", "m", "N", "V", "1", "m/s", "m/s^2", "kg", "J", "Pa", "Hz", "A", "N/m", "N s", "kg m/s")
 _WRITTEN_OUT = {
     "m/s²": "m/s^2", "m/s/s": "m/s^2", "ms^-2": "m/s^2", "m/s2": "m/s^2", "g0": "standard_gravity",
-    "sec": "s", "secs": "s", "second": "s", "seconds": "s", "Second": "s", "Seconds": "s",
+    "S": "s", "sec": "s", "secs": "s", "second": "s", "seconds": "s", "Second": "s", "Seconds": "s",
     "msec": "ms", "us": "µs", "μs": "µs", "μm": "µm", "μV": "µV",
     "Volt": "V", "Volts": "V", "volt": "V", "volts": "V", "newton": "N", "Newton": "N", "lbs": "lb",
 }  # fmt: skip
@@ -196,7 +196,7 @@ def _factor(written: str, unit: str, message: str) -> float:
         return float(registry.Quantity(1.0, units).m_as(unit))
     except pint.UndefinedUnitError as error:
         raise UnitError(f"{message}, of unknown unit") from error
-    except (pint.PintError, ArithmeticError) as error:
+    except (pint.PintError, ArithmeticError, ValueError) as error:  # ValueError: of "nan"
         raise UnitError(message) from error
 
 

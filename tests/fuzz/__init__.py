@@ -1,1 +1,1 @@
-"""A million random drops: nothing hangs, no number is lost, nothing comes from nothing."""
+"""Drops and files at random: nothing hangs, no number is lost, nothing comes from nothing."""

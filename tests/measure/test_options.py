@@ -135,5 +135,5 @@ def test_an_option_that_is_not_there_or_another_function_s_is_refused():
     with pytest.raises(InvalidType, match="repeated must be true or false, got 'yes'"):
         read_options({"repeated": "yes"}, lambda one: one.name)
     for alone in ("/etc/hostname", ["a", "b"], {}):  # a request cannot name a file of the server
-        with pytest.raises(InvalidType, match="alone must be a file"):
+        with pytest.raises(InvalidType, match="“Force under the lower ball alone” must be a file"):
             records.measure_record("a.csv", b"Time (s),Force (N)\n0,0\n", {"alone": alone})

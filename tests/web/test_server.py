@@ -472,9 +472,13 @@ FORCE = b"Time (s),Force (N)\n" + b"".join(b"%d,0.1\n" % i for i in range(40))
         (FORCE, {"options": "3"}, "options must be an object in JSON, got '3'"),
         (FORCE, {"options": "["}, "options must be JSON, got '['"),
         (FORCE, {"options": '{"path": "/etc/passwd"}'}, "'path' is no option"),
-        (FORCE, {"options": '{"mass": "57 m"}'}, "mass must be a mass"),
+        (FORCE, {"options": '{"mass": "57 m"}'}, "“Ball's mass” must be a mass"),
         (FORCE, {"options": '{"law": "sprung"}'}, "did you mean Spring?"),
-        (FORCE, {"options": '{"holds": "gold"}'}, "holds must be what a file holds, got 'gold'"),
+        (
+            FORCE,
+            {"options": '{"holds": "gold"}'},
+            "“Kind of measurement” must be what a file holds, got",
+        ),
     ],
 )
 def test_a_file_that_is_none(server, content, asked, message):

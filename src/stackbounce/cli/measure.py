@@ -1,6 +1,7 @@
 """The command ``stackbounce measure``: files -> their results, and a ball for ``simulate``."""
 
 import inspect
+import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -18,6 +19,7 @@ from stackbounce.cli.output import (
 )
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
+from stackbounce.measure.hints import Hint
 from stackbounce.measure.options import OPTIONS, Option
 
 if TYPE_CHECKING:
@@ -38,7 +40,7 @@ Files = Annotated[
         metavar="FILE...",
         readable=False,
         help="Sound, force waveform, video track, acceleration, times or heights of bounces, or "
-        "press curve, as Tracker, phyphox, Vernier, PASCO, oscilloscopes or spreadsheets write it.",
+        "press curve, as Tracker, ImageJ, phyphox, oscilloscopes or spreadsheets write it.",
         show_default=False,
     ),
 ]
@@ -79,7 +81,7 @@ def run(
         check_scenario(save)
         if "mass" not in known:
             raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
-    done = [measure_file(path, known) for path in files] + measure_numbers(known)
+    done = [measure_file(path, known, _words) for path in files] + measure_numbers(known)
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
     law = _law_of(known, done) if "law" in known else None
@@ -96,6 +98,23 @@ def run(
         typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
     if plot is not None:
         typer.echo(f"Picture: {plot}")
+
+
+def _words(hint: Hint) -> str:
+    """Return the options of a hint as they are typed, with the whole command if it names a file."""
+    known = {one.name: one.on_command_line for one in OPTIONS}
+    typed = []
+    for name, value in hint.options.items():
+        columns = value.items() if isinstance(value, Mapping) else ()
+        texts = [f"{key}={one}" for key, one in columns] or [value]
+        typed += [
+            known[name] if text is None else f"{known[name]} {shlex.quote(str(text))}"
+            for text in texts
+        ]
+    if hint.file:
+        return " ".join(["stackbounce measure", shlex.quote(hint.file), *typed])
+    all_names = all(value is None for value in hint.options.values())
+    return (", " if all_names else " ").join(typed)
 
 
 def _parameter(option: Option) -> inspect.Parameter:

@@ -11,6 +11,8 @@ analysis      the right analysis for what a file holds
 measurement   a file or typed numbers, with the results, for all user interfaces
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
+hints         options that a message recommends, in the words of each interface
+unrecognised  a table of an unknown kind: its columns, and how to go on
 quantities    numbers with errors; a row of a table
 samples       columns of a Dataset or arrays, runs, rounding, areas
 statistics/   regression, change points, AR noise, error propagation

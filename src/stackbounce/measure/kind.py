@@ -31,6 +31,9 @@ class Kind:
         columns is recognised, unless `recognised` decides.
     dimension : str
         Of the Dataset: ``"time"``, ``"track"`` for (time, track), or a name for plain rows.
+    longest_step : float
+        Steps of time in s that are longer than any in a file of this kind: without a unit, times
+        with longer ones are in milliseconds or in something smaller.
     recognised : callable, optional
         Whether columns are those of this kind.
     of_numbers : callable, optional
@@ -52,6 +55,7 @@ class Kind:
     analyse: "Callable[..., Finding | tuple[Finding, ...]] | None" = None
     columns: tuple[tuple[str, ...], ...] = ()
     dimension: str = "time"
+    longest_step: float = 0.2
     recognised: "Callable[[Sequence[Column]], bool] | None" = None
     of_numbers: "Callable[..., Finding] | None" = None
     starts_with: tuple[str, ...] = ()

@@ -1,13 +1,17 @@
 """A measurement: a file or typed numbers, with the results, for all user interfaces."""
 
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
+import numpy as np
+
 from stackbounce.errors import InvalidValue, StackbounceError
 from stackbounce.measure.analysis import analyse
 from stackbounce.measure.finding import Curve, Finding, channels
+from stackbounce.measure.hints import Hint, Said, Words, about, in_python, in_words, said
 from stackbounce.measure.kind import keywords_of
 from stackbounce.measure.kinds import TYPED
 from stackbounce.measure.options import OPTIONS, options_for
@@ -15,6 +19,9 @@ from stackbounce.measure.quantities import Row
 from stackbounce.measure.reading import read, read_content
 
 __all__ = ["File", "Measurement", "measure_file", "measure_numbers", "row_mapping"]
+
+_CALCULATING = r"(numpy|scipy|pandas|xarray|uncertainties|stackbounce\.measure)\b"
+"""Modules whose warnings are no user's: of numbers that an analysis refuses or leaves out."""
 
 File: TypeAlias = Path | tuple[str, bytes]
 """A file: its path, or its name and its content."""
@@ -34,12 +41,15 @@ class Measurement:
         What was read.
     found : tuple of Finding
         What was found in it.
+    words : callable, optional
+        What the user interface makes of hints in notes.
     """
 
     source: str
     told: Mapping[str, str]
     data: Any
     found: tuple[Finding, ...]
+    words: Words = in_python
 
     @property
     def rows(self) -> list[Row]:
@@ -49,7 +59,8 @@ class Measurement:
     @property
     def notes(self) -> list[str]:
         """The notes of all results, each once."""
-        return list(dict.fromkeys(note for one in self.found for note in one.notes))
+        every = (note for one in self.found for note in one.notes)
+        return list(dict.fromkeys(in_words(note, self.words) for note in every))
 
     @property
     def measured(self) -> dict[str, str]:
@@ -76,7 +87,7 @@ class Measurement:
         return {"file": self.source, **self.told, "found": rows, "notes": self.notes}
 
 
-def measure_file(file: File, options: Mapping[str, Any]) -> Measurement:
+def measure_file(file: File, options: Mapping[str, Any], words: Words = in_python) -> Measurement:
     """Read a file and analyse it.
 
     Parameters
@@ -86,27 +97,61 @@ def measure_file(file: File, options: Mapping[str, Any]) -> Measurement:
     options : mapping
         Those of `read` and `analyse`, as `read_options` returns them;
         `alone` is a file.
+    words : callable, optional
+        What the user interface makes of hints in doubts and errors; by default Python.
 
     Raises
     ------
     StackbounceError
         If the file cannot be read, or the analysis finds nothing in it.
     """
+    try:
+        return _measured(file, options, words)
+    except StackbounceError as error:
+        text = said(error)
+        if not isinstance(text, Said):
+            raise
+        raise type(error)(in_words(text, words)) from error
+
+
+def _measured(file: File, options: Mapping[str, Any], words: Words) -> Measurement:
     of_reader = options_for("read")
     reading = {name: value for name, value in options.items() if name in of_reader}
     own = {name: options[name] for name in options_for("analyse") if name in options}
-    if "alone" in own:
-        own["alone"] = _read(own["alone"], reading)
-    data = _read(file, reading)
     name = file[0] if isinstance(file, tuple) else str(file)
-    try:
-        found = analyse(data, **own)
-    except StackbounceError as error:
-        raise type(error)(f"{name}: {error}") from error
-    except (ArithmeticError, IndexError, ValueError) as error:
-        raise InvalidValue(f"{name}: its numbers cannot be analysed ({error})") from error
+    with warnings.catch_warnings():  # numpy's and scipy's, of numbers that the analysis refuses
+        warnings.filterwarnings("ignore", module=_CALCULATING)
+        if "alone" in own:
+            own["alone"] = _read(own["alone"], reading)
+        data = _read(file, reading)
+        try:
+            found = analyse(data, **own)
+        except StackbounceError as error:
+            raise about(name, error) from error
+        except (ArithmeticError, LookupError, ValueError) as error:
+            raise about(name, InvalidValue(_refusal(data))) from error
     told = {key: data.attrs[key] for key in ("format", "why", "doubt", "holds")}
-    return Measurement(name, told, data, found)
+    told["doubt"] = in_words(told["doubt"], words)
+    return Measurement(name, told, data, found, words)
+
+
+def _refusal(data: Any) -> Said:
+    """Return that the numbers of a file are not those of its kind, and what they are."""
+    spans = []
+    for name, values in [*data.coords.items(), *data.data_vars.items()][:6]:
+        if values.dtype.kind != "f":
+            continue
+        known = values.values[np.isfinite(values.values)]
+        if known.size:
+            unit = f" {values.attrs['units']}" if values.attrs.get("units") else ""
+            spans.append(f"{name} from {known.min():.4g} to {known.max():.4g}{unit}")
+    rows = max(data.sizes.values(), default=0)
+    return Said(
+        f"its {rows} rows cannot be analysed as a {data.attrs['holds']}, got "
+        f"{', '.join(spans) or 'no numbers'}: ",
+        Hint({"holds": None, "names": None, "units": None}),
+        " tell another kind, other columns and units",
+    )
 
 
 def _read(file: File, reading: Mapping[str, Any]) -> Any:

@@ -126,7 +126,7 @@ def _columns(value: Any, option: Option, called: str) -> Any:
     """Return a mapping of columns from ``COLUMN=VALUE`` texts, or as it is."""
     if isinstance(value, Mapping):
         return value
-    found: dict[Any, str] = {}
+    found: dict[str | int, str | int] = {}
     for text in value.split(",") if isinstance(value, str) else value:
         name, _, told = (part.strip() for part in text.partition("="))
         if not (name and told):
@@ -134,8 +134,13 @@ def _columns(value: Any, option: Option, called: str) -> Any:
             raise InvalidValue(
                 f"{called} must be {option.value_name}, such as {example}, got {shown(text)}"
             )
-        found[int(name) if name.isdecimal() else name] = told
+        found[_column(name)] = _column(told) if option.name == "names" else told
     return found
+
+
+def _column(text: str) -> str | int:
+    """Return a column's number or its name."""
+    return int(text) if text.isdecimal() and len(text) < 10 else text
 
 
 _READERS: dict[str, Callable[[Any, Option, str], Any]] = {

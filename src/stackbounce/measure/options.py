@@ -166,14 +166,19 @@ _TABLE: dict[str, tuple[Option, ...]] = {
               says=f"Kind of measurement in the file, if not recognised: {_listed(KINDS)}."),
         _told("names", "Columns", "1=time, 2=force", form="columns", metavar="COLUMN=MEANING",
               flag="--column",
-              says="What a column is, by its name or its number from 1: 2=force; once per column."),
+              says="What a column is, by its name or its number from 1: 2=force or force=2; once "
+              "per column."),
         _told("units", "Units of columns", "x=cm, y=cm", form="columns", metavar="COLUMN=UNIT",
               flag="--unit", says="Unit of a column: x=cm; once per column."),
         _told("table", "Table", "Energy", metavar="NAME", rare=True,
-              says="Which table of a zip file."),
+              says="Which table of a zip file, or sheet of a spreadsheet."),
         _told("run", "Run", "2", rare=True, says="Which of several runs in the file."),
         _told("decimal", "Decimal mark", "as recognised", rare=True, choices=lambda: (".", ","),
               says="Decimal mark, . or , where 1,234 could be either."),
+        _number("frame_rate", "Frame rate", "240", to="read",
+                says="Frames per second of a video, where a table counts frames: 240."),
+        _number("scale", "Scale", "0.5 mm", unit="m", to="read",
+                says="Length of a pixel, where a table has pixels, such as 0.5mm."),
     ),
 }
 # fmt: on

@@ -25,6 +25,7 @@ def accelerometer(
     full_range: float = 157.0,
     smear: float = 0.0,
     spin: float = 0.0,
+    linear: bool = False,
     missing: float = 0.0,
     seed: int = 0,
 ) -> "xr.Dataset":
@@ -46,6 +47,8 @@ def accelerometer(
         The time in s over which the sensor averages.
     spin : float, optional
         Acceleration in m/s² that spinning adds while it flies.
+    linear : bool, optional
+        Whether gravity is subtracted, in the direction that it had before the release.
     missing : float, optional
         Fraction of samples that are missing, at random.
     seed : int, optional
@@ -83,7 +86,7 @@ def accelerometer(
     shares = np.linspace(-0.5, 0.5, 41) * width if width else np.zeros(1)
     size = np.mean([_felt(fall, times + one, spin) for one in shares], axis=0)
     tilt = random.normal(size=3)
-    parts = size * (tilt / np.linalg.norm(tilt))[:, None]
+    parts = (size - fall.gravity * linear) * (tilt / np.linalg.norm(tilt))[:, None]
     parts = parts + random.normal(0.0, non_negative("noise", noise), parts.shape)
     limit = positive("full_range", full_range, "m/s^2")
     parts = np.clip(parts, -limit, limit)
@@ -93,7 +96,7 @@ def accelerometer(
     columns = {f"acceleration_{axis}": ("time", parts[k], said) for k, axis in enumerate(_AXES)}
     columns["acceleration_absolute"] = ("time", np.sqrt(np.sum(parts**2, axis=0)), said)
     attrs = {
-        "format": "synthetic acceleration with g",
+        "format": f"synthetic acceleration {'without' if linear else 'with'} g",
         "why": "it was made from a simulated fall",
         "doubt": "",
         "holds": "acceleration",

@@ -53,4 +53,4 @@ def test_only_a_layout_that_says_so_holds_bounces(path):
 def test_each_layout_is_registered_once(path):
     sb.read(path)
     names = [one.__name__ for one in LAYOUTS]
-    assert len(names) == len(set(names)) == 9
+    assert len(names) == len(set(names)) == 18

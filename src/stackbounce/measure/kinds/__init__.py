@@ -10,7 +10,7 @@ from stackbounce.measure.kinds.sound.kind import SOUND
 from stackbounce.measure.kinds.track.kind import TRACK
 from stackbounce.measure.kinds.waveform.kind import WAVEFORM
 
-__all__ = ["KINDS", "TYPED", "Kind"]
+__all__ = ["KINDS", "TYPED", "Kind", "kind_named"]
 
 KINDS: dict[str, Kind] = {
     kind.name: kind
@@ -20,3 +20,15 @@ KINDS: dict[str, Kind] = {
 
 TYPED: tuple[Kind, ...] = (TABLE, CONTACT)
 """What numbers without a file can tell."""
+
+
+def kind_named(text: str) -> str | None:
+    """Return the name of a kind of files, which may be typed in other ways; None for no kind.
+
+    Examples
+    --------
+    >>> kind_named("press-curve"), kind_named("Press"), kind_named("sounds")
+    ('press curve', 'press curve', None)
+    """
+    typed = " ".join(text.casefold().replace("-", " ").replace("_", " ").split())
+    return next((name for name in KINDS if typed in (name, name.split()[0])), None)

@@ -8,12 +8,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading.bounces import INFERRED, bounces
-from stackbounce.measure.reading.roles import ACCELERATIONS, Column
+from stackbounce.measure.reading.clock import on_the_clock
+from stackbounce.measure.reading.roles import ACCELERATIONS, ROLES, Column
 from stackbounce.measure.reading.series import in_time, step_of
+from stackbounce.measure.reading.video import rows_by_frame
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,6 +25,7 @@ __all__ = ["assemble", "holds_of"]
 
 Values = Array
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
+_OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
 _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
 
 
@@ -67,16 +71,30 @@ def assemble(
     """
     if holds == "bounces":
         return bounces(columns, values), [INFERRED]
-    columns = _fitting(holds, columns)
-    doubts = [one.doubt for one in columns if one.doubt]
-    columns = _assumed(columns, doubts)
-    for k, one in enumerate(columns):
-        if one.factor != 1.0:
-            values[:, k] *= one.factor
     kind = KINDS[holds]
-    builders = {"time": _series, "track": _track}
-    data, more = builders.get(kind.dimension, partial(_rows, kind))(columns, values, run)
+    columns, values = _named_first(columns, values)
+    over_time = {"time": _series, "track": _track}.get(kind.dimension)
+    build = over_time or partial(_rows, kind)
+    columns, told = on_the_clock(kind, _fitting(holds, columns), values)
+    doubts = [one.doubt for one in columns if one.doubt] + told
+    columns = _assumed(columns, doubts)
+    clock = _at(columns, "time") if over_time else -1  # left as written: its digits tell
+    for k, one in enumerate(columns):
+        if one.factor != 1.0 and k != clock:
+            values[:, k] *= one.factor
+    data, more = build(columns, values, run)
     return data, doubts + more
+
+
+def _named_first(columns: Sequence[Column], values: Values) -> tuple[Sequence[Column], Values]:
+    """Return columns and their numbers, those that an option gives a role before the others.
+
+    Of several forces an analysis takes the first.
+    """
+    order = sorted(range(len(columns)), key=lambda k: columns[k].named not in ROLES)
+    if order == list(range(len(columns))):
+        return columns, values
+    return [columns[k] for k in order], values[:, order]
 
 
 def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
@@ -97,8 +115,12 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
             needs = " and ".join(" or ".join(one) for one in KINDS[holds].columns)
             names = ", ".join(one.heading.text or f"column {one.index + 1}" for one in found[:20])
             raise InvalidValue(
-                f"holds: a {holds} needs columns of {needs}; it has {names}: "
-                f"names={{…: '{roles[0]}'}} tells which"
+                Said(
+                    Hint({"holds": None}),
+                    f": a {holds} needs columns of {needs}; it has {names}: ",
+                    Hint({"names": {found[-1].index + 1: roles[0]}}),
+                    " tells which, for instance",
+                )
             )
         taken.add(free[0])
         found[free[0]] = replace(found[free[0]], role=roles[0], named="")
@@ -112,15 +134,23 @@ def _assumed(columns: list[Column], doubts: list[str]) -> list[Column]:
     if told:
         names = dict.fromkeys(one.heading.name or one.variable for one in told)
         units = dict.fromkeys(_ASSUMED[one.role] for one in told)
+        others = {
+            one.heading.name or one.index + 1: _OTHER_UNITS[_ASSUMED[one.role]] for one in told
+        }
         doubts.append(
-            f"no unit is told for {', '.join(names)}: taken as {', '.join(units)}; "
-            f"units={{{', '.join(f'{one!r}: …' for one in names)}}} tells another"
+            Said(
+                f"no unit is told for {', '.join(names)}: taken as {', '.join(units)}; ",
+                Hint({"units": others}),
+                " tells another",
+            )
         )
     return [replace(one, unit=_ASSUMED[one.role]) if one in told else one for one in columns]
 
 
-def _said(one: Column) -> dict[str, str]:
-    return {"units": one.unit, "long_name": one.heading.text or f"column {one.index + 1}"}
+def _said(one: Column) -> dict[str, str | int]:
+    """Return what is said of a column in the Dataset; `column` is its number in the file."""
+    name = one.heading.text or f"column {one.index + 1}"
+    return {"units": one.unit, "long_name": name, "column": one.index + 1}
 
 
 def _named(columns: Sequence[Column], without: Sequence[str] = ()) -> list[str]:
@@ -154,20 +184,22 @@ def _series(columns: Sequence[Column], values: Values, run: object) -> _Built:
     import xarray as xr
 
     at = _at(columns, "time")
-    rows, doubts = in_time(values[:, at], run, gaps=True)
+    rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=True)
     values = values[rows]
     data = _data(columns, values, "time", skip=at)
     if "sound" in data:
-        data["sound"][2]["rate"] = 1.0 / step if (step := step_of(values[:, at])) > 0.0 else np.nan
-    return xr.Dataset(data, coords={"time": ("time", values[:, at], _said(columns[at]))}), doubts
+        data["sound"][2]["rate"] = 1.0 / step if (step := step_of(times)) > 0.0 else np.nan
+    return xr.Dataset(data, coords={"time": ("time", times, _said(columns[at]))}), doubts
 
 
 def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
     """Return the Dataset of tracks: x, y and further columns of each, and doubts."""
     import xarray as xr
 
+    columns, values, several = rows_by_frame(columns, values)
     at = _at(columns, "time")
-    rows, doubts = in_time(values[:, at], run, gaps=False)
+    rows, times, doubts = in_time(values[:, at], columns[at], run, gaps=False)
+    doubts = several + doubts
     values = values[rows]
     others = [k for k in range(len(columns)) if k != at]
     tracks = list(dict.fromkeys(columns[k].track for k in others))
@@ -183,7 +215,7 @@ def _track(columns: Sequence[Column], values: Values, run: object) -> _Built:
             place[1][:, k] = values[:, j]
             place[2].update(_said(columns[j]))
     coords = {
-        "time": ("time", values[:, at], _said(columns[at])),
+        "time": ("time", times, _said(columns[at])),
         "track": [one or f"track {k}" for k, one in enumerate(tracks, 1)],
     }
     if not any(columns[k].role == "x" for k in others):
@@ -196,7 +228,8 @@ def _rows(kind: Kind, columns: Sequence[Column], values: Values, run: object) ->
     import xarray as xr
 
     if run is not None:
-        raise InvalidValue("run: there is none to choose, as this holds no times")
+        name = Hint({"run": None})
+        raise InvalidValue(Said(name, ": there is none to choose, as this holds no times"))
     roles = [each[0] for each in kind.columns]
     whole = np.isfinite(values[:, [_at(columns, role) for role in roles]]).all(axis=1)
     if not whole.any():

@@ -11,6 +11,9 @@ _BEFORE = re.compile(r"(Latest|(?:Run|Data Set|Durchgang|Lauf)\b[^:]{0,40}|[^:(\
 _AFTER = re.compile(r"(.+?)[\s,]+((?:Run|Durchgang|Lauf|Ensayo|Essai)\s+#?\d{1,6})")
 _BRACKETS = re.compile(r"(.*?)\s*(?:\(([^()]*(?:\([^()]*\)[^()]*)?)\)|\[([^\[\]]*)\])")
 _WORDS = re.compile(r"(.+?)(?:\s*/\s*|,\s*|\s+in\s+|\s+|_)(\S{1,20})")
+_UNIT_NAME = re.compile(
+    r"(sec|seconds?|volts?|newtons?|met(?:er|re)s?)(?: ?\d{1,2})?", re.IGNORECASE
+)
 _SURE = re.compile(r".+?(?:\s*/\s*|,\s*|\s+in\s+)\S{1,20}")
 
 
@@ -50,8 +53,8 @@ def heading(text: str, unit: str | None = None) -> Heading:
     --------
     >>> heading("Run 1: Time (ms)")
     Heading(text='Run 1: Time (ms)', name='Time', unit='ms', run='Run 1')
-    >>> heading("Force / N").unit, heading("force_N").unit, heading("t [s]").unit
-    ('N', 'N', 's')
+    >>> heading("Force / N").unit, heading("force_N").unit, heading("Volt1").unit
+    ('N', 'N', 'volt')
     """
     text = " ".join(text.lstrip("#%").split())[:200]
     name, run = text, ""
@@ -64,6 +67,8 @@ def heading(text: str, unit: str | None = None) -> Heading:
         return Heading(text, found[1], (found[2] or found[3] or "").strip(), run)
     if (found := _WORDS.fullmatch(name)) and in_si(found[2], common=not _SURE.fullmatch(name)):
         return Heading(text, found[1], found[2], run)
+    if found := _UNIT_NAME.fullmatch(name):
+        return Heading(text, name, found[1].casefold(), run)
     return Heading(text, name, "", run)
 
 

@@ -9,14 +9,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
+import numpy as np
+
 from stackbounce.errors import FileError
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.reading.bare import Guess, guess
 from stackbounce.measure.reading.headings import heading, is_unit
 from stackbounce.measure.reading.roles import Column, column
 from stackbounce.measure.reading.text import Text, number
 
-__all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "general", "layout"]
-
-_NOT_NAMED = "no header names the columns: name them, as in names={1: 'time', 2: 'force'}"
+__all__ = ["LAYOUTS", "Layout", "columns_of", "first_row", "first_with", "general", "layout"]
 
 
 @dataclass(frozen=True)
@@ -36,9 +38,13 @@ class Layout:
     doubts : tuple of str, optional
         What is unsure.
     clock : tuple of float, optional
-        Start and step in s, where the column of times counts samples.
+        Start and step in s, where the column of times counts samples or rows.
     holds : str, optional
         The kind of measurement, if it does not follow from the columns.
+    guess : Guess, optional
+        What columns without names look like.
+    end : int, optional
+        Where in the text the table ends, if something else follows.
     """
 
     format: str
@@ -48,6 +54,8 @@ class Layout:
     doubts: tuple[str, ...] = ()
     clock: tuple[float, float] | None = None
     holds: str = ""
+    guess: Guess | None = None
+    end: int | None = None
 
 
 _Recognise: TypeAlias = Callable[[Text], Layout | None]
@@ -73,6 +81,23 @@ def first_row(text: Text, start: int = 0) -> int:
     for index in range(start, len(text.head)):
         values = [number(cell, text.decimal) for cell in text.head[index]]
         if None not in values and any(value == value for value in values):
+            return index
+    raise FileError("it has a header and no row of numbers below it")
+
+
+def first_with(text: Text, columns: Sequence[int], start: int = 0) -> int:
+    """Return the index of the first row with numbers in some columns, whatever the others hold.
+
+    Raises
+    ------
+    FileError
+        If there is none.
+    """
+    for index in range(start, len(text.head)):
+        row = text.head[index]
+        cells = [row[k] if k < len(row) else "" for k in columns]
+        values = [number(cell, text.decimal) for cell in cells]
+        if all(value is not None and value == value for value in values):
             return index
     raise FileError("it has a header and no row of numbers below it")
 
@@ -106,9 +131,15 @@ def general(text: Text) -> Layout:
     first = _body(text)
     width = _width(text, first)
     above = [k for k in range(first) if any(text.head[k])]
+    beside = _beside(text, width, above[-1] if above else first)
+    if beside:
+        why = f"words beside the first row name its columns: {', '.join(beside)}"
+        first = above[-1] if above else first
+        return Layout("table of numbers", why, columns_of(beside, width), first)
     if not above or first - above[-1] > 2:
+        found = guess(_numbers(text, first, width))
         why = "rows of numbers without a header"
-        return Layout("table of numbers", why, columns_of([], width), first, (_NOT_NAMED,))
+        return Layout("table of numbers", why, columns_of([], width), first, guess=found)
     names = _named(text, above[-1], width)
     units = None
     if len(above) > 1 and all(is_unit(cell) for cell in names if cell):
@@ -128,6 +159,27 @@ def general(text: Text) -> Layout:
     return Layout(
         "table of numbers", f"a header names its columns: {shown}{more}", columns, first, doubts
     )
+
+
+def _beside(text: Text, width: int, index: int) -> list[str]:
+    """Return names that stand to the right of a row of numbers, one for each of its columns."""
+    cells = text.head[index]
+    if any(number(cell, text.decimal) is None for cell in cells[:width]) or not any(cells[:width]):
+        return []
+    names = [cell for cell in cells[width:] if cell]
+    return (
+        names
+        if len(names) == width and all(number(one, text.decimal) is None for one in names)
+        else []
+    )
+
+
+def _numbers(text: Text, first: int, width: int) -> Array:
+    """Return the numbers of the first rows, NaN where there is none."""
+    rows = [[number(cell, text.decimal) for cell in row[:width]] for row in text.head[first:]]
+    return np.array(
+        [[np.nan if one is None else one for one in row] for row in rows if len(row) == width]
+    ).reshape(-1, width)
 
 
 def _body(text: Text) -> int:

@@ -32,7 +32,6 @@ _OTHERS = (
     (0, b"\x89PNG", "a picture", "export the numbers"),
     (0, b"\xff\xd8\xff", "a picture", "export the numbers"),
     (0, b"%PDF", "a PDF document", "export the numbers as CSV"),
-    (0, b"\xd0\xcf\x11\xe0", "an old spreadsheet or document", "save it as CSV"),
     (0, b"\x89HDF", "an HDF5 file", "export the numbers as CSV"),
     (0, b"MATLAB", "a MATLAB file", "export the numbers as CSV"),
     (0, b"\x1f\x8b", "compressed by gzip", "unpack it"),

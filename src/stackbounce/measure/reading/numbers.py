@@ -19,6 +19,7 @@ __all__ = ["Table", "rows_of"]
 _CHUNK = LINE  # characters that are parsed at once, so that no line in them is too long
 _ODD = 2**23  # characters that are parsed cell by cell in Python, at most: some seconds
 _BLANKS = sorted({word for one in MISSING for word in (one, one.upper(), one.title(), "NaN")})
+_MOST = 1e30  # beyond any instrument's range, for which oscilloscopes write 9.9E37
 _TRUTH = "uUsS"  # letters of "true" and "false" that occur in no number
 
 
@@ -90,7 +91,8 @@ def rows_of(text: Text, first: int, used: Sequence[int]) -> Table:
     values = values[:count]
     blank = np.isnan(values).all(axis=1)
     table.values = values[~blank] if blank.any() else values
-    infinite = np.isinf(table.values)
+    infinite = table.values > _MOST
+    infinite |= table.values < -_MOST
     table.infinite = int(infinite.sum())
     if table.infinite:
         table.values[infinite] = np.nan

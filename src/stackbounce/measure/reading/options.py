@@ -1,12 +1,14 @@
 """The options of `read`, and how they change the columns of a file."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
-from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
-from stackbounce.measure.kinds import KINDS
+from stackbounce.errors import InvalidType, InvalidValue, nearest, positive, shown
+from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.kinds import KINDS, kind_named
 from stackbounce.measure.reading.headings import slug
-from stackbounce.measure.reading.roles import Column
+from stackbounce.measure.reading.roles import ROLES, Column
 from stackbounce.units import in_si
 
 __all__ = ["ReadOptions", "apply_options", "of_run"]
@@ -21,28 +23,58 @@ class ReadOptions:
     holds: str | None = None
     table: str | None = None
     run: str | int | None = None
-    names: Mapping[_Key, str] | None = None
+    names: Mapping[_Key, Any] | None = None
     units: Mapping[_Key, str] | None = None
     decimal: str | None = None
+    frame_rate: float | None = None
+    scale: float | None = None
 
     def __post_init__(self) -> None:
-        if self.holds is not None and not (isinstance(self.holds, str) and self.holds in KINDS):
-            raise InvalidValue(
-                f"holds must be what a file holds, got {shown(self.holds)}; "
-                f"{nearest(self.holds, KINDS)}"
-            )
+        if self.holds is not None:
+            object.__setattr__(self, "holds", _kind(self.holds))
         if not isinstance(self.table, str | None):
-            raise InvalidType(f"table must be a name, got {shown(self.table)}")
+            raise InvalidType(_wrong("table", f" must be a name, got {shown(self.table)}"))
         if isinstance(self.run, bool) or not isinstance(self.run, str | int | None):
-            raise InvalidType(f"run must be a name or a number, got {shown(self.run)}")
+            raise InvalidType(_wrong("run", f" must be a name or a number, got {shown(self.run)}"))
         if not isinstance(self.decimal, str | None):
-            raise InvalidType(f'decimal must be "." or ",", got {shown(self.decimal)}')
+            raise InvalidType(_wrong("decimal", f' must be "." or ",", got {shown(self.decimal)}'))
+        for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
+            if getattr(self, option) is not None:
+                positive(option, getattr(self, option), unit)
+        if self.names is not None:
+            object.__setattr__(self, "names", _by_column(self.names))
         for name in _checked("names", self.names):
             if not name.isidentifier():
-                raise InvalidValue(f"names: {shown(name)} is no name, such as 'force'")
+                raise InvalidValue(_wrong("names", f": {shown(name)} is no name, such as 'force'"))
         for unit in _checked("units", self.units):
-            if in_si(unit) is None:
-                raise InvalidValue(f"units: {shown(unit)} is no unit that is known, such as 'mm'")
+            if unit != "S" and in_si(unit) is None:
+                told = f": {shown(unit)} is no unit that is known, such as 'mm'"
+                raise InvalidValue(_wrong("units", told))
+
+
+def _wrong(option: str, text: str) -> Said:
+    """Return a message that begins with the name of an option."""
+    return Said(Hint({option: None}), text)
+
+
+def _kind(holds: object) -> str:
+    found = kind_named(holds) if isinstance(holds, str) else None
+    if found is None:
+        told = f" must be what a file holds, got {shown(holds)}; {nearest(holds, KINDS)}"
+        raise InvalidValue(_wrong("holds", told))
+    return found
+
+
+def _by_column(given: object) -> object:
+    """Return meanings by columns; they may be given the other way round: ``{"time": 1}``."""
+    if not isinstance(given, Mapping):
+        return given
+    return dict(
+        (value, key)
+        if key in ROLES and isinstance(value, str | int) and value not in ROLES
+        else (key, value)
+        for key, value in given.items()
+    )
 
 
 def _checked(option: str, given: object) -> list[str]:
@@ -50,10 +82,11 @@ def _checked(option: str, given: object) -> list[str]:
     if given is None:
         return []
     if not isinstance(given, Mapping):
-        raise InvalidType(f"{option} must be a mapping of columns, got {shown(given)}")
+        raise InvalidType(_wrong(option, f" must be a mapping of columns, got {shown(given)}"))
     for key, value in given.items():
         if not isinstance(key, str | int) or not isinstance(value, str):
-            raise InvalidType(f"{option} must map columns to text, got {shown({key: value})}")
+            told = f" must map columns to text, got {shown({key: value})}"
+            raise InvalidType(_wrong(option, told))
     return list(given.values())
 
 
@@ -65,12 +98,16 @@ def apply_options(columns: Sequence[Column], told: ReadOptions) -> list[Column]:
             places = [k for k, one in enumerate(found) if _is(one, key)]
             if not places:
                 known = [one.heading.text or str(one.index + 1) for one in found[:50]]
-                raise InvalidValue(
-                    f"{option}: there is no column {shown(key)}; {nearest(key, known)}"
-                )
+                message = f": there is no column {shown(key)}; {nearest(key, known)}"
+                raise InvalidValue(_wrong(option, message))
             for k in places:
                 name, unit = (value, None) if option == "names" else ("", value)
                 found[k] = found[k].called(name, unit)
+    if any(one.named == "time" for one in found):  # a named time replaces that of a header
+        found = [
+            replace(one, role="") if one.role == "time" and one.named != "time" else one
+            for one in found
+        ]
     return found
 
 
@@ -91,13 +128,15 @@ def of_run(
         return list(columns), False
     if run is None:
         chosen = runs[0]
-        doubts.append(f"{len(runs)} runs; {chosen!r} is read, run={runs[1]!r} reads another")
+        other = Hint({"run": runs[1]})
+        doubts.append(Said(f"{len(runs)} runs; {chosen!r} is read, ", other, " reads another"))
     else:
         word = str(run).casefold()
         named = [one for k, one in enumerate(runs, 1) if word in (one.casefold(), str(k))]
         if not named:
+            known = nearest(run, runs)
             raise InvalidValue(
-                f"run must be one that is there, got {shown(run)}; {nearest(run, runs)}"
+                _wrong("run", f" must be one that is there, got {shown(run)}; {known}")
             )
         chosen = named[0]
     own = [one for one in columns if one.heading.run in (chosen, "")]

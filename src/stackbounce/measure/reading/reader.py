@@ -1,15 +1,21 @@
 """`read`: the file of any program -> a Dataset with the kind of measurement that it holds."""
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
+from stackbounce.measure.hints import Hint, Said, about, joined
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.reading import wav, zipped
+from stackbounce.measure.reading import arrays, projects, wav
+from stackbounce.measure.reading.bare import NOT_NAMED
+from stackbounce.measure.reading.clock import without_counts
+from stackbounce.measure.reading.containers import tables_in
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import Layout
@@ -17,7 +23,9 @@ from stackbounce.measure.reading.limits import content_of, refuse_others
 from stackbounce.measure.reading.numbers import Table, rows_of
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run
 from stackbounce.measure.reading.roles import Column
+from stackbounce.measure.reading.tables import Tables, chosen
 from stackbounce.measure.reading.text import decode, tabulate
+from stackbounce.measure.reading.video import on_frames
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -31,15 +39,18 @@ def read(
     holds: str | None = None,
     table: str | None = None,
     run: str | int | None = None,
-    names: Mapping[str | int, str] | None = None,
+    names: Mapping[str | int, str | int] | None = None,
     units: Mapping[str | int, str] | None = None,
     decimal: str | None = None,
+    frame_rate: float | None = None,
+    scale: float | None = None,
 ) -> "xr.Dataset":
     r"""Return what a file of measurements holds, recognised by its content, in SI units.
 
-    Tables of Tracker, phyphox (also its zip archives), Vernier, Logger Pro, PASCO Capstone,
-    oscilloscopes of Rigol, Pico and Tektronix, any other table of numbers with names and units in
-    its header, and WAV sound. Options are needed only where a file is not recognised correctly.
+    Tables of Tracker, ImageJ, TrackMate, phyphox, Sensor Logger, Vernier, Logger Pro, PASCO
+    Capstone, LabVIEW and oscilloscopes, also in zip archives and spreadsheets; any other table of
+    numbers with names and units in its header; arrays of NumPy; and WAV sound. Options are needed
+    only where a file is not recognised correctly.
 
     Parameters
     ----------
@@ -49,17 +60,23 @@ def read(
         What it holds: ``"waveform"``, ``"sound"``, ``"track"``, ``"knocks"``, ``"bounces"``,
         ``"press curve"``, ``"acceleration"`` or ``"table"``.
     table : str, optional
-        Which table of a zip archive, such as ``"Raw Data.csv"`` or ``"Raw Data"``.
+        Which table of a zip archive, such as ``"Raw Data.csv"`` or ``"Raw Data"``, or sheet of a
+        spreadsheet.
     run : str or int, optional
         Which run of a table with several, by its name or counted from 1; by default the first.
     names : mapping, optional
         What columns are, by their names in the file or counted from 1, such as
         ``{1: "time", 2: "force"}``: ``"time"``, ``"force"``, ``"voltage"``, ``"compression"``,
         ``"x"``, ``"y"``, ``"sound"``, ``"knock_time"``, ``"acceleration_x"`` … or any other name.
+        What can be measured may also stand first: ``{"time": 1, "y": "height"}``.
     units : mapping, optional
         Units of columns, by their names or counted from 1, such as ``{"x": "cm", "y": "cm"}``.
     decimal : str, optional
         The decimal mark, ``"."`` or ``","``.
+    frame_rate : float, optional
+        Frames per second of a video, where positions are told by frame and not by time.
+    scale : float, optional
+        Metres per pixel, where positions are in pixels.
 
     Returns
     -------
@@ -70,7 +87,8 @@ def read(
         - waveform: `force` or `voltage` (time), further channels `force_2` …
         - sound: `sound` (time) of full scale 1, channels averaged; its attribute `rate` in Hz
         - acceleration: `acceleration_x`, `_y`, `_z`, `_absolute` (time), as far as they are there
-        - track: `x`, `y` (time, track), NaN where a track has no point
+        - track: `x`, `y` (time, track), NaN where a track has no point; in ``px`` and over frames
+          where neither the file nor an option tells scale and frame rate
         - knocks: `knock_time` (knock)
         - bounces: `knock_time` (knock), `height` and `energy` (bounce), by phyphox
         - press curve: `compression`, `force` (point)
@@ -86,6 +104,8 @@ def read(
         (a zip archive: unpacked), or has more than 1000 columns or 67 million numbers.
     InvalidValue, InvalidType
         If an option makes no sense for this file.
+    MissingExtra
+        If the package is not installed that opens a spreadsheet or a program's own file.
 
     Notes
     -----
@@ -103,7 +123,7 @@ def read(
     >>> data.force.values
     array([   0., 1500.,  100.])
     """
-    told = ReadOptions(holds, table, run, names, units, decimal)
+    told = ReadOptions(holds, table, run, names, units, decimal, frame_rate, scale)
     return _named(*content_of(path), told)
 
 
@@ -144,90 +164,138 @@ def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":
 
 def _named(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     try:
-        data = _read(content, told)
+        data = _read(name, content, told)
     except StackbounceError as error:
-        raise type(error)(f"{name}: {error}") from error
+        raise about(name, error) from error
     except MemoryError as error:
         raise FileError(f"{name} is too large for the memory of this machine") from error
     data.attrs["source"] = Path(name).name
     return data
 
 
-def _read(content: bytearray, told: ReadOptions) -> "xr.Dataset":
+def _read(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
     if wav.is_wav(content):
         data, why, doubts = wav.read_wav(content)
         if told.holds not in (None, "sound"):
-            raise InvalidValue(f"holds: the file is a sound, got {shown(told.holds)}")
+            holds = Hint({"holds": None})
+            raise InvalidValue(Said(holds, f": the file is a sound, got {shown(told.holds)}"))
         return _signed(data, "WAV", why, "sound", doubts)
-    if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
-        return _from_zip(content, told)
+    tables = tables_in(content)
+    if tables is not None:
+        return _from_tables(tables, told)
     if told.table is not None:
-        raise InvalidValue("table: there is one only, as it is no zip archive")
-    return _from_text(content, told)
+        table = Hint({"table": None})
+        kind = "as it is no zip archive or spreadsheet"
+        raise InvalidValue(Said(table, f": there is one only, {kind}"))
+    return _from_table(name, content, told)
 
 
-def _from_zip(content: bytearray, told: ReadOptions) -> "xr.Dataset":
-    members, by_phyphox = zipped.members(content)
-    names = sorted(members, key=lambda one: (one.count("/"), one))
+def _from_tables(tables: Tables, told: ReadOptions) -> "xr.Dataset":
+    """Read the first table that holds a known kind of measurement, or the one that is asked for."""
+    names = sorted(tables.members, key=lambda one: one.count("/"))
     if told.table is not None:
-        names = [zipped.chosen(names, told.table)]
+        names = [chosen(tables, told.table)]
+    told = replace(told, table=None, decimal=tables.decimal or told.decimal)
     read: list[tuple[str, xr.Dataset]] = []
     for name in names:
         try:
-            read.append((name, _from_text(bytearray(members.pop(name)), told)))
+            content = bytearray(tables.members.pop(name))
+            inner = projects.tables(content)  # one of Tracker in a zip archive
+            own = _from_tables(inner, told) if inner else _from_table(name, content, told)
+            read.append((name, own))
         except StackbounceError as error:
             if name == names[-1] and not read:
-                raise type(error)(f"{name}: {error}") from error
+                raise about(name, error) from error
             continue
         if read[-1][1].attrs["holds"] != "table":
             break
     name, data = next((one for one in read if one[1].attrs["holds"] != "table"), read[0])
-    if by_phyphox and not data.attrs["format"].startswith("phyphox"):
-        data.attrs["format"] = "phyphox"
-        data.attrs["why"] = f"its meta/device.csv is phyphox's; {data.attrs['why']}"
+    if tables.program and not data.attrs["format"].startswith(tables.program):
+        data.attrs["format"] = tables.program
+    data.attrs["why"] = "; ".join(filter(None, [tables.why, data.attrs["why"]]))
     others = [one for one in names if one != name]
     if others:
-        more = f"{name} of it is read; table={others[0]!r} reads another"
-        data.attrs["doubt"] = "; ".join(filter(None, [data.attrs["doubt"], more]))
+        more = Said(f"{name} of it is read; ", Hint({"table": others[0]}), " reads another")
+        data.attrs["doubt"] = joined("; ", filter(None, [data.attrs["doubt"], more]))
     return data
 
 
-def _from_text(content: bytearray, told: ReadOptions) -> "xr.Dataset":
-    layout, columns, table, doubts, runs = _table(content, told)
-    if layout.clock:
-        table.values[:, 0] = layout.clock[0] + layout.clock[1] * table.values[:, 0]
+def _from_table(name: str, content: bytearray, told: ReadOptions) -> "xr.Dataset":
+    layout, columns, table, doubts, runs = _table(name, content, told)
+    _count(layout, columns, table)
     doubts += _flaws(table)
     values = table.values
     if layout.holds != "bounces":
         columns, values = _numeric(columns, table)
+        columns = without_counts(columns, values)
     holds = told.holds or layout.holds or holds_of(columns)
     if holds == "bounces" != layout.holds:
-        raise InvalidValue("holds: only phyphox's (in)elastic collision holds bounces")
+        whose = ": only phyphox's (in)elastic collision holds bounces"
+        raise InvalidValue(Said(Hint({"holds": None}), whose))
     data, more = assemble(holds, columns, values, None if runs else told.run)
     return _signed(data, layout.format, layout.why, holds, doubts + more)
 
 
 def _table(
-    content: bytearray, told: ReadOptions
+    name: str, content: bytearray, told: ReadOptions
 ) -> tuple[Layout, list[Column], Table, list[str], bool]:
-    """Return the layout of a text, its columns, numbers and doubts, and whether it has runs.
+    """Return the layout of a table, its columns, numbers and doubts, and whether it has runs.
 
     The text is freed on return, as it may be larger than all of these.
     """
-    refuse_others(content)
-    text = tabulate(decode(content), told.decimal)
-    layout = layout_of(text)
-    columns = apply_options(layout.columns, told)
-    doubts = [*text.doubts, *(() if told.names else layout.doubts)]
+    numbers: Callable[[Sequence[int]], Table]
+    if arrays.is_array(content):
+        array = arrays.array_in(content)
+        layout, numbers, doubts = (
+            arrays.layout_of_array(array),
+            partial(arrays.rows_of_array, array),
+            [],
+        )
+    else:
+        refuse_others(content)
+        text = tabulate(decode(content), told.decimal, Path(name).name)
+        layout = layout_of(text)
+        if layout.end is not None:
+            text = replace(text, content=text.content[: layout.end])
+        numbers, doubts = partial(rows_of, text, layout.first), list(text.doubts)
+    named, unsure = _meant(layout, told)
+    columns = apply_options(named, told)
+    doubts += () if told.names else unsure
     columns, runs = of_run(columns, told.run, doubts)
-    table = rows_of(text, layout.first, [one.index for one in columns])
+    if told.holds in (None, "track"):
+        columns, more = on_frames(columns, told.frame_rate, told.scale)
+        doubts += more
+    table = numbers([one.index for one in columns if one.index >= 0])
     return layout, columns, table, doubts, runs
+
+
+def _meant(layout: Layout, told: ReadOptions) -> tuple[Sequence[Column], Sequence[str]]:
+    """Return the columns of a layout, or what they look like, and what is unsure."""
+    found = layout.guess
+    if found is None:
+        return layout.columns, layout.doubts
+    if told.names or told.holds not in (None, holds_of(on_frames(found.columns)[0])):
+        return layout.columns, (NOT_NAMED,)
+    return found.columns, (found.doubt,)
+
+
+def _count(layout: Layout, columns: Sequence[Column], table: Table) -> None:
+    """Put in the numbers of a column that counts rows, and the times of a clock."""
+    at = next((k for k, one in enumerate(columns) if one.index < 0), None)
+    if at is not None:
+        rows = np.arange(len(table.values), dtype=np.float64)
+        table.values = np.insert(table.values, at, rows, axis=1)
+        table.strange = np.insert(table.strange, at, 0)
+    if layout.clock:
+        time = next((k for k, one in enumerate(columns) if one.role == "time"), None)
+        if time is not None:
+            table.values[:, time] = layout.clock[0] + layout.clock[1] * table.values[:, time]
 
 
 def _signed(
     data: "xr.Dataset", form: str, why: str, holds: str, doubts: Sequence[str]
 ) -> "xr.Dataset":
-    doubt = "; ".join(dict.fromkeys(doubts))
+    doubt = joined("; ", dict.fromkeys(doubts))
     data.attrs = {"format": form, "why": why, "doubt": doubt, "holds": holds}
     return data
 

@@ -6,33 +6,50 @@ from dataclasses import dataclass, replace
 from stackbounce.measure.reading.headings import Heading, slug
 from stackbounce.units import in_si
 
-__all__ = ["ACCELERATIONS", "Column", "column"]
+__all__ = ["ACCELERATIONS", "FRAME", "PIXEL", "POINT", "ROLES", "Column", "column"]
+
+FRAME, PIXEL = "frame", "px"
+"""The units of time and of length in a video whose frame rate and scale are not known."""
+
+POINT = "point "
+"""Begins the name of a track whose points are in no order, those of any ball in each frame."""
 
 _WORDS = {  # role: the whole name, folded, in the languages that files are often in
     "knock_time": r"(event|knock|bounce|impact)s?[ _]?(times?)?|ereigniszeit",
-    "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|seconds?|sec",
+    "frame": r"frames?([ #]*(no|nr|number|index|n°)?\.?)?|slices?( n°)?|bild(nummer)?",
+    "track_id": r"track[ ]?(id|no|nr|number|n°)\.?",
+    "time": r"((elapsed|test|total) )?time|t|zeit|temps|tiempo|tempo|tijd|tid|czas|x value"
+    r"|time elapsed|seconds?( elapsed)?|secs?|s|elapsed( seconds)?|position t",
     "compression": r"(crosshead |compressive |standard)?(compress\w*|extension|deflection|stroke"
-    r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung)|c",
-    "force": r"((standard|normal|impact|contact) ?)?(force|kraft|load|last|fuerza|forza)"
+    r"|displacement|deformation|travel|indentation|weg|verformung|traverse|stauchung|dehnung"
+    r"|verlängerung|extensión|extensão|alargamento|estensione|allongement|déplacement"
+    r"|desplazamiento|deslocamento|compresión|compressão|standardweg)|c",
+    "force": r"((standard|normal|impact|contact) ?)?(force|kraft|load|last|fuerza|forza|força"
+    r"|carga|carico|charge|kracht|belastning)"
     r"( ?[a-z0-9])?|f([_ ]?[xyzn0-9])?",
     "voltage": r"(voltage|volts?|spannung|tension|potential|signal|sensor|piezo|u)([ _]?[a-z0-9])?"
-    r"|ch(annel|an)?[ _]?[a-z0-9]|math[ _]?\d?",
+    r"|ch(annel|an)?[ _]?[a-z0-9]v?|math[ _]?\d?",
     "sound": r"(recording|audio|sound|sound pressure|microphone|mic|amplitude|aufnahme)",
     "x": r"x|(x[ _-]?position|position[ _-]?x)",
     "y": r"y|(y[ _-]?position|position[ _-]?y)|position|distance|height|höhe|abstand|ort",
 }
 _ROLES = {role: re.compile(words) for role, words in _WORDS.items()}
 _ACCELERATION = re.compile(
-    r"(?P<before>.*\b)?(acceleration|beschleunigung)(?P<rest>.*)|a(?P<axis>[_ ]?[xyz])?"
+    r"(?P<before>.*\b)?(acceleration|accelerometer|beschleunigung|accélération|aceleración"
+    r"|aceleração|accelerazione|acc\b)(?P<rest>.*)|a(?P<axis>[_ ]?[xyz])?"
 )
 _WANTED = {  # the SI units that a column in a role can have
     "knock_time": "s", "time": "s", "compression": "m", "force": "N kg", "voltage": "V A",
-    "sound": "V Pa 1", "x": "m", "y": "m",
+    "sound": "V Pa 1", "x": "m px", "y": "m px", "frame": "1", "track_id": "1",
 }  # fmt: skip
 _BY_UNIT = {"s": "time", "N": "force", "V": "voltage", "m/s^2": "acceleration"}
+_PIXELS = re.compile(r"px|pix|pixels?", re.IGNORECASE)
 _BETWEEN = re.compile(r"interval|duration|period|delay|dauer|δt|^dt")  # durations, no moments
 _ARBITRARY = ("a.u.", "a. u.", "arb. units", "arbitrary")
+_FAR = 1e3  # m: positions in such a unit are no heights of a ball
 ACCELERATIONS = tuple("acceleration" + axis for axis in ("_x", "_y", "_z", "_absolute", ""))
+ROLES = (*_WORDS, *ACCELERATIONS)
+"""What a column can be."""
 G = 9.80665
 
 
@@ -101,8 +118,11 @@ def column(index: int, said: Heading, role: str = "", track: str = "") -> Column
 def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
     """Return role, factor to SI, SI unit and a doubt; `told` is a role that is already known."""
     word = " ".join(name.casefold().replace("_", " ").split())
+    unit = "s" if unit == "S" else unit  # oscilloscopes mean seconds, not siemens
     factor, symbol = (in_si(unit) if unit else None) or (1.0, "")
     doubt = ""
+    if _PIXELS.fullmatch(unit):
+        symbol = PIXEL
     if unit and not symbol and re.search(r"\w", unit) and unit not in _ARBITRARY:
         doubt = f"unit {unit!r} of {name!r} is not known here: its numbers are left as they are"
     bend = _ACCELERATION.fullmatch(word)
@@ -110,8 +130,16 @@ def _role(name: str, unit: str, told: str) -> tuple[str, float, str, str]:
         factor, symbol = (G, "m/s^2") if unit == "g" else (factor, symbol)
         axis = _axis(bend["rest"] or bend["axis"] or bend["before"] or "")
         return told or axis, factor, symbol, doubt
+    if not told and symbol == "m/s^2" and word in ("x", "y", "z"):
+        return f"acceleration_{word}", factor, symbol, doubt
+    if not told and unit.casefold() in ("frame", "frames"):
+        return "frame", 1.0, "", ""
     role = told or next((one for one, words in _ROLES.items() if words.fullmatch(word)), "")
     if symbol and role and symbol not in _WANTED.get(role, symbol).split():
+        role = ""
+    if role == "time" and not unit and "sec" in word:
+        symbol = "s"
+    if role in ("x", "y") and not told and factor >= _FAR:
         role = ""
     if role == "sound" and unit in _ARBITRARY:
         symbol = "1"

@@ -1,24 +1,43 @@
-"""The rows of a table in time: its runs, gaps and repeats."""
+"""The rows of a table in time: its runs, gaps and repeats, and times that were rounded."""
+
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.quantities import Array
+from stackbounce.measure.reading.even import even_times, spread
+from stackbounce.measure.reading.roles import Column
+from stackbounce.measure.reading.rounding import Rounding, rounding_of
 
-__all__ = ["in_time", "step_of"]
+__all__ = ["Series", "in_time", "step_of"]
 
 _RUNS = 50
 """Runs below each other, at most: with more, the column does not hold times."""
 
 
-def in_time(time: Array, run: object, *, gaps: bool) -> tuple[NDArray[np.intp] | slice, list[str]]:
-    """Return the rows of one run, in which time never decreases, and what is unsure.
+class Series(NamedTuple):
+    """The rows of one run, their times in s, and what is unsure of them."""
+
+    rows: NDArray[np.intp] | slice
+    times: Array
+    doubts: list[str]
+
+
+def in_time(time: Array, column: Column, run: object, *, gaps: bool) -> Series:
+    """Return the rows of one run, in which time never decreases, and their times.
+
+    Times that are even within their rounding become even. Those that repeat are spread over what
+    they were rounded to, as no sample of a record is another's double.
 
     Parameters
     ----------
     time : numpy.ndarray
-        Times in s; rows where it is NaN are left out.
+        Times as written in the file; rows where it is NaN are left out.
+    column : Column
+        Whose they are; its factor converts them.
     run : object
         The run that is wanted, counted from 1, or None: the first.
     gaps : bool
@@ -27,49 +46,102 @@ def in_time(time: Array, run: object, *, gaps: bool) -> tuple[NDArray[np.intp] |
     Raises
     ------
     InvalidValue
-        If times run backwards too often, or there is no such run.
+        If times run backwards too often or never change, or there is no such run.
     """
     known = np.isfinite(time)
     rows = slice(None) if known.all() else np.flatnonzero(known)  # a slice copies nothing
     own = time[rows]
     if not own.size:
         raise InvalidValue("time: there is none in any row")
-    steps = np.diff(own)
-    again = np.flatnonzero(steps < 0.0) + 1
-    doubts = []
+    rows, own, doubts = _of_run(rows, own, run)
+    factor, unit = column.factor, column.unit or "s"
+    if own.size > 1 and own[0] == own[-1]:
+        raise InvalidValue(
+            Said(
+                f"time is {factor * own[0]:.6g} {unit} in all of {own.size} rows: ",
+                Hint({"names": {2: "time"}}),
+                " tells that it is another column, such as the second",
+            )
+        )
+    rounded = rounding_of(own)
+    even = even_times(own, rounded)
+    if even is not None:
+        doubts.append(_even_doubt(own, factor, unit, rounded))
+        return Series(rows, factor * even, doubts)
+    repeated = int(np.count_nonzero(np.diff(own) == 0.0))
+    if repeated:
+        step = factor * float(np.median(rounded.steps(own)))
+        doubts.append(
+            f"{repeated} times are repeated: spread over the {step:.2g} {unit} of their digits"
+        )
+        own = spread(own, rounded)
+    own = own if factor == 1.0 else factor * own
+    if gaps:
+        doubts.extend(_gaps(own, unit))
+    return Series(rows, own, doubts)
+
+
+def _of_run(
+    rows: NDArray[np.intp] | slice, own: Array, run: object
+) -> tuple[NDArray[np.intp] | slice, Array, list[str]]:
+    """Return the rows and times of one of the runs below each other."""
+    again = np.flatnonzero(np.diff(own) < 0.0) + 1
     if again.size >= _RUNS:
         raise InvalidValue(
-            f"time runs backwards in {again.size} of {own.size} rows: "
-            "names={…: 'time'} tells another column"
+            Said(
+                f"time runs backwards in {again.size} of {own.size} rows: ",
+                Hint({"names": {2: "time"}}),
+                " tells that it is another column, such as the second",
+            )
         )
-    if again.size:
-        at = 1 if run is None else _counted(run, again.size + 1)
-        first, last = [0, *again, own.size][at - 1 : at + 1]
-        rows = slice(first, last) if isinstance(rows, slice) else rows[first:last]
-        own, steps = own[first:last], steps[first : last - 1]
-        doubts.append(f"time starts again {again.size} times; run {at} of {again.size + 1} is read")
-    elif run is not None:
-        _counted(run, 1)
-    repeated = int((steps == 0.0).sum())
-    if repeated:
-        doubts.append(f"{repeated} times are repeated: written with too few digits, perhaps")
+    if not again.size:
+        if run is not None:
+            _counted(run, 1)
+        return rows, own, []
+    at = 1 if run is None else _counted(run, again.size + 1)
+    first, last = [0, *again.tolist(), own.size][at - 1 : at + 1]
+    rows = slice(first, last) if isinstance(rows, slice) else rows[first:last]
+    doubt = f"time starts again {again.size} times; run {at} of {again.size + 1} is read"
+    return rows, own[first:last], [doubt]
+
+
+def _even_doubt(own: Array, factor: float, unit: str, rounded: Rounding) -> str:
+    """Return that rounded times were taken as even, with the step and what they were rounded to."""
+    count = own.size
+    step = factor * (own[-1] - own[0]) / (count - 1)
+    digits = factor * float(rounded.steps(own[[0, -1]]).max())
+    repeated = int(np.count_nonzero(np.diff(own) == 0.0))
+    more = f" ({repeated} repeat)" if repeated else ""
+    to = f"{digits:.2g} {unit}{more}"
+    return f"times are rounded to {to}: taken as even, with a step of {step:.6g} {unit}"
+
+
+def _gaps(own: Array, unit: str) -> list[str]:
+    steps = np.diff(own)
     usual = float(np.median(steps)) if steps.size else 0.0
-    if gaps and usual > 0.0:
-        off = steps - usual
-        regular = np.mean(np.abs(off, out=off) < 0.01 * usual) > 0.5
-        wide = np.flatnonzero(steps > 1.5 * usual)
-        if regular and wide.size:
-            where = own[wide[0]]
-            doubts.append(f"{wide.size} gaps in time, the first after {where:.6g} s")
-    return rows, doubts
+    if not usual > 0.0:
+        return []
+    off = steps - usual
+    regular = np.mean(np.abs(off, out=off) < 0.01 * usual) > 0.5
+    wide = np.flatnonzero(steps > 1.5 * usual)
+    if not (regular and wide.size):
+        return []
+    return [f"{wide.size} gaps in time, the first after {own[wide[0]]:.6g} {unit}"]
 
 
 def step_of(time: Array) -> float:
-    """Return the usual step of times, NaN of fewer than two."""
-    return float(np.median(np.diff(time))) if time.size > 1 else float("nan")
+    """Return the step of times, their mean one if they have no gaps; NaN of fewer than two."""
+    if time.size < 2:
+        return float("nan")
+    steps = np.diff(time)
+    mean = float(time[-1] - time[0]) / steps.size
+    return mean if steps.max() < 1.5 * mean else float(np.median(steps))
 
 
 def _counted(run: object, count: int) -> int:
     if not str(run).isascii() or not str(run).isdigit() or not 1 <= int(str(run)[:9]) <= count:
-        raise InvalidValue(f"run must be one of the {count} that there are, got {shown(run)}")
+        name = Hint({"run": None})
+        raise InvalidValue(
+            Said(name, f" must be one of the {count} that there are, got {shown(run)}")
+        )
     return int(str(run))

@@ -6,6 +6,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 
 from stackbounce.errors import FileError, InvalidValue, shown
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.reading.limits import COLUMNS, LINE
 
 __all__ = ["MISSING", "Text", "decode", "number", "split", "tabulate"]
@@ -41,6 +42,8 @@ class Text:
         Where each of these begins in `content`.
     doubts : list of str, optional
         What is unsure about delimiter and decimal mark.
+    name : str, optional
+        That of the file, for programs that tell by it what they wrote.
     """
 
     content: str
@@ -49,6 +52,7 @@ class Text:
     head: list[list[str]]
     starts: list[int]
     doubts: list[str] = field(default_factory=list)
+    name: str = ""
 
     def line(self, index: int) -> str:
         """Return one of the first lines."""
@@ -149,7 +153,7 @@ _GROUPED = {
 _POINTS = re.compile(r"[+-]?[1-9][0-9]{0,2}(?:\.[0-9]{3})+")
 
 
-def tabulate(content: str, decimal: str | None = None) -> Text:
+def tabulate(content: str, decimal: str | None = None, name: str = "") -> Text:
     """Find the delimiter and the decimal mark of a table in its first lines.
 
     Raises
@@ -158,7 +162,8 @@ def tabulate(content: str, decimal: str | None = None) -> Text:
         If a line is too long, there are too many columns, or there is no row of numbers.
     """
     if decimal not in (None, ".", ","):
-        raise InvalidValue(f'decimal must be "." or ",", got {shown(decimal)}')
+        option = Hint({"decimal": None})
+        raise InvalidValue(Said(option, f' must be "." or ",", got {shown(decimal)}'))
     starts, lines = _head(content)
     marks = decimal or ".,"
     found = [_score(lines, delimiter, marks) for delimiter in _DELIMITERS]
@@ -172,12 +177,12 @@ def tabulate(content: str, decimal: str | None = None) -> Text:
     if wide > COLUMNS:
         raise FileError(f"it has a line of {wide} cells: at most {COLUMNS} columns are read")
     mark, doubts = (decimal, []) if decimal else _decimal(head, delimiter)
-    if not any(_numbers(row, mark) for row in head):
+    if not any(_numbers(row, mark) or _labelled(row, mark) for row in head):
         raise FileError(
             f"it has no row of numbers in its first {len(head)} lines; "
             f"it begins with {shown(next((one for one in lines if one.strip()), ''))}"
         )
-    return Text(content, delimiter, mark, head, starts, doubts)
+    return Text(content, delimiter, mark, head, starts, doubts, name)
 
 
 def _head(content: str) -> tuple[list[int], list[str]]:
@@ -204,6 +209,12 @@ def _numbers(row: list[str], decimal: str) -> int:
             return 0
         count += value == value  # NaN is not itself
     return count
+
+
+def _labelled(row: list[str], decimal: str) -> bool:
+    """Tell whether a row has numbers beside words, such as the label of a point."""
+    values = [number(cell, decimal) for cell in row[:COLUMNS]]
+    return len(row) > 2 and sum(value is not None and value == value for value in values) > 1
 
 
 def _score(lines: list[str], delimiter: str, decimals: str) -> tuple[int, int]:
@@ -236,5 +247,11 @@ def _decimal(head: list[list[str]], delimiter: str) -> tuple[str, list[str]]:
         mixed = [one for one in cells if re.fullmatch(r"[+-]?[0-9]+\.[0-9.]*,[0-9]+", one)]
         return ("," if mixed and delimiter != "," else "."), []
     if len(grouped) == len(commas):
-        return ",", [f"{grouped[0]!r} is read with a decimal comma: decimal='.' if it is not one"]
+        return ",", [
+            Said(
+                f"{grouped[0]!r} is read with a decimal comma: ",
+                Hint({"decimal": "."}),
+                " if it is not one",
+            )
+        ]
     return ",", []

@@ -4,19 +4,26 @@ import io
 import zipfile
 import zlib
 
-from stackbounce.errors import FileError, InvalidValue, nearest, shown
+from stackbounce.errors import FileError, shown
+from stackbounce.measure.reading import arrays
 from stackbounce.measure.reading.limits import BYTES
+from stackbounce.measure.reading.tables import Tables
 
-__all__ = ["chosen", "members"]
+__all__ = ["is_xlsx", "members"]
 
 _MEMBERS = 1000
 _RATIO = 400  # of bytes to packed bytes; numbers as text come to about 10
 _BROKEN = (zipfile.BadZipFile, zlib.error, EOFError, OSError, ValueError, RuntimeError)
-_ENDINGS = (".csv", ".tsv", ".txt", ".dat")
+_ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".lvm", ".npy", ".trk")
 
 
-def members(content: bytearray) -> tuple[dict[str, bytes], bool]:
-    """Return the tables of an archive by their names, and whether phyphox wrote it.
+def is_xlsx(content: bytearray) -> bool:
+    """Tell whether an archive is a spreadsheet of Excel."""
+    return b"xl/workbook.xml" in content or b"xl/workbook.bin" in content
+
+
+def members(content: bytearray) -> Tables:
+    """Return the tables of an archive; the arrays of an .npz file are one table.
 
     Nothing is written to disk. Archives inside the archive are ignored.
 
@@ -36,18 +43,18 @@ def members(content: bytearray) -> tuple[dict[str, bytes], bool]:
         raise FileError(f"it is a broken zip archive: {' '.join(str(error).split())}") from error
 
 
-def _tables(archive: zipfile.ZipFile) -> tuple[dict[str, bytes], bool]:
+def _tables(archive: zipfile.ZipFile) -> Tables:
     entries = archive.infolist()
     names = {entry.filename for entry in entries}
-    if "[Content_Types].xml" in names:
-        raise FileError("it is a spreadsheet or document: save it as CSV")
+    if {"[Content_Types].xml", "META-INF/manifest.xml"} & names:
+        raise FileError("it is a spreadsheet or document: save it as .xlsx or CSV")
     wanted = [
-        entry for entry in entries
+        entry for entry in sorted(entries, key=lambda one: one.filename)
         if entry.filename.casefold().endswith(_ENDINGS)
         and not entry.filename.startswith(("meta/", "__MACOSX/"))
     ]  # fmt: skip
     if not wanted:
-        raise FileError("it is a zip archive without any table (.csv, .tsv, .txt, .dat)")
+        raise FileError(f"it is a zip archive without any table ({', '.join(_ENDINGS)})")
     found: dict[str, bytes] = {}
     left = BYTES
     for entry in wanted:
@@ -60,7 +67,11 @@ def _tables(archive: zipfile.ZipFile) -> tuple[dict[str, bytes], bool]:
             raise FileError(f"its {name} would unpack to more than {_RATIO} times its size")
         found[entry.filename] = _unzip(archive, entry, left)
         left -= len(found[entry.filename])
-    return found, "meta/device.csv" in names
+    if all(name.endswith(".npy") for name in names):
+        return Tables(arrays.joined(found), "NumPy", "its arrays are those of an .npz file")
+    if "meta/device.csv" in names:
+        return Tables(found, "phyphox", "its meta/device.csv is phyphox's")
+    return Tables(found)
 
 
 def _unzip(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, left: int) -> bytes:
@@ -70,19 +81,3 @@ def _unzip(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, left: int) -> bytes
     if len(content) > left:
         raise FileError(f"its tables would unpack to more than {BYTES >> 20} MiB")
     return content
-
-
-def chosen(names: list[str], table: object) -> str:
-    """Return the name of the table that is asked for, by its name or the last part of it."""
-    word = str(table).casefold()
-    found = []
-    for name in names:
-        whole = name.casefold()
-        last = whole.rpartition("/")[2]
-        if word in (whole, last, last.rpartition(".")[0]):
-            found.append(name)
-    if len(found) != 1:
-        raise InvalidValue(
-            f"table must be one in the archive, got {shown(table)}; {nearest(table, names)}"
-        )
-    return found[0]

@@ -30,18 +30,20 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     matplotlib.figure.Figure
         Not shown and not saved.
     """
+    length, time = found.units
+    many, small = (1e3, "mm") if length == "m" else (1.0, length)
     with styled_figure(7.2, 5.8) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
         for k, ball in enumerate(found.balls):
-            _draw_ball(above, ball, color_of(k), len(found.balls) > 1)
-            left = 1e3 * ball.fit.residuals
+            _draw_ball(above, ball, color_of(k), found)
+            left = many * ball.fit.residuals
             below.plot(ball.times, left, "o", color=color_of(k), markersize=2.6)
-            sigma = 1e3 * ball.fit.sigma
+            sigma = many * ball.fit.sigma
             below.axhspan(-sigma, sigma, color=color_of(k), alpha=0.10, linewidth=0)
         below.axhline(0.0, color="#808080", linewidth=0.8)
-        above.set_ylabel("height (m)")
-        below.set_ylabel("residual (mm)")
-        below.set_xlabel("time (s)")
+        above.set_ylabel(f"height ({length})")
+        below.set_ylabel(f"residual ({small})")
+        below.set_xlabel(f"time ({time})")
         above.set_title(_summary(found), loc="left", fontsize=10)
         above.margins(y=0.12)
         above.legend(loc="best", frameon=True, framealpha=0.9, edgecolor="none")
@@ -49,11 +51,14 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     return figure
 
 
-def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
+def _draw_ball(axes: "Axes", ball: Any, color: str, found: Any) -> None:
+    named = len(found.balls) > 1
     used = np.isfinite(ball.fit.residuals)
     dots: Any = {"marker": "o", "linestyle": "", "color": color, "markersize": 3.4}
     hollow: Any = dots | {"markerfacecolor": "white", "markeredgewidth": 0.9}
-    axes.plot(ball.times[used], ball.heights[used], label=_label(ball, named), **dots)
+    axes.plot(
+        ball.times[used], ball.heights[used], label=_label(ball, named, found.units.speed), **dots
+    )
     axes.plot(ball.times[~used], ball.heights[~used], **hollow)
     fall = ball.fit.values[0]
     impacts = dict(zip(ball.bounces, (one.nominal_value for one in ball.impact_times), strict=True))
@@ -72,18 +77,19 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, named: bool) -> None:
             annotate(axes, f"e = {kept:.1uS}", place, color, xytext=(0, -14), ha="center")
 
 
-def _label(ball: Any, named: bool) -> str:
+def _label(ball: Any, named: bool, speed: str) -> str:
     if not named:
         return "tracked"
     return (
-        f"{ball.name}: {ball.impact_speeds[0]:.1uS} m/s down, {ball.rebound_speeds[0]:.1uS} m/s up"
+        f"{ball.name}: {ball.impact_speeds[0]:.1uS} {speed} down, "
+        f"{ball.rebound_speeds[0]:.1uS} {speed} up"
     )
 
 
 def _summary(found: Any) -> str:
     base = found.time_base
-    words = f"gravity of the flights {base.gravity:.1uS} m/s²"
-    if base.agrees:
+    words = f"gravity of the flights {base.gravity:.1uS} {found.units.speed}²"
+    if base.agrees or not found.units.known:
         return words
     if base.frame_rate_factor:
         return f"{words}: is the frame rate wrong by a factor of {base.frame_rate_factor:.3g}?"

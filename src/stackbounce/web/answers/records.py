@@ -11,10 +11,11 @@ from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.fitting import Fit, fit
 from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Curve
+from stackbounce.measure.hints import Hint
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.measurement import Measurement, measure_file
 from stackbounce.measure.option_values import read_options
-from stackbounce.measure.options import options_for
+from stackbounce.measure.options import OPTIONS, Option, options_for
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import run_drop
@@ -153,8 +154,24 @@ def _measure(
     alone: tuple[str, bytes] | None = None,
 ) -> Measurement:
     given = dict(options) if alone is None else {**options, "alone": alone}
-    known = read_options(given, lambda option: option.name, to=("read", "analyse"))
-    return measure_file((name, content), known)
+    known = read_options(given, _control, to=("read", "analyse"))
+    return measure_file((name, content), known, _words)
+
+
+def _control(option: Option) -> str:
+    """Return the name of the page's control for an option."""
+    return f"“{option.label}”"
+
+
+def _words(hint: Hint) -> str:
+    """Return a hint as it is entered in the page's form."""
+    known = {one.name: _control(one) for one in OPTIONS}
+    entered = []
+    for name, value in hint.options.items():
+        several = value.items() if isinstance(value, Mapping) else ()
+        text = ", ".join(f"{key}={one}" for key, one in several) if several else value
+        entered.append(known[name] if value is None else f"{text} in {known[name]}")
+    return " and ".join(entered)
 
 
 def _describe_curves(curves: Sequence[Curve]) -> list[_Series]:

@@ -15,6 +15,8 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["bounces"]
 
+_EQUAL = 1e-9  # of an interval, by which equal ones differ
+
 
 def bounces(
     times: Any,
@@ -108,7 +110,7 @@ def bounces(
         height = gravity * flights[0] ** 2 / 8.0 / _energy_kept(kept)
         notes.append(
             "The drop height is inferred from the mean fraction of energy retained; give "
-            "drop_height if it is known: the first bounce, the fastest, usually retains less."
+            "it if it is known: the first bounce, the fastest, usually retains less."
         )
     return Bounces(
         tuple(found.moments),
@@ -211,6 +213,12 @@ def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float)
                 f"interval of {nominal(flight) + contact_time:g} s"
             )
         flights.append(None if lost else flight)
+    known = [nominal(one) for one in flights if one is not None]
+    if len(known) > 1 and max(known) - min(known) < _EQUAL * max(known):
+        raise InvalidValue(
+            "times must be those of bounces, which come faster and faster, got "
+            f"{len(known)} equal intervals of {known[0]:.4g} s"
+        )
     return flights
 
 

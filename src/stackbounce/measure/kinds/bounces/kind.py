@@ -24,5 +24,12 @@ def _analyse(
     return bounces(data, drop_height=fallen(height, measured_to, diameter), gravity=gravity)
 
 
-KNOCKS = Kind("knocks", _SAYS, _analyse, columns=(("knock_time",),), dimension="knock")
+KNOCKS = Kind(
+    "knocks",
+    _SAYS,
+    _analyse,
+    columns=(("knock_time",),),
+    dimension="knock",
+    longest_step=20.0,  # flights: 20 s are from a height of 500 m
+)
 BOUNCES = Kind("bounces", _SAYS, _analyse)  # recognised by phyphox's layout

@@ -12,11 +12,9 @@ def _analyse(data: Any, **known: Any) -> Any:
     """Analyse a table with one column of heights, the drop height above those of the bounces."""
     if "y" not in data:
         from stackbounce.measure.kinds import KINDS
+        from stackbounce.measure.unrecognised import unrecognised
 
-        raise InvalidValue(
-            "there is no analysis of a table without heights: give the kind of measurement, one of "
-            f"{', '.join(KINDS)}"
-        )
+        raise InvalidValue(unrecognised(data, KINDS))
     return _of_numbers(heights=data["y"].values.tolist(), **known)
 
 

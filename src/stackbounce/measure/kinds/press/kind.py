@@ -21,11 +21,14 @@ def _analyse(data: "xr.Dataset") -> "Press":
 
 
 def _recognised(columns: "Sequence[Column]") -> bool:
-    """Tell whether the columns have a force and a compression, or one length and no time."""
+    """Tell whether the columns have a force and a compression, or one length.
+
+    Beside times, a length that is a position is none: that is a motion detector's.
+    """
     roles = {one.role for one in columns}
-    lengths = [one for one in columns if one.unit == "m" and one.role != "force"]
-    one_length = "time" not in roles and len(lengths) == 1
-    return "force" in roles and ("compression" in roles or one_length)
+    positions = ("x", "y") if "time" in roles else ()
+    lengths = [one for one in columns if one.unit == "m" and one.role not in ("force", *positions)]
+    return "force" in roles and ("compression" in roles or len(lengths) == 1)
 
 
 PRESS = Kind(

@@ -6,8 +6,14 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
-from stackbounce.measure.kinds.track.flights import Flights
-from stackbounce.measure.kinds.track.notes import notes_of, stays_long
+from stackbounce.measure.kinds.track.free_flight import (
+    comparable,
+    no_flight,
+    no_gain,
+    what_is_seen,
+)
+from stackbounce.measure.kinds.track.notes import notes_of, stays_long, uneven
+from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.paths import (
     Columns,
     Upward,
@@ -17,7 +23,9 @@ from stackbounce.measure.kinds.track.paths import (
     upward,
 )
 from stackbounce.measure.kinds.track.result import Track, Tracks
+from stackbounce.measure.kinds.track.shape import shape_of
 from stackbounce.measure.kinds.track.time_base import check_time_base
+from stackbounce.measure.kinds.track.units import TrackUnits, uncalibrated, units_of
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -26,6 +34,7 @@ __all__ = ["track"]
 
 _TOGETHER = 0.15  # of the time of fall, within which two balls' impacts are one drop's
 _LEAST_TILT = math.radians(0.5)
+_WANTED = "data must hold a ball that falls and bounces, got "
 
 
 def track(
@@ -98,26 +107,29 @@ def track(
     ruler = positive("scale", scale)
     found = positions_of(data, clock, ruler)
     notes: list[str] = []
+    if found.many > 1:
+        notes.append(f"It is so long that means of {found.many} neighbouring points were taken.")
     up = upward(found, axis, gravity)
     if axis is None and up.sign < 0.0:
         notes.append(f"{up.axis} points down; heights are counted upwards.")
     up, fitted = _fitted(found, up, gravity, notes)
+    fitted = _bouncing(found, up, fitted, gravity if comparable(data) else None, notes)
     level = None if floor is None else ruler * finite("floor", floor, "metres")
-    balls = [_track(name, *one, level) for name, one in fitted]
-    if not balls:
-        raise InvalidValue(
-            "data must hold a ball that falls and bounces, with three points or more of each "
-            "flight, got none: is the axis right?"
-        )
+    units = units_of(data)
+    balls = [_track(name, *one, level, units) for name, one in fitted]
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
+    if gains := no_gain(balls[0].restitutions, balls[0].impact_times):
+        raise InvalidValue(_WANTED + gains)
     rate = float(1.0 / np.median(np.diff(found.times)))
     base = check_time_base(_common_gravity(balls), gravity, rate)
+    if not units.known:
+        base = uncalibrated(base, units, gravity)
     notes.extend([base.note] * (not base.agrees))
     ratios = _rebound_ratios(balls, notes)
     sign = "" if up.sign > 0.0 else "-"
     first = balls[0].impact_times[0]
-    return Tracks(tuple(balls), ratios, first, base, sign + up.axis, up.tilt, tuple(notes))
+    return Tracks(tuple(balls), ratios, first, base, sign + up.axis, up.tilt, tuple(notes), units)
 
 
 _Found = tuple[Array, Array, Flights, list[int]]
@@ -145,9 +157,41 @@ def _fitted(
                     "vertical, as the flights show; heights are counted along the vertical."
                 )
                 return tilted, again
-    without = [name for name in found.names if name not in dict(fitted)]
-    notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
     return up, fitted
+
+
+def _bouncing(
+    found: Columns,
+    up: Upward,
+    fitted: list[tuple[str, _Found]],
+    gravity: float | None,
+    notes: list[str],
+) -> list[tuple[str, _Found]]:
+    """Return the balls that fly freely and bounce, with notes on the others.
+
+    `gravity` is None where the scale or the clock is not known.
+    """
+    reasons = {name: no_flight(*one, up.axis, gravity) for name, one in fitted}
+    kept = [(name, one) for name, one in fitted if not reasons[name]]
+    if kept:
+        without = [name for name in found.names if name not in dict(kept)]
+        notes.extend(f"{name}: no bounce was found, and it is left out." for name in without)
+        return kept
+    reason = next(iter(reasons.values()), "")
+    shorter = f" (means of {found.many} of its points were taken: cut it to the bounces)"
+    raise InvalidValue(_WANTED + (reason or _seen(found, up, gravity)) + shorter * (found.many > 1))
+
+
+def _seen(found: Columns, up: Upward, gravity: float | None) -> str:
+    """Return what the track of the ball that moves most shows."""
+    axis = up.axis if "y" not in found.positions[0] else "y"
+    every = [position[axis] for position in found.positions]
+    ranges = [
+        float(np.ptp(one[np.isfinite(one)])) if np.isfinite(one).any() else 0.0 for one in every
+    ]
+    most = every[int(np.argmax(ranges))] * (up.sign if axis == up.axis else 1.0)
+    good = np.isfinite(most)
+    return what_is_seen(found.times[good], most[good], axis, gravity)
 
 
 def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Found]]:
@@ -165,12 +209,19 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
 
 
 def _track(
-    name: str, times: Array, heights: Array, fit: Flights, bounces: list[int], floor: float | None
+    name: str,
+    times: Array,
+    heights: Array,
+    fit: Flights,
+    bounces: list[int],
+    floor: float | None,
+    units: TrackUnits,
 ) -> Track:
     """Return a ball's bounces from its parabolas."""
     from uncertainties import correlated_values
 
-    wider = widening(max(fit.freedom, 1)) ** 2
+    shape = shape_of(times, heights, fit.flights)
+    wider = (widening(max(fit.freedom, 1)) * shape.widening) ** 2
     numbers = correlated_values(fit.values, wider * fit.covariance)
     fall = numbers[0]
     rows = []
@@ -202,8 +253,13 @@ def _track(
         fit,
         tuple(bounces),
         (
-            *notes_of(name, times, fit, bounces, moments[0], impacts[0] / fall),
-            *(stays_long(name, times, fit, bounces[0], impacts[0], fall) if floor is None else ()),
+            *uneven(name, shape),
+            *notes_of(name, times, fit, bounces, moments[0], impacts[0] / fall, units.time),
+            *(
+                stays_long(name, times, fit, bounces[0], impacts[0], fall)
+                if floor is None and units.known
+                else ()
+            ),
         ),
     )
 

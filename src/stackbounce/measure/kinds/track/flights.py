@@ -1,4 +1,4 @@
-"""Heights against time -> free flights: parabolas of one common acceleration."""
+"""Heights against time -> free flights: the pieces in which one acceleration holds."""
 
 from typing import NamedTuple
 
@@ -6,16 +6,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.statistics.ar_noise import fit_with_ar_noise
 
-__all__ = ["Flight", "Flights", "find_flights", "fit_flights", "unexplained"]
+__all__ = ["Flight", "find_flights", "unexplained"]
 
 _PRICE = 14.0  # penalty of a piece, in variances
 _SPEED = 9.0  # penalty of a flight's speed, a parameter that a rest does not have
 _STRAY = 9.0  # penalty of a point that belongs to no piece
 _STRAY_POINT, _FLIGHT, _REST = range(3)  # kinds of pieces
 _LEAST = 3  # points of a flight
-_LONGEST = 3000  # points of a piece
+_EVERY = 128  # points up to which a piece can have any number of them
+_RATIO = 1.03  # of the numbers of points that longer pieces can have
+_LONGEST = 1024  # points of a piece; a longer flight is found as several that fit together
+_BLOCK = 64  # ends of pieces whose costs are found at once
 
 
 class Flight(NamedTuple):
@@ -25,45 +27,13 @@ class Flight(NamedTuple):
     last: int
 
 
-class Flights(NamedTuple):
-    """Flights fitted together: ``u = level + speed (t - origin) - acceleration (t - origin)²/2``.
-
-    Attributes
-    ----------
-    flights : list of Flight
-        N of them.
-    values : ndarray
-        (1 + 2 N,) acceleration, then level and speed of each.
-    covariance : ndarray
-        (1 + 2 N, 1 + 2 N).
-    origins : ndarray
-        (N,) in s, the middle of each.
-    sigma : float
-        Standard deviation of one point's error.
-    correlation : float
-        Of the errors of neighbouring points.
-    residuals : ndarray
-        Of each point, NaN where it is in no flight.
-    freedom : int
-        Points less parameters.
-    """
-
-    flights: list[Flight]
-    values: Array
-    covariance: Array
-    origins: Array
-    sigma: float
-    correlation: float
-    residuals: Array
-    freedom: int
-
-
 def find_flights(times: Array, heights: Array, sigma: float, acceleration: float) -> list[Flight]:
     """Return the free flights in a track.
 
     The track is cut into flights, rests and stray points at the change points that make the sum of
     squared residuals and of penalties, one for each piece, smallest (R. Bellman's dynamic
-    programming).
+    programming). Long pieces have only some numbers of points, so that the work for a point does
+    not grow with the track.
 
     Parameters
     ----------
@@ -123,62 +93,79 @@ def _cut(
     The segmentation is given as the start and the kind of the last segment before each point.
     """
     count = len(times)
-    x = times - times.mean()
-    y = (heights - heights.mean()) / sigma
+    lengths = _lengths(count)
+    best = np.zeros((len(accelerations), count + 1))
+    starts = np.arange(count + 1) - 1
+    kinds = np.full(count + 1, _STRAY_POINT)
+    for begin in range(0, count if len(lengths) else 0, _BLOCK):
+        ends = np.arange(begin + 1, min(begin + _BLOCK, count) + 1)
+        flight, rest = _costs(times, heights, sigma, accelerations, ends, lengths)
+        costs = np.minimum(flight, rest) + _PRICE
+        froms = ends[:, None] - lengths
+        usable = np.searchsorted(lengths, ends, side="right")
+        for k, end in enumerate(ends.tolist()):
+            best[:, end] = best[:, end - 1] + _STRAY
+            if not (some := int(usable[k])):
+                continue
+            total = best[:, froms[k, :some]] + costs[:, k, :some]
+            at = int(total[0].argmin())
+            if total[0, at] < best[0, end]:
+                starts[end] = froms[k, at]
+                kinds[end] = _FLIGHT if flight[0, k, at] <= rest[k, at] else _REST
+            np.minimum(best[:, end], total.min(axis=1), out=best[:, end])
+    return best[:, -1], starts, kinds
+
+
+def _lengths(count: int) -> NDArray[np.intp]:
+    """Return the numbers of points that a piece can have, ascending."""
+    longest = min(count, _LONGEST)
+    steps = int(np.log(_LONGEST / _EVERY) / np.log(_RATIO)) + 1
+    long = np.round(np.geomspace(_EVERY, _LONGEST, steps)).astype(np.intp)
+    every = np.concatenate([np.arange(_LEAST, _EVERY, dtype=np.intp), long])
+    return every[every <= longest]
+
+
+def _costs(
+    times: Array,
+    heights: Array,
+    sigma: float,
+    accelerations: Array,
+    ends: NDArray[np.intp],
+    lengths: NDArray[np.intp],
+) -> tuple[Array, Array]:
+    """Return the costs of flights (K, E, L) and of rests (E, L) that end before E points.
+
+    Those that would begin before the track are of no use.
+    """
+    low = max(0, int(ends[0]) - int(lengths[-1]))
+    part = slice(low, int(ends[-1]))
+    x = times[part] - times[part].mean()
+    y = (heights[part] - heights[part].mean()) / sigma
     flown = y + 0.5 * accelerations[:, None] * x**2 / sigma
     flown -= flown.mean(axis=1, keepdims=True)
     # Running sums of x, x², y, y² (one row), and of the residuals of flights, times x, squared.
     single = _running(np.stack([x, x * x, y, y * y]))
     many = _running(np.stack([flown, x * flown, flown * flown]))
-    best = np.zeros((len(flown), count + 1))
-    starts = np.arange(count + 1) - 1
-    kinds = np.full(count + 1, _STRAY_POINT)
-    for end in range(1, count + 1):
-        best[:, end] = best[:, end - 1] + _STRAY
-        if end < _LEAST:
-            continue
-        first = max(0, end - _LONGEST)
-        part = slice(first, end - _LEAST + 1)
-        n = np.arange(end - first, _LEAST - 1, -1.0)
-        sx, sxx, sy, syy = single[:, end, None] - single[:, part]
-        f, xf, ff = many[:, :, end, None] - many[:, :, part]
-        mean = sx / n
-        flight = ff - f * f / n - (xf - mean * f) ** 2 / np.maximum(sxx - mean * sx, 1e-300)
-        flight = np.maximum(flight, 0.0) + _SPEED
-        rest = np.maximum(syy - sy * sy / n, 0.0)
-        costs = best[:, part] + np.minimum(flight, rest) + _PRICE
-        at = int(np.argmin(costs[0]))
-        if costs[0, at] < best[0, end]:
-            starts[end] = first + at
-            kinds[end] = _FLIGHT if flight[0, at] <= rest[at] else _REST
-        best[:, end] = np.minimum(best[:, end], costs.min(axis=1))
-    return best[:, -1], starts, kinds
+    n = lengths[:, None].astype(np.float64)
+    sx, sxx, sy, syy = _sums(single, len(ends), lengths)
+    f, xf, ff = _sums(many, len(ends), lengths)
+    mean = sx / n
+    xf -= mean * f
+    ff -= f * f / n
+    ff -= xf * xf / np.maximum(sxx - mean * sx, 1e-300)
+    flight = np.maximum(ff, 0.0) + _SPEED
+    rest = np.maximum(syy - sy * sy / n, 0.0)
+    return np.ascontiguousarray(np.swapaxes(flight, 1, 2)), np.ascontiguousarray(rest.T)
+
+
+def _sums(running: Array, count: int, lengths: NDArray[np.intp]) -> Array:
+    """Return the sums (..., L, E) over the last points before each of the last E ends."""
+    lacking = max(int(lengths[-1]) + count - running.shape[-1], 0)
+    padded = np.pad(running, [(0, 0)] * (running.ndim - 1) + [(lacking, 0)])
+    windows = np.lib.stride_tricks.sliding_window_view(padded, count, axis=-1)
+    before = windows[..., padded.shape[-1] - count - lengths, :]
+    return np.asarray(running[..., None, -count:] - before)
 
 
 def _running(terms: Array) -> Array:
     return np.concatenate([np.zeros((*terms.shape[:-1], 1)), np.cumsum(terms, axis=-1)], axis=-1)
-
-
-def fit_flights(times: Array, heights: Array, flights: list[Flight]) -> Flights:
-    """Return the parabolas of flights with one common acceleration, and errors from residuals.
-
-    The errors within a flight are modelled as AR(1) noise, which a mark that drifts on the ball
-    causes; see `fit_with_ar_noise`.
-    """
-    rows = np.concatenate([np.arange(*flight) for flight in flights])
-    owner = np.repeat(np.arange(len(flights)), [last - first for first, last in flights])
-    origins = np.array([0.5 * (times[first] + times[last - 1]) for first, last in flights])
-    since = times[rows] - origins[owner]
-    design = np.zeros((len(rows), 1 + 2 * len(flights)))
-    design[:, 0] = -0.5 * since**2
-    design[np.arange(len(rows)), 1 + 2 * owner] = 1.0
-    design[np.arange(len(rows)), 2 + 2 * owner] = since
-    frames = np.round(times / max(float(np.median(np.diff(times))), 1e-300))[rows]
-    steps = np.maximum(np.diff(frames, prepend=-np.inf), 1.0)  # uneven frames may round to one
-    apart = np.where(np.diff(owner, prepend=-1) > 0, np.inf, steps)
-    fit, sigma, correlation = fit_with_ar_noise(design, heights[rows], apart)
-    residuals = np.full(len(times), np.nan)
-    residuals[rows] = heights[rows] - design @ fit.values
-    return Flights(
-        flights, fit.values, fit.covariance, origins, sigma, correlation, residuals, fit.freedom
-    )

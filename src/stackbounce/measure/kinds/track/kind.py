@@ -40,4 +40,5 @@ TRACK = Kind(
     _analyse,
     columns=(("time",), ("y", "x")),
     dimension="track",
+    longest_step=2.0,  # a step of 1 may be a frame: gravity tells
 )

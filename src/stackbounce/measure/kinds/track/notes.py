@@ -4,26 +4,33 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.measure.kinds.track.flights import Flights
+from stackbounce.measure.kinds.track.parabolas import Flights
+from stackbounce.measure.kinds.track.shape import Shape
 from stackbounce.measure.quantities import Array
 
-__all__ = ["notes_of", "stays_long"]
+__all__ = ["notes_of", "stays_long", "uneven"]
 
 _CORRELATED = 0.2
 _NOTICED = 1.0  # error of a speed, beyond which it is said to be off
 
 
 def notes_of(
-    name: str, times: Array, fit: Flights, bounces: list[int], impact: Any, fallen: Any
+    name: str,
+    times: Array,
+    fit: Flights,
+    bounces: list[int],
+    impact: Any,
+    fallen: Any,
+    unit: str = "s",
 ) -> tuple[str, ...]:
-    """Return the notes on a ball's track; `fallen` is its time of fall from rest."""
+    """Return the notes on a ball's track; `fallen` is its time of fall from rest, in a unit."""
     notes = []
     first = fit.flights[bounces[0]]
     late = float(times[first.first] - (impact - fallen).nominal_value)
     if late > 0.2 * fallen.nominal_value:
         notes.append(
-            f"{name}: its track begins {late:.2g} s after the fall did; the drop height is that of "
-            "a fall from rest with the same impact speed."
+            f"{name}: its track begins {late:.2g} {unit} after the fall did; the drop height is "
+            "that of a fall from rest with the same impact speed."
         )
     elif late < -0.1 * fallen.nominal_value:
         notes.append(
@@ -54,5 +61,16 @@ def stays_long(
         f"before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
         "errors, and so are its heights; tell the floor's level (--floor, floor=) for those at "
         "the touch"
+    )
+    return (note,)
+
+
+def uneven(name: str, shape: Shape) -> tuple[str, ...]:
+    """Return a note where flights have accelerations of their own."""
+    if shape.widening <= 1.0:
+        return ()
+    note = (
+        f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a lens "
+        "or the distance to the camera changes the scale; the errors are widened for it"
     )
     return (note,)

@@ -5,15 +5,12 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, shown
-from stackbounce.measure.kinds.track.flights import (
-    Flight,
-    Flights,
-    find_flights,
-    fit_flights,
-    unexplained,
-)
+from stackbounce.measure.kinds.track.flights import Flight, find_flights, unexplained
+from stackbounce.measure.kinds.track.parabolas import Flights, Parabolas, fit_flights
+from stackbounce.measure.kinds.track.shape import curvatures, own_noise
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import columns, resolution
 
@@ -23,19 +20,28 @@ _MOVES = 0.03  # of the range of a track, within a window
 _JUMP = 5.0  # errors that make a velocity's jump a bounce
 _LEAST_JUMP = 0.1  # of the largest jump; smaller ones are caused by a hand
 _ROUNDS = 4
+_MOST = 20_000  # points of a track; of more, means of neighbours are taken
+_STRETCH, _STRETCHES = 256, 8  # points of a stretch; stretches that tell the acceleration
+_AT_ONCE = 8  # one in so many of the weakest jumps is taken out before the next fit
 _WIDTHS = (3, 5, 7, 11, 17, 25)  # points of a window
 _UNSEEN = 4.0  # errors by which a ball must have fallen for its fall to be significant
 _SURE = 5  # points that a fall keeps
 _ALIKE = 0.05
+_DIFFER = 1.5  # scatter around one acceleration, over that around each flight's own
+_BESIDE = 3  # points between two pieces of one flight, at most
 _AXES = {"x": ("x", 1.0), "y": ("y", 1.0), "-x": ("x", -1.0), "-y": ("y", -1.0)}
 
 
 class Columns(NamedTuple):
-    """Times (N,) in s and, for each ball, its name and positions by axis, (N,) in m."""
+    """Times (N,) in s and, for each ball, its name and positions by axis, (N,) in m.
+
+    Of a very long track each is the mean of `many` neighbours.
+    """
 
     times: Array
     names: list[str]
     positions: list[dict[str, Array]]
+    many: int = 1
 
 
 class Upward(NamedTuple):
@@ -70,7 +76,21 @@ def positions_of(data: Any, clock: float, ruler: float) -> Columns:
             + " that do not ascend" * (len(times) > 3)
         )
     positions = [{axis: ruler * one[good] for axis, one in p.items()} for p in found.positions]
-    return Columns(times / clock, found.names, positions)
+    return _thinned(Columns(times / clock, found.names, positions))
+
+
+def _thinned(found: Columns) -> Columns:
+    """Return a very long track with means of neighbours; those of a parabola lie on one."""
+    many = -(-len(found.times) // _MOST)
+    if many < 2:
+        return found
+    count = len(found.times) // many
+
+    def means(values: Array) -> Array:
+        return np.asarray(values[: count * many].reshape(count, many).mean(axis=1))
+
+    positions = [{axis: means(one) for axis, one in own.items()} for own in found.positions]
+    return Columns(means(found.times), found.names, positions, many)
 
 
 def _from_dataset(data: Any) -> Columns:
@@ -108,6 +128,8 @@ def upward(found: Columns, axis: str | None, gravity: float) -> Upward:
             times, heights = found.times[good], position[name][good]
             if good.sum() < 5 or np.ptp(heights) == 0.0:
                 continue
+            told = _moving(times, heights)
+            times, heights = times[told], heights[told]
             falls = _guesses(times, heights, gravity)
             both = np.concatenate([[0.0], falls, -_guesses(times, -heights, gravity)])
             costs = unexplained(times, heights, _noise(heights), both)
@@ -137,39 +159,53 @@ def _accelerations(times: Array, heights: Array, wide: int) -> Array:
     t, u = (np.lib.stride_tricks.sliding_window_view(one, wide) for one in (times, heights))
     moves = np.ptp(u, axis=1) > _MOVES * np.ptp(heights)
     t, u = t[moves], u[moves]
-    since = t - t.mean(axis=1, keepdims=True)
-    # Least squares of 1, t, t² in each window, by making t² orthogonal to the others.
-    square = since**2
-    slope = (square * since).sum(axis=1) / np.maximum((since**2).sum(axis=1), 1e-300)
-    square = square - square.mean(axis=1, keepdims=True) - slope[:, None] * since
-    curve = (square * u).sum(axis=1) / np.maximum((square**2).sum(axis=1), 1e-300)
-    return np.asarray(2.0 * curve)
+    return curvatures(t, u)
 
 
 def flights_of(times: Array, heights: Array, gravity: float) -> tuple[Flights, list[int]] | None:
     """Return the flights of a ball, and after which of them it bounces, None where it never does.
 
-    The acceleration is fitted, as the frame rate and the scale of the track may be wrong.
+    The acceleration is fitted, as the frame rate and the scale of the track may be wrong. In a long
+    track it is found where the ball moves most.
     """
+    told = _moving(times, heights)
+    t, u = times[told], heights[told]
     sigma = _noise(heights)
-    guesses = _guesses(times, heights, gravity)
-    acceleration = float(guesses[np.argmin(unexplained(times, heights, sigma, guesses))])
-    fitted: Flights | None = None
+    guesses = _guesses(t, u, gravity)
+    acceleration = float(guesses[np.argmin(unexplained(t, u, sigma, guesses))])
+    fitted: Parabolas | None = None
     jumps: list[int] = []
     for _ in range(_ROUNDS):
-        flights = find_flights(times, heights, sigma, acceleration)
-        fitted, jumps = _joined(times, heights, flights)
-        if fitted is None or not jumps:
+        fitted, jumps = _joined(t, u, find_flights(t, u, sigma, acceleration))
+        if fitted is None:
             return None
-        new = float(fitted.values[0])
-        wider = max(_noise_floor(heights), fitted.sigma)
+        new, wider = fitted.fall, max(_noise_floor(heights), _spread(fitted))
         steady = abs(new / acceleration - 1.0) < 1e-3 and abs(wider / sigma - 1.0) < 0.05
         if new <= 0.0 or steady:
             break
         acceleration, sigma = new, wider
-    if fitted is None or fitted.values[0] <= 0.0:
+    if len(t) < len(times):
+        fitted, jumps = _joined(times, heights, find_flights(times, heights, sigma, acceleration))
+    if fitted is None or fitted.fall <= 0.0:
         return None
-    return fit_flights(times, heights, _released(times, fitted, jumps)), jumps
+    kept = fitted.together()
+    return fit_flights(times, heights, _released(times, kept, jumps)), jumps
+
+
+def _spread(fitted: Parabolas) -> float:
+    """Return the error of a point; where flights differ in acceleration, that beside their own."""
+    own = own_noise(fitted.times, fitted.heights, fitted.flights)
+    return own if fitted.sigma > _DIFFER * own else fitted.sigma
+
+
+def _moving(times: Array, heights: Array) -> NDArray[np.intp] | slice:
+    """Return the points of a long track in the stretches in which the ball moves most."""
+    if len(times) <= _STRETCH * _STRETCHES:
+        return slice(None)
+    starts = np.arange(0, len(times) - _STRETCH + 1, _STRETCH)
+    ranges = [float(np.ptp(heights[start : start + _STRETCH])) for start in starts.tolist()]
+    most = np.sort(starts[np.argsort(ranges)[-_STRETCHES:]])
+    return np.concatenate([np.arange(start, start + _STRETCH) for start in most.tolist()])
 
 
 def _released(times: Array, fitted: Flights, bounces: list[int]) -> list[Flight]:
@@ -206,39 +242,57 @@ def _noise_floor(heights: Array) -> float:
 
 def _joined(
     times: Array, heights: Array, flights: list[Flight]
-) -> tuple[Flights | None, list[int]]:
-    """Return the fit of the flights, joined where no bounce separates them, and the bounces."""
+) -> tuple[Parabolas | None, list[int]]:
+    """Return the fit of the flights, joined where no bounce separates them, and the bounces.
+
+    The fit is None where there is no bounce.
+    """
     while flights:
-        fitted = fit_flights(times, heights, flights)
-        if fitted.freedom < 1 or fitted.values[0] <= 0.0:
+        fitted = Parabolas(times, heights, flights)
+        if fitted.freedom < 1 or fitted.fall <= 0.0:
             return None, []
-        jumps = [_jump(times, fitted, j) for j in range(len(flights) - 1)]
-        weak = [j for j, (jump, error, *_) in enumerate(jumps) if abs(jump) < _JUMP * error]
-        if weak:
-            j = min(weak, key=lambda k: abs(jumps[k][0]))
-            joined = Flight(flights[j].first, flights[j + 1].last)
-            flights = [*flights[:j], joined, *flights[j + 2 :]]
+        jumps, errors, before = fitted.jumps()
+        weak = np.flatnonzero(np.abs(jumps) < _JUMP * errors)
+        if weak.size:
+            flights = _united(flights, weak[np.argsort(np.abs(jumps[weak]))])
             continue
-        least = _LEAST_JUMP * max((jump for jump, *_ in jumps), default=0.0)
-        bounces = [j for j, (jump, _, before) in enumerate(jumps) if jump > least and before < 0.0]
+        small = _small(fitted, jumps)
+        if small.size:
+            flights = _united(flights, small)
+            continue
+        bouncing = (before < 0.0) & (before + jumps > 0.0)
+        bounces = np.flatnonzero(bouncing & (jumps > _LEAST_JUMP * jumps.max(initial=0.0))).tolist()
         used = sorted({j for b in bounces for j in (b, b + 1)})
-        if len(used) == len(flights) or not used:
+        if not used:
+            return None, []
+        if len(used) == len(flights):
             return fitted, bounces
         flights = [flights[j] for j in used]
     return None, []
 
 
-def _jump(times: Array, fitted: Flights, j: int) -> tuple[float, float, float]:
-    """Return the jump of the velocity after flight j, its error, and the velocity before it."""
-    middle = 0.5 * (times[fitted.flights[j].last - 1] + times[fitted.flights[j + 1].first])
-    since = middle - fitted.origins[j : j + 2]
-    gradient = np.zeros(len(fitted.values))
-    gradient[0] = since[0] - since[1]
-    gradient[2 + 2 * j], gradient[4 + 2 * j] = -1.0, 1.0
-    jump = float(gradient @ fitted.values)
-    error = math.sqrt(max(float(gradient @ fitted.covariance @ gradient), 0.0))
-    before = float(fitted.values[2 + 2 * j] - fitted.values[0] * since[0])
-    return jump, error, before
+def _small(fitted: Parabolas, jumps: Array) -> NDArray[np.intp]:
+    """Return the jumps within a flight, smallest first, that a scale which changes makes.
+
+    A lens, or a distance to the camera that changes, gives the pieces of one flight accelerations
+    of their own. The pieces of a hand are shorter, or apart.
+    """
+    first, last = fitted.firsts, fitted.lasts
+    size = np.abs(jumps)
+    count = last - first
+    beside = (first[1:] - last[:-1] <= _BESIDE) & (np.minimum(count[:-1], count[1:]) > _SURE)
+    small = np.flatnonzero(beside & (size < _LEAST_JUMP * jumps.max(initial=0.0)))
+    return small[np.argsort(size[small])]
+
+
+def _united(flights: list[Flight], weakest: NDArray[np.intp]) -> list[Flight]:
+    """Return the flights, the first of the weakest jumps taken out; none beside another."""
+    taken: set[int] = set()
+    for j in weakest[: max(1, len(weakest) // _AT_ONCE)].tolist():
+        if j - 1 not in taken and j + 1 not in taken:
+            taken.add(j)
+    rest = [one for j, one in enumerate(flights) if j not in taken and j - 1 not in taken]
+    return sorted([*rest, *(Flight(flights[j].first, flights[j + 1].last) for j in taken)])
 
 
 def tilt_of(balls: Sequence[tuple[Array, Array, Array, list[Flight]]]) -> tuple[float, float]:

@@ -4,8 +4,9 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from stackbounce.measure.finding import Curve, Finding, as_ratios, rigid_contact
-from stackbounce.measure.kinds.track.flights import Flights
+from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.time_base import TimeBase
+from stackbounce.measure.kinds.track.units import SI, TrackUnits
 from stackbounce.measure.quantities import Array, Number, Row, nominal
 
 __all__ = ["Track", "Tracks"]
@@ -80,6 +81,8 @@ class Tracks(Finding):
         Angle between this axis and the vertical, in radians; corrected where it was found.
     notes : tuple of str
         What a reader of the numbers should know, a sentence each.
+    units : TrackUnits
+        Of lengths and times: pixels or frames in place of m and s where these are not known.
     """
 
     picture: ClassVar[str] = "track"
@@ -91,38 +94,41 @@ class Tracks(Finding):
     axis: str
     tilt: float
     notes: tuple[str, ...]
+    units: TrackUnits = SI
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
+        length, time, speed = *self.units, self.units.speed
         rows = []
         for ball, ratio in zip(self.balls, self.rebound_ratios, strict=False):
             rows.append(Row(f"{ball.name}: rebound ratio", ratio))
         for ball in self.balls:
             of = f"{ball.name}: " if len(self.balls) > 1 else ""
-            rows.append(Row(f"{of}drop height", ball.drop_height, "m"))
+            rows.append(Row(f"{of}drop height", ball.drop_height, length))
             for k in range(len(ball.impact_times)):
                 bounce = f" of bounce {k}" if len(ball.impact_times) > 1 else ""
-                rows.append(Row(f"{of}impact speed{bounce}", ball.impact_speeds[k], "m/s"))
-                rows.append(Row(f"{of}rebound speed{bounce}", ball.rebound_speeds[k], "m/s"))
+                rows.append(Row(f"{of}impact speed{bounce}", ball.impact_speeds[k], speed))
+                rows.append(Row(f"{of}rebound speed{bounce}", ball.rebound_speeds[k], speed))
                 # The first bounce of a stack is no bounce on the floor alone: no restitution.
                 if k > 0 or not self.rebound_ratios:
                     rows.append(Row(f"{of}restitution{bounce}", ball.restitutions[k]))
                 after = bounce.replace(" of", " after")
-                rows.append(Row(f"{of}apex height{after}", ball.apex_heights[k], "m"))
-                rows.append(Row(f"{of}time{bounce}", ball.impact_times[k], "s"))
-        rows.append(Row("gravity of the flights", self.time_base.gravity, "m/s^2"))
+                rows.append(Row(f"{of}apex height{after}", ball.apex_heights[k], length))
+                rows.append(Row(f"{of}time{bounce}", ball.impact_times[k], time))
+        rows.append(Row("gravity of the flights", self.time_base.gravity, f"{speed}^2"))
         return rows
 
     def parts(self) -> dict[str, Any]:
         """Return impact speed and, of a single ball, the floor's contact, as in a drop's TOML."""
         lowest = self.balls[0]
         contact = rigid_contact(lowest.restitutions[0]) if len(self.balls) == 1 else {}
-        return {"impact_speed": nominal(lowest.impact_speeds[0]), **contact}
+        speed = {"impact_speed": nominal(lowest.impact_speeds[0])} if self.units.known else {}
+        return {**speed, **contact}
 
     def told(self) -> dict[str, Any]:
         """Return the first impact speed and, of a single ball, the restitution of that bounce."""
         ball = self.balls[0]
-        told = {"impact_speed": ball.impact_speeds[0]}
+        told = {"impact_speed": ball.impact_speeds[0]} if self.units.known else {}
         return told | ({"restitution": ball.restitutions[0]} if len(self.balls) == 1 else {})
 
     def measured(self, data: Any) -> dict[str, str]:  # noqa: ARG002
@@ -132,10 +138,16 @@ class Tracks(Finding):
     def curves(self, data: Any) -> list[Curve]:  # noqa: ARG002
         """Return each ball's height above where it first bounces."""
         return [
-            Curve(ball.name, "position", ball.times, ball.heights - nominal(ball.levels[0]), "m")
+            Curve(
+                ball.name,
+                "position",
+                ball.times,
+                ball.heights - nominal(ball.levels[0]),
+                self.units.length,
+            )
             for ball in self.balls
         ]
 
-    def first_touch(self) -> float:
-        """Return when the lowest ball first bounces, in s."""
-        return nominal(self.first_impact)
+    def first_touch(self) -> float | None:
+        """Return when the lowest ball first bounces, in s; None where the clock is not known."""
+        return nominal(self.first_impact) if self.units.time == "s" else None

@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 from stackbounce.measure.quantities import Number
 
-__all__ = ["TimeBase", "check_time_base"]
+__all__ = ["TimeBase", "check_time_base", "is_usual"]
 
 _AGREES = 0.03  # a difference smaller than that is the calibration's
 _NEAR = 0.06  # by how much a factor may miss a sensible one
@@ -88,6 +88,19 @@ def check_time_base(gravity: Number, true: float, frame_rate: float) -> TimeBase
         f"multiplied by {1.0 / value:.3g} (scale). Nothing has been corrected."
     )
     return TimeBase(gravity, ratio, frame_rate, sensible if near else None, False, note)
+
+
+def is_usual(ratio: float, frame_rate: float) -> bool:
+    """Return whether two usual frame rates, one read for the other, make a ratio of gravity.
+
+    Examples
+    --------
+    >>> is_usual(1 / 16, 60.0), is_usual(1 / 20, 60.0), is_usual(1 / 16, 110.0)
+    (True, False, False)
+    """
+    factor = math.sqrt(1.0 / ratio)
+    nearest = min(_FACTORS, key=lambda one: abs(math.log(one / factor)))
+    return abs(math.log(nearest / factor)) < _NEAR and bool(_rates(frame_rate, nearest))
 
 
 def _rates(frame_rate: float, factor: float) -> str:

@@ -204,7 +204,7 @@ def _notes(unit: str, seen: Seen, contacts: tuple[Contact, ...], mass: Any) -> l
         high = float(np.max(np.abs(seen.signal)))
         notes.append(
             f"no contact stands out of the noise of {seen.zero.noise:.3g}{of} (largest deviation "
-            f"{high:.3g}): try threshold, or a more sensitive channel"
+            f"{high:.3g}): record with a more sensitive channel"
         )
     if seen.short:
         notes.append(

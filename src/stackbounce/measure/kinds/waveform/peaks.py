@@ -148,7 +148,7 @@ def impulse_of(
     weights = trapezoid(t)
     slopes = np.abs(np.diff(f)) / np.maximum(steps, 1e-300)
     bends = (slopes[:2].max(), slopes[-2:].max()) if len(slopes) > 1 else (0.0, 0.0)
-    rule = float(np.max(steps)) ** 2 / 12.0 * np.hypot(*bends) if len(steps) else 0.0
+    rule = np.square(np.max(steps)) / 12.0 * np.hypot(*bends) if len(steps) else 0.0
     own = density * np.sqrt(np.sum(weights**2))
     level = offset * (t[-1] - t[0])
     return float(np.sum(weights * f)), float(np.sqrt(own**2 + level**2 + rule**2))

@@ -47,7 +47,7 @@ export function fileDrop(root, take) {
       "p",
       { class: "note" },
       "A sound, a force, a video’s track, an acceleration, times or heights of bounces, or a press curve, ",
-      "as Tracker, phyphox, Vernier, PASCO, oscilloscopes or spreadsheets write it. It stays on this machine.",
+      "as Tracker, ImageJ, phyphox, oscilloscopes or spreadsheets write it. It stays on this machine.",
     ),
     h(
       "div",

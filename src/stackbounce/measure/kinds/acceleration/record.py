@@ -1,0 +1,113 @@
+"""An acceleration's columns -> the size of what the sensor feels, whether g is in it or not."""
+
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import columns
+
+__all__ = ["FEWEST", "Record", "record_of"]
+
+FEWEST = 4  # samples of a flight
+_EQUAL = 3  # samples that have exactly the largest value are cut off
+_AXES = ("acceleration_x", "acceleration_y", "acceleration_z")
+_LINEAR = ("without g", "linear", "user acceleration", "ohne g")
+_QUIET = 1.0  # s: a rest; a fall of that duration is one of 5 m
+_REST, _CALM = 0.2, 0.05  # of gravity: mean and scatter in a rest, if gravity is subtracted
+_PULSE = 1.5  # of gravity: beyond it the phone feels the floor, if gravity is subtracted
+
+
+class Record(NamedTuple):
+    """What an accelerometer felt.
+
+    Attributes
+    ----------
+    times, felt : ndarray
+        (n,) in s and m/s²: about 0 in flight, g at rest.
+    linear : bool
+        Whether gravity was subtracted, so that `felt` is computed from what is left.
+    clipped : float
+        The end of the sensor's range in `felt`, infinite where it is not reached.
+    notes : list of str
+        What a reader should know, a sentence each.
+    """
+
+    times: Array
+    felt: Array
+    linear: bool
+    clipped: float
+    notes: list[str]
+
+
+def record_of(data: Any, gravity: float) -> Record:
+    """Return the size of the acceleration that a Dataset or arrays hold.
+
+    Raises
+    ------
+    InvalidType
+        If there is none.
+    InvalidValue
+        If there are too few samples, or times do not ascend.
+    """
+    notes: list[str] = []
+    if not hasattr(data, "data_vars"):
+        times, *axes = columns(data, ("time", "acceleration"))
+        size, linear, cut = axes[0], False, False
+    else:
+        times, axes, size, notes = _of_dataset(data)
+        cut = any(
+            int((one == np.nanmax(one)).sum()) >= _EQUAL for one in map(np.abs, axes) if one.size
+        )
+        linear = _is_linear(data, times, size, gravity)
+    known = np.isfinite(times) & np.isfinite(size)
+    times, size = times[known], size[known]
+    if len(times) < 2 * FEWEST or (np.diff(times) <= 0.0).any():
+        raise InvalidValue(
+            f"data must hold {2 * FEWEST} samples or more at ascending times, got "
+            f"{len(times)} samples"
+        )
+    if cut:
+        notes.append("the sensor's range ended in a pulse: peaks are higher than they look")
+    if linear:
+        size = np.where(size > _PULSE * gravity, size + gravity, np.abs(size - gravity))
+        notes.append(
+            "gravity was subtracted, in a direction that is badly known in flight: record the "
+            "acceleration with g"
+        )
+    return Record(times, size, linear, float(size.max()) if cut else np.inf, notes)
+
+
+def _of_dataset(data: Any) -> tuple[Array, list[Array], Array, list[str]]:
+    """Return times, the columns of acceleration, the size of it, and notes."""
+    names = [str(name) for name in data.data_vars if str(name).startswith("acceleration")]
+    if not names:
+        raise InvalidType(
+            "data must hold an acceleration over time, got "
+            f"{', '.join(map(str, data.data_vars)) or 'nothing'}"
+        )
+    times, *axes = columns(data, ("time", *names))
+    if all(axis in names for axis in _AXES):
+        size = np.sqrt(sum(axes[names.index(axis)] ** 2 for axis in _AXES))
+        return times, axes, size, []
+    whole = names[-1] == "acceleration_absolute"
+    notes = ["only one axis is there: flights are where it shows nothing"]
+    return times, axes, np.abs(axes[-1]), [] if whole else notes
+
+
+def _is_linear(data: Any, times: Array, size: Array, gravity: float) -> bool:
+    """Return whether gravity was subtracted: by what the file says, or as a rest shows nothing."""
+    said = [str(data.attrs.get("format", ""))]
+    said += [str(one.attrs.get("long_name", "")) for one in data.data_vars.values()]
+    if any(word in one.casefold() for one in said for word in _LINEAR):
+        return True
+    step = float(np.median(np.diff(times))) if len(times) > 1 else 0.0
+    wide = round(_QUIET / step) if step > 0.0 else 0
+    if not FEWEST <= wide < len(size):
+        return False
+    sums = np.cumsum(np.stack([size, size**2]), axis=1)
+    mean, square = (sums[:, wide:] - sums[:, :-wide]) / wide
+    calm = square - mean**2 < (_CALM * gravity) ** 2
+    near = np.abs(mean[calm] / gravity - 1.0) < _REST
+    return bool((mean[calm] < _REST * gravity).any() and not near.any())

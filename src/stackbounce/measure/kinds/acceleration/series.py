@@ -1,0 +1,134 @@
+"""What a sensor felt -> the flights with bounces between them, or what it shows instead."""
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from stackbounce.measure.kinds.acceleration.record import FEWEST, Record
+from stackbounce.measure.samples import runs, trapezoid
+
+__all__ = ["WANTED", "Flight", "is_held", "no_gain", "series_of", "what_is_seen"]
+
+WANTED = "data must hold a free fall and a bounce, got "
+
+_HALF = 0.5  # of gravity: below it, it flies
+_WITHIN, _MOST = 0.35, 0.5  # of gravity: below it is this share of a flight's samples
+_LINEAR_WITHIN, _LINEAR_MOST = 0.15, 0.8  # the same, if gravity was subtracted
+_SHORTEST = 0.06  # s: a flight of 4 mm
+_LONGEST = 0.12  # s: a contact; longer ones are hands, legs, or a rest
+_PULSE = 2.0  # of gravity: the least top of a pulse
+_SEEN = 3  # samples of a pulse that show its top
+_SUMMED = 6  # samples of a pulse that tell its impulse
+_IMPULSE = 0.3  # of the change of speed that the flights tell
+_MANY = 100  # bounces of a drop
+_GAIN = 0.02  # above 1, and 3 errors, that a restitution does not reach
+
+
+class Flight(NamedTuple):
+    """The first and the last sample of a flight."""
+
+    first: int
+    last: int
+
+
+def series_of(record: Record, gravity: float) -> list[Flight]:
+    """Return the longest series of two or more flights with only bounces between them."""
+    best: list[Flight] = []
+    own: list[Flight] = []
+    for one in _flights(record, gravity):
+        own = [*own, one] if own and _bounces(record, own[-1], one, gravity) else [one]
+        if len(own) > max(len(best), 1) and _begins(record, own[0], gravity):
+            best = own
+    return best
+
+
+def is_held(record: Record, first: int, gravity: float) -> bool:
+    """Tell whether the sensor was at rest before a flight: for long enough, near gravity."""
+    times = record.times
+    before = slice(int(np.searchsorted(times, times[first] - _LONGEST, side="right")), first)
+    known = first > 0 and times[first] - times[0] >= _LONGEST
+    return bool(known and 0.5 * gravity < np.median(record.felt[before]) < 1.5 * gravity)
+
+
+def no_gain(restitutions: Sequence[Any], moments: Sequence[float]) -> str:
+    """Return why restitutions are none: too many, or above 1; nothing where they are."""
+    if len(restitutions) > _MANY:
+        return f"{len(restitutions)} bounces, more than one drop has ({_MANY}): a machine?"
+    for k, (kept, moment) in enumerate(zip(restitutions, moments, strict=False)):
+        if kept.nominal_value > 1.0 + max(_GAIN, 3.0 * kept.std_dev):
+            return (
+                f"a restitution of {kept:.1uS} at {moment:.3g} s (bounce {k}): nothing rebounds "
+                "faster than it came; it swings, jumps or is thrown, or a bounce before fell "
+                "between two samples"
+            )
+    return ""
+
+
+def what_is_seen(record: Record, gravity: float) -> str:
+    """Return what a record without bounces shows."""
+    found = _flights(record, gravity, whole=False)
+    times = record.times
+    if not found:
+        level = "g, as it is in flight where g is subtracted," if record.linear else "0"
+        least = (
+            "" if record.linear else f" (the least acceleration is {record.felt.min():.3g} m/s^2)"
+        )
+        return (
+            f"no flight: nowhere is the acceleration near {level} for {_SHORTEST} s on end{least}; "
+            "what swings or rides does not bounce"
+        )
+    lasting = [float(times[last] - times[first]) for first, last in found]
+    long = int(np.argmax(lasting))
+    first, last = found[long]
+    flight = f"of {lasting[long]:.2g} s at {times[first]:.3g} s"
+    if len(found) == 1:
+        ends = last == len(times) - 1
+        after = "to the end of the record, which lacks the bounce" if ends else "and no bounce"
+        return (
+            f"one free flight {flight} (a fall from rest of "
+            f"{0.5 * gravity * lasting[long] ** 2:.2g} m) {after}"
+        )
+    return (
+        f"{len(found)} stretches like flights, the longest {flight}, but no two with a pulse "
+        f"between them that is shorter than {_LONGEST} s and above {_PULSE:.0f} g"
+        f"{' after a rest' if record.linear else ''}: what swings, jumps, rides or is thrown does "
+        "not bounce"
+    )
+
+
+def _flights(record: Record, gravity: float, *, whole: bool = True) -> list[Flight]:
+    """Return the free flights; if `whole`, without those with the first or the last sample."""
+    times, felt = record.times, record.felt
+    within, most = (_LINEAR_WITHIN, _LINEAR_MOST) if record.linear else (_WITHIN, _MOST)
+    return [
+        Flight(int(a), int(b))
+        for a, b in zip(*runs(felt < _HALF * gravity), strict=True)
+        if b + 1 - a >= FEWEST
+        and times[b] - times[a] >= _SHORTEST
+        and not (whole and (a == 0 or b == len(times) - 1))
+        and np.mean(felt[a : b + 1] < within * gravity) >= most
+    ]
+
+
+def _begins(record: Record, first: Flight, gravity: float) -> bool:
+    """Return whether a series can begin with a flight: at rest, where that must be seen."""
+    return not record.linear or is_held(record, first.first, gravity)
+
+
+def _bounces(record: Record, before: Flight, after: Flight, gravity: float) -> bool:
+    """Return whether what lies between two flights is a bounce: short, hard, with an impulse."""
+    times, felt = record.times, record.felt
+    if times[after.first] - times[before.last] >= _LONGEST:
+        return False
+    pulse = felt[before.last + 1 : after.first]
+    if len(pulse) < _SEEN or pulse.max() >= record.clipped:
+        return True
+    if pulse.max() < _PULSE * gravity:
+        return False
+    if len(pulse) < _SUMMED:
+        return True
+    part = slice(before.last, after.first + 1)
+    change = float(trapezoid(times[part]) @ felt[part])
+    lasting = sum(float(times[last] - times[first]) for first, last in (before, after))
+    return change > _IMPULSE * 0.5 * gravity * lasting

@@ -1,0 +1,201 @@
+"""Whether a track holds a ball that flies freely and bounces, and what it shows instead.
+
+A ball that rolls, swings, jumps or is held moves up and down as well, and parabolas can be fitted
+to that. It is no bounce unless the flights have the acceleration of a fall, the shape of parabolas,
+and a short contact between them.
+"""
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from stackbounce.measure.kinds.track.flights import Flight
+from stackbounce.measure.kinds.track.parabolas import Flights, fit_flights
+from stackbounce.measure.kinds.track.shape import curvatures, shape_of
+from stackbounce.measure.kinds.track.time_base import is_usual
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.samples import resolution
+
+__all__ = ["comparable", "no_flight", "no_gain", "what_is_seen"]
+
+_RATIO = (0.6, 1.6)  # of the flights' acceleration to gravity, by a wrong scale or frame rate
+_KNOWN = 0.05  # relative error of an acceleration that tells a slow motion
+_TOLD = 0.25  # relative error of an acceleration that is one at all
+_CHANGE, _ERRORS = 0.4, 4.0  # of the acceleration within a flight; its errors that matter
+_SCATTER = 0.3  # of the flights' own accelerations, over their mean
+_LASTS = 0.12  # s: a contact; longer ones are legs or hands
+_SHARE, _FRAMES = 0.5, 4  # of the flights beside it, and frames, that a contact does not reach
+_MANY = 100  # bounces of a ball
+_CLOSE = 3  # frames between two pieces of one flight
+_GAIN = 0.02  # above 1, and 3 errors, that a restitution does not reach
+_LINE = 0.03  # of the range: a track that is one parabola is no further from it
+_STILL = 8.0  # errors of a point, within which nothing moves
+_WINDOWS = (5, 7, 11, 17, 25, 51, 101, 201, 401)  # points that tell an acceleration
+_TRIED = 400  # windows
+_UNSCALED = 30.0  # ratio of an acceleration to gravity that only another unit of length makes
+_INSTEAD = "if it does fall, but on an incline or with a wrong scale, --gravity tells how fast"
+
+
+def comparable(data: Any) -> bool:
+    """Return whether lengths are in m and times in s, so that gravity can be compared with.
+
+    Plain arrays and a Dataset that has no units are taken to be so.
+    """
+    if not hasattr(data, "data_vars"):
+        return True
+    expected = {"x": "m", "y": "m", "position": "m", "time": "s"}
+    units = [(data[name].attrs.get("units", unit), unit) for name, unit in expected.items()
+             if name in data.variables]  # fmt: skip
+    return all(said == unit for said, unit in units)
+
+
+def no_flight(
+    times: Array,
+    heights: Array,
+    fit: Flights,
+    bounces: Sequence[int],
+    axis: str,
+    gravity: float | None,
+) -> str:
+    """Return why flights and bounces are none, or nothing where they are.
+
+    Parameters
+    ----------
+    times, heights : ndarray
+        (n,) of the points.
+    fit : Flights
+        The parabolas.
+    bounces : sequence of int
+        After which flights it bounces.
+    axis : str
+        The one that is up.
+    gravity : float or None
+        In m/s², to compare with; None where the scale or the clock is not known.
+    """
+    if len(bounces) > _MANY:
+        return f"{len(bounces)} bounces, more than a ball has ({_MANY}): an oscillation, or noise?"
+    fall, error = float(fit.values[0]), math.sqrt(max(float(fit.covariance[0, 0]), 0.0))
+    if error > _TOLD * fall:
+        return "no free flight: the pieces have no common acceleration"
+    rate = 1.0 / max(float(np.median(np.diff(times))), 1e-300)
+    if gravity is not None and not _falls(fall, error, gravity, rate):
+        return _other(fall, gravity, axis)
+    shape = shape_of(times, heights, _arcs(fit.flights, bounces))
+    if abs(shape.change) > max(_CHANGE, _ERRORS * shape.change_error):
+        return (
+            f"no free flight: within a flight the acceleration changes by {shape.change:+.0%} from "
+            "the middle to the ends, where that of a fall stays; a ball that swings, or an "
+            "oscillation?"
+        )
+    if shape.scatter > _SCATTER:
+        return (
+            f"no free flight: the accelerations of the flights differ by {shape.scatter:.0%}; a "
+            "ball that rolls, or is held?"
+        )
+    return _lasting(times, fit.flights, bounces, None if gravity is None else fall / gravity)
+
+
+def no_gain(restitutions: Sequence[Any], moments: Sequence[Any]) -> str:
+    """Return why restitutions are none: above 1, or not above 0; nothing where they are."""
+    for k, (kept, moment) in enumerate(zip(restitutions, moments, strict=True)):
+        value, error = kept.nominal_value, kept.std_dev
+        if value <= 0.0 or value > 1.0 + max(_GAIN, 3.0 * error):
+            return (
+                f"a restitution of {kept:.1uS} at {moment.nominal_value:.3g} (bounce {k}): a ball "
+                "alone rebounds with 0 to 1 of its speed; it is hit or thrown there, or bounces on "
+                "a ball whose track is not here"
+            )
+    return ""
+
+
+def what_is_seen(times: Array, heights: Array, axis: str, gravity: float | None) -> str:
+    """Return what a track without a bounce shows."""
+    extent = float(np.ptp(heights)) if len(heights) else 0.0
+    noise = float(np.median(np.abs(np.diff(heights, 2)))) if len(heights) > 3 else 0.0
+    if len(heights) < 5 or extent <= _STILL * noise:
+        return f"nothing that moves along {axis} by more than the errors of its points"
+    whole = fit_flights(times, heights, [Flight(0, len(times))])
+    fall, left = float(whole.values[0]), float(np.nanstd(whole.residuals))
+    flies = gravity is None or _RATIO[0] < fall / gravity < _RATIO[1]
+    if left < _LINE * extent and fall > 0.0 and flies:
+        clock, unit = (" s", " m/s^2") if gravity is not None else ("", "")
+        return (
+            f"one flight of {times[-1] - times[0]:.2g}{clock} with an acceleration of "
+            f"{fall:.3g}{unit} and no bounce: a throw, or a fall that ends before the floor?"
+        )
+    usual = _usual_acceleration(times, heights)
+    if gravity is not None and not _RATIO[0] < usual / gravity < _RATIO[1]:
+        return _other(usual, gravity, axis)
+    return "no two flights that meet at a floor: is the axis right, and the frame rate high enough?"
+
+
+def _falls(fall: float, error: float, gravity: float, rate: float) -> bool:
+    """Return whether an acceleration is that of a fall, perhaps in slow motion or in pixels."""
+    ratio = fall / gravity
+    if _RATIO[0] < ratio < _RATIO[1]:
+        return True
+    return error < _KNOWN * fall and (ratio > _UNSCALED or is_usual(ratio, rate))
+
+
+def _other(fall: float, gravity: float, axis: str) -> str:
+    """Return what accelerations along an axis mean that are not those of a fall."""
+    seen = (
+        f"no free flight: accelerations along {axis} are {fall:.2g} m/s^2 where a fall has "
+        f"{gravity:.3g}; "
+    )
+    if fall > _RATIO[1] * gravity:
+        return f"{seen}are its lengths in another unit (--unit {axis}=cm), or in pixels?"
+    return f"{seen}a ball that rolls, swings or is held? ({_INSTEAD})"
+
+
+def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:
+    """Return the flights; pieces of one between two bounces are put together."""
+    arcs: list[Flight] = []
+    for j, one in enumerate(flights):
+        whole = arcs and j - 1 not in bounces and one.first - arcs[-1].last <= _CLOSE
+        arcs[len(arcs) - bool(whole) :] = [Flight(arcs[-1].first, one.last) if whole else one]
+    return arcs
+
+
+def _lasting(
+    times: Array, flights: Sequence[Flight], bounces: Sequence[int], ratio: float | None
+) -> str:
+    """Return why contacts are too long; `ratio` of the acceleration to gravity tells the clock."""
+    step = float(np.median(np.diff(times)))
+    lasts, shares = [], []
+    for j in bounces:
+        before, after = flights[j], flights[j + 1]
+        gap = float(times[after.first] - times[before.last - 1]) - step
+        beside = min(float(times[last - 1] - times[first]) for first, last in (before, after))
+        lasts.append(gap)
+        shares.append(gap / max(beside, step))
+    last = float(np.median(lasts))
+    if ratio is None:
+        if last > _FRAMES * step and float(np.median(shares)) > _SHARE:
+            return "no bounce: the contacts last for more than half of the flights beside them"
+    elif last * math.sqrt(ratio) > _LASTS:
+        return (
+            f"no bounce: between the flights it is on the floor for {last * math.sqrt(ratio):.2g} s"
+            "; legs or a trampoline? A ball's contact takes some hundredths of a second"
+        )
+    return ""
+
+
+def _usual_acceleration(times: Array, heights: Array) -> float:
+    """Return the typical size of the accelerations, in windows that are long enough to tell it."""
+    noise = float(np.median(np.abs(np.diff(heights, 3)))) / (0.6745 * math.sqrt(20.0))
+    noise = max(noise, resolution(heights) / math.sqrt(12.0))
+    step = float(np.median(np.diff(times)))
+    found = 0.0
+    for wide in _WINDOWS:
+        if wide > len(heights):
+            break
+        windows = np.lib.stride_tricks.sliding_window_view
+        some = slice(None, None, max(1, len(heights) // _TRIED))
+        t, u = (windows(one, wide)[some] for one in (times, heights))
+        found = float(np.median(np.abs(curvatures(t, u))))
+        if noise * math.sqrt(720.0 / wide**5) / step**2 < 0.03 * found:
+            break
+    return found

@@ -1,0 +1,250 @@
+"""Free flights -> parabolas of one common acceleration, with errors that go together.
+
+Each flight has a level and a speed of its own, which are eliminated from the normal equations: the
+work grows with the number of points, not with the square of the number of flights.
+"""
+
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from stackbounce.measure.kinds.track.flights import Flight
+from stackbounce.measure.quantities import Array
+
+__all__ = ["Flights", "Parabolas", "fit_flights"]
+
+_TELLING = 8  # degrees of freedom, above which residuals tell a correlation
+_CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # below 0: interlaced frames
+_COLUMNS, _ROWS = (part.tolist() for part in np.tril_indices(4))  # pairs of columns
+_FAR = 100  # steps, beyond which errors are taken as independent
+_ALMOST_NONE = 1e-9  # degrees of freedom of as many points as parameters
+
+
+class Flights(NamedTuple):
+    """Flights fitted together: ``u = level + speed (t - origin) - acceleration (t - origin)²/2``.
+
+    Attributes
+    ----------
+    flights : list of Flight
+        N of them.
+    values : ndarray
+        (1 + 2 N,) acceleration, then level and speed of each.
+    covariance : ndarray
+        (1 + 2 N, 1 + 2 N).
+    origins : ndarray
+        (N,) in s, the middle of each.
+    sigma : float
+        Standard deviation of one point's error.
+    correlation : float
+        Of the errors of neighbouring points.
+    residuals : ndarray
+        Of each point, NaN where it is in no flight.
+    freedom : int
+        Points less parameters.
+    """
+
+    flights: list[Flight]
+    values: Array
+    covariance: Array
+    origins: Array
+    sigma: float
+    correlation: float
+    residuals: Array
+    freedom: int
+
+
+class _Fits(NamedTuple):
+    """Least squares fits for each of K correlations.
+
+    Attributes
+    ----------
+    fall, own : ndarray
+        (K,) acceleration; (K, N, 2) level and speed of each flight.
+    inverse, slope : ndarray
+        (K, N, 2, 2) covariance of level and speed at a known acceleration, in variances; (K, N, 2)
+        their change with the acceleration, negative.
+    strength : ndarray
+        (K,) inverse variance of the acceleration, in variances.
+    likelihood, variance : ndarray
+        (K,) restricted log-likelihood; variance of an error.
+    """
+
+    fall: Array
+    own: Array
+    inverse: Array
+    slope: Array
+    strength: Array
+    likelihood: Array
+    variance: Array
+
+
+class Parabolas:
+    """The parabolas of flights with one common acceleration, and errors from residuals.
+
+    The errors within a flight are modelled as AR(1) noise, which a mark that drifts on the ball
+    causes. Generalised least squares are done for each correlation on a grid and averaged, weighted
+    by its restricted likelihood (D. Harville, J. Am. Stat. Assoc. 72, 320, 1977), so that the
+    covariance includes the uncertainty of the correlation. Few points are taken as uncorrelated.
+
+    Parameters
+    ----------
+    times, heights : ndarray
+        (n,) in s and m, up-positive.
+    flights : list of Flight
+        N of them, with three points or more each.
+    """
+
+    def __init__(self, times: Array, heights: Array, flights: list[Flight]) -> None:
+        self.times, self.heights, self.flights = times, heights, flights
+        self.firsts, self.lasts = np.array(flights).T
+        counts = self.lasts - self.firsts
+        self.rows = np.concatenate([np.arange(*flight) for flight in flights])
+        self.owner = np.repeat(np.arange(len(flights)), counts)
+        self.origins = 0.5 * (times[self.firsts] + times[self.lasts - 1])
+        self.since = times[self.rows] - self.origins[self.owner]
+        self.begins = np.concatenate([[0], np.cumsum(counts)[:-1]])
+        self.freedom = len(self.rows) - 1 - 2 * len(flights)
+
+    @property
+    def fall(self) -> float:
+        """The acceleration, above 0 downward."""
+        return float(self.rough.fall[0] + self.weights @ self.fits.fall)
+
+    @property
+    def sigma(self) -> float:
+        """Standard deviation of one point's error."""
+        return float(np.exp(0.5 * (self.weights @ np.log(self.fits.variance))))
+
+    @cached_property
+    def tried(self) -> Array:
+        """The correlations on the grid, (K,)."""
+        return _CORRELATIONS if self.freedom > _TELLING else np.zeros(1)
+
+    @cached_property
+    def rough(self) -> _Fits:
+        """The fit without a correlation."""
+        return self._fits(self.heights[self.rows], np.zeros(1))
+
+    @cached_property
+    def fits(self) -> _Fits:
+        """The fits for each correlation, to what the fit without one leaves."""
+        return self._fits(self.heights[self.rows] - self._modelled(self.rough), self.tried)
+
+    @cached_property
+    def weights(self) -> Array:
+        """The posterior probability of each correlation, (K,)."""
+        score = self.fits.likelihood + np.log(1.0 - self.tried**2)  # strong ones are rare
+        weights = np.exp(score - score.max())
+        return np.asarray(weights / weights.sum())
+
+    def jumps(self) -> tuple[Array, Array, Array]:
+        """Return the jump of the velocity after each flight but the last, its error, and before.
+
+        The third is the velocity before the jump. Each is (N - 1,).
+        """
+        middles = 0.5 * (self.times[self.lasts[:-1] - 1] + self.times[self.firsts[1:]])
+        since, until = middles - self.origins[:-1], middles - self.origins[1:]
+        fits, weights = self.fits, self.weights
+        falls = (self.rough.fall + fits.fall)[:, None]
+        speeds = self.rough.own[:, :, 1] + fits.own[:, :, 1]
+        each = speeds[:, 1:] - speeds[:, :-1] + falls * (since - until)
+        slopes, own = fits.slope[:, :, 1], fits.inverse[:, :, 1, 1]
+        by_fall = since - until + slopes[:, :-1] - slopes[:, 1:]
+        spread = fits.variance[:, None] * (
+            own[:, :-1] + own[:, 1:] + by_fall**2 / fits.strength[:, None]
+        )
+        jump = weights @ each
+        error = np.sqrt(weights @ (spread + (each - jump) ** 2))
+        return jump, error, weights @ (speeds[:, :-1] - falls * since)
+
+    def together(self) -> Flights:
+        """Return the averaged fit with the covariance of all its parameters."""
+        fits, weights = self.fits, self.weights
+        count = len(self.flights)
+        each = np.column_stack([fits.fall, fits.own.reshape(len(weights), -1)])
+        mean = weights @ each
+        along = np.column_stack([np.ones(len(weights)), -fits.slope.reshape(len(weights), -1)])
+        off = each - mean
+        covariance = (along * (weights * fits.variance / fits.strength)[:, None]).T @ along
+        covariance += (off * weights[:, None]).T @ off
+        blocks = np.einsum("k,knij->nij", weights * fits.variance, fits.inverse)
+        at = 1 + 2 * np.arange(count)
+        for i in (0, 1):
+            for j in (0, 1):
+                covariance[at + i, at + j] += blocks[:, i, j]
+        values = mean + np.concatenate([self.rough.fall, self.rough.own.ravel()])
+        residuals = np.full(len(self.times), np.nan)
+        own = values[1:].reshape(-1, 2)[self.owner]
+        flown = own[:, 0] + own[:, 1] * self.since - 0.5 * values[0] * self.since**2
+        residuals[self.rows] = self.heights[self.rows] - flown
+        correlation = float(weights @ self.tried)
+        return Flights(
+            self.flights, values, covariance, self.origins, self.sigma, correlation,
+            residuals, self.freedom,
+        )  # fmt: skip
+
+    def _modelled(self, fits: _Fits) -> Array:
+        own = fits.own[0][self.owner]
+        return np.asarray(own[:, 0] + own[:, 1] * self.since - 0.5 * fits.fall[0] * self.since**2)
+
+    @cached_property
+    def _apart(self) -> Array:
+        """Steps between a point and the one before it, infinite where a flight begins."""
+        usual = max(float(np.median(np.diff(self.times))), 1e-300)
+        frames = np.round(self.times / usual)[self.rows]
+        steps = np.maximum(np.diff(frames, prepend=-np.inf), 1.0)  # uneven frames may round to one
+        begins = np.diff(self.owner, prepend=-1) > 0
+        return np.where(begins | (steps > _FAR), np.inf, steps)
+
+    def _fits(self, values: Array, correlations: Array) -> _Fits:
+        """Return the fits to values of all points for each of K correlations."""
+        total, log_innovations = self._whitened(values, correlations)
+        ones, firsts, seconds, bent_ones, bent, bends, seen_ones, seen, both, squares = total
+        sizes = np.maximum(ones * seconds - firsts**2, 1e-300)
+        inverse = np.stack([seconds, -firsts, -firsts, ones], axis=-1) / sizes[..., None]
+        inverse = inverse.reshape(*sizes.shape, 2, 2)
+        own_bent, own_seen = np.stack([bent_ones, bent], axis=-1), np.stack([seen_ones, seen], -1)
+        slope = np.einsum("knij,knj->kni", inverse, own_bent)
+        strength = np.maximum(bends.sum(axis=1) - (own_bent * slope).sum(axis=(1, 2)), 1e-300)
+        told = both.sum(axis=1)
+        fall = (told - (own_seen * slope).sum(axis=(1, 2))) / strength
+        own = np.einsum("knij,knj->kni", inverse, own_seen) - fall[:, None, None] * slope
+        square = squares.sum(axis=1) - fall * told - (own_seen * own).sum(axis=(1, 2))
+        freedom = max(self.freedom, _ALMOST_NONE)
+        variance = np.maximum(square, 1e-300) / freedom
+        log_det = log_innovations + np.log(sizes).sum(axis=1) + np.log(strength)
+        likelihood = -0.5 * (freedom * np.log(variance) + log_det)
+        return _Fits(fall, own, inverse, slope, strength, likelihood, variance)
+
+    def _whitened(self, values: Array, correlations: Array) -> tuple[Array, Array]:
+        """Return the sums of products of columns over each flight, (10, K, N), and ln det, (K,).
+
+        The columns are 1, t, -t²/2 and the values, less the correlated part of the point before.
+        The sums over points that are equally many steps from that point are found once for all
+        correlations.
+        """
+        since = self.since
+        now = np.stack([np.ones(len(since)), since, -0.5 * since**2, values])
+        last = np.roll(now, 1, axis=1)
+        products = np.stack(
+            [now[_ROWS] * now[_COLUMNS],
+             now[_ROWS] * last[_COLUMNS] + last[_ROWS] * now[_COLUMNS],
+             last[_ROWS] * last[_COLUMNS]]
+        )  # fmt: skip
+        total = np.zeros((len(_ROWS), len(correlations), len(self.flights)))
+        log_det = np.zeros(len(correlations))
+        for steps in np.unique(self._apart).tolist():
+            among = self._apart == steps
+            sums = np.add.reduceat(products * among, self.begins, axis=2)
+            kept = (correlations**steps)[:, None]
+            innovation = 1.0 - kept**2
+            here, cross, before = sums[:, :, None, :]
+            total += (here - kept * cross + kept**2 * before) / innovation
+            log_det += float(among.sum()) * np.log(innovation[:, 0])
+        return total, log_det
+
+
+def fit_flights(times: Array, heights: Array, flights: list[Flight]) -> Flights:
+    """Return the parabolas of flights with one common acceleration; see `Parabolas`."""
+    return Parabolas(times, heights, flights).together()

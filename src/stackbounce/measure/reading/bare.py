@@ -1,0 +1,79 @@
+"""Columns without names -> what their numbers look like: samples of a scope, points of a track."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.reading.headings import heading
+from stackbounce.measure.reading.roles import Column, column
+
+__all__ = ["NOT_NAMED", "Guess", "guess"]
+
+_LEAST, _MANY = 5, 20  # rows that tell times, and that tell frames or samples of a scope
+_UNEVEN = 0.1  # of a step, by which rounding may move times
+_SCOPE, _VIDEO = 1e-3, 0.2  # s, the longest step of samples and that of frames
+_TELL = Said("name them, as in ", Hint({"names": {1: "time", 2: "force"}}))
+NOT_NAMED = Said("no header names the columns: ", _TELL)
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What columns without names are taken for.
+
+    Parameters
+    ----------
+    columns : tuple of Column
+        All of them; without roles where the numbers tell nothing.
+    doubt : str
+        Why.
+    """
+
+    columns: tuple[Column, ...]
+    doubt: str
+
+
+def guess(rows: Array) -> Guess:
+    """Return what columns look like by their first rows, (rows, columns).
+
+    Counted rows with two more columns are frames with x and y in an image. Evenly rising numbers
+    are times: with steps up to 1 ms beside the voltage of one channel, with longer ones beside x
+    and y. Anything else stays without a meaning.
+
+    Examples
+    --------
+    >>> found = guess(np.stack([np.arange(30), np.ones(30), np.arange(30) ** 2], axis=1))
+    >>> [one.role for one in found.columns]
+    ['frame', 'x', 'y']
+    """
+    width = rows.shape[1]
+    known = rows[np.isfinite(rows).all(axis=1)]
+    step = _step(known[:, 0]) if len(known) >= _LEAST and width > 1 else 0.0
+    many = len(known) >= _MANY
+    if many and step == 1.0 and width == 3 and (known[:, 0] == np.round(known[:, 0])).all():
+        return _named(("frame", "x", "y"), "the first counts frames, so that x and y follow")
+    said = f"the first rises in steps of {step:.4g}, so that it is taken as time in s"
+    if many and 0.0 < step <= _SCOPE and width == 2:
+        return _named(("time", "voltage"), f"{said}, the other as the voltage of a scope")
+    if _SCOPE < step <= _VIDEO and width == 3:
+        return _named(("time", "x", "y"), f"{said}, the others as x and y")
+    if 0.0 < step <= _SCOPE:
+        return _named(("time", *[""] * (width - 1)), said)
+    return Guess(tuple(column(k, heading("")) for k in range(width)), NOT_NAMED)
+
+
+def _named(roles: tuple[str, ...], said: str) -> Guess:
+    units = {"time": "s", "voltage": "V"}
+    columns = tuple(
+        column(k, heading("", units.get(role, "")), role) for k, role in enumerate(roles)
+    )
+    return Guess(columns, Said(f"no header names the columns: {said}; if that is wrong, ", _TELL))
+
+
+def _step(numbers: Array) -> float:
+    """Return the step of evenly rising numbers, within their rounding; 0 of any others."""
+    step = float(numbers[-1] - numbers[0]) / (len(numbers) - 1)
+    even = numbers[0] + step * np.arange(len(numbers))
+    rising = step > 0.0 and bool((np.diff(numbers) > 0.0).all())
+    return step if rising and float(np.abs(numbers - even).max()) < _UNEVEN * step else 0.0

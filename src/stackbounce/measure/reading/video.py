@@ -1,0 +1,211 @@
+"""Positions by frame of a video: frames as times, pixels as lengths, one row for each frame."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.quantities import Array
+from stackbounce.measure.reading.headings import heading
+from stackbounce.measure.reading.roles import FRAME, PIXEL, POINT, Column, column
+
+__all__ = ["on_frames", "rows_by_frame"]
+
+_TRACKS = 12
+"""Tracks below each other that are read, at most: the longest ones."""
+
+_RATE, _SCALE = Hint({"frame_rate": None}), Hint({"scale": None})
+_ROLES = {"", "x", "y", "track_id"}  # of columns beside which rows are frames
+_LEAST = 5  # points of a track that is put together
+_REACH = 0.05  # of the range of all points: how far from its path the next point of a track may be
+_LOST = 5  # frames after which a track has no path any more
+_STILL = 0.1  # of the range of the track that moves most: tracks that move less are specks
+
+
+def on_frames(
+    columns: Sequence[Column], frame_rate: float | None = None, scale: float | None = None
+) -> tuple[list[Column], list[str]]:
+    """Return columns in which frames are times, where there is no clock, and what is unsure.
+
+    x and y without any count of frames are taken frame by frame.
+
+    Parameters
+    ----------
+    columns : sequence of Column
+        As the header has them; without a position they stay as they are.
+    frame_rate : float or None
+        In 1/s; without it a frame is the unit of time.
+    scale : float or None
+        Metres per pixel; without it a pixel is the unit of length.
+    """
+    roles = {one.role for one in columns}
+    if not roles & {"x", "y"}:
+        return list(columns), []
+    found, doubts = list(columns), []
+    if "time" not in roles and "frame" not in roles and {"x", "y"} <= roles <= _ROLES:
+        found.append(column(-1, heading("row"), "frame"))
+        doubts.append("it does not count frames either, so that each row is one")
+    found, more = _timed(found, frame_rate)
+    return _scaled(found, scale, [*more, *doubts])
+
+
+def _timed(found: list[Column], frame_rate: float | None) -> tuple[list[Column], list[str]]:
+    """Return columns in which frames are times, where there are no others."""
+    at = next((k for k, one in enumerate(found) if one.role == "frame"), None)
+    if at is None or any(one.role == "time" for one in found):
+        unused = Said(_RATE, " is not used, as the file has times")
+        return found, [] if frame_rate is None else [unused]
+    said = replace(found[at].heading, unit=FRAME)
+    factor, unit = (1.0, FRAME) if frame_rate is None else (1.0 / frame_rate, "s")
+    found[at] = replace(found[at], heading=said, role="time", factor=factor, unit=unit)
+    doubt = Said(
+        "it has no times, so that a frame is the unit of time: ", _RATE, " tells frames per second"
+    )
+    return found, [doubt] if frame_rate is None else []
+
+
+def _scaled(
+    found: list[Column], scale: float | None, doubts: list[str]
+) -> tuple[list[Column], list[str]]:
+    """Return columns with positions in m, or in pixels where no scale is known."""
+    by_frame = any(one.role == "time" and one.heading.unit == FRAME for one in found)
+    places = [k for k, one in enumerate(found) if one.role in ("x", "y")]
+    bare = [k for k in places if not found[k].heading.unit and (by_frame or scale is not None)]
+    pixels = [k for k in places if found[k].unit == PIXEL or k in bare]
+    for k in pixels:
+        factor, unit = (1.0, PIXEL) if scale is None else (scale, "m")
+        found[k] = replace(found[k], factor=factor, unit=unit, doubt="")
+    if pixels and scale is None:
+        names = " and ".join(dict.fromkeys(found[k].role for k in pixels))
+        doubts.append(Said(f"{names} are taken as pixels: ", _SCALE, " tells metres per pixel"))
+    if scale is not None and not pixels:
+        doubts.append(Said(_SCALE, " is not used, as the positions have units"))
+    return found, doubts
+
+
+def rows_by_frame(
+    columns: Sequence[Column], values: Array
+) -> tuple[list[Column], Array, list[str]]:
+    """Return a table of tracks with one row for each time, and what is unsure.
+
+    Tracks that stand below each other, told apart by a column of their numbers, are put side by
+    side. Of several points in a frame that belong to no track, the one next to the point before is
+    taken.
+    """
+    at = next((k for k, one in enumerate(columns) if one.role == "track_id"), None)
+    time = next(k for k, one in enumerate(columns) if one.role == "time")
+    if at is not None:
+        return _side_by_side(columns, values, time, at)
+    if any(one.track.startswith(POINT) for one in columns):
+        return _linked(columns, values, time)
+    if columns[time].heading.unit != FRAME or len({one.track for one in columns}) > 1:
+        return list(columns), values, []
+    places = [k for k, one in enumerate(columns) if one.role in ("x", "y")]
+    kept = _nearest(values[:, time], values[:, places])
+    if len(kept) == len(values):
+        return list(columns), values, []
+    many = len(values) - len(kept)
+    doubt = f"{many} rows are further points in a frame: the one next to the point before is taken"
+    return list(columns), values[kept], [doubt]
+
+
+def _side_by_side(
+    columns: Sequence[Column], values: Array, time: int, at: int
+) -> tuple[list[Column], Array, list[str]]:
+    ids, counts = np.unique(values[np.isfinite(values[:, at]), at], return_counts=True)
+    longest = np.sort(ids[np.argsort(-counts, kind="stable")[:_TRACKS]])
+    rows = [np.flatnonzero(values[:, at] == one) for one in longest]
+    if not rows:
+        without = [k for k in range(len(columns)) if k != at]
+        return [columns[k] for k in without], values[:, without], []
+    places = [k for k, one in enumerate(columns) if one.role in ("x", "y")]
+    times = np.unique(values[np.concatenate(rows), time])
+    times = times[np.isfinite(times)]
+    table = np.full((len(times), 1 + len(rows) * len(places)), np.nan)
+    table[:, 0] = times
+    found = [columns[time]]
+    for one, own in zip(longest, rows, strict=True):
+        own = own[np.isfinite(values[own, time])]
+        to = np.searchsorted(times, values[own, time])
+        for k in places:
+            table[to, len(found)] = values[own, k]
+            found.append(replace(columns[k], track=f"track {one:g}"))
+    left = len(ids) - len(longest)
+    doubts = [f"{left} shorter tracks are left out"] if left else []
+    return found, table, doubts
+
+
+def _nearest(frames: Array, places: Array) -> list[int]:
+    """Return one row of each run of equal frames, that next to the row kept before."""
+    kept: list[int] = []
+    start = 0
+    edges = np.flatnonzero(np.diff(frames) != 0.0) + 1
+    for end in [*edges.tolist(), len(frames)]:
+        own = places[start:end]
+        if end - start == 1 or not kept:
+            kept.append(start)
+        else:
+            far = np.nansum((own - places[kept[-1]]) ** 2, axis=1)
+            kept.append(start + int(np.argmin(far)))
+        start = end
+    return kept
+
+
+def _linked(
+    columns: Sequence[Column], values: Array, time: int
+) -> tuple[list[Column], Array, list[str]]:
+    """Return tracks that are put together from points, each next to where it should be."""
+    back = np.flatnonzero(np.diff(values[:, time]) < 0.0)
+    values = values[: back[0] + 1] if back.size else values
+    x, y = ({one.track: k for k, one in enumerate(columns) if one.role == axis} for axis in "xy")
+    axes = [[own[track] for track in x if track in y] for own in (x, y)]
+    points = np.stack([values[:, own] for own in axes], axis=-1)
+    tracks = _together(values[:, time], points)
+    table = np.full((len(values), 1 + 2 * len(tracks)), np.nan)
+    table[:, 0] = values[:, time]
+    found = [columns[time]]
+    for one in tracks:
+        for axis, own in enumerate(axes):
+            table[list(one), len(found)] = [place[axis] for place in one.values()]
+            found.append(replace(columns[own[0]], track=f"track {(len(found) + 1) // 2}"))
+    return found, table, []
+
+
+def _together(times: Array, points: Array) -> list[dict[int, Array]]:
+    """Return moving tracks as points by row, the longest first, of points (rows, any, x and y)."""
+    known = np.asarray(np.isfinite(points).all(axis=2))
+    reach = _REACH * float(np.ptp(points[known], axis=0).max()) if known.any() else 0.0
+    live: list[dict[int, Array]] = []
+    done: list[dict[int, Array]] = []
+    for row, now in enumerate(times.tolist()):
+        done += [one for one in live if now - times[max(one)] > _LOST and len(one) >= _LEAST]
+        live = [one for one in live if now - times[max(one)] <= _LOST]
+        left = list(points[row][known[row]])
+        paths = [_expected(one, times, now) for one in live]
+        far = {
+            (k, j): float(np.hypot(*(path - place)))
+            for k, path in enumerate(paths)
+            for j, place in enumerate(left)
+        }
+        taken: set[int] = set()
+        for (k, j), distance in sorted(far.items(), key=lambda item: item[1]):
+            if distance <= reach and row not in live[k] and j not in taken:
+                live[k][row] = left[j]
+                taken.add(j)
+        live += [{row: place} for j, place in enumerate(left) if j not in taken]
+    done += [one for one in live if len(one) >= _LEAST]
+    ranges = [float(np.ptp(list(one.values()), axis=0).max()) for one in done]
+    moving = [one for one, wide in zip(done, ranges, strict=True) if wide > _STILL * max(ranges)]
+    return sorted(moving, key=len, reverse=True)[:_TRACKS]
+
+
+def _expected(track: dict[int, Array], times: Array, now: float) -> Array:
+    """Return where a track would go on to, by its last two points."""
+    *_, last = track
+    before = next((row for row in list(track)[-2:-1]), last)
+    since = float(times[last] - times[before])
+    if not since > 0.0:
+        return track[last]
+    ahead = float(now - times[last]) / since
+    return np.asarray(track[last] + ahead * (track[last] - track[before]))

@@ -1,0 +1,320 @@
+"""Files with tables in them: spreadsheets, Tracker's and Logger Pro's own files, NumPy's arrays."""
+
+import io
+import sys
+import zipfile
+
+import numpy as np
+import openpyxl
+import pytest
+
+import stackbounce as sb
+from measure import make_files as made
+from stackbounce.errors import FileError, InvalidValue, MissingExtra
+from stackbounce.measure.reading import sheets
+
+TIMES = 0.01 * np.arange(8)
+
+
+@pytest.fixture
+def read(tmp_path):
+    def reader(content, name="file", **options):
+        path = tmp_path / name
+        path.write_bytes(content.encode() if isinstance(content, str) else content)
+        return sb.read(path, **options)
+
+    return reader
+
+
+# --- spreadsheets
+
+
+def xlsx(tables):
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for name, rows in tables.items():
+        sheet = book.create_sheet(name)
+        for row in rows:
+            sheet.append(row)
+    content = io.BytesIO()
+    book.save(content)
+    return content.getvalue()
+
+
+def phyphox_sheets():
+    names, columns = made.acceleration()
+    return {
+        "Metadata Device": [["property", "value"], ["version", "1.1.12"], ["build", 11156]],
+        "Raw Data": [names, *zip(*(one.tolist() for one in columns), strict=True)],
+    }
+
+
+def test_phyphox_as_a_spreadsheet(read):
+    data = read(xlsx(phyphox_sheets()))
+    assert data.attrs["format"] == "phyphox: acceleration with g"
+    assert "a sheet of a spreadsheet" in data.attrs["why"]
+    assert "Raw Data of it is read" in data.attrs["doubt"]
+    np.testing.assert_allclose(data.acceleration_y.values, made.acceleration()[1][2])
+    np.testing.assert_allclose(data.time.values, made.TIMES)
+
+
+def test_a_sheet_is_chosen_by_its_name(read):
+    tables = {"Run 1": [["t", "x", "y"], [0, 1, 2], [1, 2, 3]]}
+    tables["Run 2"] = [["t", "x", "y"], [0, 5, 6], [1, 6, 7]]
+    assert read(xlsx(tables)).y.values[0, 0] == 2.0
+    assert read(xlsx(tables), table="Run 2").y.values[0, 0] == 6.0
+    with pytest.raises(InvalidValue, match="table must be one in the spreadsheet, got 'Run 3'"):
+        read(xlsx(tables), table="Run 3")
+
+
+def test_names_may_stand_beside_the_first_row(read):
+    rows = [[0.01 * k, 0.5, 1.0 - 0.1 * k] for k in range(8)]
+    rows[0] += [None, "t", "x", "y"]
+    data = read(xlsx({"Run": rows}))
+    assert data.attrs["holds"] == "track"
+    assert "words beside the first row name its columns: t, x, y" in data.attrs["why"]
+    np.testing.assert_allclose(data.time.values, TIMES)
+    np.testing.assert_allclose(data.y.values[:, 0], 1.0 - 10.0 * TIMES)
+
+
+def test_numbers_that_are_text_with_a_decimal_comma(read):
+    data = read(xlsx({"a": [["Time (s)", "Force (N)"], ["0,125", 1.234], [0.25, "2,500"]]}))
+    assert data.time.values.tolist() == [0.125, 0.25]
+    assert data.force.values.tolist() == [1.234, 2.5]
+
+
+def test_what_a_spreadsheet_cannot_be(read, monkeypatch):
+    with pytest.raises(FileError, match="spreadsheet without any cell"):
+        read(xlsx({"empty": []}))
+    with pytest.raises(FileError, match="no row of numbers"):
+        read(xlsx({"words": [["one", "two"], ["three", "four"]]}))
+    with pytest.raises(FileError, match=r"cannot be read \(.*\): save it as CSV"):
+        read(xlsx(phyphox_sheets())[:-40])
+    monkeypatch.setattr(sheets, "_CELLS", 50)
+    with pytest.raises(FileError, match="more than 50 cells"):
+        read(xlsx(phyphox_sheets()))
+    monkeypatch.setattr(sheets, "_BYTES", 1000)
+    with pytest.raises(FileError, match="would unpack to more than"):
+        read(xlsx(phyphox_sheets()))
+
+
+def test_a_bomb_of_entities_is_no_spreadsheet(read):
+    packed = io.BytesIO(xlsx({"a": [["Time (s)", "Force (N)"], [0, 1]]}))
+    bomb = b'<?xml version="1.0"?><!DOCTYPE a [<!ENTITY b "bbbb"><!ENTITY c "&b;&b;">]>'
+    content = io.BytesIO()
+    with zipfile.ZipFile(packed) as old, zipfile.ZipFile(content, "w") as new:
+        for one in old.namelist():
+            text = old.read(one)
+            new.writestr(one, bomb + text if one == "xl/workbook.xml" else text)
+    with pytest.raises(FileError, match=r"workbook\.xml' has a document type"):
+        read(content.getvalue())
+
+
+def test_an_old_spreadsheet(read, monkeypatch):
+    """No program here writes .xls, so that the reader's cells are made up."""
+
+    class Sheet:
+        nrows, name = 3, "Raw Data"
+
+        def row_values(self, k):
+            return [["Time (s)", "Force (N)"], [0.0, 1.5], [0.5, 2.5]][k]
+
+    class Book:
+        def sheet_names(self):
+            return ["Raw Data"]
+
+        def sheet_by_name(self, name):
+            assert name == "Raw Data"
+            return Sheet()
+
+    import xlrd
+
+    content = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600)
+    with pytest.raises(FileError, match=r"cannot be read \(.*\): save it as CSV"):
+        read(content)
+    monkeypatch.setattr(xlrd, "open_workbook", lambda **_: Book())
+    assert read(content).force.values.tolist() == [1.5, 2.5]
+
+
+@pytest.mark.parametrize(("content", "what"), [
+    (xlsx({"a": [["Time (s)", "Force (N)"], [0, 1]]}), r"an Excel file \(.xlsx\)"),
+    (b"\xd0\xcf\x11\xe0" + bytes(600), r"an old Excel file \(.xls\)"),
+])  # fmt: skip
+def test_a_missing_reader_is_named(read, monkeypatch, content, what):
+    for module in ("openpyxl", "xlrd"):
+        monkeypatch.setitem(sys.modules, module, None)
+    words = rf"{what} needs openpyxl, xlrd: pip install 'stackbounce\[sheets\]'"
+    with pytest.raises(MissingExtra, match=words):
+        read(content)
+
+
+# --- Tracker's own files
+
+POINTS = {4: (150.0, 300.0), 5: (155.0, 310.0), 7: (165.0, 340.0)}
+
+
+def prop(name, value, kind="double"):
+    return f'<property name="{name}" type="{kind}">{value}</property>'
+
+
+def inside(name, of, *parts):
+    cls = f"org.opensourcephysics.{of}"
+    return prop(name, f'<object class="{cls}">{"".join(parts)}</object>', "object")
+
+
+def mass(name, points):
+    frames = "".join(
+        inside(f"[{k}]", "cabrillo.tracker.PointMass$FrameData", prop("x", x), prop("y", y))
+        for k, (x, y) in points.items()
+    )
+    own = prop("name", name, "string") + prop("framedata", frames, "array")
+    return inside("item", "cabrillo.tracker.PointMass", own)
+
+
+def trk(*tracks, scale=200.0, angle=0.0, unit="m", before=""):
+    axes = inside(
+        "[0]", "media.core.ImageCoordSystem$FrameData",
+        *map(prop, ("xorigin", "yorigin", "angle", "xscale", "yscale"),
+             (100.0, 500.0, angle, scale, scale)),
+    )  # fmt: skip
+    parts = (
+        inside("videoclip", "media.core.VideoClip", prop("startframe", 4, "int")),
+        inside("clipcontrol", "media.core.StepperClipControl", prop("delta_t", 40.0)),
+        inside("coords", "media.core.ImageCoordSystem", prop("framedata", axes, "array")),
+        prop("length_unit", unit, "string"),
+        prop("tracks", "".join(tracks), "collection"),
+    )
+    panel = "org.opensourcephysics.cabrillo.tracker.TrackerPanel"
+    return f'<?xml version="1.0"?>{before}<object class="{panel}">{"".join(parts)}</object>'
+
+
+def test_trackers_own_file(read):
+    data = read(trk(mass("ball", POINTS)))
+    assert (data.attrs["format"], data.attrs["holds"]) == ("Tracker", "track")
+    assert data.attrs["doubt"] == ""
+    assert data.track.values.tolist() == ["ball"]
+    np.testing.assert_allclose(data.time.values, [0.0, 0.04, 0.12])
+    np.testing.assert_allclose(data.x.values[:, 0], [0.25, 0.275, 0.325])
+    np.testing.assert_allclose(data.y.values[:, 0], [1.0, 0.95, 0.8])
+
+
+def test_axes_that_are_turned(read):
+    data = read(trk(mass("ball", {0: (100.0, 400.0), 1: (200.0, 500.0)}), angle=90.0, unit="cm"))
+    np.testing.assert_allclose(data.x.values[:, 0], [0.005, 0.0], atol=1e-12)
+    np.testing.assert_allclose(data.y.values[:, 0], [0.0, -0.005], atol=1e-12)
+
+
+def test_two_masses_and_no_scale(read):
+    data = read(trk(mass("low", POINTS), mass("high", {5: (1.0, 2.0)}), scale=1.0))
+    assert data.track.values.tolist() == ["low", "high"]
+    assert data.y.attrs["units"] == "px"
+    np.testing.assert_array_equal(data.y.values[:, 1], [np.nan, 498.0, np.nan])
+
+
+def test_trackers_file_in_an_archive(read):
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w") as archive:
+        archive.writestr("ball.trk", trk(mass("ball", POINTS)))
+    assert read(content.getvalue()).attrs["format"] == "Tracker"
+
+
+@pytest.mark.parametrize(("content", "message"), [
+    (trk(), "without a track of a point mass"),
+    (trk(mass("ball", POINTS), scale=0.0), "without a clock or a scale"),
+    (trk(mass("ball", {1: ("one", 2)})), "whose x is no number"),
+    (trk(mass("ball", POINTS))[:-9], "cannot be read"),
+    (trk(mass("&b;", POINTS), before='<!DOCTYPE a [<!ENTITY b "c">]>'), "document type"),
+    (trk(mass("&b;", POINTS), before='<!DOCTYPE a SYSTEM "file:///etc/hosts">'), "document type"),
+    ("<Document><a/></Document>", "it is XML or HTML"),
+    ("<Document><DataSet></DataSet></Document>", "Logger Pro without numbers"),
+])  # fmt: skip
+def test_xml_that_is_refused(read, content, message):
+    with pytest.raises(FileError, match=message):
+        read(content)
+
+
+def test_xml_that_is_too_large(read, monkeypatch):
+    monkeypatch.setattr("stackbounce.measure.reading.projects._BYTES", 100)
+    with pytest.raises(FileError, match="a file of Tracker larger than"):
+        read(trk(mass("ball", POINTS)))
+
+
+# --- Logger Pro's own files
+
+
+def cmbl(runs):
+    sets = ""
+    for name, columns in runs.items():
+        cells = "".join(
+            f"<DataColumn><DataObjectName>{title}</DataObjectName><ColumnUnits>{unit}</ColumnUnits>"
+            f"<ColumnCells>\n{chr(10).join(map(str, numbers))}\n</ColumnCells></DataColumn>"
+            for title, unit, numbers in columns
+        )
+        sets += f"<DataSet><DataSetName>{name}</DataSetName>{cells}</DataSet>"
+    return f"<Document><Version>3.15</Version>{sets}</Document>"
+
+
+def test_logger_pros_own_file(read):
+    one = [("Time", "s", [0, 0.1, 0.2]), ("Force", "N", [1, 2.5, 3])]
+    two = [("Time", "s", [0, 0.1]), ("Force", "N", [7, 8])]
+    data = read(cmbl({"Run 1": one, "Latest": two}))
+    assert (data.attrs["format"], data.attrs["holds"]) == ("Logger Pro", "waveform")
+    assert data.force.values.tolist() == [1.0, 2.5, 3.0]
+    assert read(cmbl({"Run 1": one, "Latest": two}), run="Latest").force.values.tolist() == [7, 8]
+
+
+def test_a_column_without_a_name_or_unit(read):
+    data = read(cmbl({"Latest": [("Time", "s", [0, 1, 2]), ("", "", [3, 4, 5])]}))
+    assert data["column"].values.tolist() == [3.0, 4.0, 5.0]
+
+
+# --- NumPy
+
+
+def npy(array):
+    content = io.BytesIO()
+    np.save(content, array)
+    return content.getvalue()
+
+
+def test_an_array_is_read_by_what_its_columns_look_like(read):
+    volts = np.sin(np.arange(50.0))
+    data = read(npy(np.stack([1e-4 * np.arange(50), volts], axis=1)))
+    assert (data.attrs["format"], data.attrs["holds"]) == ("NumPy", "waveform")
+    np.testing.assert_array_equal(data.voltage.values, volts)
+    assert read(npy(volts)).attrs["holds"] == "table"
+
+
+def test_records_and_archives_of_arrays_have_names(read):
+    times, force = 0.01 * np.arange(20), np.arange(20.0)
+    records = np.rec.fromarrays([times, force], names="time_ms,force_N")
+    data = read(npy(records))
+    np.testing.assert_allclose(data.time.values, times / 1000.0)
+    packed = io.BytesIO()
+    np.savez_compressed(packed, time=times, force=force.astype(np.int16))
+    data = read(packed.getvalue())
+    assert (data.attrs["format"], data.attrs["holds"]) == ("NumPy", "waveform")
+    np.testing.assert_array_equal(data.force.values, force)
+
+
+def test_a_long_array_in_fortran_order(read):
+    wide = np.stack([1e-4 * np.arange(5000), np.ones(5000)])
+    assert read(npy(wide)).sizes["time"] == 5000
+    assert read(npy(np.asfortranarray(wide.T))).sizes["time"] == 5000
+
+
+@pytest.mark.parametrize(("content", "message"), [
+    (npy(np.array([{"a": 1}], dtype=object)), "save one of plain numbers"),
+    (npy(np.array(["a", "b"])), "save one of plain numbers"),
+    (npy(np.zeros((2, 3, 4))), "save one with rows and columns"),
+    (npy(np.zeros((0, 2))), "empty or cut off"),
+    (npy(np.zeros((9, 2)))[:-8], "empty or cut off"),
+    (npy(np.zeros((9, 2))).replace(b"(9, 2)", b"(9e9,)"), "cannot be read"),
+    (npy(np.zeros((9, 2))).replace(b"(9, 2), }" + 10 * b" ", b"(99999999999, 2), }"), "cut off"),
+    (b"\x93NUMPY\x09\x00", "cannot be read"),
+    (npy(np.zeros((9, 2))).replace(b"(9, 2), }", b"(9, 2), ("), "cannot be read"),
+    (npy(np.full((9, 2), np.nan)), "no column of numbers"),
+])  # fmt: skip
+def test_arrays_that_are_refused(read, content, message):
+    with pytest.raises(FileError, match=message):
+        read(content)

@@ -1,0 +1,216 @@
+"""Hints in messages: each interface says them in words that it accepts."""
+
+import pickle
+import re
+import shlex
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.errors import InvalidValue
+from stackbounce.measure.hints import Hint, Said, about, in_words, joined
+from stackbounce.measure.kinds import KINDS
+from stackbounce.web.answers.records import measure_record
+
+TRACK = "t;x;y\n" + "".join(f"{k / 50};0;{4.9 * (k / 50 - 0.5) ** 2:.4f}\n" for k in range(40))
+
+
+def table(head, *columns):
+    rows = zip(*columns, strict=True)
+    return "\n".join([head] * bool(head) + [",".join(map(str, row)) for row in rows])
+
+
+def wave(count):
+    return np.round(np.sin(np.arange(count)) + 2.0, 3)
+
+
+@pytest.fixture
+def refusal(tmp_path, monkeypatch, capfd):
+    """Return the one line with which the command line refuses a table."""
+    monkeypatch.chdir(tmp_path)
+
+    def refuse(content, *arguments):
+        (tmp_path / "a file.csv").write_text(content)
+        assert main(["measure", "a file.csv", *arguments]) == 2
+        out, err = capfd.readouterr()
+        assert (out, err.count("\n")) == ("", 1)
+        return err
+
+    return refuse
+
+
+def test_a_message_keeps_its_hints_through_all_that_is_done_with_it():
+    said = Said("one; ", Hint({"units": {"x": "cm"}}))
+    error = about("a.csv", InvalidValue(joined("; ", ["first", said])))
+    assert str(error) == "a.csv: first; one; units={'x': 'cm'}"
+    again = pickle.loads(pickle.dumps(error))
+    words = in_words(again.args[0], lambda hint: str(list(hint.options)))
+    assert words == "a.csv: first; one; ['units']"
+    assert pickle.loads(pickle.dumps(said)) == str(said)
+
+
+GUESSES = {
+    "a track": (
+        table("", np.arange(40) / 25, np.arange(40) ** 1.1, wave(40)),
+        "--holds track --column 1=time --column 2=x --column 3=y",
+    ),
+    "heights over time": (
+        table("", np.arange(40) / 25, wave(40)),
+        "--holds track --column 1=time --column 2=y",
+    ),
+    "a waveform": (
+        table("when,A level", np.arange(40) / 1e4, wave(40)),
+        "--holds waveform --column when=time --column 'A level=voltage'",
+    ),
+    "a press": (
+        table("P,D", wave(40), wave(40)[::-1]),
+        "--holds 'press curve' --column P=force --column D=compression",
+    ),
+    "times of knocks": (table("n", np.cumsum(0.8 ** np.arange(9))), "--holds knocks --column"),
+    "heights": (table("value", [100, 60, 40, 20]), "--holds table --column value=y"),
+}
+
+
+@pytest.mark.parametrize(("content", "command"), GUESSES.values(), ids=GUESSES)
+def test_what_is_not_recognised_is_described_and_the_command_is_accepted(
+    refusal, capfd, content, command
+):
+    said = refusal(content)
+    assert "its columns do not tell a kind of measurement: " in said
+    first = next(line for line in content.split("\n") if re.match(r"[\d.]+(,|$)", line))
+    assert f"({float(first.partition(',')[0]):.5g}, " in said
+    assert f": stackbounce measure 'a file.csv' {command}" in said
+    typed = said.partition("stackbounce measure ")[2].partition("; other kinds")[0]
+    code = main(["measure", *shlex.split(typed)])
+    told = capfd.readouterr().err
+    assert code in (0, 2)
+    assert "do not tell a kind" not in told
+    assert "unexpected" not in told
+    assert "--" not in told
+
+
+def test_doubts_are_said_as_the_interface_in_use_says_them(tmp_path, capfd):
+    path = tmp_path / "a.csv"
+    path.write_text(TRACK.replace(";", ","))
+    python = "taken as s, m; units={'t': 'ms', 'x': 'cm', 'y': 'cm'} tells another"
+    assert python in sb.read(path, holds="track").attrs["doubt"]
+    with pytest.raises(InvalidValue, match=re.escape("holds must be what a file holds")):
+        sb.read(path, holds="gold")
+    main(["measure", str(path), "--run", "7"])
+    assert "--run must be one of the 1" in capfd.readouterr().err
+    main(["measure", str(path), "--holds", "gold"])
+    assert "--holds must be what a file holds, got 'gold'" in capfd.readouterr().err
+    main(["measure", str(path), "--column", "z=force"])
+    assert "--column: there is no column 'z'" in capfd.readouterr().err
+    with pytest.raises(InvalidValue, match="“Run” must be one of the 1"):
+        measure_record("a.csv", path.read_bytes(), {"run": "7"})
+    unknown = table("", wave(40), wave(40)[::-1], wave(40)).encode()
+    with pytest.raises(InvalidValue, match="press curve in “Kind of measurement” and 1=force, 2="):
+        measure_record("a.csv", unknown, {})
+
+
+def test_a_doubt_on_the_command_line_is_typed(tmp_path, capfd):
+    force = np.maximum(0.0, np.sin(np.arange(400) / 20.0)) ** 2
+    path = tmp_path / "a.csv"
+    path.write_text(table("t,F", np.arange(400) / 1e4, np.round(force, 4)))
+    assert main(["measure", str(path)]) == 0
+    told = " ".join(capfd.readouterr().out.split())
+    assert "taken as s, N; --unit t=ms --unit F=kN tells another" in told
+
+
+@pytest.mark.parametrize("name", [*KINDS, "press-curve", "Press", "press_curve"])
+def test_every_kind_that_is_offered_is_accepted(name, tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text(table("", np.arange(9) / 100, wave(9)))
+    if name == "bounces":
+        with pytest.raises(InvalidValue, match="only phyphox's"):
+            sb.read(path, holds=name)
+        return
+    wanted = "press curve" if name.casefold().startswith("press") else name
+    assert sb.read(path, holds=name).attrs["holds"] == wanted
+
+
+# --- columns by header or number
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        {1: "time", 3: "y"},
+        {"time": 1, "y": 3},
+        {"a": "time", "c d": "y"},
+        {"time": "a", "y": "c d"},
+        {"time": "a", 3: "y"},
+    ],
+)
+def test_columns_are_named_by_header_or_number_either_way_round(tmp_path, names):
+    path = tmp_path / "a.csv"
+    path.write_text(table("a,b,c d", np.arange(9) / 100, wave(9) + 1, wave(9)))
+    data = sb.read(path, names=names)
+    assert data.attrs["holds"] == "track"
+    np.testing.assert_allclose(data.y.values.ravel(), wave(9))
+    np.testing.assert_allclose(data.time, np.arange(9) / 100)
+
+
+def test_columns_are_named_on_the_command_line_and_in_the_page(tmp_path, capfd):
+    force = np.round(np.maximum(0.0, np.sin(np.arange(400) / 20.0)) ** 2, 4)
+    path = tmp_path / "a.csv"
+    path.write_text(table("a,CH1,CH2", np.arange(400) / 1e4, wave(400), force))
+    options = ["--column", "time=1", "--column", "force=CH2", "--json"]
+    assert main(["measure", str(path), *options]) == 0
+    typed = capfd.readouterr().out
+    assert '"contact 1: peak force"' in typed
+    found = measure_record("a.csv", path.read_bytes(), {"names": "time=1, force=CH2"})
+    assert '"contact 1: peak force"' in found
+
+
+def test_a_named_time_and_a_named_channel_come_before_those_of_the_header(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text(table("time,CH1,CH2,t2", range(9), wave(9), wave(9) + 5, np.arange(9) / 1e3))
+    data = sb.read(path, names={"t2": "time", "CH2": "voltage"})
+    assert float(data.time[-1]) == 8e-3
+    assert float(data.voltage[0]) == 7.0
+    assert float(data.voltage_2[0]) == 2.0
+
+
+# --- nothing internal
+
+
+@pytest.mark.parametrize("head", ["bounce", "Bounce", "impact", "event"])
+def test_a_column_that_counts_bounces_is_no_time_of_them(refusal, tmp_path, head):
+    counts = range(1, 10)
+    assert f"{head!r} (1, 2, 3; rises evenly" in refusal(table(f"{head},e", counts, wave(9)))
+    assert f"{head!r} (1, 2, 3; rises evenly" in refusal(table(head, counts))
+    path = tmp_path / "heights.csv"
+    path.write_text(table(f"{head},height (m)", counts, 0.5 ** np.arange(9)))
+    (found,) = sb.measure.analyse(sb.read(path))
+    assert found.restitutions[0].nominal_value == pytest.approx(0.5**0.5)
+    times = table(f"{head} (s),e", counts, wave(9))
+    path.write_text(times)
+    assert sb.read(path).attrs["holds"] == "knocks"
+
+
+@pytest.mark.filterwarnings("error")
+def test_numbers_that_break_an_analysis_are_refused_with_what_they_are(monkeypatch, tmp_path):
+    from stackbounce.measure import measurement
+
+    def broken(_):
+        np.mean(np.zeros(0))
+        raise np.linalg.LinAlgError("SVD did not converge")
+
+    monkeypatch.setattr(measurement, "analyse", broken)
+    path = tmp_path / "a.csv"
+    path.write_text(table("time (s),force (N)", np.arange(9) / 100, wave(9)))
+    with pytest.raises(InvalidValue) as caught:
+        measurement.measure_file(path, {})
+    assert "its 9 rows cannot be analysed as a waveform, got time from 0 to 0.08 s, force" in str(
+        caught.value
+    )
+    assert "SVD" not in str(caught.value)
+
+
+def test_equal_intervals_are_no_bounces():
+    with pytest.raises(InvalidValue, match="come faster and faster, got 8 equal intervals"):
+        sb.measure.bounces(0.5 * np.arange(9))
