@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from measure.make_files import LOAD, PRESSED
 from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.hints import Hint, Said, about, in_words, joined
 from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.measurement import measure_file
 from stackbounce.web.answers.records import measure_record
 
 TRACK = "t;x;y\n" + "".join(f"{k / 50};0;{4.9 * (k / 50 - 0.5) ** 2:.4f}\n" for k in range(40))
@@ -214,3 +216,10 @@ def test_numbers_that_break_an_analysis_are_refused_with_what_they_are(monkeypat
 def test_equal_intervals_are_no_bounces():
     with pytest.raises(InvalidValue, match="come faster and faster, got 8 equal intervals"):
         sb.measure.bounces(0.5 * np.arange(9))
+
+
+def test_a_press_curve_of_impossible_numbers(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text(table("Compression (mm),Force (N)", 1e-9 * PRESSED, LOAD))
+    with pytest.raises(InvalidValue, match="a press curve must follow a power law in numbers of a"):
+        measure_file(path, {})
