@@ -13,7 +13,6 @@ from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.hints import Hint, Said, about, in_words, joined
 from stackbounce.measure.kinds import KINDS
-from stackbounce.measure.measurement import measure_file
 from stackbounce.web.answers.records import measure_record
 
 TRACK = "t;x;y\n" + "".join(f"{k / 50};0;{4.9 * (k / 50 - 0.5) ** 2:.4f}\n" for k in range(40))
@@ -218,8 +217,30 @@ def test_equal_intervals_are_no_bounces():
         sb.measure.bounces(0.5 * np.arange(9))
 
 
-def test_a_press_curve_of_impossible_numbers(tmp_path):
+def test_a_press_curve_whose_numbers_overflow(tmp_path, monkeypatch):
+    from stackbounce.measure.kinds.press import analysis
+
+    def overflow(*_):
+        raise OverflowError(34, "Numerical result out of range")
+
+    monkeypatch.setattr(analysis, "result_of", overflow)
     path = tmp_path / "a.csv"
-    path.write_text(table("Compression (mm),Force (N)", 1e-9 * PRESSED, LOAD))
-    with pytest.raises(InvalidValue, match="a press curve must follow a power law in numbers of a"):
-        measure_file(path, {})
+    path.write_text(table("Compression (mm),Force (N)", PRESSED, LOAD))
+    with pytest.raises(InvalidValue, match="a press curve must follow a power law in"):
+        sb.measure.analyse(sb.read(path))
+
+
+def test_more_knocks_than_a_ball_can_make_are_refused_at_once():
+    times = np.cumsum(np.random.default_rng(1).uniform(0.1, 0.2, 5000))
+    with pytest.raises(InvalidValue, match="bounces, at most 400, got 5000"):
+        sb.measure.bounces(times)
+
+
+def test_speeds_that_do_not_differ_tell_no_law():
+    from uncertainties import ufloat
+
+    from stackbounce.measure.kinds.bounces.restitution_law import laws_of
+
+    kept = [ufloat(0.7, 0.01) for _ in range(4)]
+    with pytest.raises(InvalidValue, match="impact speeds must differ"):
+        laws_of([2.0] * 4, kept)
