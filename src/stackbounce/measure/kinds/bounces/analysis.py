@@ -15,7 +15,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["bounces"]
 
-_LONGEST = 400  # bounces of one drop
+_LONGEST = 200  # bounces of one drop
 _EQUAL = 1e-9  # of an interval, by which equal ones differ
 
 
