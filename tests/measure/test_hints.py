@@ -10,7 +10,7 @@ import pytest
 import stackbounce as sb
 from measure.make_files import LOAD, PRESSED
 from stackbounce.cli import main
-from stackbounce.errors import InvalidValue
+from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.hints import Hint, Said, about, in_words, joined
 from stackbounce.measure.kinds import KINDS
 from stackbounce.web.answers.records import measure_record
@@ -153,6 +153,17 @@ def test_columns_are_named_by_header_or_number_either_way_round(tmp_path, names)
     assert data.attrs["holds"] == "track"
     np.testing.assert_allclose(data.y.values.ravel(), wave(9))
     np.testing.assert_allclose(data.time, np.arange(9) / 100)
+
+
+def test_a_column_with_the_name_of_a_role_can_have_any_other_name(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text(table("time,x,y", np.arange(9) / 100, wave(9), wave(9)))
+    data = sb.read(path, names={"x": "aside"})
+    assert list(data.data_vars) == ["x", "y", "aside"]
+    with pytest.raises(InvalidValue, match="'c d' is no name, such as 'force'"):
+        sb.read(path, names={1: "c d"})
+    with pytest.raises(InvalidType, match="names must map columns to text"):
+        sb.read(path, names={1: 2})
 
 
 def test_columns_are_named_on_the_command_line_and_in_the_page(tmp_path, capfd):
