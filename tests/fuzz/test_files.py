@@ -15,7 +15,7 @@ def sources():
     return minimal_cases()
 
 
-@pytest.mark.parametrize("count", [24, pytest.param(300, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [12, pytest.param(300, marks=pytest.mark.slow)])
 def test_changed_files_end_in_results_or_in_one_line(sources, tmp_path, count):
     cases = [files.measured(sources, 11, index, tmp_path) for index in range(count)]
     assert [(case.index, case.wrong) for case in cases if case.wrong] == []

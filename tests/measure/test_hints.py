@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from measure.make_files import LOAD, PRESSED
 from stackbounce.cli import main
-from stackbounce.errors import InvalidValue
+from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.hints import Hint, Said, about, in_words, joined
 from stackbounce.measure.kinds import KINDS
 from stackbounce.web.answers.records import measure_record
@@ -154,6 +155,17 @@ def test_columns_are_named_by_header_or_number_either_way_round(tmp_path, names)
     np.testing.assert_allclose(data.time, np.arange(9) / 100)
 
 
+def test_a_column_with_the_name_of_a_role_can_have_any_other_name(tmp_path):
+    path = tmp_path / "a.csv"
+    path.write_text(table("time,x,y", np.arange(9) / 100, wave(9), wave(9)))
+    data = sb.read(path, names={"x": "aside"})
+    assert list(data.data_vars) == ["x", "y", "aside"]
+    with pytest.raises(InvalidValue, match="'c d' is no name, such as 'force'"):
+        sb.read(path, names={1: "c d"})
+    with pytest.raises(InvalidType, match="names must map columns to text"):
+        sb.read(path, names={1: 2})
+
+
 def test_columns_are_named_on_the_command_line_and_in_the_page(tmp_path, capfd):
     force = np.round(np.maximum(0.0, np.sin(np.arange(400) / 20.0)) ** 2, 4)
     path = tmp_path / "a.csv"
@@ -214,3 +226,32 @@ def test_numbers_that_break_an_analysis_are_refused_with_what_they_are(monkeypat
 def test_equal_intervals_are_no_bounces():
     with pytest.raises(InvalidValue, match="come faster and faster, got 8 equal intervals"):
         sb.measure.bounces(0.5 * np.arange(9))
+
+
+def test_a_press_curve_whose_numbers_overflow(tmp_path, monkeypatch):
+    from stackbounce.measure.kinds.press import analysis
+
+    def overflow(*_):
+        raise OverflowError(34, "Numerical result out of range")
+
+    monkeypatch.setattr(analysis, "result_of", overflow)
+    path = tmp_path / "a.csv"
+    path.write_text(table("Compression (mm),Force (N)", PRESSED, LOAD))
+    with pytest.raises(InvalidValue, match="a press curve must follow a power law in"):
+        sb.measure.analyse(sb.read(path))
+
+
+def test_more_knocks_than_a_ball_can_make_are_refused_at_once():
+    times = np.cumsum(np.random.default_rng(1).uniform(0.1, 0.2, 5000))
+    with pytest.raises(InvalidValue, match="bounces, at most 200, got 5000"):
+        sb.measure.bounces(times)
+
+
+def test_speeds_that_do_not_differ_tell_no_law():
+    from uncertainties import ufloat
+
+    from stackbounce.measure.kinds.bounces.restitution_law import laws_of
+
+    kept = [ufloat(0.7, 0.01) for _ in range(4)]
+    with pytest.raises(InvalidValue, match="impact speeds must differ"):
+        laws_of([2.0] * 4, kept)

@@ -41,12 +41,10 @@ class ReadOptions:
         for option, unit in (("frame_rate", "frames per second"), ("scale", "metres per pixel")):
             if getattr(self, option) is not None:
                 positive(option, getattr(self, option), unit)
-        if self.names is not None:
-            object.__setattr__(self, "names", _by_column(self.names))
-        for name in _checked("names", self.names):
-            if not name.isidentifier():
+        for key, name in _checked("names", self.names, (str, int)).items():
+            if key not in ROLES and not str(name).isidentifier():
                 raise InvalidValue(_wrong("names", f": {shown(name)} is no name, such as 'force'"))
-        for unit in _checked("units", self.units):
+        for unit in _checked("units", self.units, (str,)).values():
             if unit != "S" and in_si(unit) is None:
                 told = f": {shown(unit)} is no unit that is known, such as 'mm'"
                 raise InvalidValue(_wrong("units", told))
@@ -65,36 +63,39 @@ def _kind(holds: object) -> str:
     return found
 
 
-def _by_column(given: object) -> object:
-    """Return meanings by columns; they may be given the other way round: ``{"time": 1}``."""
-    if not isinstance(given, Mapping):
-        return given
-    return dict(
-        (value, key)
-        if key in ROLES and isinstance(value, str | int) and value not in ROLES
-        else (key, value)
-        for key, value in given.items()
-    )
-
-
-def _checked(option: str, given: object) -> list[str]:
-    """Return the texts of an option that maps columns to text."""
+def _checked(option: str, given: object, kinds: tuple[type, ...]) -> Mapping[_Key, Any]:
+    """Return an option that maps columns to texts, or to columns."""
     if given is None:
-        return []
+        return {}
     if not isinstance(given, Mapping):
         raise InvalidType(_wrong(option, f" must be a mapping of columns, got {shown(given)}"))
     for key, value in given.items():
-        if not isinstance(key, str | int) or not isinstance(value, str):
+        meant = isinstance(value, str) or (key in ROLES and isinstance(value, kinds))
+        if not isinstance(key, str | int) or not meant:
             told = f" must map columns to text, got {shown({key: value})}"
             raise InvalidType(_wrong(option, told))
-    return list(given.values())
+    return given
+
+
+def _by_column(names: Mapping[_Key, Any], columns: Sequence[Column]) -> dict[_Key, str]:
+    """Return meanings by columns; those given the other way round, ``{"time": 1}``, are turned."""
+
+    def turned(key: _Key, value: _Key) -> bool:
+        if key not in ROLES or value in ROLES:
+            return False
+        return isinstance(value, int) or any(_is(one, value) for one in columns)
+
+    return dict(
+        (value, key) if turned(key, value) else (key, value) for key, value in names.items()
+    )
 
 
 def apply_options(columns: Sequence[Column], told: ReadOptions) -> list[Column]:
     """Return columns with the names and units of the options."""
     found = list(columns)
-    for option, mapping in (("units", told.units), ("names", told.names)):
-        for key, value in (mapping or {}).items():
+    named = _by_column(told.names or {}, columns)
+    for option, mapping in (("units", told.units or {}), ("names", named)):
+        for key, value in mapping.items():
             places = [k for k, one in enumerate(found) if _is(one, key)]
             if not places:
                 known = [one.heading.text or str(one.index + 1) for one in found[:50]]

@@ -15,6 +15,7 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["bounces"]
 
+_LONGEST = 200  # bounces of one drop
 _EQUAL = 1e-9  # of an interval, by which equal ones differ
 
 
@@ -80,6 +81,10 @@ def bounces(
         positive("drop_height", getattr(drop_height, "nominal_value", drop_height), "metres")
     height = drop_height
     moments, missed = _moments(times, time_error, 3 if height is None else 2, notes)
+    if len(moments) > _LONGEST:
+        raise InvalidValue(
+            f"times must be those of one drop's bounces, at most {_LONGEST}, got {len(moments)}"
+        )
 
     def found_at(moments: Sequence[Any]) -> _Found:
         flights = _flights(moments, missed, contact_time)

@@ -6,12 +6,14 @@ from typing import Any, Literal
 
 import numpy as np
 
+from stackbounce.errors import InvalidValue
 from stackbounce.measure.quantities import Array, Number
 from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_with_excess_scatter
 
 __all__ = ["RestitutionLaw", "fit_line", "laws_of"]
 
 _MOST = 0.3  # largest excess scatter of restitutions
+_ALIKE = 1e-6  # part of a speed by which speeds must differ for a line
 
 
 @dataclass(frozen=True)
@@ -62,6 +64,8 @@ def fit_line(
     """
     from uncertainties import umath
 
+    if degree:
+        _differ(speeds)
     x = [umath.log(speed) for speed in speeds] if power else list(speeds)
     y = [umath.log(one) for one in kept] if power else list(kept)
     design = np.vander(
@@ -74,6 +78,13 @@ def fit_line(
         slope = float(fit_with_excess_scatter(design, values, rough, most)[0].values[1])
     residuals = [b - slope * a for a, b in zip(x, y, strict=True)]
     return fit_with_excess_scatter(design, values, covariance_of(residuals), most)
+
+
+def _differ(speeds: Sequence[Any]) -> None:
+    """Refuse speeds of which a line has no slope."""
+    known = [float(getattr(one, "nominal_value", one)) for one in speeds]
+    if max(known) - min(known) < _ALIKE * max(known):
+        raise InvalidValue(f"impact speeds must differ, got {len(known)} of {known[0]:.4g} m/s")
 
 
 def laws_of(

@@ -3,6 +3,8 @@
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from stackbounce.errors import InvalidValue, non_negative, shown, whole
 from stackbounce.measure.kinds.press.branches import Cycle, Record, cycles, record_of
 from stackbounce.measure.kinds.press.notes import sentences
@@ -93,10 +95,17 @@ def press(
 def _press(record: Record, cycle: int | None) -> Press:
     found = cycles(record)
     chosen = _chosen(found, cycle)
-    if len(found[chosen].loading):
-        own = {i: result_of(record, one) for i, one in enumerate(found) if len(one.loading)}
-    else:
-        own = {chosen: unloading_only(record, found[chosen])}
+    try:
+        if len(found[chosen].loading):
+            own = {i: result_of(record, one) for i, one in enumerate(found) if len(one.loading)}
+        else:
+            own = {chosen: unloading_only(record, found[chosen])}
+    except (ArithmeticError, np.linalg.LinAlgError):
+        span = f"{np.ptp(record.compression):.3g} m and {np.ptp(record.force):.3g} N"
+        raise InvalidValue(
+            f"a press curve must follow a power law in numbers of a finite size, got {span}: are "
+            "the columns and their units right?"
+        ) from None
     own = {i: replace(one, cycle=i, cycles=len(found)) for i, one in own.items()}
     result = own.pop(chosen)
     result = replace(result, others=tuple(own.values()))

@@ -84,8 +84,8 @@ def check_time_base(gravity: Number, true: float, frame_rate: float) -> TimeBase
         rates = _rates(frame_rate, sensible)
         clock = f"the video's frame rate is wrong by a factor of {sensible:.3g}{rates}"
     note = (
-        f"{beginning}either {clock} (correct it by frame_rate_factor), or all lengths must be "
-        f"multiplied by {1.0 / value:.3g} (scale). Nothing has been corrected."
+        f"{beginning}either {clock}, or all lengths must be "
+        f"multiplied by {1.0 / value:.3g}. Nothing has been corrected."
     )
     return TimeBase(gravity, ratio, frame_rate, sensible if near else None, False, note)
 

@@ -165,7 +165,7 @@ def flat_top(values: Array, quantum: float) -> bool:
     """
     top = float(values.max())
     step = quantum or 1e-9 * abs(top)
-    at = values > top - 0.5 * step
+    at = values >= top - 0.5 * step  # the top itself, however small the step is
     first, last = runs(at)
     if (last - first + 1).max() < _RUN:
         return False
