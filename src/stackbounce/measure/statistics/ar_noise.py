@@ -12,13 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.statistics.regression import Fit, average_fits
 
 __all__ = [
     "Noise",
     "correlation_factor",
     "difference_noise",
-    "fit_with_ar_noise",
     "linear_prediction_residual",
 ]
 
@@ -27,8 +25,6 @@ _TIMES = 7  # correlation times on the grid, from one point on
 _LONGEST = 0.5  # of the record, the longest correlation time
 _NONE = 1e-6  # a weight that does not count
 _ALMOST_NONE = 1e-9  # degrees of freedom of as many points as parameters
-_TELLING = 8  # degrees of freedom, above which residuals tell a correlation
-_CORRELATIONS = np.linspace(-0.7, 0.98, 57)  # below 0: interlaced frames
 _CHUNK = 1024  # samples over which a linear prediction is learned
 _LAGS = 200
 _ENOUGH = 48  # samples that tell an autocorrelation
@@ -117,53 +113,6 @@ def _mean(
             phi = float(np.exp(-1.0 / time))
             kept[phi] = kept.get(phi, 0.0) + weight * variance * share
     return white, list(kept.items())
-
-
-def fit_with_ar_noise(design: Array, values: Array, apart: Array) -> tuple[Fit, float, float]:
-    """Return the fit of ``values = design @ parameters`` with AR(1) errors of unknown correlation.
-
-    Generalised least squares are done for each correlation on a grid and averaged, weighted by its
-    restricted likelihood (D. Harville, J. Am. Stat. Assoc. 72, 320, 1977), so that the covariance
-    includes the uncertainty of the correlation. Few points are taken as uncorrelated.
-
-    Parameters
-    ----------
-    design, values : ndarray
-        (N, P) and (N,).
-    apart : ndarray
-        (N,) steps between a point and the one before it, infinite where a new series begins.
-
-    Returns
-    -------
-    fit : Fit
-    sigma : float
-        Standard deviation of an error.
-    correlation : float
-        Of errors that are one step apart.
-
-    Examples
-    --------
-    >>> noise = np.random.default_rng(1).normal(0.0, 1.0, 4000)
-    >>> for k in range(1, 4000):
-    ...     noise[k] = 0.8 * noise[k - 1] + 0.6 * noise[k]
-    >>> fit, sigma, correlation = fit_with_ar_noise(np.ones((4000, 1)), noise, np.ones(4000))
-    >>> round(sigma, 1), round(correlation, 1)
-    (1.0, 0.8)
-    """
-    count = len(values) - design.shape[1]
-    tried = _CORRELATIONS if count > _TELLING else np.zeros(1)
-    rough = np.linalg.lstsq(design, values, rcond=None)[0]
-    rest = values - design @ rough  # small numbers, whose squares lose no digits
-    fits = [_fit(design, rest, phi**apart, 1.0) for phi in tried]
-    each, spreads, likelihoods, variances = (np.array(one) for one in zip(*fits, strict=True))
-    score = likelihoods + np.log(1.0 - tried**2)  # the prior: strong correlations are rare
-    weights = np.exp(score - score.max())
-    weights /= weights.sum()
-    fitted = average_fits(weights, each, spreads)
-    sigma = float(np.exp(0.5 * (weights @ np.log(variances))))
-    squares = float(weights @ variances) * max(count, _ALMOST_NONE)
-    fit = Fit(rough + fitted[0], fitted[1], squares, count)
-    return fit, sigma, float(weights @ tried)
 
 
 def linear_prediction_residual(

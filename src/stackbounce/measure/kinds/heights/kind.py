@@ -3,9 +3,12 @@
 from typing import Any
 
 from stackbounce.errors import InvalidValue
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kind import Kind
 
 __all__ = ["TABLE"]
+
+_MANY = 100  # heights of one drop
 
 
 def _analyse(data: Any, **known: Any) -> Any:
@@ -15,7 +18,28 @@ def _analyse(data: Any, **known: Any) -> Any:
         from stackbounce.measure.unrecognised import unrecognised
 
         raise InvalidValue(unrecognised(data, KINDS))
-    return _of_numbers(heights=data["y"].values.tolist(), **known)
+    heights = data["y"].values.tolist()
+    if not known.get("repeated"):
+        _check_fall(heights)
+    return _of_numbers(heights=heights, **known)
+
+
+def _check_fall(heights: list[float]) -> None:
+    """Refuse a column in which heights rise, but for that of a stack's upper ball."""
+    rises = [k for k in range(1, len(heights)) if heights[k] > heights[k - 1]]
+    if len(heights) > _MANY or [k for k in rises if k > 1]:
+        at = max(rises, default=0)
+        rise = f", {heights[at]:.4g} m after {heights[at - 1]:.4g} m in row {at + 1}" * bool(rises)
+        raise InvalidValue(
+            Said(
+                "a table of heights must hold those of one ball's bounces, each below the one "
+                f"before and up to {_MANY} of them, got {len(heights)} heights{rise}: positions "
+                "over time are a track, ",
+                Hint({"holds": "track"}),
+                ", and drops that are repeated need ",
+                Hint({"repeated": None}),
+            )
+        )
 
 
 def _of_numbers(

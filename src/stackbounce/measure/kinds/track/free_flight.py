@@ -128,7 +128,9 @@ def what_is_seen(times: Array, heights: Array, axis: str, gravity: float | None)
     usual = _usual_acceleration(times, heights)
     if gravity is not None and not _RATIO[0] < usual / gravity < _RATIO[1]:
         return _other(usual, gravity, axis)
-    return "no two flights that meet at a floor: is the axis right, and the frame rate high enough?"
+    return (
+        "no free flights that meet at a floor: is the axis right, and the frame rate high enough?"
+    )
 
 
 def _falls(fall: float, error: float, gravity: float, rate: float) -> bool:

@@ -11,6 +11,8 @@ from stackbounce.measure.quantities import Array
 __all__ = ["notes_of", "stays_long", "uneven"]
 
 _CORRELATED = 0.2
+_BENT = 0.05  # of the acceleration within a flight: a smaller change is not mentioned
+_OFF = 0.07  # of that change: by so much a restitution is off, in simulated distortions
 _NOTICED = 1.0  # error of a speed, beyond which it is said to be off
 
 
@@ -66,11 +68,17 @@ def stays_long(
 
 
 def uneven(name: str, shape: Shape) -> tuple[str, ...]:
-    """Return a note where flights have accelerations of their own."""
-    if shape.widening <= 1.0:
-        return ()
-    note = (
-        f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a lens "
-        "or the distance to the camera changes the scale; the errors are widened for it"
-    )
-    return (note,)
+    """Return notes where the acceleration differs between flights, or changes within them."""
+    notes = []
+    if shape.widening > 1.0:
+        notes.append(
+            f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a "
+            "lens or the distance to the camera changes the scale; the errors are widened for it"
+        )
+    if abs(shape.change) > max(_BENT, 4.0 * shape.change_error):
+        notes.append(
+            f"{name}: within its flights the acceleration changes by {shape.change:+.0%}, as where "
+            "a lens or air changes it; restitutions may be off by "
+            f"{_OFF * abs(shape.change):.1g}, beyond their errors"
+        )
+    return tuple(notes)

@@ -31,6 +31,7 @@ __all__ = ["waveform"]
 
 _MARGIN = 0.2  # of a contact's length, on each side of it, that does not count as quiet
 _ROUNDS = 4
+_MANY = 120  # contacts of a record of bounces
 _FEW = 6  # samples of a contact, below which a note says so
 _UNDERSHOOT = 5.0  # standard errors of the step of the baseline
 _STEEP, _SURELY = 0.85, 3.0  # an exponent too small for any spring; standard errors below 1
@@ -126,6 +127,12 @@ def waveform(
     if time_constant is not None:
         record = _undrooped(record, seen, time_constant)
         seen = _see(record, raw, threshold, sign)
+    if len(seen.stretches) > _MANY:
+        raise InvalidValue(
+            f"data must hold the contacts of a bounce or of a few, up to {_MANY}, got "
+            f"{len(seen.stretches)} stretches above the noise: an oscillation, or a record that "
+            "is to be cut to the bounces?"
+        )
     around = [None, *seen.stretches, None]
     contacts = tuple(
         measure_contact(seen, around[k], one, around[k + 2], ends)

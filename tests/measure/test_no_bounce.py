@@ -1,0 +1,196 @@
+"""What is no bounce is said to be none, in a time that grows with the record, not faster."""
+
+import time
+
+import numpy as np
+import pytest
+import xarray as xr
+
+import stackbounce as sb
+from motions import TRACKS, G, jumps, rectified_sine, swings
+from stackbounce.errors import InvalidValue
+from stackbounce.measure import accelerometer, analyse
+from stackbounce.measure.kinds.track.analysis import track
+from stackbounce.synthetic.accelerometer import accelerometer as record_of
+from stackbounce.synthetic.falls import falls
+from stackbounce.synthetic.track import track as tracked
+
+FALL = falls(1.0, 0.8)
+LAW = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.012, restitution=0.6)
+
+
+def in_pixels(data, scale):
+    """Return a track in pixels by frames."""
+    there = {name: (data[name].dims, data[name].values / scale, {"units": "px"}) for name in "xy"}
+    frames = ("time", np.arange(data.sizes["time"]) * 1.0, {"units": "frame"})
+    return xr.Dataset(there, {"time": frames, "track": data.track})
+
+
+@pytest.mark.parametrize("name", TRACKS)
+def test_what_does_not_fly_freely_and_bounce(name):
+    make, words = TRACKS[name]
+    with pytest.raises(InvalidValue, match=words):
+        track(make())
+
+
+@pytest.mark.parametrize("name", ["rectified sine", "pendulum", "bowl", "throw", "coaster"])
+def test_neither_where_the_scale_is_unknown(name):
+    times, heights = TRACKS[name][0]()
+    data = xr.Dataset(
+        {"y": ("time", 500.0 * heights, {"units": "px"})},
+        {"time": ("time", np.arange(len(times)) * 1.0, {"units": "frame"})},
+    )
+    with pytest.raises(InvalidValue, match="must hold a ball that falls and bounces"):
+        track(data)
+
+
+def test_a_bounce_in_pixels_and_frames_is_one():
+    data = tracked(FALL, down=True, seed=2)
+    found = track(in_pixels(data, 2e-3))
+    assert _values(found) == pytest.approx([0.8] * 3, abs=0.005)
+
+
+def _values(found):
+    return [one.nominal_value for one in found.balls[0].restitutions]
+
+
+@pytest.mark.parametrize("scale", [0.8, 1.2, 1.4, 100.0, 1000.0])
+def test_a_wrong_scale_is_warned_of_not_refused(scale):
+    found = track(tracked(FALL, seed=2) * scale)
+    assert not found.time_base.agrees
+    assert _values(found)[0] == pytest.approx(0.8, abs=0.005)
+
+
+def test_an_incline_needs_its_own_gravity():
+    data = tracked(falls(0.3, 0.8, gravity=2.3), frame_rate=57.0, seed=2)
+    with pytest.raises(InvalidValue, match=r"along y are 2\.3 m/s.2 .* --gravity tells how fast"):
+        track(data)
+    assert _values(track(data, gravity=2.3))[0] == pytest.approx(0.8, abs=0.01)
+
+
+def test_an_elastic_bounce_is_no_gain():
+    found = track(tracked(falls(1.0, 1.0, bounces=3), until=1.6, noise=5e-3, seed=1))
+    assert _values(found)[0] == pytest.approx(1.0, abs=0.01)
+
+
+@pytest.mark.parametrize("bend", [0.1, 0.03, -0.05])
+def test_a_lens_is_told(bend):
+    data = tracked(FALL, frame_rate=240.0, noise=1e-4, seed=1)
+    data["y"] = data.y * (1.0 + bend * data.y)
+    found = track(data)
+    (note,) = [one for one in found.notes if "restitutions may be off by" in one]
+    off = float(note.split("off by ")[1].split(",")[0])
+    assert abs(_values(found)[0] - 0.8) < 1.5 * off < 0.05
+
+
+def test_a_straight_scale_has_no_lens():
+    assert not any("lens" in note for note in track(tracked(FALL, seed=1)).notes)
+
+
+@pytest.mark.parametrize("period", [0.4, 2.0])
+def test_twenty_thousand_rows_take_seconds(period):
+    began = time.process_time()
+    with pytest.raises(InvalidValue, match="must hold a ball"):
+        track(rectified_sine(20_000, period=period))
+    assert time.process_time() - began < 10.0
+
+
+def test_a_very_long_track_is_shortened_and_says_so():
+    data = tracked(FALL, frame_rate=20_000.0, until=1.2, seed=1)
+    found = track(data)
+    assert any("means of 2 neighbouring points" in note for note in found.notes)
+    assert _values(found)[0] == pytest.approx(0.8, abs=1e-3)
+
+
+def without_g(times, size):
+    return xr.Dataset(
+        {"acceleration_absolute": ("time", size, {"units": "m/s^2"})},
+        {"time": ("time", times, {"units": "s"})},
+        {"holds": "acceleration", "format": "acceleration without g"},
+    )
+
+
+def test_a_swung_phone_and_a_jump():
+    for data in (without_g(*swings()), swings(), jumps()):
+        with pytest.raises(InvalidValue, match="what swings"):
+            accelerometer(data)
+
+
+@pytest.mark.parametrize("rate", [100.0, 200.0, 1000.0])
+def test_a_fall_without_g(rate):
+    true = falls(0.8, LAW, mass=0.2, bounces=4)
+    found = accelerometer(record_of(true, rate=rate, linear=True, full_range=4e3, seed=4))
+    assert abs(found.drop_height.nominal_value - 0.8) < 3.5 * found.drop_height.std_dev
+    assert [one.nominal_value for one in found.restitutions] == pytest.approx([0.6] * 3, abs=0.05)
+    assert any("record the acceleration with g" in note for note in found.notes)
+
+
+def test_linear_acceleration_is_told_by_its_rest():
+    record = record_of(falls(0.8, LAW, mass=0.2, bounces=4), linear=True, before=1.5, seed=4)
+    record.attrs["format"] = "table of numbers"
+    assert accelerometer(record).mean.nominal_value == pytest.approx(0.6, abs=0.02)
+
+
+def test_a_fall_to_the_end_of_the_record():
+    record = record_of(falls(1.5, LAW, mass=0.2), linear=True, seed=1)
+    cut = record.isel(time=record.time.values < 0.5 + 0.5)
+    with pytest.raises(InvalidValue, match=r"one free flight of 0\.\d+ s .* lacks the bounce"):
+        accelerometer(cut)
+
+
+def test_a_soft_pulse_is_no_bounce():
+    times = np.arange(0.0, 3.0, 0.005)
+    size = np.where((times > 1.0) & (times < 2.0), 0.3, G)
+    size[(times > 1.5) & (times < 1.56)] = 1.3 * G
+    with pytest.raises(InvalidValue, match="above 2 g"):
+        accelerometer((times, size))
+    size[(times > 1.5) & (times < 1.56)] = 15.0 * G
+    assert len(accelerometer((times, size)).restitutions) == 1
+
+
+def test_a_gain_is_refused():
+    times = np.arange(0.0, 3.0, 0.005)
+    size = np.full(len(times), G)
+    size[(times > 1.0) & (times < 1.2)] = 0.2
+    size[(times > 1.2) & (times < 1.22)] = 200.0
+    size[(times > 1.22) & (times < 1.9)] = 0.2
+    with pytest.raises(InvalidValue, match="nothing rebounds faster than it came"):
+        accelerometer((times, size))
+
+
+def test_a_machine_is_refused():
+    times = np.arange(200_000) / 100.0
+    with pytest.raises(InvalidValue, match="bounces, more than one drop has"):
+        accelerometer((times, np.where(times % 0.1 < 0.08, 0.2, 50.0)))
+
+
+def heights_of(values):
+    return xr.Dataset({"y": ("row", values)}, attrs={"holds": "table"})
+
+
+def test_a_column_of_positions_is_no_table_of_heights():
+    with pytest.raises(InvalidValue, match=r"up to 100 of them, got 325 heights"):
+        analyse(heights_of(np.full(325, 39.0)))
+    with pytest.raises(InvalidValue, match=r"0\.9 m after 0\.5 m in row 4"):
+        analyse(heights_of([1.0, 0.7, 0.5, 0.9]))
+    assert analyse(heights_of([1.0, 0.7, 0.5, 0.9]), repeated=True)[0].repeated
+    assert analyse(heights_of([1.0, 1.4]))[0].restitutions[0].nominal_value > 1.0
+
+
+def test_kilometres_are_no_heights(tmp_path):
+    path = tmp_path / "way.csv"
+    rows = "\n".join(f"{k},{0.01 * k},{15 + k % 3}" for k in range(30))
+    path.write_text(f'"Time (s)","Distance (km)","Altitude (m)"\n{rows}\n', encoding="utf-8")
+    assert sb.read(path).attrs["holds"] != "track"
+
+
+def test_an_oscillation_has_too_many_contacts():
+    times = np.arange(20_000) * 1e-4
+    data = xr.Dataset(
+        {"force": ("time", np.abs(np.sin(2000.0 * times)), {"units": "N"})},
+        {"time": ("time", times, {"units": "s"})},
+        {"holds": "waveform"},
+    )
+    data["force"] += np.random.default_rng(1).normal(0.0, 0.01, len(times))
+    with pytest.raises(InvalidValue, match=r"up to 120, got 1[0-9]+ stretches above the noise"):
+        analyse(data)
