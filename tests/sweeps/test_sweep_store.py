@@ -1,11 +1,13 @@
 """Sweeps larger than memory: killed and resumed to the same bytes, on a cluster, lazily."""
 
+import errno
 import hashlib
 import os
 import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import dask.array as da
 import numpy as np
@@ -181,19 +183,122 @@ def test_a_sweep_goes_on_with_the_blocks_it_began_with(whole, tmp_path):
     assert digest(write(out, DROP, grid(DROP, OVER), block=100)) == whole[1]
 
 
-@pytest.mark.fast_cases(1)
-@pytest.mark.parametrize("log", [None, "", "3 2"])
-def test_killed_before_the_file_was_all_there_it_begins_anew(whole, tmp_path, log):
-    out = tmp_path / whole[0].name
-    partial = tmp_path / f"{out.name}.partial"
+def begun(out, log):
+    """Write what a writer leaves that is killed while it makes the file."""
+    partial = out.with_name(f"{out.name}.partial")
     if out.suffix == ".zarr":
         partial.mkdir()
         (partial / ".zattrs").write_text("{")
     else:
         partial.write_bytes(b"half a file")
     if log is not None:
-        (tmp_path / f"{out.name}.progress").write_text(log)
+        out.with_name(f"{out.name}.progress").write_text(log)
+
+
+@pytest.mark.fast_cases(1)
+@pytest.mark.parametrize("log", ["# process 1 on x since then\n", "# process 1 on x\n3 2"])
+def test_killed_before_the_file_was_all_there_it_begins_anew(whole, tmp_path, log):
+    out = tmp_path / whole[0].name
+    begun(out, log)
     assert digest(write(out, DROP, grid(DROP, OVER), block=64)) == whole[1]
+
+
+@pytest.mark.fast_cases(1)
+@pytest.mark.parametrize("log", [None, "", "3 2"])
+def test_what_this_program_did_not_make_is_left_alone(whole, tmp_path, log):
+    out = tmp_path / whole[0].name
+    begun(out, log)
+    kept = [path for path in sorted(tmp_path.rglob("*")) if path.suffix != ".progress"]
+    with pytest.raises(sb.StackbounceError, match=r"partial exists, and no map\..*\.progress says"):
+        write(out, DROP, grid(DROP, OVER), block=64)
+    assert [path for path in sorted(tmp_path.rglob("*")) if path.suffix != ".progress"] == kept
+
+
+@pytest.mark.parametrize("junk", ["junk\n", "# w\n3 2\n1 2\n", "# w\n3 2\nx\n", "\0\xff\n"])
+def test_a_damaged_log_is_named(tmp_path, junk):
+    out = tmp_path / "map.zarr"
+    log = tmp_path / "map.zarr.progress"
+    log.write_bytes(junk.encode("latin-1"))
+    with pytest.raises(sb.StackbounceError, match=r"map\.zarr\.progress is damaged"):
+        write(out, DROP, grid(DROP, OVER), block=64)
+    assert log.read_bytes() == junk.encode("latin-1")
+
+
+def test_one_process_writes_at_a_time(whole, tmp_path):
+    out = tmp_path / whole[0].name
+    command = [sys.executable, slow_sweep.__file__, str(out)]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        process.stdout.readline()
+        words = rf"is being written by process {process.pid} on .* since \d{{4}}-.*: wait until"
+        with pytest.raises(sb.StackbounceError, match=words):
+            write(out, DROP, grid(DROP, OVER), block=64)
+        process.communicate(timeout=60)
+    assert process.returncode == 0
+    assert digest(out) == whole[1]
+    assert list(tmp_path.iterdir()) == [out]
+
+
+def damaged(chunk):
+    chunk.write_bytes(chunk.read_bytes()[:7])
+
+
+@pytest.mark.parametrize("harm", [Path.unlink, damaged])
+def test_a_block_that_is_lost_is_computed_again(tmp_path, harm):
+    out = write(tmp_path / "map.zarr", DROP, grid(DROP, OVER), block=64)
+    whole, blocks = digest(out), []
+    harm(out / "rebound_ratio" / "2.0.0")
+    harm(out / "status" / "4.0")
+    with pytest.warns(UserWarning, match=r"map.zarr: 2 of 10 blocks are missing or damaged"):
+        write(out, DROP, grid(DROP, OVER), block=64, progress=lambda *now: blocks.append(now[0]))
+    assert blocks == [480, 540, 600]
+    assert digest(out) == whole
+    assert list(tmp_path.iterdir()) == [out]
+
+
+def test_chunks_of_one_value_are_there(tmp_path):
+    """No ball touches the other: all of a chunk is nan, zarr's value of what is not written."""
+    drop = sb.Drop([sb.Ball(0.1), sb.Ball(1.0)], [sb.Spring(1e3)] * 2, velocities=[-1.0, 0.0])
+    out = write(tmp_path / "map.zarr", drop, {"gaps.0": np.array([0.5, 1.0])}, until=0.01)
+    calls = []
+    write(
+        out,
+        drop,
+        {"gaps.0": np.array([0.5, 1.0])},
+        until=0.01,
+        progress=lambda *now: calls.append(now),
+    )
+    assert calls == [(2, 2)]
+
+
+def test_a_complete_file_is_read_where_nothing_can_be_written(whole, monkeypatch):
+    def refuse(*_, **__):
+        raise PermissionError
+
+    monkeypatch.setattr(os, "open", refuse)
+    assert write(whole[0], DROP, grid(DROP, OVER), block=64) == whole[0]
+
+
+def test_a_file_that_cannot_be_read_is_named(tmp_path):
+    pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
+    out = write(tmp_path / "map.nc", DROP, grid(DROP, OVER), block=64)
+    os.truncate(out, out.stat().st_size // 2)
+    with pytest.raises(sb.StackbounceError, match=r"map\.nc exists, and cannot be read"):
+        write(out, DROP, grid(DROP, OVER), block=64)
+
+
+def test_netcdf_on_a_full_disk(tmp_path, monkeypatch):
+    pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
+
+    def full(*_):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    out = tmp_path / "map.nc"
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "posix_fallocate", full, raising=False)
+        with pytest.raises(sb.StackbounceError, match="cannot be written: No space left on"):
+            write(out, DROP, grid(DROP, OVER), block=64)
+    write(out, DROP, grid(DROP, OVER), block=64)
+    assert list(tmp_path.iterdir()) == [out]
 
 
 @pytest.mark.parametrize("kind", KINDS)

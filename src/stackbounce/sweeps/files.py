@@ -7,7 +7,9 @@ the bytes depend on the order of writing.
 """
 
 import contextlib
+import errno
 import math
+import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -18,13 +20,14 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.extras import need
-from stackbounce.run.blocks import Block
+from stackbounce.run.blocks import Block, blocks
 
 if TYPE_CHECKING:
     import xarray as xr
 
 __all__ = ["Form", "Format", "format_of"]
 
+_HEADER = 2**20  # bytes of a NetCDF file besides its results, about
 Writer: TypeAlias = Callable[[Block, "xr.Dataset"], None]
 
 
@@ -48,6 +51,7 @@ class Form:
         self.results = {str(name): one for name, one in sample.data_vars.items()}
         self.coordinates = {str(name): one for name, one in sample.coords.items()}
         self.values = {name: one.values for name, one in self.coordinates.items()} | dict(axes)
+        self.grid = tuple(len(axis) for axis in axes.values())
         self.sides = tuple(sides)
 
     def shape(self, one: "xr.DataArray") -> tuple[int, ...]:
@@ -77,6 +81,9 @@ class Format(Protocol):
 
     def opened(self, path: Path) -> "xr.Dataset":
         """Open a file; numbers are read lazily."""
+
+    def lost(self, path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:
+        """Return the sides of a block, and the numbers of the blocks that cannot be read."""
 
     def remove(self, path: Path) -> None:
         """Remove a file."""
@@ -109,19 +116,35 @@ class _Zarr:
 
         for leftover in path.rglob("*.partial"):  # of a chunk that was being written
             leftover.unlink()
-        group: Any = zarr.open_group(path, mode="r+")
-        arrays = dict(group.arrays())
+        with zarr.config.set({"array.write_empty_chunks": True}):  # a chunk that lacks is lost
+            group: Any = zarr.open_group(path, mode="r+")
+            arrays = dict(group.arrays())
 
-        def write(block: Block, data: "xr.Dataset") -> None:
-            for name, one in data.data_vars.items():
-                arrays[name][block] = one.values
+            def write(block: Block, data: "xr.Dataset") -> None:
+                for name, one in data.data_vars.items():
+                    arrays[name][block] = one.values
 
-        yield write
+            yield write
 
     def opened(self, path: Path) -> "xr.Dataset":
         import xarray as xr
 
         return xr.open_dataset(path, engine="zarr", chunks=None)
+
+    def lost(self, path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:
+        import zarr
+
+        group: Any = zarr.open_group(path, mode="r")
+        arrays = {name: group[name] for name in form.results}
+        sides = next(iter(arrays.values())).chunks[: len(form.grid)]
+        lost = []
+        for number, block in enumerate(blocks(form.grid, sides)):
+            place = [side.start // length for side, length in zip(block, sides, strict=True)]
+            if not all(
+                _is_there(path / name, array, place, block) for name, array in arrays.items()
+            ):
+                lost.append(number)
+        return sides, lost
 
     def remove(self, path: Path) -> None:
         shutil.rmtree(path)
@@ -133,6 +156,9 @@ class _NetCDF:
     def create(self, path: Path, form: Form) -> None:
         import h5netcdf
 
+        numbers = sum(math.prod(form.shape(one)) for one in form.results.values())
+        _reserve(path, 8 * numbers + _HEADER)  # HDF5 crashes where the disk is full
+        path.unlink()
         with h5netcdf.File(path, "w") as file:
             file.attrs.update(form.attrs)
             file.dimensions = {name: len(values) for name, values in form.values.items()}
@@ -148,6 +174,7 @@ class _NetCDF:
                     array[...] = form.values[name]
                 elif math.prod(array.shape):  # its place in the file is settled here
                     array[(0,) * array.ndim] = 0
+        _reserve(path, path.stat().st_size)
 
     @contextlib.contextmanager
     def writer(self, path: Path) -> Iterator[Writer]:
@@ -167,8 +194,32 @@ class _NetCDF:
 
         return xr.open_dataset(path, engine="h5netcdf", chunks=None)
 
+    def lost(self, path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:  # noqa: ARG002
+        return form.sides, []  # of one file, all can be read or nothing
+
     def remove(self, path: Path) -> None:
         path.unlink()
+
+
+def _is_there(folder: Path, array: Any, place: Sequence[int], block: Block) -> bool:
+    """Return whether a chunk of an array is there and can be read."""
+    indices = [*place, *[0] * (array.ndim - len(place))] or [0]
+    if not (folder / ".".join(map(str, indices))).is_file():
+        return False
+    try:
+        array[block]
+    except (OSError, RuntimeError, ValueError):  # of the file, or of what decompresses it
+        return False
+    return True
+
+
+def _reserve(path: Path, size: int) -> None:
+    """Reserve the room for a file on the disk, as far as the system can."""
+    with path.open("ab") as file:
+        if hasattr(os, "posix_fallocate"):
+            os.posix_fallocate(file.fileno(), 0, size)
+        elif shutil.disk_usage(path.parent).free < size:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 _FORMATS: dict[str, Format] = {".zarr": _Zarr(), ".nc": _NetCDF()}

@@ -1,13 +1,14 @@
 """A sweep larger than memory, written to a file block by block; it can be stopped and resumed.
 
-Until it is complete the file is called ``NAME.partial``. The file ``NAME.progress`` beside it holds
-the sides of a block in its first line, and the number of each block written in the lines after it.
-The final bytes do not depend on how often the sweep was stopped.
+Until it is complete the file is called ``NAME.partial``. The file ``NAME.progress`` beside it says
+which blocks are written, and by whom (`progress`): one process writes at a time. The final bytes do
+not depend on how often the sweep was stopped. A file that is complete has all its blocks, and each
+can be read; those that cannot are computed again.
 """
 
 import contextlib
 import math
-import os
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import CancelledError
 from pathlib import Path
@@ -21,6 +22,7 @@ from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
 from stackbounce.sweeps.dataset import check_axis, sweep
 from stackbounce.sweeps.files import Form, Format, format_of
+from stackbounce.sweeps.progress import Progress, only_writer
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -77,7 +79,8 @@ def write(
     InvalidValue, InvalidType
         As in `sweep`; or the name ends in something else.
     FileError
-        If the file cannot be written, or another sweep has its name; or if the cluster fails.
+        If the file cannot be written, another sweep has its name, or another process writes it; or
+        if the cluster fails.
 
     Examples
     --------
@@ -99,24 +102,28 @@ def write(
     first = sweep(drop, {path: axis[:1] for path, axis in values.items()}, **options)
     form = Form(first, values, sides(shape, block))
     total = math.prod(shape)
-    partial, log = out.with_name(f"{out.name}.partial"), out.with_name(f"{out.name}.progress")
     try:
-        if _is_complete(out, kind, form, log):
+        if _is_complete(out, kind, form):
             tell(total, total)
             return out
-        cut, done = _begin(partial, kind, form, log)
-        finished = sum(size(one) for k, one in enumerate(blocks(shape, cut)) if k in done)
-        tell(finished, total)
-        todo = ((k, one) for k, one in enumerate(blocks(shape, cut)) if k not in done)
-        with kind.writer(partial) as put, log.open("a", encoding="ascii") as lines:
-            for k, one, data in _solved(drop, values, todo, options, client):
-                put(one, data)
-                lines.write(f"{k}\n")
-                lines.flush()
-                finished += size(one)
-                tell(finished, total)
-        partial.rename(out)
-        log.unlink()
+        with only_writer(out) as log:
+            if _is_complete(out, kind, form):  # by now
+                log.remove()
+                tell(total, total)
+                return out
+            partial = _begin(out, kind, form, log)
+            cut = list(enumerate(blocks(shape, log.sides or ())))
+            finished = sum(size(one) for k, one in cut if k in log.done)
+            tell(finished, total)
+            todo = ((k, one) for k, one in cut if k not in log.done)
+            with kind.writer(partial) as put:
+                for k, one, data in _solved(drop, values, todo, options, client):
+                    put(one, data)
+                    log.add(k)
+                    finished += size(one)
+                    tell(finished, total)
+            partial.rename(out)
+            log.remove()
     except FileError:
         raise
     except OSError as error:
@@ -133,41 +140,61 @@ def _tell_nobody(done: int, total: int) -> None:
     pass
 
 
-def _is_complete(out: Path, kind: Format, form: Form, log: Path) -> bool:
+def _is_complete(out: Path, kind: Format, form: Form) -> bool:
     """Return whether the complete file of this sweep exists; raise if it holds another sweep."""
     if not out.exists():
         return False
     if not _is_same(out, kind, form):
         raise FileError(f"{out} exists, and is not this sweep: remove it or choose another name")
-    log.unlink(missing_ok=True)
-    return True
+    return not kind.lost(out, form)[1]
 
 
-def _begin(partial: Path, kind: Format, form: Form, log: Path) -> tuple[tuple[int, ...], set[int]]:
-    """Create the partial file, or resume it; return the shape of a block and the blocks done."""
-    lines = log.read_text("ascii").splitlines(keepends=True) if log.exists() else []
-    whole = [line for line in lines if line.endswith("\n")]  # the last one may be half written
-    if whole and partial.exists():
-        if not _is_same(partial, kind, form):
-            raise FileError(
-                f"{partial} is part of another sweep: remove it and {log.name}, "
-                "or choose another name"
-            )
-        os.truncate(log, sum(map(len, whole)))
-        return tuple(map(int, whole[0].split())), {int(line) for line in whole[1:]}
-    if partial.exists():  # stopped while it was being made
-        kind.remove(partial)
-    kind.create(partial, form)
-    log.write_text(" ".join(map(str, form.sides)) + "\n", "ascii")
-    return form.sides, set()
+def _begin(out: Path, kind: Format, form: Form, log: Progress) -> Path:
+    """Create the partial file, or resume it, or take blocks that are lost out of the whole one."""
+    partial = out.with_name(f"{out.name}.partial")
+    if partial.exists() and not log.is_known:
+        log.remove()
+        raise FileError(
+            f"{partial} exists, and no {out.name}.progress says what it is: "
+            "move it away, or choose another name"
+        )
+    if out.exists() and not partial.exists():
+        sides, lost = kind.lost(out, form)
+        count = sum(1 for _ in blocks(form.grid, sides))
+        warnings.warn(
+            f"{out}: {len(lost)} of {count} blocks are missing or damaged, and computed again",
+            stacklevel=3,
+        )
+        log.begin(sides, set(range(count)) - set(lost))
+        out.rename(partial)
+    elif log.sides is None or not partial.exists():  # stopped while it was being made
+        log.sign()
+        if partial.exists():
+            kind.remove(partial)
+        kind.create(partial, form)
+        log.begin(form.sides)
+    elif not _is_same(partial, kind, form):
+        raise FileError(
+            f"{partial} is part of another sweep: remove it and {out.name}.progress, "
+            "or choose another name"
+        )
+    else:
+        log.sign()
+    return partial
 
 
 def _is_same(path: Path, kind: Format, form: Form) -> bool:
+    """Return whether a file is of this sweep; raise if it cannot be read."""
     try:
         with kind.opened(path) as found:
             return form.is_of(found)
-    except (KeyError, ValueError, OSError):
+    except (KeyError, ValueError):
         return False
+    except OSError as error:
+        raise FileError(
+            f"{path} exists, and cannot be read ({' '.join(str(error).split())[:100]}): "
+            "remove it or choose another name"
+        ) from error
 
 
 def solve_block(drop: Drop, values: Grid, options: Mapping[str, Any]) -> "xr.Dataset":
