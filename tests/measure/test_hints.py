@@ -54,8 +54,8 @@ def test_a_message_keeps_its_hints_through_all_that_is_done_with_it():
 
 GUESSES = {
     "a track": (
-        table("", np.arange(40) / 25, np.arange(40) ** 1.1, wave(40)),
-        "--holds track --column 1=time --column 2=x --column 3=y",
+        table("when,A,B", np.arange(40) / 25, np.arange(40) ** 1.1, wave(40)),
+        "--holds track --column when=time --column A=x --column B=y",
     ),
     "heights over time": (
         table("", np.arange(40) / 25, wave(40)),

@@ -6,6 +6,7 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
+from stackbounce.measure.hints import Said
 from stackbounce.measure.kinds.track.free_flight import (
     comparable,
     no_flight,
@@ -179,7 +180,8 @@ def _bouncing(
         return kept
     reason = next(iter(reasons.values()), "")
     shorter = f" (means of {found.many} of its points were taken: cut it to the bounces)"
-    raise InvalidValue(_WANTED + (reason or _seen(found, up, gravity)) + shorter * (found.many > 1))
+    why = reason or _seen(found, up, gravity)
+    raise InvalidValue(Said(_WANTED, why, shorter * (found.many > 1)))
 
 
 def _seen(found: Columns, up: Upward, gravity: float | None) -> str:

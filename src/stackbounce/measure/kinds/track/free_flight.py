@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.kinds.track.parabolas import Flights, fit_flights
 from stackbounce.measure.kinds.track.shape import curvatures, shape_of
@@ -35,7 +36,11 @@ _STILL = 8.0  # errors of a point, within which nothing moves
 _WINDOWS = (5, 7, 11, 17, 25, 51, 101, 201, 401)  # points that tell an acceleration
 _TRIED = 400  # windows
 _UNSCALED = 30.0  # ratio of an acceleration to gravity that only another unit of length makes
-_INSTEAD = "if it does fall, but on an incline or with a wrong scale, --gravity tells how fast"
+_INSTEAD = Said(
+    "if it does fall, but on an incline or with a wrong scale, ",
+    Hint({"gravity": None}),
+    " tells how fast",
+)
 
 
 def comparable(data: Any) -> bool:
@@ -148,8 +153,9 @@ def _other(fall: float, gravity: float, axis: str) -> str:
         f"{gravity:.3g}; "
     )
     if fall > _RATIO[1] * gravity:
-        return f"{seen}are its lengths in another unit (--unit {axis}=cm), or in pixels?"
-    return f"{seen}a ball that rolls, swings or is held? ({_INSTEAD})"
+        unit = Hint({"units": {axis: "cm"}})
+        return Said(f"{seen}are its lengths in another unit (", unit, "), or in pixels?")
+    return Said(f"{seen}a ball that rolls, swings or is held? (", _INSTEAD, ")")
 
 
 def _arcs(flights: Sequence[Flight], bounces: Sequence[int]) -> list[Flight]:

@@ -4,6 +4,7 @@ from typing import Any
 
 import numpy as np
 
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.shape import Shape
 from stackbounce.measure.quantities import Array
@@ -58,11 +59,12 @@ def stays_long(
     excess = 0.5 * fall.nominal_value * lasts
     if excess < _NOTICED * impact.std_dev:
         return ()
-    note = (
+    note = Said(
         f"{name} is on the floor for {1e3 * lasts:.0f} ms or more: its speeds, where the flights "
         f"before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
-        "errors, and so are its heights; tell the floor's level (--floor, floor=) for those at "
-        "the touch"
+        "errors, and so are its heights; ",
+        Hint({"floor": None}),
+        " tells the floor's level, for those at the touch",
     )
     return (note,)
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.errors import InvalidValue, positive, shown
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.waveform.baseline import first_guess, quiet_parts
 from stackbounce.measure.kinds.waveform.contact import Seen, measure_contact
 from stackbounce.measure.kinds.waveform.droop import undrooped
@@ -248,9 +249,11 @@ def _steep(contacts: tuple[Contact, ...]) -> list[str]:
     power = contacts[0].exponents[0] if contacts else None
     if power is None or power.nominal_value > min(_STEEP, 1.0 - _SURELY * power.std_dev):
         return []
-    note = (
+    note = Said(
         "the force begins more steeply than that of any spring, as if with a jump: the touch found "
-        "may be too early; if the contact is damped, tell its law (--law dashpot or viscoelastic)"
+        "may be too early; if the contact is damped, tell its law, ",
+        Hint({"law": "dashpot"}),
+        " or viscoelastic",
     )
     return [note]
 
