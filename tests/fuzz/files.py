@@ -113,7 +113,7 @@ def _wrong(code: int, err: str) -> str:
         return f"exit status {code}: {err}"
     if err.count("\n") != (code == 2):
         return f"not one line: {err}"
-    own = re.sub(r"'[^']*'|--column \S+|got .*", "", err)  # what the file itself says
+    own = re.sub(r"'[^']*'|--column \S+|known: .*|got .*", "", err)  # what the file itself says
     return f"inner words: {err}" if _INNER.search(own) else ""
 
 

@@ -16,6 +16,7 @@ __all__ = ["on_the_clock", "without_counts"]
 _UNITS = {"s": (1.0, "seconds"), "ms": (1e-3, "milliseconds"), "µs": (1e-6, "microseconds"),
           "ns": (1e-9, "nanoseconds")}  # fmt: skip
 _EPOCH = (631152000.0, 4102444800.0)  # s since 1970, from 1990 to 2100
+_LONGEST = 3600.0  # s: steps of times since 1970, which may be those of a slow sensor
 _SHORTEST = 1e-9  # s: no step is shorter
 
 
@@ -56,11 +57,12 @@ def on_the_clock(
         Their numbers, as in the file.
     """
     found = list(columns)
-    places = [k for k, one in enumerate(found) if one.role in ("time", "knock_time")]
     needed = {role for roles in kind.columns for role in roles}
-    if not places or not needed & {"time", "knock_time"}:
+    clocks = needed & {"time", "knock_time"}
+    places = [k for k, one in enumerate(found) if one.role in clocks]
+    if not places:
         return found, []
-    since = {k: _epoch(kind, found[k], values[:, k]) for k in places}
+    since = {k: _epoch(found[k], values[:, k]) for k in places}
     elapsed = [k for k in places if not since[k]]
     at = (elapsed or places)[0]
     for k in places if elapsed else ():
@@ -74,7 +76,7 @@ def on_the_clock(
     return found, doubts
 
 
-def _epoch(kind: Kind, column: Column, times: Array) -> str:
+def _epoch(column: Column, times: Array) -> str:
     """Return the unit of times since 1970, or nothing if they are none."""
     known = times[np.isfinite(times)]
     if not known.size:
@@ -83,7 +85,7 @@ def _epoch(kind: Kind, column: Column, times: Array) -> str:
     for unit, (factor, _) in _UNITS.items():
         told = not column.unit or abs(column.factor / factor - 1.0) < 1e-9
         within = all(_EPOCH[0] < factor * one < _EPOCH[1] for one in (first, last))
-        if told and within and factor * step <= kind.longest_step:
+        if told and within and factor * step <= _LONGEST:
             return unit
     return ""
 
