@@ -63,7 +63,7 @@ def test_a_wrong_scale_is_warned_of_not_refused(scale):
 
 def test_an_incline_needs_its_own_gravity():
     data = tracked(falls(0.3, 0.8, gravity=2.3), frame_rate=57.0, seed=2)
-    with pytest.raises(InvalidValue, match=r"along y are 2\.3 m/s.2 .* --gravity tells how fast"):
+    with pytest.raises(InvalidValue, match=r"along y are 2\.3 m/s.2 .* gravity tells how fast"):
         track(data)
     assert _values(track(data, gravity=2.3))[0] == pytest.approx(0.8, abs=0.01)
 

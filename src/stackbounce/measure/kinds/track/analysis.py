@@ -7,6 +7,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.measure.hints import Said
+from stackbounce.measure.kinds.track.flight_numbers import Numbers, flight_numbers
 from stackbounce.measure.kinds.track.free_flight import (
     comparable,
     no_flight,
@@ -220,34 +221,44 @@ def _track(
     units: TrackUnits,
 ) -> Track:
     """Return a ball's bounces from its parabolas."""
-    from uncertainties import correlated_values
+    from uncertainties import ufloat
 
     shape = shape_of(times, heights, fit.flights)
-    wider = (widening(max(fit.freedom, 1)) * shape.widening) ** 2
-    numbers = correlated_values(fit.values, wider * fit.covariance)
-    fall = numbers[0]
+    numbers = flight_numbers(times, heights, fit, shape)
+    wider = widening(max(fit.freedom, 1)) * shape.widening
+    common = ufloat(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
     rows = []
     for j in bounces:
         middle = 0.5 * (times[fit.flights[j].last - 1] + times[fit.flights[j + 1].first])
+        falls = numbers[j][0], numbers[j + 1][0]
         (low, before), (high, after) = (
-            _state(numbers, k, middle - fit.origins[k]) for k in (j, j + 1)
+            _state(numbers[k], middle - fit.origins[k]) for k in (j, j + 1)
         )
         since = (low - high) / (after - before)
         if floor is None:
-            level = low + before * since - 0.5 * fall * since**2
-            rows.append((middle + since, level, fall * since - before, after - fall * since))
+            level = low + before * since - 0.5 * falls[0] * since**2
+            rows.append(
+                (middle + since, level, falls[0] * since - before, after - falls[1] * since)
+            )
         else:
-            speeds = (_at_level(before, low - floor, fall), _at_level(after, high - floor, fall))
+            speeds = (
+                _at_level(before, low - floor, falls[0]),
+                _at_level(after, high - floor, falls[1]),
+            )
             rows.append((middle + since, low * 0.0 + floor, *speeds))
     moments, levels, impacts, rebounds = (tuple(column) for column in zip(*rows, strict=True))
+    fall = common if shape.widening > 1.0 else numbers[0][0]
     return Track(
         name,
         moments,
         levels,
         impacts,
         rebounds,
-        impacts[0] ** 2 / (2.0 * fall),
-        tuple(math.copysign(0.5, speed.nominal_value) * speed**2 / fall for speed in rebounds),
+        impacts[0] ** 2 / (2.0 * numbers[bounces[0]][0]),
+        tuple(
+            math.copysign(0.5, speed.nominal_value) * speed**2 / numbers[j + 1][0]
+            for j, speed in zip(bounces, rebounds, strict=True)
+        ),
         tuple(after / before for before, after in zip(impacts, rebounds, strict=True)),
         fall,
         times,
@@ -266,9 +277,9 @@ def _track(
     )
 
 
-def _state(numbers: Any, flight: int, since: float) -> tuple[Any, Any]:
+def _state(numbers: Numbers, since: float) -> tuple[Any, Any]:
     """Return height and velocity of a flight, a time after its middle."""
-    fall, level, speed = numbers[0], numbers[1 + 2 * flight], numbers[2 + 2 * flight]
+    fall, level, speed = numbers
     return level + speed * since - 0.5 * fall * since**2, speed - fall * since
 
 

@@ -10,9 +10,9 @@ from stackbounce.measure.kinds.track.flights import Flight
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.statistics.ar_noise import correlation_factor
 
-__all__ = ["Shape", "curvatures", "own_noise", "shape_of"]
+__all__ = ["OWN", "Shape", "curvatures", "own_noise", "shape_of"]
 
-_OWN = 5  # points of a flight that tell its own acceleration
+OWN = 5  # points of a flight that tell its own acceleration
 _BENT = 8  # points of a flight that tell how its acceleration changes
 _RARE = 1e-5  # p-value of accelerations that differ
 
@@ -65,7 +65,7 @@ def own_noise(times: Array, heights: Array, flights: Sequence[Flight]) -> float:
     """
     square, freedom = 0.0, 0
     for first, last in flights:
-        if last - first >= _OWN:
+        if last - first >= OWN:
             *_, rest = _polynomial(times, heights, Flight(first, last), 2)
             square += float(rest @ rest)
             freedom += last - first - 3
@@ -75,7 +75,7 @@ def own_noise(times: Array, heights: Array, flights: Sequence[Flight]) -> float:
 def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:
     from scipy.stats import chi2
 
-    rows = _polynomials(times, heights, flights, 2, _OWN)
+    rows = _polynomials(times, heights, flights, 2, OWN)
     if len(rows) < 2:
         return 0.0, 1.0
     halves = np.array([half for *_, half in rows])
