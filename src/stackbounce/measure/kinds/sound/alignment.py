@@ -15,7 +15,7 @@ _BEFORE, _AFTER = 2e-3, 3e-3  # s of a knock that are compared
 _REACH, _OF_FLIGHT = 3e-3, 0.2  # s, and of a flight, by which a first time may be wrong
 _SAMPLES = 8  # that each of these holds at least, if samples are few
 _QUIET, _LOUD = -0.6, 1.0  # of _BEFORE and _AFTER: what is noise, and how loud the knock is
-_WIDE, _ROUNDS = 3, 8  # rounds that search the whole reach, and all rounds
+_WIDE, _ROUNDS = 3, 7  # rounds that search the whole reach, and all rounds
 _OUTLIER = 3.0  # standard deviations to which a residual counts
 _VARIANCE = 0.6  # added to that of the logarithms: of noise in a narrow band it is 1.6
 _SMOOTH = 0.2e-3, 0.5e-3  # s over which variance and significance are averaged
@@ -27,7 +27,7 @@ class _Window(NamedTuple):
     """Steps of a knock that are compared: how many, and which are noise and which are loud."""
 
     first: int
-    count: int
+    steps: int
     quiet: NDArray[np.bool_]
     loud: NDArray[np.bool_]
 
@@ -37,7 +37,8 @@ class _Comparison(NamedTuple):
 
     `wanted` is the template as loud as the knock and with the knock's noise, `residuals` are the
     knock less that, `slopes` and `seen` the time derivatives of the template and of the knock.
-    `weights` are inverse variances, times `significance`: 0 where the slope of a template is chance.
+    `weights` are inverse variances, times `significance`, which is 0 where the slope of a template
+    is chance.
     """
 
     wanted: Array
@@ -96,16 +97,15 @@ def aligned(
     reach = max(min(_REACH, _OF_FLIGHT * float(np.diff(about).min())), 0.5 * few)
     bands = band_powers(values, rate, about, -before - 2.0 * reach, after + 2.0 * reach, least)
     window = _window(bands, before, after)
-    shifts, template = np.zeros(len(about)), None
+    shifts: Array = np.zeros(len(about))
+    compared, template = _compared(_shifted(bands, window, shifts), window, bands, None)
     for k in range(_ROUNDS):
-        logs = _shifted(bands, window, shifts)
-        compared, template = _compared(logs, window, bands, template)
-        if k < _ROUNDS - 1:
-            near = reach if k < _WIDE else reach / 3.0
-            found = _best(bands, window, compared, shifts, near)
-            # The others move away from a knock as it moves towards them.
-            shifts = shifts + (found - shifts) * (len(about) - 1.0) / len(about)
-            shifts = np.clip(shifts - np.median(shifts), -reach, reach)
+        near = reach if k < _WIDE else reach / 3.0
+        found = _best(bands, window, compared, shifts, near)
+        # The others move away from a knock as it moves towards them.
+        shifts = shifts + (found - shifts) * (len(about) - 1.0) / len(about)
+        shifts = np.clip(shifts - np.median(shifts), -reach, reach)
+        compared, template = _compared(_shifted(bands, window, shifts), window, bands, template)
     more, errors = _averaged(*_by_band(compared))
     return about + shifts + more, errors
 
@@ -121,10 +121,10 @@ def _shifted(bands: Bands, window: _Window, shifts: Array) -> Array:
     """Return the logarithms at the window of each knock, interpolated by cubics."""
     whole = np.floor(shifts / bands.step).astype(np.int64)
     x = (shifts / bands.step - whole)[:, None, None]
-    steps = window.first + whole[:, None] + np.arange(-1, window.count + 2)
+    steps = window.first + whole[:, None] + np.arange(-1, window.steps + 2)
     steps = np.clip(steps, 0, bands.logs.shape[2] - 1)
     near = np.take_along_axis(bands.logs, steps[:, None], axis=2)
-    a, b, c, d = (near[:, :, k : k + window.count] for k in range(4))
+    a, b, c, d = (near[:, :, k : k + window.steps] for k in range(4))
     cubic = c - a + x * (2.0 * a - 5.0 * b + 4.0 * c - d + x * (3.0 * (b - c) + d - a))
     return np.asarray(b + 0.5 * x * cubic)
 
@@ -180,7 +180,7 @@ def _best(
     """
     most = round(reach / bands.step)
     now = np.round(shifts / bands.step).astype(np.int64)
-    steps = window.first + now[:, None] + np.arange(-most, window.count + most)
+    steps = window.first + now[:, None] + np.arange(-most, window.steps + most)
     steps = np.clip(steps, 0, bands.logs.shape[2] - 1)
     logs = np.take_along_axis(bands.logs, steps[:, None], axis=2)
     size = 1 << math.ceil(math.log2(logs.shape[2]))
@@ -217,13 +217,19 @@ def _averaged(shifts: Array, variances: Array) -> tuple[Array, Array]:
     """
     scale = np.ones(shifts.shape[1])
     for _ in range(10):
-        weights = 1.0 / (variances * scale)
-        share = weights / weights.sum(axis=1, keepdims=True)
-        mean = (share * shifts).sum(axis=1)
+        share, mean = _shares(shifts, variances * scale)
         squares = (shifts - mean[:, None]) ** 2 / variances
         scale = (_PRIOR + squares.sum(axis=0)) / (_PRIOR + (1.0 - share).sum(axis=0))
-    expected = np.maximum((share * (1.0 - share)).sum(axis=1), 1e-3)
-    own = (share * squares / scale).sum(axis=1) / expected
+    share, mean = _shares(shifts, variances * scale)
+    squares = (shifts - mean[:, None]) ** 2 / (variances * scale)
+    own = (share * squares).sum(axis=1) / np.maximum((share * (1.0 - share)).sum(axis=1), 1e-3)
     freedom = 1.0 / (share**2).sum(axis=1) - 1.0
     factor = (_PRIOR + freedom * own) / (_PRIOR + freedom)
-    return mean, np.sqrt(factor / weights.sum(axis=1))
+    return mean, np.sqrt(factor / (1.0 / (variances * scale)).sum(axis=1))
+
+
+def _shares(shifts: Array, variances: Array) -> tuple[Array, Array]:
+    """Return the weight of each band, of 1 together, and the weighted mean."""
+    weights = 1.0 / variances
+    share = weights / weights.sum(axis=1, keepdims=True)
+    return share, (share * shifts).sum(axis=1)

@@ -22,8 +22,8 @@ def misjudgement(times: Array, errors: Array, missed: Sequence[int]) -> float:
 
     Sounds that disturb all bands of a knock alike shift its time by more than its bands tell. Such
     a shift makes one flight longer and the next one shorter. The factor's prior is log-normal with
-    a median of 2.2. The likelihood is that of the restitutions about a straight line over the speed.
-    They may also scatter by themselves, which does not alternate.
+    a median of 2.2. The likelihood is that of the restitutions about a straight line over the
+    speed. They may also scatter by themselves, which does not alternate.
 
     Parameters
     ----------
@@ -64,8 +64,8 @@ def misjudgement(times: Array, errors: Array, missed: Sequence[int]) -> float:
 
 def _limited(design: Array, values: Array) -> Array:
     """Return values without outliers: their distance from a robust line is limited."""
-    line = np.zeros(2)
-    weights = np.ones(len(values))
+    line: Array = np.zeros(2)
+    weights: Array = np.ones(len(values))
     for _ in range(10):
         root = np.sqrt(weights)
         line = np.linalg.lstsq(design * root[:, None], values * root, rcond=None)[0]
