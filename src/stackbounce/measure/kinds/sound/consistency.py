@@ -11,7 +11,7 @@ __all__ = ["misjudgement"]
 
 _USUAL, _SPREAD = 2.2, 1.0  # the factor's prior: its median, and the deviation of its logarithm
 _SCATTERS = (2e-5, 0.1)  # of restitutions from bounce to bounce
-_NONE = 0.5  # prior probability of no scatter
+_NONE = 0.8  # prior probability of no scatter
 _GRID = 24
 _ENOUGH = 3  # restitutions for a line and a scatter
 _OUTLIER = 6.0  # standard deviations to which a residual counts
@@ -68,7 +68,7 @@ def _limited(design: Array, values: Array) -> Array:
     weights: Array = np.ones(len(values))
     for _ in range(10):
         root = np.sqrt(weights)
-        line = np.linalg.lstsq(design * root[:, None], values * root, rcond=None)[0]
+        line = np.asarray(np.linalg.lstsq(design * root[:, None], values * root, rcond=None)[0])
         off = np.abs(values - design @ line)
         weights = 1.0 / np.maximum(off, 0.1 * np.median(off) + 1e-12)
     off = values - design @ line
