@@ -56,7 +56,7 @@ def reverberated(
 
 
 def wind_noise(count: int, rate: float, random: np.random.Generator) -> Array:
-    """Return wind in a microphone: noise below 150 Hz, in gusts, of a standard deviation of about 1.
+    """Return wind in a microphone: low noise in gusts, of a standard deviation of about 1.
 
     Examples
     --------

@@ -13,6 +13,7 @@ __all__ = ["Scatter", "meaning_of_excess", "meaning_of_explained", "scatter_of"]
 
 _LEAST = 6  # restitutions that tell anything
 _CLEAR = 2.0  # standard deviations, or log-likelihood, by which a cause is told
+_EXPLAINED = 1.5  # times their errors: then the times may be the only cause
 _NOTABLE = 2e-3  # scatter of restitutions that is worth a note
 _SCATTERS = np.geomspace(1e-6, 1.0, 60)  # of restitutions, that are tried
 
@@ -80,7 +81,10 @@ def scatter_of(speeds: Sequence[Any], kept: Sequence[Any]) -> Scatter | None:
     lag_one = float(off[1:] @ off[:-1]) / max(float(off @ off), 1e-300)
     mean, deviation = _expected(residual @ residual.T)
     timing, factor = _best_factor(design, values, covariance)
-    alone = max(_likelihood(design, values, covariance + q**2 * np.eye(count)) for q in _SCATTERS)
+    alone, _ = _best_factor(design, values, np.eye(count))
+    if factor > _EXPLAINED:  # the errors are there, too
+        every = (covariance + q**2 * np.eye(count) for q in _SCATTERS)
+        alone = max(_likelihood(design, values, one) for one in every)
     cause: Literal["timing", "floor or spin", "unknown"] = "unknown"
     if lag_one < mean - _CLEAR * deviation or (lag_one < mean and timing > alone + _CLEAR):
         cause = "timing"
