@@ -19,7 +19,7 @@ __all__ = ["CASES"]
 
 KEPT = 0.75
 ALL = {"alike": 0.5, "wind": 0.01, "coarse": 0.4, "level": 2.0}  # the last is clipped
-FALSE = 3e-3  # s from the next knock
+FALSE = 6e-3  # s from the next knock
 AT_REST, FALL = 0.86, 0.03  # restitution at no speed, and its fall per m/s
 
 

