@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from stackbounce.measure.quantities import Array
-from stackbounce.measure.statistics.regression import half_width
+from stackbounce.measure.statistics.regression import half_width, widening
 
 __all__ = ["misjudgement"]
 
@@ -47,6 +47,7 @@ def misjudgement(times: Array, errors: Array, missed: Sequence[int]) -> float:
     factors = _USUAL * np.exp(_SPREAD * np.linspace(-3.0, 4.0, _GRID))
     logs = -0.5 * (np.log(factors / _USUAL) / _SPREAD) ** 2
     flights = np.diff(times)
+    few = 1.0
     first = np.array([k for k in range(len(flights) - 1) if not (missed[k] or missed[k + 1])])
     if len(first) >= _ENOUGH:
         kept = flights[first + 1] / flights[first]
@@ -57,9 +58,10 @@ def misjudgement(times: Array, errors: Array, missed: Sequence[int]) -> float:
         slopes[row, first + 2] = 1.0 / flights[first]
         covariance = (slopes * errors**2) @ slopes.T
         design = np.stack([np.ones(len(kept)), flights[first]], axis=1)
+        few = widening(max(len(kept) - 2, 1))
         logs = logs + _evidence(_limited(design, kept), design, covariance, factors)
     weights = np.exp(logs - logs.max())
-    return half_width(weights / weights.sum(), np.zeros(_GRID), factors)
+    return few * half_width(weights / weights.sum(), np.zeros(_GRID), factors)
 
 
 def _limited(design: Array, values: Array) -> Array:
