@@ -75,7 +75,9 @@ def _ugly(seed: int, **how: Any) -> list[Any]:
     if np.abs(off).max() > FALSE:
         raise ValueError(f"a knock was found {np.abs(off).max():.2g} s from any that was")
     weights = np.array([one.std_dev**-2 for one in found.times])
-    times = [one - float(weights @ off / weights.sum()) for one in found.times]
+    late = [one - float(every[k]) for one, k in zip(found.times, which, strict=True)]
+    common = sum(w * one for w, one in zip(weights / weights.sum(), late, strict=True))
+    times = [one - common for one in found.times]
     told = bounces(found)
     true = np.diff(every)
     law = told.laws[0]
