@@ -18,6 +18,7 @@ from stackbounce.synthetic.sound import sound
 __all__ = ["CASES"]
 
 KEPT = 0.75
+ALL = {"alike": 0.5, "wind": 0.01, "coarse": 0.4, "level": 2.0}  # the last is clipped
 AT_REST, FALL = 0.86, 0.03  # restitution at no speed, and its fall per m/s
 
 
@@ -55,6 +56,43 @@ def _recorded(seed: int, steady: bool, scatter: float = 0.0, **how: Any) -> list
     return [*triples, ("restitution at 0", law.coefficient, AT_REST), ("its fall", law.slope, FALL)]
 
 
+def _ugly(seed: int, **how: Any) -> list[Any]:
+    """Return what an ugly recording tells; all knocks, flights and restitutions together.
+
+    What all times have in common, which no flight contains, is no error. A knock may be missed. A
+    false one counts as a wrong time of the nearest.
+    """
+    random = np.random.default_rng([seed, 1])
+    fall = _falling(random)
+    before = 0.1 + random.uniform() / how.get("rate", 48000.0)
+    data = sound(fall, before=before, after=0.1, seed=seed, uneven=0.2, room=0.4, **how)
+    found = knocks(data)
+    every = fall.touches - fall.touches[0] + before
+    seen = np.array([one.nominal_value for one in found.times])
+    which = np.abs(np.subtract.outer(seen, every)).argmin(axis=1)
+    weights = np.array([one.std_dev**-2 for one in found.times])
+    late = [one - float(every[k]) for one, k in zip(found.times, which, strict=True)]
+    common = sum(w * one for w, one in zip(weights / weights.sum(), late, strict=True))
+    times = [one - common for one in found.times]
+    told = bounces(found)
+    true = np.diff(every)
+    law = told.laws[0]
+    return [
+        *(("knock times", one, float(every[k])) for one, k in zip(times, which, strict=True)),
+        *(
+            ("flights", times[k + 1] - times[k], float(true[which[k]]))
+            for k in range(len(times) - 1)
+            if which[k + 1] == which[k] + 1
+        ),
+        *(
+            ("restitutions", kept, float(fall.restitutions[k + which[0]]))
+            for k, kept in zip(told.numbers, told.restitutions, strict=True)
+        ),
+        ("restitution at 0", law.coefficient, AT_REST),
+        ("its fall", law.slope, FALL),
+    ]
+
+
 CASES: dict[str, Trial] = {
     "sound, quiet": partial(_recorded, steady=True),
     "sound, noise and hum": partial(_recorded, steady=True, noise=0.01, hum=0.05),
@@ -65,4 +103,17 @@ CASES: dict[str, Trial] = {
     "sound, restitution that falls and scatters": partial(_recorded, steady=False, scatter=0.01),
     "sound, 8 bits at 8 kHz": partial(_recorded, steady=False, rate=8000.0, bits=8),
     "sound, 8 bits at 44.1 kHz": partial(_recorded, steady=False, rate=44100.0, bits=8),
+    **{
+        f"ugly sound, {name}": partial(_ugly, **how)
+        for name, how in (
+            ("knocks that differ, 48 kHz", {}),
+            ("knocks half alike, 44.1 kHz", {"alike": 0.5, "rate": 44100.0}),
+            ("soft knocks, 32 kHz", {"attack": 0.4e-3, "rate": 32000.0}),
+            ("8 kHz", {"rate": 8000.0}),
+            ("wind, 16 kHz", {"wind": 0.01, "rate": 16000.0}),
+            ("clipped, 22.05 kHz", {"level": 4.0, "rate": 22050.0}),
+            ("as MP3, 44.1 kHz", {"coarse": 0.5, "rate": 44100.0}),
+            ("all of it, 44.1 kHz", {**ALL, "rate": 44100.0}),
+        )
+    },
 }

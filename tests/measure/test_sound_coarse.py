@@ -25,8 +25,7 @@ def compared(data, rate):
     return off, claimed, bounces(found)
 
 
-@pytest.mark.fast_cases(6)
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.fast_cases(2)
 @pytest.mark.parametrize(
     "options",
     [
@@ -46,18 +45,19 @@ def compared(data, rate):
     ],
     ids=str,
 )
-def test_knocks_are_the_bounces_and_errors_are_sensible(options, seed):
+def test_knocks_are_the_bounces_and_errors_are_sensible(options):
     rate = options["rate"]
-    off, claimed, told = compared(sound(FALL, seed=seed, before=BEFORE, **options), rate)
-    assert (claimed < 0.15e-3 + 1.0 / rate).all()
-    assert (claimed > 0.1 * min(1.0 / rate, 1.0 / 48e3)).all()
-    assert np.median(np.abs(off - np.median(off)) / claimed) < 1.5
-    assert abs(told.mean.nominal_value - 0.8) < 4.0 * told.mean.std_dev
-    assert told.mean.std_dev < 5e-4
-    assert (
-        np.mean([abs(one.nominal_value - 0.8) < 2.0 * one.std_dev for one in told.restitutions])
-        > 0.5
-    )
+    held, off_by = [], []
+    for seed in range(4):
+        off, claimed, told = compared(sound(FALL, seed=seed, before=BEFORE, **options), rate)
+        assert (claimed < 0.15e-3 + 1.0 / rate).all()
+        assert (claimed > 0.1 * min(1.0 / rate, 1.0 / 48e3)).all()
+        assert abs(told.mean.nominal_value - 0.8) < 4.0 * told.mean.std_dev
+        assert told.mean.std_dev < 5e-4
+        off_by += list(np.abs(off - np.median(off)) / claimed)
+        held += [abs(one.nominal_value - 0.8) < 2.0 * one.std_dev for one in told.restitutions]
+    assert np.median(off_by) < 1.5
+    assert np.mean(held) > 0.75
 
 
 @pytest.mark.parametrize("seed", range(3))

@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, non_negative, positive, whole
+from stackbounce.errors import InvalidValue, fraction, non_negative, positive, whole
+from stackbounce.synthetic.disturbances import coded, reverberated, wind_noise
 from stackbounce.synthetic.falls import Falls
 
 if TYPE_CHECKING:
@@ -32,6 +33,11 @@ def sound(
     echo: tuple[float, float] | None = None,
     double: tuple[float, float] | None = None,
     speech: float = 0.0,
+    alike: float = 0.0,
+    uneven: float = 0.0,
+    room: float = 0.0,
+    wind: float = 0.0,
+    coarse: float = 0.0,
     attack: float = 0.1e-3,
     before: float = 0.5,
     after: float = 0.5,
@@ -57,6 +63,13 @@ def sound(
     echo, double : (float, float), optional
         Delay in s and relative amplitude: of an echo of everything, and of a second sound of each
         impact.
+    alike : float, optional
+        The share of tones, 0 to 1, that all knocks have in common.
+    uneven : float, optional
+        Standard deviation of the logarithm of a knock's loudness.
+    room, wind, coarse : float, optional
+        Amplitude of the echoes of a room, of low noise in gusts (standard deviation), and the
+        coarseness of an encoder like that of MP3: see `disturbances`. 0 is none of it.
     attack : float, optional
         Time in s in which a knock rises.
     before, after : float, optional
@@ -87,9 +100,13 @@ def sound(
     zero = falls.touches[0] - non_negative("before", before, "seconds")
     count = math.ceil((falls.touches[-1] - zero + non_negative("after", after, "seconds")) * rate)
     values = np.zeros(count)
+    own = np.random.default_rng([seed, 2])  # of what spoils it, so that the tones stay the same
+    common = _tones(own)[:, : round(_TONES * fraction("alike", alike))]
     for time, speed in zip(falls.touches - zero, falls.speeds, strict=True):
         loud = level * (speed / falls.speeds[0]) ** _EXPONENT
+        loud *= math.exp(uneven * own.standard_normal())
         tones = _tones(random)
+        tones[:, : common.shape[1]] = common
         _add(values, time, loud, tones, rate, attack)
         if double:
             _add(values, time + double[0], loud * double[1], _tones(random), rate, attack)
@@ -98,10 +115,16 @@ def sound(
         if late >= count:
             raise InvalidValue(f"echo must come within the recording, got {echo[0]!r} s")
         values[late:] += echo[1] * values[: count - late]
+    if room:
+        values = reverberated(values, rate, room, own)
     times = np.arange(count) / rate
     values += noise * random.standard_normal(count) + hum * np.sin(2 * math.pi * 50.0 * times)
     if speech:
         values += speech * _speech(random, times, 0.5 * before)
+    if wind:
+        values += wind * wind_noise(count, rate, own)
+    if coarse:
+        values = coded(np.clip(values, -1.0, 1.0), rate, coarse)
     step = 2.0 ** (1 - bits)
     values = np.clip(np.round(values / step) * step, -1.0, 1.0 - step)
     return _dataset(times, values, rate)

@@ -12,6 +12,7 @@ __all__ = [
     "average_fits",
     "covariance_of",
     "fit_with_excess_scatter",
+    "half_width",
     "least_squares",
     "widening",
 ]
@@ -136,7 +137,7 @@ def fit_with_excess_scatter(
     mean, total = average_fits(weights, means, spreads)
     off = means - mean
     errors = np.sqrt(np.diagonal(spreads, axis1=1, axis2=2))
-    halves = [_half(weights, off[:, i], errors[:, i]) for i in range(len(mean))]
+    halves = [half_width(weights, off[:, i], errors[:, i]) for i in range(len(mean))]
     stretch = np.array(halves) / np.sqrt(np.diag(total))
     fit = Fit(mean, total * np.outer(stretch, stretch), plain.chi_squared, plain.freedom)
     if chi2.sf(plain.chi_squared, plain.freedom) > _RARE:
@@ -172,7 +173,7 @@ def average_fits(weights: Array, values: Array, covariances: Array) -> tuple[Arr
     return mean, total
 
 
-def _half(weights: Array, off: Array, errors: Array) -> float:
+def half_width(weights: Array, off: Array, errors: Array) -> float:
     """Return half the width of the interval around 0 that holds 68.3 % of a normal mixture."""
     from scipy.optimize import brentq
     from scipy.special import ndtr

@@ -9,6 +9,11 @@ from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces
+from stackbounce.measure.kinds.bounces.scatter import (
+    meaning_of_excess,
+    meaning_of_explained,
+    scatter_of,
+)
 from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -61,8 +66,10 @@ def bounces(
 
     Notes
     -----
-    Air is left out. The slope is fitted by generalised least squares with correlated errors;
-    error bars that were estimated from few bounces are widened by Student's t.
+    Air is left out. Restitutions that alternate by more than the errors of the times tell of the
+    timing, others of the floor or spin: see `scatter.scatter_of`. The slope is fitted by
+    generalised least squares with correlated errors; error bars that were estimated from few
+    bounces are widened by Student's t.
 
     Examples
     --------
@@ -98,18 +105,12 @@ def bounces(
     known = isinstance(moments[0], UFloat)
     if not known:
         found = _with_errors_from_scatter(moments, found_at, notes)
-    flights, speeds, kept = found.flights, found.speeds, found.kept
-    if any(one.nominal_value > 1.0 + 2.0 * one.std_dev for one in kept):
+    if any(one.nominal_value > 1.0 + 2.0 * one.std_dev for one in found.kept):
         notes.append(
             "A restitution above 1: a bounce was missed before it, or it was not left to itself."
         )
-    # Errors that are estimated from the scatter include an excess scatter already.
-    mean, laws, scatter = laws_of(speeds, kept) if known else laws_of(speeds, kept, most=0.0)
-    if scatter:
-        notes.append(
-            f"Restitution differs by {scatter:.2g} from bounce to bounce, more than the errors of "
-            "the times: an uneven floor or a spinning ball; the mean and the fits allow for it."
-        )
+    found, mean, laws, scatter = _with_scatter(found, found_at, known, notes)
+    flights, speeds, kept = found.flights, found.speeds, found.kept
     inferred = height is None
     if height is None and flights[0] is not None:
         height = gravity * flights[0] ** 2 / 8.0 / _energy_kept(kept)
@@ -271,6 +272,29 @@ def _with_errors_from_scatter(
         f"{'straight line' if len(kept) > 2 else 'constant'} ({1e3 * error:.2g} ms for each time)."
     )
     return again(max(float(error), 1e-12))
+
+
+def _with_scatter(
+    found: _Found, found_at: Callable[[Sequence[Any]], _Found], known: bool, notes: list[str]
+) -> tuple[_Found, Any, Any, float]:
+    """Return what was found, the mean restitution, its laws and its excess scatter.
+
+    Where the scatter is the timing's, the errors of the times are those that explain it. Errors
+    that are estimated from the scatter include an excess scatter already.
+    """
+    from uncertainties import ufloat
+
+    if any(not one.std_dev > 0.0 for one in found.kept):
+        return found, *laws_of(found.speeds, found.kept)
+    mean, laws, scatter = laws_of(found.speeds, found.kept, **({} if known else {"most": 0.0}))
+    meant = scatter_of(found.speeds, found.kept)
+    note = meaning_of_excess(scatter, meant) if scatter else meaning_of_explained(meant)
+    notes.extend([note] if note else [])
+    if scatter and meant is not None and meant.cause == "timing":
+        times = [ufloat(one.nominal_value, meant.factor * one.std_dev) for one in found.moments]
+        found = found_at(times)
+        mean, laws, scatter = laws_of(found.speeds, found.kept, most=0.0)
+    return found, mean, laws, scatter
 
 
 def _energy_kept(kept: Sequence[Any]) -> Any:

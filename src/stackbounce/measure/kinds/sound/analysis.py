@@ -7,8 +7,11 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown
 from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
+from stackbounce.measure.kinds.sound.alignment import aligned
+from stackbounce.measure.kinds.sound.consistency import misjudgement
 from stackbounce.measure.kinds.sound.loudness import Rises, find_rises, rounding, whitened
-from stackbounce.measure.kinds.sound.onset import onsets
+from stackbounce.measure.kinds.sound.onset import clearest, onsets
+from stackbounce.measure.kinds.sound.plausibility import refuse_other_series
 from stackbounce.measure.kinds.sound.sequence import Chain, find_chain
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.samples import runs
@@ -19,6 +22,7 @@ _DEAD = 8e-3  # s: two knocks closer than that are one impact
 _AS_LATE = 1.5e-3  # s by which the delay of an echo may differ
 _SECOND_SERIES = 4
 _LASTS = 10e-3  # s of a knock that tell how loud it is
+_INTERVAL = 0.1  # of the interval between amplitudes: the error of a time within it
 _CLIPPED = 4  # samples in a row at the largest value
 
 
@@ -59,15 +63,18 @@ def knocks(
     Raises
     ------
     InvalidValue
-        If there is no sound, no knock, or a number is out of its range.
+        If there is no sound, no knock, one sound with echoes or equal intervals instead of bounces,
+        or a number is out of its range.
     InvalidType
         If `data` is no recording.
 
     Notes
     -----
-    The time of a knock is where its wave rises out of the noise, with the error of that: see
-    `onset.onsets`. Of several channels that one is taken in which the knocks
-    are clearest.
+    The time of a single knock is where its wave rises out of the noise: see `onset.onsets`. Two
+    and more are aligned with each other, `alignment.aligned`, and their errors are those of the
+    alignment, as far as the flights do not show that they are larger or smaller:
+    `consistency.misjudgement`. What all times have in common, which no flight contains, is not in
+    the errors. Of several channels that one is taken in which the knocks are clearest.
 
     Examples
     --------
@@ -87,7 +94,8 @@ def knocks(
     samples, origin = _part(samples, rate, origin, start, stop)
     notes = _notes_on(samples)
     rounded = rounding(samples)
-    white = whitened(samples, rounded)
+    loud_only = float(samples.min()) >= 0.0
+    white = samples if loud_only else whitened(samples, rounded)
     rises = find_rises(white, rate, threshold, float(rounded.mean()))
     if not len(rises.times):
         raise InvalidValue(
@@ -98,9 +106,15 @@ def knocks(
     worth = 0.5 + np.clip(np.log(rises.ratios), 0.0, 3.0)
     chain = find_chain(rises.times, worth, rises.amplitudes, rises.errors, dead)
     chain, dropped = _without_echoes(chain, rises, notes)
+    refuse_other_series(chain, rises, origin)
     _note_series(chain, rises, worth, dead, origin, notes)
-    at = list(chain.indices)
-    times, errors = onsets(white, rate, rises.times[at], rounded)
+    about = rises.times[list(chain.indices)]
+    best = clearest(white, rate, about, rounded) if len(white) > 1 else 0
+    times, errors = about, np.full(len(about), 1.0 / rate)
+    if not loud_only:
+        times, errors = onsets(white[best], rate, about, float(rounded[best]))
+    if len(times) > 1:
+        times, errors = _aligned(samples[best], rate, times, float(rounded[best]), chain.missed)
     loudness = _loudness(white, rate, times)
     left_out = sorted([*doubles, *dropped], key=lambda one: one.time)
     return Knocks(
@@ -111,6 +125,18 @@ def knocks(
         rate,
         tuple(notes),
     )
+
+
+def _aligned(
+    values: NDArray[np.float32], rate: float, onsets: Array, rounded: float, missed: tuple[int, ...]
+) -> tuple[Array, Array]:
+    """Return times that are consistent with each other, as late on average as the onsets."""
+    times, errors = aligned(values, rate, onsets, rounded)
+    times = times + np.median(onsets - times)
+    errors = errors * misjudgement(times, errors, missed)
+    if values.min() >= 0.0:  # each amplitude is of a whole interval
+        errors = np.hypot(errors, _INTERVAL / rate)
+    return times, errors
 
 
 def _samples(data: Any, rate: float | None) -> tuple[NDArray[np.float32], float, float]:

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.measure.quantities import Array
 
-__all__ = ["onsets"]
+__all__ = ["clearest", "onsets"]
 
 _RISES = (0.0, 0.05e-3, 0.1e-3, 0.2e-3, 0.5e-3, 1e-3)  # s in which a knock may rise
 _FAR, _NEAR = 1.5e-3, 0.65e-3  # s on both sides of the presumed onset
@@ -32,7 +32,7 @@ class _Knock(NamedTuple):
 
 
 def onsets(
-    white: NDArray[np.float32], rate: float, about: Array, rounded: Array
+    white: NDArray[np.float32], rate: float, about: Array, rounded: float
 ) -> tuple[Array, Array]:
     """Return the onsets of the knocks of one ball, and their errors.
 
@@ -46,14 +46,13 @@ def onsets(
     Parameters
     ----------
     white : ndarray
-        (channels, N), as of `loudness.whitened`. Only the channel with the clearest knocks is used,
-        as sound reaches two microphones at different times.
+        (N,), one channel of `loudness.whitened`: sound reaches two microphones at different times.
     rate : float
         Samples per second.
     about : ndarray
         (K,) approximate onsets, within 1 ms, in s.
-    rounded : ndarray
-        (channels,) variance of the quantisation error of a sample: the smallest possible noise.
+    rounded : float
+        Variance of the quantisation error of a sample: the smallest possible noise.
 
     Returns
     -------
@@ -69,18 +68,17 @@ def onsets(
     Examples
     --------
     >>> random = np.random.default_rng(1)
-    >>> values = random.normal(0.0, np.where(np.arange(4800) < 2400, 0.01, 1.0))[None]
-    >>> times, errors = onsets(values.astype("f4"), 48000.0, np.array([0.0505]), np.zeros(1))
+    >>> values = random.normal(0.0, np.where(np.arange(4800) < 2400, 0.01, 1.0))
+    >>> times, errors = onsets(values.astype("f4"), 48000.0, np.array([0.0505]), 0.0)
     >>> bool(abs(times[0] - 0.05) < 3e-5), bool(errors[0] < 3e-5)
     (True, True)
     """
-    best = _clearest(white, rate, about, rounded) if len(white) > 1 else 0
     errors = np.full(len(about), np.inf)
     far = 2.0 * _FAR * rate
     # Power and autocorrelation are measured after the onset, and improve with it.
     for reach in (_FAR, _FAR, _NEAR) if far > _MOST else (_FAR, _FAR):
         thin = math.ceil(2.0 * reach * rate / _MOST)
-        knocks = [_knock(white[best], at, rate, reach, thin, rounded[best]) for at in about]
+        knocks = [_knock(white, at, rate, reach, thin, rounded) for at in about]
         times, sure = _improved(knocks, rate / thin)
         times += 0.5 * (thin - 1) / rate  # the middle of the samples that were taken together
         within = np.full(len(about), reach == _FAR) | (errors < reach / _KNOWN)
@@ -88,8 +86,8 @@ def onsets(
     return about, errors
 
 
-def _clearest(white: NDArray[np.float32], rate: float, about: Array, rounded: Array) -> int:
-    """Return the channel in which the knocks are clearest."""
+def clearest(white: NDArray[np.float32], rate: float, about: Array, rounded: Array) -> int:
+    """Return the channel, of (channels, N), in which the knocks at some times are clearest."""
     clear = []
     for values, least in zip(white, rounded, strict=True):
         heard = [_knock(values, at, rate, _FAR, 1, least) for at in about]

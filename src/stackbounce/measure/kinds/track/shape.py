@@ -14,7 +14,7 @@ __all__ = ["OWN", "Shape", "curvatures", "own_noise", "shape_of"]
 
 OWN = 5  # points of a flight that tell its own acceleration
 _BENT = 8  # points of a flight that tell how its acceleration changes
-_RARE = 1e-5  # p-value of accelerations that differ
+_RARE = 1e-3  # p-value of accelerations that differ
 
 
 class Shape(NamedTuple):

@@ -1,0 +1,235 @@
+"""The times of the knocks of one recording, from their alignment with a common template."""
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.measure.kinds.sound.bands import Bands, band_powers
+from stackbounce.measure.quantities import Array
+
+__all__ = ["aligned"]
+
+_BEFORE, _AFTER = 2e-3, 3e-3  # s of a knock that are compared
+_REACH, _OF_FLIGHT = 3e-3, 0.2  # s, and of a flight, by which a first time may be wrong
+_SAMPLES = 8  # that each of these holds at least, if samples are few
+_QUIET, _LOUD = -0.6, 1.0  # of _BEFORE and _AFTER: what is noise, and how loud the knock is
+_WIDE, _ROUNDS = 3, 7  # rounds that search the whole reach, and all rounds
+_OUTLIER = 3.0  # standard deviations to which a residual counts
+_VARIANCE = 0.6  # added to that of the logarithms: of noise in a narrow band it is 1.6
+_SMOOTH = 0.2e-3, 0.5e-3  # s over which variance and significance are averaged
+_LEAST = 0.05  # of what tells something
+_PRIOR = 4.0  # degrees of freedom of the expected scatter
+
+
+class _Window(NamedTuple):
+    """Steps of a knock that are compared: how many, and which are noise and which are loud."""
+
+    first: int
+    steps: int
+    quiet: NDArray[np.bool_]
+    loud: NDArray[np.bool_]
+
+
+class _Comparison(NamedTuple):
+    """What knocks and template say at one alignment, each (knocks, bands, steps).
+
+    `wanted` is the template as loud as the knock and with the knock's noise, `residuals` are the
+    knock less that, `slopes` and `seen` the time derivatives of the template and of the knock.
+    `weights` are inverse variances, times `significance`, which is 0 where the slope of a template
+    is chance.
+    """
+
+    wanted: Array
+    residuals: Array
+    slopes: Array
+    seen: Array
+    weights: Array
+    significance: Array
+
+
+def aligned(
+    values: NDArray[np.float32], rate: float, about: Array, least: float = 0.0
+) -> tuple[Array, Array]:
+    """Return the times of the knocks of one ball, consistent with each other, and their errors.
+
+    Each knock is shifted until the logarithms of its power in bands of an octave agree best with
+    the mean of all other knocks. Loudness and noise may differ from knock to knock. Only what
+    other knocks have in common counts: the rise, and resonances and echoes as far as they repeat.
+
+    Parameters
+    ----------
+    values : ndarray
+        (N,) samples of one channel.
+    rate : float
+        Samples per second.
+    about : ndarray
+        (K,) approximate times in s, at least two, within 3 ms.
+    least : float, optional
+        Variance of the quantisation error of a sample.
+
+    Returns
+    -------
+    times, errors : ndarray
+        (K,) in s. A shift that all knocks have in common, which no flight contains, is not
+        determined: the median shift is none. It is not in the errors either.
+
+    Notes
+    -----
+    An error follows from how well the bands of a knock agree with each other about its time, and
+    from how well the knocks agree about each band. A disturbance that shifts all bands alike is not
+    in it; `consistency.misjudgement` looks for that in the flights.
+
+    Examples
+    --------
+    >>> random = np.random.default_rng(1)
+    >>> true = np.array([0.05, 0.15, 0.2402])
+    >>> since = np.arange(16000) / 48000.0 - true[:, None]
+    >>> knock = np.where(since > 0.0, np.exp(-since / 3e-3), 0.0) * np.sin(3e4 * since)
+    >>> values = knock.sum(axis=0) + 1e-3 * random.standard_normal(16000)
+    >>> times, errors = aligned(values.astype("f4"), 48000.0, true + [0.0, 3e-4, -2e-4])
+    >>> bool(np.ptp(times - true) < 5e-6), bool(errors.max() < 1e-5)
+    (True, True)
+    """
+    few = _SAMPLES / rate
+    before, after = max(_BEFORE, few), max(_AFTER, few)
+    reach = max(min(_REACH, _OF_FLIGHT * float(np.diff(about).min())), 0.5 * few)
+    bands = band_powers(values, rate, about, -before - 2.0 * reach, after + 2.0 * reach, least)
+    window = _window(bands, before, after)
+    shifts: Array = np.zeros(len(about))
+    compared, template = _compared(_shifted(bands, window, shifts), window, bands, None)
+    for k in range(_ROUNDS):
+        near = reach if k < _WIDE else reach / 3.0
+        found = _best(bands, window, compared, shifts, near)
+        # The others move away from a knock as it moves towards them.
+        shifts = shifts + (found - shifts) * (len(about) - 1.0) / len(about)
+        shifts = np.clip(shifts - np.median(shifts), -reach, reach)
+        compared, template = _compared(_shifted(bands, window, shifts), window, bands, template)
+    more, errors = _averaged(*_by_band(compared))
+    return about + shifts + more, errors
+
+
+def _window(bands: Bands, before: float, after: float) -> _Window:
+    first = round((-before - bands.start) / bands.step)
+    since = bands.step * np.arange(round((before + after) / bands.step) + 1) - before
+    loud = (since >= 0.0) & (since < _LOUD * after)
+    return _Window(first, len(since), since < _QUIET * before, loud)
+
+
+def _shifted(bands: Bands, window: _Window, shifts: Array) -> Array:
+    """Return the logarithms at the window of each knock, interpolated by cubics."""
+    whole = np.floor(shifts / bands.step).astype(np.int64)
+    x = (shifts / bands.step - whole)[:, None, None]
+    steps = window.first + whole[:, None] + np.arange(-1, window.steps + 2)
+    steps = np.clip(steps, 0, bands.logs.shape[2] - 1)
+    near = np.take_along_axis(bands.logs, steps[:, None], axis=2)
+    a, b, c, d = (near[:, :, k : k + window.steps] for k in range(4))
+    cubic = c - a + x * (2.0 * a - 5.0 * b + 4.0 * c - d + x * (3.0 * (b - c) + d - a))
+    return np.asarray(b + 0.5 * x * cubic)
+
+
+def _compared(
+    logs: Array, window: _Window, bands: Bands, template: Array | None
+) -> tuple[_Comparison, Array]:
+    """Return how each knock compares with the mean of the others, and the mean of all."""
+    level = logs[:, :, window.loud].mean(axis=2)[:, :, None]
+    floor = logs[:, :, window.quiet].mean(axis=2)[:, :, None] - level
+    logs = logs - level
+    if template is None:
+        template = np.median(logs, axis=0)
+    for _ in range(3):
+        share, off, most = _off(logs, template, floor)
+        better = (share * off).sum(axis=0) / ((share**2).sum(axis=0) + _LEAST)
+        template = np.maximum(template + np.clip(better, -1.0, 1.0), floor.min(axis=0) - 3.0)
+    share, off, most = _off(logs, template, floor)
+    rest = (share**2).sum(axis=0) + _LEAST - share**2
+    without = ((share * off).sum(axis=0) - share * off) / np.maximum(rest, _LEAST)
+    others = np.logaddexp(template + np.clip(without, -2.0, 2.0), floor)
+    residuals = np.clip(logs - others, -most, most)
+    variances = _smooth((residuals**2).mean(axis=0), _SMOOTH[0] / bands.step) + _VARIANCE
+    slopes, seen = (np.gradient(one, bands.step, axis=2) for one in (others, logs))
+    # What the slope of the others predicts of a knock's own: chance predicts nothing.
+    wide = _SMOOTH[1] / bands.step
+    told = _smooth((slopes * seen).mean(axis=0), wide)
+    real = np.clip(told / np.maximum(_smooth((slopes**2).mean(axis=0), wide), 1e-30), 0.0, 1.0)
+    weights = np.broadcast_to(real**2 / variances / bands.correlation[:, None], logs.shape)
+    return _Comparison(others + level, residuals, slopes, seen, weights, real**2), template
+
+
+def _off(logs: Array, template: Array, floor: Array) -> tuple[Array, Array, Array]:
+    """Return the template's share of each knock, the residuals, and to what they are limited."""
+    wanted = np.logaddexp(template, floor)
+    off = logs - wanted
+    most = _OUTLIER * (1.4826 * np.median(np.abs(off), axis=0) + 0.1)
+    return np.exp(template - wanted), np.clip(off, -most, most), most
+
+
+def _smooth(values: Array, wide: float) -> Array:
+    from scipy.ndimage import uniform_filter1d
+
+    return np.asarray(uniform_filter1d(values, int(wide) + 1, axis=-1, mode="nearest"))
+
+
+def _best(
+    bands: Bands, window: _Window, compared: _Comparison, shifts: Array, reach: float
+) -> Array:
+    """Return the shift of each knock, near the present one, that fits the template best.
+
+    The weighted sum of squares at all shifts is a correlation, calculated by Fourier transforms.
+    """
+    most = round(reach / bands.step)
+    now = np.round(shifts / bands.step).astype(np.int64)
+    steps = window.first + now[:, None] + np.arange(-most, window.steps + most)
+    steps = np.clip(steps, 0, bands.logs.shape[2] - 1)
+    logs = np.take_along_axis(bands.logs, steps[:, None], axis=2)
+    size = 1 << math.ceil(math.log2(logs.shape[2]))
+    weights, wanted = (
+        np.fft.rfft(one, size).conj()
+        for one in (compared.weights, compared.weights * compared.wanted)
+    )
+    both = np.fft.rfft(logs**2, size) * weights - 2.0 * np.fft.rfft(logs, size) * wanted
+    squares = np.fft.irfft(both.sum(axis=1), size)[:, : 2 * most + 1]
+    at = np.clip(np.argmin(squares, axis=1), 1, 2 * most - 1)
+    low, mid, high = (squares[np.arange(len(at)), at + k] for k in (-1, 0, 1))
+    bend = low - 2.0 * mid + high
+    between = np.where(bend > 0.0, 0.5 * (low - high) / np.where(bend > 0.0, bend, 1.0), 0.0)
+    return np.asarray((now + at - most + np.clip(between, -1.0, 1.0)) * bands.step)
+
+
+def _by_band(compared: _Comparison) -> tuple[Array, Array]:
+    """Return by how much each band would shift each knock, and the variance of that, (K, B)."""
+    weights, slopes = compared.weights, compared.slopes
+    information = (weights * slopes**2).sum(axis=2)
+    told = (weights * slopes * compared.seen).sum(axis=2).mean(axis=0)
+    real = np.maximum(told / np.maximum(information.mean(axis=0), 1e-30), _LEAST)
+    information = np.maximum(information * real, 1e-9)
+    shifts = -(weights * slopes * compared.residuals).sum(axis=2) / information
+    spread = (weights * slopes**2 * compared.significance).sum(axis=2)
+    return shifts, np.maximum(spread / information**2, 1e-14)
+
+
+def _averaged(shifts: Array, variances: Array) -> tuple[Array, Array]:
+    """Return the mean over the bands, and its error from how well the bands agree.
+
+    The variance of each band is scaled to the scatter of the bands about the mean, over all knocks,
+    and that of each knock to its own; a few degrees of freedom are those of the expected scatter.
+    """
+    scale = np.ones(shifts.shape[1])
+    for _ in range(10):
+        share, mean = _shares(shifts, variances * scale)
+        squares = (shifts - mean[:, None]) ** 2 / variances
+        scale = (_PRIOR + squares.sum(axis=0)) / (_PRIOR + (1.0 - share).sum(axis=0))
+    share, mean = _shares(shifts, variances * scale)
+    squares = (shifts - mean[:, None]) ** 2 / (variances * scale)
+    own = (share * squares).sum(axis=1) / np.maximum((share * (1.0 - share)).sum(axis=1), 1e-3)
+    freedom = 1.0 / (share**2).sum(axis=1) - 1.0
+    factor = (_PRIOR + freedom * own) / (_PRIOR + freedom)
+    return mean, np.sqrt(factor / (1.0 / (variances * scale)).sum(axis=1))
+
+
+def _shares(shifts: Array, variances: Array) -> tuple[Array, Array]:
+    """Return the weight of each band, of 1 together, and the weighted mean."""
+    weights = 1.0 / variances
+    share = weights / weights.sum(axis=1, keepdims=True)
+    return share, (share * shifts).sum(axis=1)
