@@ -248,6 +248,7 @@ def _track(
             rows.append((middle + since, low * 0.0 + floor, *speeds))
     moments, levels, impacts, rebounds = (tuple(column) for column in zip(*rows, strict=True))
     fall = common if shape.widening > 1.0 else numbers[0][0]
+    scale = ufloat(1.0, shape.scatter) if shape.scatter > 0.0 else 1.0  # after over before
     return Track(
         name,
         moments,
@@ -259,7 +260,7 @@ def _track(
             math.copysign(0.5, speed.nominal_value) * speed**2 / numbers[j + 1][0]
             for j, speed in zip(bounces, rebounds, strict=True)
         ),
-        tuple(after / before for before, after in zip(impacts, rebounds, strict=True)),
+        tuple(after / before * scale for before, after in zip(impacts, rebounds, strict=True)),
         fall,
         times,
         heights,

@@ -75,7 +75,8 @@ def uneven(name: str, shape: Shape) -> tuple[str, ...]:
     if shape.widening > 1.0:
         notes.append(
             f"{name}: the accelerations of its flights differ by {shape.scatter:.1%}, as where a "
-            "lens or the distance to the camera changes the scale; each flight has its own"
+            "lens or the distance to the camera changes the scale; each flight has its own, and "
+            "restitutions are as uncertain"
         )
     if abs(shape.change) > max(_BENT, 4.0 * shape.change_error):
         notes.append(

@@ -87,11 +87,10 @@ def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[f
     freedom = len(rows) - 1
     if mean == 0.0 or chi2.sf(square, freedom) > _RARE:
         return 0.0, 1.0
-    # Precise accelerations count alike where they differ by more than their errors.
-    excess = max(float(np.var(falls, ddof=1)) - float(np.mean(errors**2)), 0.0)
-    weights = 1.0 / (errors**2 + excess)
-    mean = float(np.average(falls, weights=weights))
-    scatter = math.sqrt(float(np.average((falls - mean) ** 2, weights=weights)))
+    # R. DerSimonian and N. Laird, Controlled Clinical Trials 7, 177 (1986), eq 9
+    variance = (square - freedom) / float(weights.sum() - (weights**2).sum() / weights.sum())
+    mean = float(np.average(falls, weights=1.0 / (errors**2 + variance)))
+    scatter = math.sqrt(variance)
     return scatter / max(abs(mean), 1e-300), math.sqrt(square / freedom)
 
 
