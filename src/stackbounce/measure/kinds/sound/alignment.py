@@ -21,6 +21,7 @@ _VARIANCE = 0.6  # added to that of the logarithms: of noise in a narrow band it
 _SMOOTH = 0.2e-3, 0.5e-3  # s over which variance and significance are averaged
 _LEAST = 0.05  # of what tells something
 _PRIOR = 4.0  # degrees of freedom of the expected scatter
+_DRAWN = 0.3  # share of the median variance in that of a knock
 
 
 class _Window(NamedTuple):
@@ -107,7 +108,9 @@ def aligned(
         shifts = np.clip(shifts - np.median(shifts), -reach, reach)
         compared, template = _compared(_shifted(bands, window, shifts), window, bands, template)
     more, errors = _averaged(*_by_band(compared))
-    return about + shifts + more, errors
+    # Few bands tell the error of one knock: it is drawn to that of all.
+    drawn = np.sqrt((1.0 - _DRAWN) * errors**2 + _DRAWN * np.median(errors) ** 2)
+    return about + shifts + more, drawn
 
 
 def _window(bands: Bands, before: float, after: float) -> _Window:

@@ -14,7 +14,7 @@ __all__ = ["OWN", "Shape", "curvatures", "own_noise", "shape_of"]
 
 OWN = 5  # points of a flight that tell its own acceleration
 _BENT = 8  # points of a flight that tell how its acceleration changes
-_RARE = 1e-3  # p-value of accelerations that differ
+_RARE = 5e-4  # p-value of accelerations that differ
 
 
 class Shape(NamedTuple):
@@ -73,7 +73,7 @@ def own_noise(times: Array, heights: Array, flights: Sequence[Flight]) -> float:
 
 
 def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[float, float]:
-    from scipy.stats import chi2
+    from scipy.stats import f
 
     rows = _polynomials(times, heights, flights, 2, OWN)
     if len(rows) < 2:
@@ -85,7 +85,8 @@ def _scatter(times: Array, heights: Array, flights: Sequence[Flight]) -> tuple[f
     mean = float(np.average(falls, weights=weights))
     square = float((weights * (falls - mean) ** 2).sum())
     freedom = len(rows) - 1
-    if mean == 0.0 or chi2.sf(square, freedom) > _RARE:
+    points = sum(last - first - 3 for first, last in flights if last - first >= OWN)
+    if mean == 0.0 or f.sf(square / freedom, freedom, max(points, 1)) > _RARE:
         return 0.0, 1.0
     # R. DerSimonian and N. Laird, Controlled Clinical Trials 7, 177 (1986), eq 9
     variance = (square - freedom) / float(weights.sum() - (weights**2).sum() / weights.sum())
