@@ -62,7 +62,8 @@ def _opened(
     except (FileError, MemoryError):
         raise
     except Exception as error:
-        why = " ".join(str(error).split())[:200]
+        own = type(error).__module__ in ("builtins", "struct")  # of Python: no word for a user
+        why = "it is damaged" if own else " ".join(str(error).split())[:200]
         raise FileError(
             f"it is a spreadsheet or document that cannot be read ({why}): save it as CSV"
         ) from error

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
 __all__ = ["draw"]
 
 _SAMPLES = 60  # of a parabola
+_LINES = 2  # on which restitutions are written in turn
 
 
 def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
@@ -45,7 +46,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         below.set_ylabel(f"residual ({small})")
         below.set_xlabel(f"time ({time})")
         above.set_title(_summary(found), loc="left", fontsize=10)
-        above.margins(y=0.12)
+        above.margins(y=0.16)
         above.legend(loc="best", frameon=True, framealpha=0.9, edgecolor="none")
         figure.align_ylabels()
     return figure
@@ -70,11 +71,12 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, found: Any) -> None:
         level, speed = ball.fit.values[1 + 2 * j : 3 + 2 * j]
         axes.plot(at, level + speed * since - 0.5 * fall * since**2, color=color, linewidth=1.4)
     rows = zip(ball.impact_times, ball.levels, ball.restitutions, strict=True)
-    for time, level, kept in rows:
+    for k, (time, level, kept) in enumerate(rows):
         place = (time.nominal_value, level.nominal_value)
         axes.plot(*place, "v", color=color, markersize=7, markeredgecolor="white")
         if not named:
-            annotate(axes, f"e = {kept:.1uS}", place, color, xytext=(0, -14), ha="center")
+            low = -14 - 11 * (k % _LINES)  # bounces follow ever faster
+            annotate(axes, f"e = {kept:.1uS}", place, color, xytext=(0, low), ha="center")
 
 
 def _label(ball: Any, named: bool, speed: str) -> str:
