@@ -142,7 +142,7 @@ def _column(lines: list[str], random: Random) -> list[str]:
     for row, line in enumerate(lines):
         cells = line.split(mark)
         if place < len(cells) and _NUMBER.fullmatch(cells[place].strip()):
-            value = float(cells[place].replace(",", "."))
+            value = float(cells[place].strip().replace(",", "."))
             single = float(np.float32(np.clip(value, -1e38, 1e38)))
             cells[place] = (
                 "1", str(row), f"{value:.{digits}g}", repr(value * scale), repr(value + scale),
