@@ -158,12 +158,12 @@ def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
             continue
         order = stack.order[i]
         crest = _largest_value(stack.compression_series[i], order + stack.root[stack.first[i]], s)
-        stack.peak_compression[i] = max(stack.peak_compression[i], crest)
         if stack.law[i] == PRODUCT:
-            crest = _largest_value(stack.force_series[i], order, s)
-        else:
-            crest = force(stack, i, crest, 0.0)
-        stack.peak_force[i] = max(stack.peak_force[i], crest)
+            largest = _largest_value(stack.force_series[i], order, s)
+            stack.peak_force[i] = max(stack.peak_force[i], largest)
+        elif crest > stack.peak_compression[i]:
+            stack.peak_force[i] = max(stack.peak_force[i], force(stack, i, crest, 0.0))
+        stack.peak_compression[i] = max(stack.peak_compression[i], crest)
 
 
 @kernel

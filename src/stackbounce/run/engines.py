@@ -15,7 +15,7 @@ the same bits, about a hundred times slower.
 
 import math
 from collections.abc import Callable, Iterable
-from typing import Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from stackbounce.engine import native
 from stackbounce.engine.codes import POWER
@@ -24,7 +24,9 @@ from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.model.laws import contact_numbers
 from stackbounce.run.options import Options
-from stackbounce.run.paths import Number
+
+if TYPE_CHECKING:
+    from stackbounce.run.paths import Number
 
 __all__ = [
     "FINITE",
@@ -112,7 +114,7 @@ def choose_engine(drop: Drop) -> Engine:
     return RIGID if drop.rigid else FINITE
 
 
-def suits_two_springs(drop: Drop, numbers: Iterable[Number], options: Options) -> bool:
+def suits_two_springs(drop: Drop, numbers: "Iterable[Number]", options: Options) -> bool:
     """Return whether the engine for two springs can solve a batch of drops.
 
     ``numbers`` are the parameters that differ between the drops. Their values are not considered,
