@@ -141,18 +141,37 @@ def _linearise_if_slow(stack: Stack, i: int) -> None:
 
 
 @kernel
+def _energy_to_return(stack: Stack, i: int, compression: float) -> float:
+    """Return the energy that lossy contact i will give back, after reloading up to a compression.
+
+    That is what it held when the reloading began, plus e^2 of the work of reloading; but at least
+    the energy under the steepest unloading curve.
+    """
+    kept = (stack.exponent[i] + 1.0) / (stack.unloading[i] + 1.0)
+    held = stack.dip_energy[i]
+    energy = held + kept * (stored_energy(stack, i, compression) - held)
+    least = force(stack, i, compression, 0.0) * compression / (_steepest(stack, i) + 1.0)
+    return max(energy, least)
+
+
+@kernel
+def _steepest(stack: Stack, i: int) -> float:
+    """Return the largest exponent of the unloading curves of contact i.
+
+    Without a limit the exponent could grow beyond all bounds in infinitely many cycles.
+    """
+    return _STEEPEST * stack.unloading[i]
+
+
+@kernel
 def _steepen(stack: Stack, i: int, compression: float) -> None:
     """Give lossy contact i, which turns back below its old peak, a steeper unloading curve.
 
-    Along that curve it returns e^2 of the work of reloading. The exponent has an upper limit,
-    because it could grow without bound in infinitely many cycles.
+    See `_energy_to_return`.
     """
     pressing = force(stack, i, compression, 0.0)
     exponent = stack.exponent[i]
-    kept = (exponent + 1.0) / (stack.unloading[i] + 1.0)
-    reloaded = stored_energy(stack, i, compression)
-    energy = stack.dip_energy[i] + kept * (reloaded - stack.dip_energy[i])
-    steeper = min(pressing * compression / energy - 1.0, _STEEPEST * stack.unloading[i])
+    steeper = pressing * compression / _energy_to_return(stack, i, compression) - 1.0
     if steeper <= stack.curve_exponent[i] * _STEEPER:
         return
     # the steeper curve meets the loading curve earlier than the old one
@@ -202,16 +221,17 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
             exponent = stack.unloading[i]
             if stack.base[i] > 0.0:
                 held = loaded_energy(stack, i, compression)
-                given_back = min(pressing * compression / held - 1.0, _STEEPEST * exponent)
+                given_back = min(pressing * compression / held - 1.0, _steepest(stack, i))
                 exponent = max(stack.exponent[i], given_back)  # never more than the work done
             _set_curve(stack, i, pressing, compression, exponent)
             stack.top[i] = compression
         else:
             _steepen(stack, i, compression)
+        stack.dip_energy[i] = stored_energy(stack, i, compression)  # until it dips
     elif kind == RELOADED:
         stack.phase[i] = COMPRESSING
         if stack.law[i] == LOSSY:
-            stack.base_energy[i] = stored_energy(stack, i, compression)
+            stack.base_energy[i] = _energy_to_return(stack, i, compression)
             stack.base[i] = compression
         _set_loading_curve(stack, i)
     elif kind == RESUMED:

@@ -35,11 +35,11 @@ class Hysteretic(ContactLaw):
     Loading follows ``F = k c**p``; from the peak compression C it unloads along
     ``F = k C**p (c/C)**n``. If the contact is compressed again before it has opened, and
     `reloading` is free, it follows its unloading curve back to the old peak C, and then the loading
-    curve, so that no cycle gains energy. If `reloading` is lossy and the contact turns back below
-    the old peak, it unloads along a steeper power law, whose exponent is at most 10 n, and returns
-    e**2 of the work of reloading. The contact ends when force and compression are zero. The next
-    contact has no memory of it. Unloading returns the fraction ``e**2 = (p + 1)/(n + 1)`` of the
-    work of loading, at any speed.
+    curve, so that no cycle gains energy. If `reloading` is lossy, the contact returns what it held
+    when the reloading began, and e**2 of all work since then, whether it turns back below or beyond
+    the old peak; below, it unloads along a steeper power law, whose exponent is at most 10 n. The
+    contact ends when force and compression are zero. The next contact has no memory of it.
+    Unloading returns the fraction ``e**2 = (p + 1)/(n + 1)`` of the work of loading, at any speed.
 
     Parameters
     ----------
