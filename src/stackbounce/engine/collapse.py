@@ -75,13 +75,17 @@ def find_collapse(stack: RigidStack, contact: int, until: float, log: Floats) ->
     """Jump to the end of an inelastic collapse if one has begun and its rest is negligibly short.
 
     The criteria are those of the module's docstring. While the remaining duration is not
-    negligible, nothing is replaced and the collisions are computed one by one.
+    negligible, nothing is replaced and the collisions are computed one by one, until the rates of
+    the two contacts come close to underflow: next to the threshold the duration of a round hardly
+    shrinks, though the rates do.
     """
-    soon = min(NEGLIGIBLE_TIME * stack.clock[LAST_EVENT], until - stack.clock[LAST_EVENT])
+    left = until - stack.clock[LAST_EVENT]
+    soon = min(NEGLIGIBLE_TIME * stack.clock[LAST_EVENT], left)
     for other in (contact - 1, contact + 1):
         if 0 <= other < len(stack.mass):
             duration = pair_duration(stack, contact, other)
-            if duration <= soon:
+            certain = duration < math.inf and duration <= left
+            if duration <= soon or (certain and _are_still(stack, contact, other)):
                 _merge(stack, min(contact, other), max(contact, other), duration, log)
     stack.last_hit[contact] = stack.counter[EVENTS]
     low, high = vanished_group(stack, contact)
@@ -299,6 +303,18 @@ def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]
 
 
 @kernel
+def _are_still(stack: RigidStack, i: int, j: int) -> bool:
+    """Tell whether, without gravity, the rates of contacts i and j are close to underflow."""
+    return stack.number[GRAVITY] == 0.0 and _is_still(stack, i) and _is_still(stack, j)
+
+
+@kernel
+def _is_still(stack: RigidStack, i: int) -> bool:
+    """Tell whether the rate of contact i is close to underflow."""
+    return abs(stack.rate[i]) * stack.number[UNIT] < _VANISHED * stack.number[SPEED]
+
+
+@kernel
 def vanished_group(stack: RigidStack, contact: int) -> tuple[int, int]:
     """Return the lowest and highest contact of the group around ``contact`` if its rates vanish.
 
@@ -306,9 +322,8 @@ def vanished_group(stack: RigidStack, contact: int) -> tuple[int, int]:
     vanished, or the group has fewer than three contacts, ``contact`` is returned twice: two
     contacts are decided by `pair_duration`.
     """
-    limit = _VANISHED * stack.number[SPEED] / stack.number[UNIT]
     size = len(stack.mass)
-    if abs(stack.rate[contact]) >= limit:
+    if not _is_still(stack, contact):
         return contact, contact
     busy = stack.counter[EVENTS] - _BUSY * size
     low, high = contact, contact
@@ -317,6 +332,6 @@ def vanished_group(stack: RigidStack, contact: int) -> tuple[int, int]:
     while high + 1 < size and stack.last_hit[high + 1] > max(busy, 0):
         high += 1
     for i in range(low, high + 1):
-        if abs(stack.rate[i]) >= limit:
+        if not _is_still(stack, i):
             return contact, contact
     return (low, high) if high > low + 1 else (contact, contact)
