@@ -64,7 +64,7 @@ def layout() -> dict[str, Any]:
         },
         "after": {name: getattr(records, name) for name in ("UNIT", "END", "AFTER")},
         "counter": {"LOG_ROWS": slots.LOG_ROWS},
-        "log": _numbered(f"{_COLUMNS} IMPULSE"),
+        "log": _numbered(f"{_COLUMNS} IMPULSE PEAK_TIME"),
         "statuses": _numbered(_STATUSES),
         "events": _numbered(_EVENTS),
         "forms": FORMS,

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 import stackbounce as sb
 from drops import exact, precise, rigid
@@ -31,8 +32,38 @@ def test_collapse_from_the_threshold_on(floor, balls):
     assert result.collisions.tolist() == expected.counts()
 
 
-def test_collapse_exactly_at_the_threshold():
-    assert sb.simulate(rigid([1.0, 8.0], 0.5)).status is sb.Status.COLLAPSED
+@pytest.mark.parametrize("gap", [0.0, 1.0])
+def test_collapse_exactly_at_the_threshold(gap):
+    result = sb.simulate(rigid([1.0, 8.0], 0.5, gaps=[gap]))
+    assert result.status is sb.Status.COLLAPSED
+    assert result.rebound_speeds.tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("compiled", [None, False])
+@pytest.mark.parametrize(
+    ("restitution", "status"), [(0.17155, "COLLAPSED"), (0.1715729, "FINISHED")]
+)
+def test_rates_below_underflow(restitution, status, compiled):
+    drop = rigid([1.0, 1.0], restitution, gaps=[0.3])
+    assert sb.simulate(drop, compiled=compiled).status.name == status
+
+
+def near_threshold(random):
+    """Return a drop of two balls next to the threshold of collapse, and on which side it is."""
+    mass = 10.0 ** random.uniform(-1.3, 0.7)
+    threshold = brentq(lambda e: 4.0 * e / (1.0 - e) ** 2 - mass, 1e-9, 1.0 - 1e-9)
+    offset = random.choice([-1.0, 1.0]) * 10.0 ** random.uniform(-8.0, -4.0)
+    gap = random.choice([0.0, 0.3, random.uniform(0.0, 1.0)])
+    return rigid([1.0, mass], threshold + offset, gaps=[gap]), offset < 0.0
+
+
+@pytest.mark.fast_cases(1)
+@pytest.mark.parametrize(("seed", "count"), [(1, 200), (2, 20_000)])
+def test_next_to_the_threshold(seed, count):
+    random = np.random.default_rng(seed)
+    for _ in range(count):
+        drop, collapses = near_threshold(random)
+        assert sb.simulate(drop).status.name == ("COLLAPSED" if collapses else "FINISHED")
 
 
 @pytest.mark.parametrize("gap", [0.0, 0.25])

@@ -10,6 +10,7 @@ import stackbounce as sb
 from reference.make_data import DATA
 
 ROWS = json.loads((DATA / "laws.json").read_text())
+KEPT = ["contact", "start", "end", "peak_force", "peak_compression", "impulse"]
 TOLERANCES = (1e-4, 1e-6, 1e-9, 1e-12, 1e-13)
 ROUND_OFF = 1e-12  # of a time, below which the end of a creeping contact is not known
 CREEPING = 0.02  # of the speed before: a contact that ends slower ends at an ill-conditioned time
@@ -48,7 +49,7 @@ def test_error_is_below_ten_times_the_tolerance_asked_for(index, rtol):
     assert result.collisions.tolist() == counts.tolist()
     error = np.abs(result.rebound_speeds - row["rebound_speeds"]).max()
     assert error <= 10 * rtol * drop.reference_speed
-    found = table(result.intervals.tolist())
+    found = table(result.intervals[KEPT].tolist())
     for column in (3, 4, 5):  # peaks and impulses, by the largest of them
         size = np.max(expected[:, column], initial=0.0)
         assert found[:, column] == pytest.approx(expected[:, column], abs=100 * rtol * size)

@@ -75,7 +75,8 @@ def run_drop(
             log_unfinished(stack, end, space.log)
         space.after[END] = end * unit
         for b in range(size):
-            space.after[AFTER + b] = velocity_at(stack, b, end) / unit
+            known = status != codes.INVALID
+            space.after[AFTER + b] = velocity_at(stack, b, end) / unit if known else math.nan
         for k in range(len(samples.velocity)):
             samples.velocity[k] /= unit
             samples.force[k] /= unit * unit
@@ -120,7 +121,8 @@ def run_rigid_drop(
             end = until if status == codes.TIME_REACHED else max(end, stack.clock[LAST_CHECK])
         space.after[END] = end
         for b in range(len(stack.mass)):
-            space.after[AFTER + b] = rigid_velocity(stack, b, end)
+            known = status != codes.INVALID
+            space.after[AFTER + b] = rigid_velocity(stack, b, end) if known else math.nan
     return status
 
 
@@ -192,6 +194,7 @@ def _convert_log(log: Floats, rows: int, unit: float) -> None:
         at = line * LOG_COLUMNS
         log[at + codes.TIME] *= unit
         log[at + codes.START] *= unit
+        log[at + codes.PEAK_TIME] *= unit
         log[at + codes.LOWER_VELOCITY] /= unit
         log[at + codes.UPPER_VELOCITY] /= unit
         log[at + codes.PEAK_FORCE] /= unit * unit

@@ -58,6 +58,7 @@ def close_contact(stack: Stack, i: int, time: float) -> None:
     stack.phase[i] = COMPRESSING
     stack.counter[CLOSED] += 1
     stack.peak_force[i] = 0.0
+    stack.peak_time[i] = stack.start[i]
     stack.peak_compression[i] = 0.0
     stack.impulse[i] = 0.0
     stack.base[i] = 0.0
@@ -182,9 +183,12 @@ def _steepen(stack: Stack, i: int, compression: float) -> None:
 
 
 @kernel
-def record_peak(stack: Stack, i: int, compression: float, rate: float) -> None:
-    """Update the largest force and compression of the present interval."""
-    stack.peak_force[i] = max(stack.peak_force[i], force(stack, i, compression, rate))
+def record_peak(stack: Stack, i: int, compression: float, rate: float, time: float) -> None:
+    """Update the largest force of the present interval, its time, and the largest compression."""
+    pressing = force(stack, i, compression, rate)
+    if pressing > stack.peak_force[i]:
+        stack.peak_force[i] = pressing
+        stack.peak_time[i] = time
     stack.peak_compression[i] = max(stack.peak_compression[i], compression)
 
 

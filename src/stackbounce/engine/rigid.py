@@ -20,6 +20,7 @@ from stackbounce.engine.codes import (
     LOWER_VELOCITY,
     PEAK_COMPRESSION,
     PEAK_FORCE,
+    PEAK_TIME,
     RUNNING,
     SETTLED,
     START,
@@ -210,6 +211,7 @@ def _collide(stack: RigidStack, i: int, log: Floats) -> None:
     log[at + UPPER_VELOCITY] = stack.velocity[i] * factor
     log[at + START] = stack.clock[LAST_EVENT]
     log[at + PEAK_FORCE] = math.inf
+    log[at + PEAK_TIME] = stack.clock[LAST_EVENT]
     log[at + PEAK_COMPRESSION] = 0.0
     log[at + IMPULSE] = impulse * factor
     stack.counter[LOG_ROWS] += 1

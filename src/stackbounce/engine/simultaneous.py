@@ -25,6 +25,7 @@ from stackbounce.engine.codes import (
     PEAK,
     PEAK_COMPRESSION,
     PEAK_FORCE,
+    PEAK_TIME,
     RELEASE,
     RESUMED,
     RUNNING,
@@ -150,7 +151,7 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
     stack.counter[CHECKS] = 0
     compression = compression_at(stack, i, time)
     if kind == PEAK:
-        record_peak(stack, i, compression, 0.0)
+        record_peak(stack, i, compression, 0.0, time)
     if kind not in (TOUCH, RELEASE) and not changes_curve(stack, i, kind):
         change_phase(stack, i, kind, compression)
         _reschedule(stack, i, time)
@@ -313,6 +314,7 @@ def _log_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> Non
     log[at + UPPER_VELOCITY] = stack.velocity[i]
     log[at + START] = stack.start[i]
     log[at + PEAK_FORCE] = stack.peak_force[i]
+    log[at + PEAK_TIME] = stack.peak_time[i]
     log[at + PEAK_COMPRESSION] = stack.peak_compression[i]
     log[at + IMPULSE] = stack.impulse[i]
 
@@ -325,7 +327,7 @@ def log_unfinished(stack: Stack, time: float, log: Floats) -> None:
             continue
         if stack.phase[i] >= COMPRESSING:
             compression = compression_at(stack, i, time)
-            record_peak(stack, i, compression, rate_at(stack, i, time))
+            record_peak(stack, i, compression, rate_at(stack, i, time), time)
             since = time - stack.anchor[stack.first[i]]
             if stack.modal[stack.first[i]] == 0:
                 record_series_peaks(stack, i, i + 1, series_time(stack, stack.first[i], since))

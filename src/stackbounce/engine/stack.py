@@ -60,6 +60,7 @@ class Stack(NamedTuple):
     # the present interval of each contact
     start: Floats
     peak_force: Floats
+    peak_time: Floats  # of the peak force
     peak_compression: Floats
     impulse: Floats
     # clusters

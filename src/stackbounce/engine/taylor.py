@@ -36,7 +36,7 @@ _SLOW = 1e-13  # but at least this part of the reference speed
 ROOT_POWERS = 8.0  # twice the power from which on a series in the root of time is no faster
 _BEYOND = 1.25  # times a compression: the largest change in a step
 _CLEAR = 50.0  # times the tolerance of a step: the largest last term of a power
-_HALVINGS = 26  # of a part of a step, in the search for a peak
+_HALVINGS = 50  # of a part of a step, in the search for a peak
 _PARTS = 4  # of a step, each searched for one peak
 
 
@@ -156,25 +156,32 @@ def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
     for i in range(low, high):
         if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] not in (POWER, PRODUCT):
             continue
-        order = stack.order[i]
-        crest = _largest_value(stack.compression_series[i], order + stack.root[stack.first[i]], s)
+        first, order = stack.first[i], stack.order[i]
+        root = stack.root[first]
+        crest, at = _largest_value(stack.compression_series[i], order + root, s)
+        pressing = stack.peak_force[i]
         if stack.law[i] == PRODUCT:
-            largest = _largest_value(stack.force_series[i], order, s)
-            stack.peak_force[i] = max(stack.peak_force[i], largest)
+            pressing, at = _largest_value(stack.force_series[i], order, s)
         elif crest > stack.peak_compression[i]:
-            stack.peak_force[i] = max(stack.peak_force[i], force(stack, i, crest, 0.0))
+            pressing = force(stack, i, crest, 0.0)
+        if pressing > stack.peak_force[i]:
+            stack.peak_force[i] = pressing
+            stack.peak_time[i] = stack.anchor[first] + (at if root == 1 else at * at)
         stack.peak_compression[i] = max(stack.peak_compression[i], crest)
 
 
 @kernel
-def _largest_value(a: Floats, n: int, s: float) -> float:
-    """Return the largest value of a series from 0 to s."""
-    largest = max(a[0], evaluate(a, n, s))
+def _largest_value(a: Floats, n: int, s: float) -> tuple[float, float]:
+    """Return the largest value of a series from 0 to s, and where it is."""
+    largest, at = a[0], 0.0
+    last = evaluate(a, n, s)
+    if last > largest:
+        largest, at = last, s
     bend = 0.0
     for k in range(n, 1, -1):
         bend = k * abs(a[k]) + s * bend
     if abs(a[1]) > s * bend:
-        return largest  # monotonic
+        return largest, at  # monotonic
     for part in range(_PARTS):
         left, right = s * part / _PARTS, s * (part + 1) / _PARTS
         if _slope(a, n, left) <= 0.0 or _slope(a, n, right) >= 0.0:
@@ -185,8 +192,10 @@ def _largest_value(a: Floats, n: int, s: float) -> float:
                 left = middle
             else:
                 right = middle
-        largest = max(largest, evaluate(a, n, left))
-    return largest
+        crest = evaluate(a, n, left)
+        if crest > largest:
+            largest, at = crest, left
+    return largest, at
 
 
 @kernel

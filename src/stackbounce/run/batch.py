@@ -16,7 +16,7 @@ from typing import TypeAlias
 import numpy as np
 
 from stackbounce.engine import codes
-from stackbounce.engine.records import UNIT, Drops, Outcomes
+from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
@@ -150,8 +150,7 @@ def _run_rows(
             run(stack, space, one, room.no_samples, *options, outcome)
         except OUT_OF_RANGE:
             outcome.status[0] = codes.INVALID
-            unit = space.after[UNIT] or 1.0
-            outcome.velocity[0] = [velocity / unit for velocity in stack.velocity]
+            outcome.velocity[0] = math.nan
 
 
 def _find_ratios(drops: Drops, out: Outcomes, compiled: bool) -> None:

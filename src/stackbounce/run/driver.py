@@ -6,6 +6,7 @@ one call for a stack of few balls. The log, in SI units, becomes a `Result`.
 """
 
 import functools
+import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -133,7 +134,7 @@ def _run(drop: Drop, options: Options, compiled: bool, times: Sequence[float]) -
     except OUT_OF_RANGE:
         log += room.take_log()
         unit = room.space.after[UNIT] or 1.0
-        ends = [velocity / unit for velocity in room.stack.velocity]
+        ends = [math.nan] * balls
         status, after = codes.INVALID, [unit, room.stack.clock[LAST_EVENT] * unit, *ends]
     infinite = room.numbers(room.stack.infinite) if engine is RIGID else [0] * balls
     return _Run(status, after[END], after[AFTER:], log, infinite, samples)

@@ -29,6 +29,7 @@ INTERVAL = np.dtype(
         ("peak_force", "f8"),
         ("peak_compression", "f8"),
         ("impulse", "f8"),
+        ("peak_time", "f8"),
     ]
 )
 EVENT = np.dtype(
@@ -76,7 +77,8 @@ _ADVICE = {
     Status.EVENT_LIMIT: "the limit of events, or of steps between two events, was met: "
     "raise event_limit, or stop earlier with until",
     Status.INVALID: "numbers left the range of floating point, or a contact was shorter than the "
-    "resolution of time: bring masses, stiffnesses, gaps and speeds closer together",
+    "resolution of time, so that no speeds are known: bring masses, stiffnesses, gaps and "
+    "speeds closer together",
 }
 
 
@@ -96,7 +98,7 @@ class Result:
     end_time : float
         Time in s of the last event, or of the stop.
     final_velocities : sequence of float
-        (N,) velocity of each ball in m/s at `end_time`, up-positive.
+        (N,) velocity of each ball in m/s at `end_time`, up-positive; nan if INVALID.
     log : sequence of float
         The engine's log, a row of `stackbounce.engine.codes.LOG_COLUMNS` numbers per event.
     infinite : sequence of int
@@ -127,7 +129,7 @@ class Result:
 
     @functools.cached_property
     def rebound_speeds(self) -> NDArray[np.float64]:
-        """(N,) velocity of each ball after the impact, m/s, up-positive."""
+        """(N,) velocity of each ball after the impact, m/s, up-positive; nan if INVALID."""
         return _frozen(np.array(self.final_velocities, dtype=float))
 
     @functools.cached_property
@@ -146,9 +148,10 @@ class Result:
     def intervals(self) -> NDArray[Any]:
         """A row per contact interval by its start: contact, start, end, peaks and impulse.
 
-        Times are in s, `peak_force` in N, `peak_compression` in m, `impulse` in N s. A rigid
-        collision has end = start and an infinite peak force; of infinitely many the first ones are
-        listed. An interval that had not ended when the run stopped has an infinite end.
+        Times are in s, `peak_force` in N, `peak_compression` in m, `impulse` in N s; `peak_time` is
+        that of the peak force. A rigid collision has end = start and an infinite peak force; of
+        infinitely many the first ones are listed. An interval that had not ended when the run
+        stopped has an infinite end.
         """
         rows = self._rows[np.isin(self._rows[:, codes.KIND], (codes.RELEASE, codes.COLLISION))]
         out = np.empty(len(rows), dtype=INTERVAL)
@@ -158,6 +161,7 @@ class Result:
         out["peak_force"] = rows[:, codes.PEAK_FORCE]
         out["peak_compression"] = rows[:, codes.PEAK_COMPRESSION]
         out["impulse"] = rows[:, codes.IMPULSE]
+        out["peak_time"] = rows[:, codes.PEAK_TIME]
         return _frozen(out[np.lexsort((out["contact"], out["start"]))])
 
     @functools.cached_property
