@@ -23,6 +23,7 @@ from stackbounce.run.result import Result, Status
 __all__ = ["print_simulation"]
 
 _APEXES = 4  # highest points shown for each ball
+_LONG = 1_000_000  # numbers in the log of a run that is not repeated to find its conditioning
 
 
 def print_simulation(
@@ -125,9 +126,21 @@ def _closing(console: Console, result: Result, textbook: Result | None) -> None:
             f"{listed} from the floor up: {_counts(textbook)}, "
             f"energy retained {percent(textbook.energy_retained)}"
         )
+    _conditioning(console, result)
     for title, one in (("Status", result), ("Status of the separate collisions", textbook)):
         if one is not None and one.status is not Status.FINISHED:
             console.print(f"{title}: {one.status.name}: {one.status.advice}")
+
+
+def _conditioning(console: Console, result: Result) -> None:
+    """Say from which time on no digit of the speeds is known, if there is one."""
+    if len(result.log) > _LONG or result.status is Status.INVALID:
+        return
+    if math.isfinite(result.known_until):
+        console.print(
+            f"Chaotic: no digit of the speeds is known after {number(result.known_until)} s, where "
+            f"an error of {result.precision:.0e} of the numbers has grown to one of the speeds."
+        )
 
 
 def _counts(result: Result) -> str:

@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from stackbounce.engine import codes
 from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, UNIT
-from stackbounce.engine.slots import LAST_EVENT
+from stackbounce.engine.slots import LAST_EVENT, NONLINEAR
 from stackbounce.engine.stack import Samples
 from stackbounce.model import Drop
 from stackbounce.run.engines import OUT_OF_RANGE, RIGID, choose_compiled, choose_engine
 from stackbounce.run.memory import memory
 from stackbounce.run.options import Options, run_options
 from stackbounce.run.parameters import drop_numbers
-from stackbounce.run.result import Result, Status
+from stackbounce.run.result import ROUND_OFF, Result, Status
 
 if TYPE_CHECKING:
     import numpy as np
@@ -84,8 +84,10 @@ def simulate(
     options = run_options(drop, until, rtol, event_limit)
     chosen = choose_compiled(compiled)
     run = _run(drop, options, chosen, ())
-    sample = functools.partial(_sample, drop, options, chosen)
-    return Result(drop, Status(run.status), run.time, run.velocities, run.log, run.infinite, sample)
+    again = functools.partial(_run, drop, options, chosen)
+    precision = max(options.rtol, ROUND_OFF) if run.nonlinear else ROUND_OFF
+    status = Status(run.status)
+    return Result(drop, status, run.time, run.velocities, run.log, run.infinite, precision, again)
 
 
 def forces_at(
@@ -100,11 +102,6 @@ def forces_at(
     return Status(run.status), forces
 
 
-def _sample(drop: Drop, options: Options, compiled: bool, times: Sequence[float]) -> Samples:
-    """Repeat a run and return its samples at times in ascending order."""
-    return _run(drop, options, compiled, times).samples
-
-
 class _Run(NamedTuple):
     """The results of one run in SI units: the contents of a `Result`, and the samples."""
 
@@ -114,13 +111,26 @@ class _Run(NamedTuple):
     log: list[float]
     infinite: list[int]
     samples: Samples
+    nonlinear: bool  # whether rtol sets the error of a step
 
 
-def _run(drop: Drop, options: Options, compiled: bool, times: Sequence[float]) -> _Run:
-    """Run a drop, with samples at times in ascending order."""
+def _run(
+    drop: Drop,
+    options: Options,
+    compiled: bool,
+    times: Sequence[float],
+    error: float = 0.0,
+    seed: int = 0,
+) -> _Run:
+    """Run a drop, with samples at times in ascending order, and with errors of its numbers."""
     engine, balls = choose_engine(drop), len(drop.balls)
     room = memory(engine, balls, compiled)
-    room.put(drop_numbers(drop))
+    numbers = drop_numbers(drop)
+    if error > 0.0:
+        from stackbounce.run.conditioning import disturbed
+
+        numbers = disturbed(numbers, error, seed)
+    room.put(numbers)
     samples = room.samples(times)
     run = room.run_with(samples)
     log: list[float] = []
@@ -136,5 +146,7 @@ def _run(drop: Drop, options: Options, compiled: bool, times: Sequence[float]) -
         unit = room.space.after[UNIT] or 1.0
         ends = [math.nan] * balls
         status, after = codes.INVALID, [unit, room.stack.clock[LAST_EVENT] * unit, *ends]
-    infinite = room.numbers(room.stack.infinite) if engine is RIGID else [0] * balls
-    return _Run(status, after[END], after[AFTER:], log, infinite, samples)
+    rigid = engine is RIGID
+    infinite = room.numbers(room.stack.infinite) if rigid else [0] * balls
+    nonlinear = not rigid and room.stack.setting[NONLINEAR] == 1
+    return _Run(status, after[END], after[AFTER:], log, infinite, samples, nonlinear)
