@@ -357,7 +357,7 @@ def test_json_stays_pure_with_a_picture(run):
         ),
         (["none.toml"], "none.toml cannot be read: No such file or directory"),
         (["./B1"], "./B1 cannot be read: No such file or directory"),
-        (["."], ". cannot be read: Is a directory"),
+        (["."], ". is a folder: give one of its files"),
         (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
         (
             ["a.toml", "B1"],
@@ -387,6 +387,15 @@ def test_a_picture_that_cannot_be_written_is_one_line(run):
     Path("folder.svg").mkdir()
     _, _, err = run("simulate", "B1", "--plot", "folder.svg")
     assert err == "stackbounce: error: folder.svg cannot be written: it is a folder\n"
+
+
+@pytest.mark.slow
+def test_pictures_do_not_depend_on_the_settings_of_matplotlib(run):
+    assert run("simulate", "B1", "--plot", "plain.svg")[0] == 0
+    Path("matplotlibrc").write_text("text.usetex: True\nfont.size: 30\n")
+    done = process("simulate", "B1", "--plot", "own.svg", env={**os.environ, "MPLBACKEND": "junk"})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert Path("own.svg").read_bytes() == Path("plain.svg").read_bytes()
 
 
 def test_true_process_ends_with_2_and_no_traceback():

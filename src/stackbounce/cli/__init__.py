@@ -83,6 +83,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+    os.environ["MPLBACKEND"] = "agg"  # nothing is shown, and matplotlib refuses an unknown name
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _warn
