@@ -1,11 +1,19 @@
 """The command ``stackbounce masses``: the inner masses that throw the top ball highest."""
 
+from collections import Counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from stackbounce.cli.options import DROP, AsJson, Save, What, add_options
-from stackbounce.cli.output import check_scenario, console, print_files, print_json, write_scenario
+from stackbounce.cli.output import (
+    check_scenario,
+    check_solved,
+    console,
+    print_files,
+    print_json,
+    write_scenario,
+)
 from stackbounce.errors import InvalidValue, shown
 
 if TYPE_CHECKING:
@@ -18,6 +26,7 @@ __all__ = ["EPILOG", "run"]
 
 EPILOG = "For example: stackbounce masses basketball tennis B3 --save best.toml"
 _AT_THE_END = 1e-3  # relative
+_STACKS = ("best", "given", "geometric_means")
 
 
 @add_options({name: DROP[name] for name in ("height", "speed", "gap", "contact")})
@@ -48,9 +57,10 @@ def run(
     found = summary(chosen.drop, best, tried)
     if as_json:
         print_json(found)
-        return
-    print_masses(console(), chosen, found)
-    print_files(best=save)
+    else:
+        print_masses(console(), chosen, found)
+        print_files(best=save)
+    check_solved(Counter(found[name]["status"] for name in _STACKS))
 
 
 def limits(text: str) -> tuple[float, float]:
@@ -101,7 +111,7 @@ def print_masses(console: "Console", scenario: "Scenario", found: dict[str, Any]
     names = [label(ball.name, i) for i, ball in enumerate(balls)]
     title = "Masses in g, the lowest first, and the top ball"
     table = new_table(title, [""], [*names, "v/v0", "bounce/drop"])
-    for name in ("best", "given", "geometric_means"):
+    for name in _STACKS:
         one = found[name]
         top = float(one["rebound_ratios"][-1])
         heights = [number(top), number(max(top, 0.0) ** 2)]
@@ -125,4 +135,5 @@ def _outcome(drop: "Drop") -> dict[str, Any]:
         "rebound_ratios": result.rebound_ratios,
         "collisions": result.collisions,
         "energy_retained": result.energy_retained,
+        "status": result.status.name,
     }

@@ -2,7 +2,7 @@
 
 import contextlib
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -18,8 +18,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "SUFFIXES",
+    "Unsolved",
     "check_picture",
     "check_scenario",
+    "check_solved",
     "console",
     "draw",
     "draw_picture",
@@ -32,6 +34,37 @@ __all__ = [
 
 SUFFIXES = (".svg", ".png", ".pdf")
 """The kinds of picture."""
+
+
+class Unsolved(Exception):
+    """Drops that have no result; raised after everything else has been printed and written."""
+
+
+def check_solved(counts: Mapping[str, int]) -> None:
+    """Refuse to end as if all drops had been solved, if some have not.
+
+    Parameters
+    ----------
+    counts : mapping
+        The number of drops by the name of their `Status`.
+
+    Raises
+    ------
+    Unsolved
+        If some are EVENT_LIMIT or INVALID.
+
+    Examples
+    --------
+    >>> check_solved({"FINISHED": 8, "INVALID": 2})
+    Traceback (most recent call last):
+    stackbounce.cli.output.Unsolved: no result for 2 of 10 drops: 2 INVALID
+    """
+    wrong = {name: counts[name] for name in ("EVENT_LIMIT", "INVALID") if counts.get(name)}
+    if wrong:
+        listed = ", ".join(f"{count} {name}" for name, count in wrong.items())
+        total = sum(counts.values())
+        drops = f"{sum(wrong.values())} of {total} drop{'' if total == 1 else 's'}"
+        raise Unsolved(f"no result for {drops}: {listed}")
 
 
 def check_picture(path: Path | None, option: str = "--plot") -> None:

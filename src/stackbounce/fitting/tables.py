@@ -18,7 +18,7 @@ from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_othe
 from stackbounce.measure.reading.text import decode, split
 from stackbounce.model import Drop
 from stackbounce.run.paths import drop_at, numbers_of
-from stackbounce.units import quantity
+from stackbounce.units import count_written, quantity
 
 __all__ = ["read_drops"]
 
@@ -262,9 +262,10 @@ def _data(row: Mapping[str, Mapping[str, _Cell]], folder: Path) -> dict[str, Any
         name: _with_error(name, cell, row["error"].get(name)) for name, cell in row["data"].items()
     }
     for name, cell in row["count"].items():
-        if not cell.text.isdecimal():
+        count = count_written(cell.text)
+        if count is None:
             raise InvalidValue(f"{cell.where} must be a whole number, got {shown(cell.text)}")
-        found[name] = int(cell.text)
+        found[name] = count
     for name, cell in row["force"].items():
         found[name] = read_force_record(name, cell.text, folder)
     return found
