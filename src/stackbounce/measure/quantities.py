@@ -170,10 +170,10 @@ def quantity_with_error(text: str, unit: str, name: str, written: str = "") -> f
 
     value, error = _split(text)
     own = unit_of_both(text) or written
-    number = quantity(_with_unit(value, own), unit, name)
     if error is None:
-        return number
-    return ufloat(number, positive(f"{name}'s error", quantity(_with_unit(error, own), unit, name)))
+        return quantity(_with_unit(value, own), unit, name)
+    wide = positive(f"{name}'s error", quantity(_with_unit(error, own), unit, name))
+    return ufloat(quantity(_with_unit(value, own), unit, name), wide)
 
 
 def unit_of_both(text: str) -> str | None:
