@@ -12,7 +12,17 @@ from stackbounce.errors import InvalidType, UnitError, finite, shown
 if TYPE_CHECKING:
     import pint
 
-__all__ = ["Unit", "factor", "handy", "in_si", "quantity", "rounded", "unit_of"]
+__all__ = [
+    "Unit",
+    "count_written",
+    "factor",
+    "handy",
+    "in_si",
+    "quantity",
+    "rounded",
+    "unit_of",
+    "unit_written",
+]
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
@@ -134,6 +144,29 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
 
     factor = _factor(written, unit, _message(name, value, unit))
     return finite(name, float(Decimal(number) * Decimal(repr(factor))), unit)
+
+
+def unit_written(text: str) -> str | None:
+    """Return the unit in the text of a quantity, empty if it has none; None if it has no number.
+
+    Examples
+    --------
+    >>> unit_written("58 mm"), unit_written("58")
+    ('mm', '')
+    """
+    found = _WRITTEN.fullmatch(text.strip())
+    return found[2] if found else None
+
+
+def count_written(text: str) -> int | None:
+    """Return the whole number that a text is; None of anything else, or of more than 18 digits.
+
+    Examples
+    --------
+    >>> count_written("400"), count_written("-1"), count_written("9" * 5000)
+    (400, None, None)
+    """
+    return int(text) if text.isdecimal() and len(text) <= 18 else None
 
 
 def factor(written: str, unit: str, name: str = "value") -> float:

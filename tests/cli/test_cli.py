@@ -357,7 +357,7 @@ def test_json_stays_pure_with_a_picture(run):
         ),
         (["none.toml"], "none.toml cannot be read: No such file or directory"),
         (["./B1"], "./B1 cannot be read: No such file or directory"),
-        (["."], ". cannot be read: Is a directory"),
+        (["."], ". is a folder: give one of its files"),
         (["a.toml", "b.toml"], "a.toml cannot be read: No such file or directory"),
         (
             ["a.toml", "B1"],
@@ -387,6 +387,69 @@ def test_a_picture_that_cannot_be_written_is_one_line(run):
     Path("folder.svg").mkdir()
     _, _, err = run("simulate", "B1", "--plot", "folder.svg")
     assert err == "stackbounce: error: folder.svg cannot be written: it is a folder\n"
+
+
+@pytest.mark.fast_cases(1)
+@pytest.mark.parametrize("stiffness", ["1e300", "1e-300"])
+def test_a_drop_without_a_result_ends_with_3(run, stiffness):
+    contacts = ["--contact", f"Spring stiffness={stiffness}", "--contact", "Spring stiffness=1"]
+    name = "INVALID" if stiffness == "1e300" else "EVENT_LIMIT"
+    code, out, err = run("simulate", "B1", "B2", *contacts, "--json")
+    assert (code, json.loads(out)["status"]) == (3, name)
+    assert err == f"stackbounce: error: no result for 1 of 1 drop: 1 {name}\n"
+
+
+def test_a_sweep_says_how_many_drops_have_no_result(run):
+    contacts = ["--contact", "Spring stiffness=1", "--contact", "Spring stiffness=1"]
+    over = ["--over", "contacts.0.stiffness=1,1e300", "--out", "a.nc"]
+    code, out, err = run("sweep", "B1", "B2", *contacts, *over)
+    assert code == 3
+    assert "1 FINISHED" in out
+    assert err == "stackbounce: error: no result for 1 of 2 drops: 1 INVALID\n"
+
+
+@pytest.mark.parametrize("option", ["--out", "--plot"])
+def test_a_missing_folder_is_named(run, option):
+    files = {"--out": "a.zarr", "--plot": "a.svg"} | {option: f"no/{option[2:]}.svg"}
+    given = [word for pair in files.items() for word in pair]
+    code, _, err = run("sweep", "B1", "--over", "balls.0.mass=1,2", *given)
+    assert code == 2
+    assert err == (
+        f"stackbounce: error: no/{option[2:]}.svg cannot be written: there is no folder no\n"
+    )
+
+
+def test_a_number_of_many_digits_is_refused(run):
+    digits = "9" * 5000
+    for over in (f"balls.0.mass=1:2:{digits}", f"balls.{digits}.mass=1:2:3"):
+        code, _, err = run("sweep", "B1", "--over", over, "--out", "a.zarr")
+        assert (code, err.count("\n")) == (2, 1)
+        assert "unexpected" not in err
+
+
+def test_an_interruption_while_modules_are_imported_is_one_line():
+    code = (
+        "import os, signal, sys\n"
+        "class Interrupt:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'typer': os.kill(os.getpid(), signal.SIGINT)\n"
+        "sys.meta_path.insert(0, Interrupt())\n"
+        "from stackbounce.__main__ import main\n"
+        "sys.exit(main())"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert (done.returncode, done.stderr) == (130, "stackbounce: interrupted\n")
+
+
+@pytest.mark.slow
+def test_pictures_do_not_depend_on_the_settings_of_matplotlib(run):
+    assert run("simulate", "B1", "--plot", "plain.svg")[0] == 0
+    Path("matplotlibrc").write_text("text.usetex: True\nfont.size: 30\n")
+    done = process("simulate", "B1", "--plot", "own.svg", env={**os.environ, "MPLBACKEND": "junk"})
+    assert (done.returncode, done.stderr) == (0, "")
+    assert Path("own.svg").read_bytes() == Path("plain.svg").read_bytes()
 
 
 def test_true_process_ends_with_2_and_no_traceback():
@@ -439,7 +502,11 @@ def test_what_nobody_foresaw_is_one_line(run, monkeypatch, error, line):
 @pytest.mark.parametrize("form", [[], ["--json"]])
 def test_speeds_at_the_ends_of_the_range(run, speed, form):
     code, out, err = run("simulate", "B1", "B2", "--speed", speed, *form)
-    assert (code, err) == (0, "")
+    lost = [
+        (3, f"stackbounce: error: no result for 1 of 1 drop: 1 {name}\n")
+        for name in ("EVENT_LIMIT", "INVALID")
+    ]
+    assert (code, err) in [(0, ""), *lost]
     assert "nan" not in out.lower()
 
 

@@ -11,6 +11,7 @@ from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse, heights, one_law
 from stackbounce.measure.kinds.contact.analysis import known_contact
+from stackbounce.measure.option_values import read_options
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.synthetic.falls import falls
 from stackbounce.synthetic.track import track as tracked
@@ -156,14 +157,74 @@ def test_the_floor_of_a_soft_balls_track():
 
 @pytest.mark.parametrize(
     ("text", "value", "error"),
-    [("1.00 ± 0.01 m", 1.0, 0.01), ("100 cm +/- 5 mm", 1.0, 0.005), ("(1e2±1)cm", 1.0, 0.01)],
+    [
+        ("1.00 ± 0.01 m", 1.0, 0.01),
+        ("100 cm +/- 5 mm", 1.0, 0.005),
+        ("(1e2±1)cm", 1.0, 0.01),
+        ("70 cm ± 2", 0.7, 0.02),
+        ("70 cm +/- 2", 0.7, 0.02),
+        ("70 cm ± 2 mm", 0.7, 0.002),
+        ("(70 ± 2) cm", 0.7, 0.02),
+        ("(70 cm ± 2)", 0.7, 0.02),
+        ("70(2) cm", 0.7, 0.02),
+        ("70.0(25) cm", 0.7, 0.025),
+        ("70.0(0.5) cm", 0.7, 0.005),
+        ("7.0(2)e1 cm", 0.7, 0.02),
+        ("-0.70(2)", -0.7, 0.02),
+        ("0.7 ± 0.02", 0.7, 0.02),
+    ],
 )
 def test_numbers_with_errors(text, value, error):
     found = quantity_with_error(text, "m", "height")
     assert (found.nominal_value, found.std_dev) == (value, pytest.approx(error))
 
 
-@pytest.mark.parametrize("text", ["1 ± m", "± 1 m", "1 ± 2 s", "1 ± -1 m", "1 ± 1 ± 1 m"])
+def test_a_unit_of_the_value_is_that_of_its_error():
+    mass = quantity_with_error("57 g ± 5", "kg", "mass")
+    share = quantity_with_error("75 % ± 2", "", "restitution")
+    assert (mass.std_dev, share.std_dev) == (pytest.approx(0.005), pytest.approx(0.02))
+    given = {"heights": "100 ± 1, 62(2), 39 cm ± 0.5"}
+    heights = read_options(given, lambda one: one.name)["heights"]
+    assert [one.nominal_value for one in heights] == pytest.approx([1.0, 0.62, 0.39])
+    assert [one.std_dev for one in heights] == pytest.approx([0.01, 0.02, 0.005])
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("mass", "-57 g"),
+        ("mass", "-57 ± 1 g"),
+        ("restitution", "1.2"),
+        ("gravity", "0"),
+        ("scale", "-1 mm"),
+    ],
+)
+def test_numbers_out_of_range_are_refused_even_if_no_analysis_needs_them(name, text):
+    with pytest.raises(InvalidValue, match=f"^--{name} must be a .*number"):
+        read_options({"heights": "1, 0.6 m", name: text}, lambda one: one.on_command_line)
+
+
+@pytest.mark.parametrize("text", ["1, nan m", "1 m, nan m", "1, 0.6, m"])
+def test_a_height_that_is_no_number_is_named_as_it_was_typed(text):
+    wrong = text.split(", ")[-1]
+    with pytest.raises(InvalidValue, match=rf"heights \d must be a length .* got '{wrong}'"):
+        read_options({"heights": text}, lambda one: one.name)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "70(2) cm ± 2",
+        "70(2",
+        "70(-2) cm",
+        "70(2)(2) cm",
+        "1 ± m",
+        "± 1 m",
+        "1 ± 2 s",
+        "1 ± -1 m",
+        "1 ± 1 ± 1 m",
+    ],
+)
 def test_numbers_with_wrong_errors(text):
     with pytest.raises((InvalidValue, sb.StackbounceError), match="height"):
         quantity_with_error(text, "m", "height")

@@ -161,3 +161,12 @@ def test_a_failure_ends_the_build(status, platform, monkeypatch):
     hook, _ = hook_with(monkeypatch, status, platform)
     with pytest.raises(Aborted, match="the kernels could not be compiled for"):
         put(hook)
+
+
+def test_the_metadata_have_the_licence_of_all_that_is_vendored():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+    named = {path for pattern in project["license-files"] for path in ROOT.glob(pattern)}
+    vendored = [path for path in (ROOT / "src").rglob("vendor/*") if path.is_dir()]
+    assert vendored
+    assert {ROOT / "LICENSE", *(path / "LICENSE" for path in vendored)} == named
+    assert project["license"] == "BSD-3-Clause AND MIT"

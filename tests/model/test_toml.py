@@ -1,5 +1,6 @@
 import json
 import math
+import os
 
 import pytest
 from hypothesis import given
@@ -322,6 +323,39 @@ def test_broken_toml(read, content):
     assert refused(errors.ScenarioError, read, content).startswith("drop.toml is not TOML: ")
 
 
+@pytest.mark.parametrize(
+    "content",
+    [
+        "a" + ".a" * 50_000 + " = 1",
+        "[" + "a." * 50_000 + "a]",
+        "'a'" + ' . "a"' * 50_000 + " = 1",
+        "x = {" + "a." * 50_000 + "a = 1}",
+    ],
+)
+def test_keys_of_many_parts_are_refused_before_they_are_read(read, content):
+    got = refused(errors.ScenarioError, read, content)
+    assert got == "drop.toml: a key has more than 5 parts between dots"
+
+
+def test_texts_and_lists_may_have_many_dots(read):
+    numbers = ", ".join(["0.5"] * 100)
+    got = refused(errors.ScenarioError, read, f"name = 'a. b. c. d. e. f. g'\ngaps = [{numbers}]")
+    assert got == "drop.toml: name is not a known key; " + got.partition("; ")[2]
+
+
+@pytest.mark.skipif(os.name != "posix", reason="devices and pipes of POSIX")
+def test_what_may_never_end_is_not_read(tmp_path):
+    os.mkfifo(tmp_path / "pipe.toml")
+    for path in ("/dev/zero", tmp_path / "pipe.toml"):
+        assert "is no ordinary file" in refused(errors.FileError, Drop.from_toml, path)
+
+
+def test_a_file_too_large_is_not_read(tmp_path):
+    path = tmp_path / "large.toml"
+    path.write_bytes(b"#" * (2**21 + 1))
+    assert "is larger than 2 MiB" in refused(errors.FileError, Drop.from_toml, path)
+
+
 def test_no_text(read):
     got = refused(errors.ScenarioError, read, b"\xff\xfe\x00a")
     assert got == "drop.toml is not TOML: it is not text in UTF-8"
@@ -333,7 +367,7 @@ def test_files_that_cannot_be_opened(tmp_path, monkeypatch):
     assert got == "none.toml cannot be read: No such file or directory"
     (tmp_path / "folder.toml").mkdir()
     got = refused(errors.FileError, Drop.from_toml, "folder.toml")
-    assert got == "folder.toml cannot be read: Is a directory"
+    assert got == "folder.toml is a folder: give one of its files"
     assert refused(errors.FileError, Drop.from_toml, "a\0b").startswith("'a\\x00b' cannot be read")
 
 

@@ -20,6 +20,7 @@ from stackbounce.cli import (
     sweep,
     transition,
 )
+from stackbounce.cli.output import Unsolved
 from stackbounce.errors import StackbounceError
 
 __all__ = ["app", "main"]
@@ -69,8 +70,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     Returns
     -------
     int
-        The exit status: 0; 2 after an error of the user, 1 after any other error, 130 after an
-        interruption. An error or a warning is printed in one line on stderr.
+        The exit status: 0; 2 after an error of the user, 1 after any other error, 3 if drops have
+        no result (their status is EVENT_LIMIT or INVALID), 130 after an interruption. An error or a
+        warning is printed in one line on stderr.
 
     Examples
     --------
@@ -83,10 +85,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
+    os.environ["MPLBACKEND"] = "agg"  # nothing is shown, and matplotlib refuses an unknown name
     try:
         with warnings.catch_warnings():
             warnings.showwarning = _warn
-            code = app(arguments, prog_name="stackbounce", standalone_mode=False)
+            try:
+                code = app(arguments, prog_name="stackbounce", standalone_mode=False)
+            except Unsolved as error:
+                code = _failed(str(error), 3)
         sys.stdout.flush()
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -12,6 +12,7 @@ from stackbounce.cli.output import check_scenario, progress_bar, write_scenario
 from stackbounce.cli.tables import new_table, number
 from stackbounce.cross2007.datasets import PREFIX, load_dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
+from stackbounce.files import check_place
 from stackbounce.fitting import (
     Comparison,
     Fit,
@@ -164,8 +165,8 @@ def check_save(path: Path | None, problem: FitProblem) -> None:
         raise InvalidValue(
             f"--save must name a folder for {len(problem.drops)} drops, a file each, got {path}"
         )
-    elif not path.parent.is_dir():
-        raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
+    else:
+        check_place(path)
 
 
 def save(done: Fitted, path: Path | None) -> list[Path]:

@@ -1,6 +1,7 @@
 """The command ``stackbounce highest``: the stack that throws its top ball highest."""
 
 import math
+from collections import Counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -9,6 +10,7 @@ from stackbounce.cli.options import DROP, AsJson, Plot, Save, add_options
 from stackbounce.cli.output import (
     check_picture,
     check_scenario,
+    check_solved,
     console,
     draw_picture,
     print_files,
@@ -69,6 +71,7 @@ def run(
     from stackbounce.cli.scenario import is_file
     from stackbounce.model import Drop
     from stackbounce.model.laws import law_named
+    from stackbounce.run.result import Status
     from stackbounce.units import quantity
 
     check_picture(plot)
@@ -83,9 +86,10 @@ def run(
     draw_picture(plot, "highest", data)
     if as_json:
         print_json(summary(data))
-        return
-    print_stacks(console(), data, rows)
-    print_files(plot, best=save)
+    else:
+        print_stacks(console(), data, rows)
+        print_files(plot, best=save)
+    check_solved(Counter(Status(status).name for status in data["status"].values.ravel()))
 
 
 def _impact_speed(height: str | None, speed: str | None) -> float | None:

@@ -5,7 +5,14 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from stackbounce.cli.options import DROP, AsJson, Save, What, add_options
-from stackbounce.cli.output import check_scenario, console, print_files, print_json, write_scenario
+from stackbounce.cli.output import (
+    check_scenario,
+    check_solved,
+    console,
+    print_files,
+    print_json,
+    write_scenario,
+)
 from stackbounce.errors import InvalidValue, shown
 
 if TYPE_CHECKING:
@@ -37,7 +44,7 @@ def run(
     **given: Any,
 ) -> None:
     """Find the masses between the lowest and the top ball that throw the top one highest."""
-    from stackbounce import best_masses
+    from stackbounce import best_masses, simulate
     from stackbounce.cli import scenario
 
     check_scenario(save)
@@ -48,9 +55,10 @@ def run(
     found = summary(chosen.drop, best, tried)
     if as_json:
         print_json(found)
-        return
-    print_masses(console(), chosen, found)
-    print_files(best=save)
+    else:
+        print_masses(console(), chosen, found)
+        print_files(best=save)
+    check_solved({simulate(best).status.name: 1})
 
 
 def limits(text: str) -> tuple[float, float]:

@@ -2,7 +2,7 @@
 
 import contextlib
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -10,6 +10,7 @@ import typer
 
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.extras import need
+from stackbounce.files import check_place, write_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -17,8 +18,10 @@ if TYPE_CHECKING:
 
 __all__ = [
     "SUFFIXES",
+    "Unsolved",
     "check_picture",
     "check_scenario",
+    "check_solved",
     "console",
     "draw",
     "draw_picture",
@@ -32,7 +35,36 @@ __all__ = [
 SUFFIXES = (".svg", ".png", ".pdf")
 """The kinds of picture."""
 
-_UNDATED = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}}
+
+class Unsolved(Exception):
+    """Drops that have no result; raised after everything else has been printed and written."""
+
+
+def check_solved(counts: Mapping[str, int]) -> None:
+    """Refuse to end as if all drops had been solved, if some have not.
+
+    Parameters
+    ----------
+    counts : mapping
+        The number of drops by the name of their `Status`.
+
+    Raises
+    ------
+    Unsolved
+        If some are EVENT_LIMIT or INVALID.
+
+    Examples
+    --------
+    >>> check_solved({"FINISHED": 8, "INVALID": 2})
+    Traceback (most recent call last):
+    stackbounce.cli.output.Unsolved: no result for 2 of 10 drops: 2 INVALID
+    """
+    wrong = {name: counts[name] for name in ("EVENT_LIMIT", "INVALID") if counts.get(name)}
+    if wrong:
+        listed = ", ".join(f"{count} {name}" for name, count in wrong.items())
+        total = sum(counts.values())
+        drops = f"{sum(wrong.values())} of {total} drop{'' if total == 1 else 's'}"
+        raise Unsolved(f"no result for {drops}: {listed}")
 
 
 def check_picture(path: Path | None, option: str = "--plot") -> None:
@@ -51,7 +83,7 @@ def check_picture(path: Path | None, option: str = "--plot") -> None:
         return
     if path.suffix.lower() not in SUFFIXES:
         raise InvalidValue(f"{option} must end in {', '.join(SUFFIXES)}, got {path}")
-    _check_place(path)
+    _check_file(path)
     need("plots", option)
 
 
@@ -69,36 +101,26 @@ def check_scenario(path: Path | None) -> None:
         return
     if path.suffix.lower() != ".toml":
         raise InvalidValue(f"--save must end in .toml, got {path}")
-    _check_place(path)
+    _check_file(path)
 
 
-def _check_place(path: Path) -> None:
+def _check_file(path: Path) -> None:
     if path.is_dir():
         raise FileError(f"{path} cannot be written: it is a folder")
-    if not path.parent.is_dir():
-        raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
+    check_place(path)
 
 
 def draw(make: Callable[[], "Figure"], path: Path) -> None:
     """Write a picture, in the format that the file's suffix names.
-
-    The same picture is the same file: no time of day, no random names inside.
 
     Raises
     ------
     FileError
         If the file cannot be written.
     """
-    import matplotlib as mpl
+    from stackbounce.plots.style import render
 
-    from stackbounce.plots.style import STYLE
-
-    figure = make()
-    try:
-        with mpl.rc_context(STYLE):
-            figure.savefig(path, dpi=150, metadata=_UNDATED.get(path.suffix.lower()))
-    except OSError as error:
-        raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
+    write_file(path, render(make, path.suffix.lower().removeprefix(".")))
 
 
 def draw_picture(path: Path | None, kind: str, *given: Any, **options: Any) -> None:
@@ -110,24 +132,15 @@ def draw_picture(path: Path | None, kind: str, *given: Any, **options: Any) -> N
 
 
 def write_scenario(text: str, path: Path | None) -> None:
-    """Write a scenario file, if one is asked for; after a failure there is no part of it.
+    """Write a scenario file, if one is asked for.
 
     Raises
     ------
     FileError
         If it cannot be written.
     """
-    if path is None:
-        return
-    part = path.with_name(f".{path.name}.part")
-    try:
-        try:
-            part.write_text(text, encoding="utf-8")
-            part.replace(path)
-        finally:
-            part.unlink(missing_ok=True)
-    except OSError as error:
-        raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
+    if path is not None:
+        write_file(path, text.encode())
 
 
 def console() -> "Console":

@@ -3,7 +3,14 @@
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, Until, What, add_options
-from stackbounce.cli.output import check_picture, console, draw_picture, print_files, print_json
+from stackbounce.cli.output import (
+    check_picture,
+    check_solved,
+    console,
+    draw_picture,
+    print_files,
+    print_json,
+)
 
 if TYPE_CHECKING:
     from stackbounce.cli.scenario import Scenario
@@ -37,9 +44,10 @@ def run(
     draw_picture(plot, "bounce", result)
     if as_json:
         print_json(summary(chosen, result, textbook))
-        return
-    print_simulation(console(), chosen, result, textbook)
-    print_files(plot)
+    else:
+        print_simulation(console(), chosen, result, textbook)
+        print_files(plot)
+    check_solved({result.status.name: 1})
 
 
 def summary(scenario: "Scenario", result: "Result", textbook: "Result | None") -> dict[str, object]:

@@ -12,6 +12,7 @@ import typer
 from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, Until, What, add_options
 from stackbounce.cli.output import (
     check_picture,
+    check_solved,
     console,
     draw_picture,
     print_files,
@@ -20,6 +21,7 @@ from stackbounce.cli.output import (
 )
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.extras import need
+from stackbounce.files import check_place
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -83,6 +85,7 @@ def run(
     from stackbounce.cli import scenario
 
     check_picture(plot)
+    check_place(out)
     drop = scenario.read(what, **given).drop
     if plot is not None:
         _check_shown(drop, over, show)
@@ -90,11 +93,13 @@ def run(
     done = _write(drop, over, out, cluster=cluster, until=end, rtol=rtol)
     if plot is not None:
         _draw(done.load(), show, plot)
+    found = summary(done, out)
     if as_json:
-        print_json(summary(done, out))
-        return
-    print_sweep(console(), done, out)
-    print_files(plot)
+        print_json(found)
+    else:
+        print_sweep(console(), done, found)
+        print_files(plot)
+    check_solved(found["status"])
 
 
 def _write(
@@ -121,7 +126,7 @@ def _check_shown(drop: "Drop", over: Sequence[str], show: str) -> None:
     most = len(drop.balls) - 1
     if dot and name == "energy_retained":
         raise InvalidValue(f"--show {name} is of the whole stack, got {shown(show)}")
-    if dot and not (which.isdecimal() and int(which) <= most):
+    if dot and which not in map(str, range(most + 1)):
         raise InvalidValue(
             f"--show {name}. must end in a ball or contact from 0 to {most}, got {shown(show)}"
         )
@@ -164,11 +169,10 @@ def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:
     }
 
 
-def print_sweep(console: "Console", data: "xr.Dataset", out: Path) -> None:
+def print_sweep(console: "Console", data: "xr.Dataset", found: dict[str, Any]) -> None:
     """Print the summary of a sweep."""
     from stackbounce.run.result import Status
 
-    found = summary(data, out)
     console.print(f"{found['drops']} drops, over")
     for dim, size in found["over"].items():
         values, unit = data[dim].values, data[dim].attrs.get("units", "")
@@ -178,7 +182,7 @@ def print_sweep(console: "Console", data: "xr.Dataset", out: Path) -> None:
             console.print(f"  {name} {part}".rstrip() + f": {_range(low, high)}")
     for name, count in found["status"].items():
         console.print(f"  {count} {name}: {Status[name].advice}")
-    console.print(f"Written: {out}")
+    console.print(f"Written: {found['store']}")
 
 
 def _range(low: float, high: float) -> str:

@@ -1,12 +1,20 @@
 """The command ``stackbounce transition``: a stack with gaps from 0 to separate collisions."""
 
 import math
+from collections import Counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, What, add_options
-from stackbounce.cli.output import check_picture, console, draw_picture, print_files, print_json
+from stackbounce.cli.output import (
+    check_picture,
+    check_solved,
+    console,
+    draw_picture,
+    print_files,
+    print_json,
+)
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -59,14 +67,14 @@ def run(
     draw_picture(plot, "transition", data)
     if as_json:
         print_json(summary(chosen, data))
-        return
-    print_transition(console(), chosen, data)
-    print_files(plot)
+    else:
+        print_transition(console(), chosen, data)
+        print_files(plot)
+    check_solved(Counter(_statuses(data)))
 
 
 def summary(scenario: "Scenario", data: "xr.Dataset") -> dict[str, Any]:
     """Return what ``stackbounce transition --json`` prints."""
-    from stackbounce.run.result import Status
     from stackbounce.version import __version__
 
     return {
@@ -78,13 +86,19 @@ def summary(scenario: "Scenario", data: "xr.Dataset") -> dict[str, Any]:
         ],
         "gap": data["gap"].values,
         **{name: data[name].values for name in _OUTPUTS},
-        "status": [Status(status).name for status in data["status"].values],
+        "status": _statuses(data),
         "textbook": {
             "rebound_ratio": data["textbook_ratio"].values,
             "collisions": data["textbook_collisions"].values,
             "energy_retained": float(data["textbook_energy"]),
         },
     }
+
+
+def _statuses(data: "xr.Dataset") -> list[str]:
+    from stackbounce.run.result import Status
+
+    return [Status(status).name for status in data["status"].values]
 
 
 def print_transition(console: "Console", scenario: "Scenario", data: "xr.Dataset") -> None:

@@ -1,6 +1,7 @@
 """The files of `stackbounce paper`: the audit, the figures, and one page with everything."""
 
 import csv
+import hashlib
 import io
 import itertools
 import json
@@ -18,10 +19,13 @@ from stackbounce.cross2007.style import Picture, render
 from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
 from stackbounce.errors import FileError
 from stackbounce.extras import need
+from stackbounce.files import write_files
 from stackbounce.version import __version__
 
 __all__ = ["write"]
 
+_SUMS = "stackbounce.sha256"
+_NAMES = ("index.html", "audit.csv", "audit.json", "study.html", "study.json")
 _COLUMNS = (
     "id", "where", "what", "printed", "unit", "computed", "tolerance", "error", "verdict", "reason",
     "other readings", "computed by", "library calls", "inputs",
@@ -37,8 +41,10 @@ def write(
     ----------
     out : Path
         A folder, which is made if it is missing. It receives ``index.html``, ``audit.csv``,
-        ``audit.json`` and ``figures/``. Existing files of these names are replaced after everything
-        has been computed. The same version always writes the same bytes.
+        ``audit.json``, ``figures/``, and ``stackbounce.sha256``, the digests of all of them.
+        Existing files of these names are replaced after everything has been computed, and only if
+        the digests there tell that `write` has written them. The same version always writes the
+        same bytes.
     progress : callable, optional
         Receives a line of text for each step.
     study : bool, optional
@@ -51,10 +57,12 @@ def write(
     Raises
     ------
     FileError
-        If the folder cannot be made or written to. This is found before anything is computed.
+        If the folder cannot be made or written to, or a file in it is not one of `write`. This is
+        found before anything is computed.
     """
     need("paper", "stackbounce paper")
     _make_writable(out)
+    _check_ours(out, _NAMES if study else _NAMES[:3])
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}
     drawn: list[tuple[Picture, str]] = []
@@ -86,20 +94,31 @@ def _make_writable(out: Path) -> None:
 
 
 def _replace(out: Path, files: dict[str, bytes]) -> None:
-    """Write all files under temporary names, then rename them."""
-    fresh: dict[Path, Path] = {}
-    try:
-        for name, content in files.items():
-            target = out / name
-            fresh[target] = target.with_name(f".{target.name}.new")
-            fresh[target].write_bytes(content)
-        for target, new in fresh.items():
-            new.replace(target)
-    except OSError as error:
-        raise FileError(f"{out} cannot be written to: {error.strerror}") from None
-    finally:
-        for new in fresh.values():
-            new.unlink(missing_ok=True)
+    """Write all files, or none; whenever it is stopped, the digests tell that they are ours."""
+    known = _check_ours(out, files)
+    new = {f"{hashlib.sha256(content).hexdigest()}  {name}" for name, content in files.items()}
+    others = [line for line in known if line.partition("  ")[2] not in files]
+    contents = [(out / name, content) for name, content in files.items()]
+    before, after = (
+        (out / _SUMS, "".join(f"{line}\n" for line in sorted({*new, *lines})).encode())
+        for lines in (known, others)
+    )
+    write_files([before, *contents, after])
+
+
+def _check_ours(out: Path, names: Iterable[str]) -> list[str]:
+    """Refuse files that are not as they were written here; return what was, ``DIGEST  NAME``."""
+    sums = out / _SUMS
+    known = sums.read_text("utf-8", "replace").splitlines() if sums.is_file() else []
+    for name in names:
+        path = out / name
+        found = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+        if path.exists() and f"{found}  {name}" not in known:
+            raise FileError(
+                f"{path} is there, and is not as this command writes it: move it away, or choose "
+                "another folder"
+            )
+    return known
 
 
 def _json(done: Audit, drawn: list[Picture], tables: list[Table]) -> str:

@@ -19,7 +19,7 @@ from stackbounce.fitting.parameters import Range
 from stackbounce.fitting.problem import FitProblem
 from stackbounce.model import Drop
 from stackbounce.model.toml import load_toml
-from stackbounce.units import quantity
+from stackbounce.units import count_written, quantity
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -126,8 +126,9 @@ def convert_measured(name: str, value: object, folder: Path) -> Any:
     >>> convert_measured("collisions.0", "3", Path())
     3
     """
-    if name.startswith("collisions.") and isinstance(value, str) and value.strip().isdecimal():
-        return int(value)
+    if name.startswith("collisions.") and isinstance(value, str):
+        count = count_written(value.strip())
+        return value if count is None else count
     return read_force_record(name, value, folder) if name.startswith("force.") else value
 
 

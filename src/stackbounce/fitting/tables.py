@@ -9,15 +9,16 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from stackbounce.errors import FileError, InvalidType, InvalidValue, nearest, positive, shown
+from stackbounce.files import content_of
 from stackbounce.fitting.files import read_force_record
 from stackbounce.fitting.quantities import QUANTITIES, find_quantity
 from stackbounce.measure.quantities import quantity_with_error
 from stackbounce.measure.reading.headings import heading
-from stackbounce.measure.reading.limits import COLUMNS, LINE, content_of, refuse_others
+from stackbounce.measure.reading.limits import BYTES, COLUMNS, LINE, refuse_others
 from stackbounce.measure.reading.text import decode, split
 from stackbounce.model import Drop
 from stackbounce.run.paths import drop_at, numbers_of
-from stackbounce.units import quantity
+from stackbounce.units import count_written, quantity
 
 __all__ = ["read_drops"]
 
@@ -93,7 +94,7 @@ def read_drops(
         ...
     stackbounce.errors.FileError: no-such-file.csv cannot be read: No such file or directory
     """
-    name, content = content_of(path)
+    name, content = content_of(path, BYTES)
     try:
         refuse_others(content)
         rows = _split_rows(drop, decode(content))
@@ -261,9 +262,10 @@ def _data(row: Mapping[str, Mapping[str, _Cell]], folder: Path) -> dict[str, Any
         name: _with_error(name, cell, row["error"].get(name)) for name, cell in row["data"].items()
     }
     for name, cell in row["count"].items():
-        if not cell.text.isdecimal():
+        count = count_written(cell.text)
+        if count is None:
             raise InvalidValue(f"{cell.where} must be a whole number, got {shown(cell.text)}")
-        found[name] = int(cell.text)
+        found[name] = count
     for name, cell in row["force"].items():
         found[name] = read_force_record(name, cell.text, folder)
     return found

@@ -7,7 +7,7 @@ from typing import Any
 
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.measure.options import Option, options_for
-from stackbounce.measure.quantities import quantity_with_error
+from stackbounce.measure.quantities import nominal, quantity_with_error, unit_of_both
 from stackbounce.model.laws import law_named
 from stackbounce.units import quantity
 
@@ -77,21 +77,22 @@ def _checked(value: Any, option: Option, called: str) -> Any:
 
 def _number(value: Any, option: Option, called: str) -> Any:
     with_error = option.form == "measured" and isinstance(value, str)
-    return (quantity_with_error if with_error else quantity)(value, option.unit, called)
+    number = (quantity_with_error if with_error else quantity)(value, option.unit, called)
+    option.check(called, nominal(number), *filter(None, [option.unit]))
+    return number
 
 
 def _lengths(text: str, option: Option, called: str) -> list[Any]:
     """Return lengths between commas or semicolons; a unit at the end is that of all."""
     words = [word.strip() for word in re.split(r"[,;]", text)]
-    unit = re.sub(r"^[-+.\deE±/ ()]+", "", words[-1])
-    bare = [not re.search(r"[^-+.\deE±/ ()]", word) for word in words]
-    if any(bare) and not (all(bare) or all(bare[:-1])):
+    units = [unit_of_both(word) for word in words]
+    if any(units[:-1]) and "" in units:
         raise InvalidValue(
             f"{called} must have a unit each, or one at the end for all, got {shown(text)}"
         )
     return [
-        quantity_with_error(word + unit if is_bare else word, option.unit, f"{called} {k}")
-        for k, (word, is_bare) in enumerate(zip(words, bare, strict=True))
+        quantity_with_error(word, option.unit, f"{called} {k}", units[-1] or "")
+        for k, word in enumerate(words)
     ]
 
 

@@ -10,7 +10,15 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any, Literal, TypeAlias
 
-from stackbounce.errors import InvalidType, nearest, shown
+from stackbounce.errors import (
+    InvalidType,
+    finite,
+    fraction,
+    nearest,
+    non_negative,
+    positive,
+    shown,
+)
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.model.laws import LAWS
 
@@ -65,6 +73,8 @@ class Option:
         Whether the page offers it below the others.
     choices : callable, optional
         Gives what there is to choose from.
+    check : callable
+        Refuses a number that is out of range, whether an analysis takes it or not.
     """
 
     name: str
@@ -80,6 +90,7 @@ class Option:
     flag: str = ""
     rare: bool = False
     choices: Callable[[], Iterable[str]] | None = None
+    check: Callable[..., float] = positive
 
     @property
     def on_command_line(self) -> str:
@@ -119,8 +130,9 @@ _TABLE: dict[str, tuple[Option, ...]] = {
                   "error '57.0 ± 0.5 g', as all numbers of ball and drop."),
         _measured("diameter", "Diameter", "66 mm", unit="m", says="Such as 66mm."),
         _measured("contact_time", "Contact time", "5.0 ± 0.1 ms", unit="s", rare=True,
+                  check=non_negative,
                   says="On the floor, if no file gives it: '5.0 ± 0.1 ms'."),
-        _measured("restitution", "Restitution", "0.75 ± 0.02", rare=True,
+        _measured("restitution", "Restitution", "0.75 ± 0.02", rare=True, check=fraction,
                   says="On the floor, if no file gives it: '0.75 ± 0.02'."),
         Option("law", "Contact law", "none in particular", form="law", choices=lambda: LAWS,
                says="Give the constants of this contact law, and save it: "
@@ -150,8 +162,9 @@ _TABLE: dict[str, tuple[Option, ...]] = {
                choices=lambda: ("bottom", "centre", "top", "bottom,top", "top,bottom"),
                says="Point of the ball that heights are those of, or that a track follows: bottom, "
                "centre or top; bottom,top if the drop's and the bounces' differ."),
-        _number("floor", "Level of the floor", "0 m", unit="m", rare=True, says="Level of the "
-                "floor in a track, such as 0m: for balls that stay on it for long."),
+        _number("floor", "Level of the floor", "0 m", unit="m", rare=True, check=finite,
+                says="Level of the floor in a track, such as 0m: for balls that stay on it for "
+                "long."),
         Option("alone", "Force under the lower ball alone", "", form="file", rare=True,
                says="Force record of the lower ball alone from the same height: it gives the gap "
                "of the stack in FILE."),

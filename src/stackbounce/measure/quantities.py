@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, non_negative, positive, shown
-from stackbounce.units import quantity
+from stackbounce.units import quantity, unit_written
 
 __all__ = [
     "Array",
@@ -20,7 +20,13 @@ __all__ = [
     "measured_if_given",
     "nominal",
     "quantity_with_error",
+    "unit_of_both",
 ]
+
+# 1.64(2)e3 m: the number, its decimals, the error of its last digits, the power of ten, the unit.
+_SHORT = re.compile(
+    r"([-+]?[0-9]+)(?:\.([0-9]*))?\s*\(([0-9]+\.?[0-9]*)\)(?:[eE]([-+]?[0-9]{1,3}))?\s*([^±]*)"
+)
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -126,18 +132,20 @@ def measured_if_given(name: str, value: Any, of: str = "", **how: Any) -> Number
     return None if value is None else measured(name, value, of, **how)
 
 
-def quantity_with_error(text: str, unit: str, name: str) -> float | Number:
+def quantity_with_error(text: str, unit: str, name: str, written: str = "") -> float | Number:
     """Read a number with a unit and, if the text has one, an error: ``"57.0 ± 0.5 g"``.
 
     Parameters
     ----------
     text : str
-        A number; after it, if known, ``±`` or ``+/-`` and its error; at the end, if there is one,
-        the unit of both.
+        A number; after it, if known, ``±`` or ``+/-`` and its error, or the error of its last
+        digits in parentheses. A unit that only one of the two has is that of both.
     unit : str
         The SI unit that is wanted.
     name : str
         What it is called; messages begin with it.
+    written : str, optional
+        The unit of a text that has none; SI by default.
 
     Returns
     -------
@@ -155,14 +163,42 @@ def quantity_with_error(text: str, unit: str, name: str) -> float | Number:
     --------
     >>> quantity_with_error("57 g", "kg", "mass"), quantity_with_error("(57.0 ± 0.5) g", "kg", "m")
     (0.057, 0.057+/-0.0005)
+    >>> quantity_with_error("57 g ± 5", "kg", "mass"), quantity_with_error("57(5) g", "kg", "mass")
+    (0.057+/-0.005, 0.057+/-0.005)
     """
     from uncertainties import ufloat
 
+    value, error = _split(text)
+    own = unit_of_both(text) or written
+    if error is None:
+        return quantity(_with_unit(value, own), unit, name)
+    wide = positive(f"{name}'s error", quantity(_with_unit(error, own), unit, name))
+    return ufloat(quantity(_with_unit(value, own), unit, name), wide)
+
+
+def unit_of_both(text: str) -> str | None:
+    """Return the unit of a number and its error, empty if there is none; None of no number.
+
+    Examples
+    --------
+    >>> unit_of_both("70 ± 2 cm"), unit_of_both("70 cm ± 2"), unit_of_both("70 ± 2")
+    ('cm', 'cm', '')
+    """
+    value, error = _split(text)
+    own = unit_written(value)
+    return unit_written(error or "") or "" if own == "" else own
+
+
+def _with_unit(text: str, unit: str) -> str:
+    return f"{text} {unit}" if unit and unit_written(text) == "" else text
+
+
+def _split(text: str) -> tuple[str, str | None]:
+    """Return the texts of a number and of its error, None if it has none."""
+    short = _SHORT.fullmatch(text.strip())
+    if short:
+        whole, decimals, digits, power, unit = short.groups("")
+        last = int(power or 0) - (0 if "." in digits else len(decimals))
+        return f"{whole}.{decimals}e{power or 0} {unit}", f"{digits}e{last} {unit}"
     value, sign, error = text.replace("+/-", "±").partition("±")
-    if not sign:
-        return quantity(text, unit, name)
-    value, error = value.strip(" ("), error.replace(")", " ").strip()
-    if not re.search(r"[^-+.\deE]", value):
-        value += re.sub(r"^[-+.\deE]+", "", error)
-    wide = positive(f"{name}'s error", quantity(error, unit, name))
-    return ufloat(quantity(value, unit, name), wide)
+    return (value.strip(" ()"), error.replace(")", " ").strip()) if sign else (text, None)

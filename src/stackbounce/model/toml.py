@@ -2,17 +2,24 @@
 
 import json
 import os
+import re
 import tomllib
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any, TypeVar
 
-from stackbounce.errors import FileError, InvalidType, ScenarioError, shown
+from stackbounce.errors import ScenarioError
+from stackbounce.files import content_of
 from stackbounce.model.schema import read_mapping
 
 __all__ = ["load_toml", "read_toml", "write_toml"]
 
 _T = TypeVar("_T")
+
+_BYTES = 2**21  # of a file, at most; it has room for 20 000 balls
+_DEPTH = 5  # parts of a key, at most: time and memory grow with their square
+_WORD = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
+_KEY = rf"{_WORD}(?:[ \t]*\.[ \t]*{_WORD}){{{_DEPTH}}}"
+_DEEP = re.compile(rf"(?:^|[\[{{,])[ \t]*{_KEY}", re.MULTILINE)
 
 
 def read_toml(kind: type[_T], path: str | os.PathLike[str]) -> _T:
@@ -32,24 +39,22 @@ def load_toml(path: object) -> tuple[str, dict[str, Any]]:
     InvalidType
         If `path` is no path.
     FileError
-        If the file cannot be opened.
+        If the file cannot be read: see `content_of`.
     ScenarioError
-        If it is not TOML.
+        If it is not TOML, or its keys or values are nested too deeply.
     """
-    name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
-    if not isinstance(name, str):
-        raise InvalidType(f"path must be a string or a path, got {shown(path)}")
+    name, content = content_of(path, _BYTES)
     try:
-        content = Path(name).read_bytes()
-    except OSError as error:
-        raise FileError(f"{name} cannot be read: {error.strerror or error}") from error
-    except ValueError as error:  # a null character in the name
-        raise FileError(f"{name!r} cannot be read: {error}") from error
-    try:
-        return name, tomllib.loads(content.decode("utf-8-sig"))
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise ScenarioError(f"{name} is not TOML: it is not text in UTF-8") from error
-    except (ValueError, RecursionError) as error:
+    if _DEEP.search(text):
+        raise ScenarioError(f"{name}: a key has more than {_DEPTH} parts between dots")
+    try:
+        return name, tomllib.loads(text)
+    except RecursionError as error:
+        raise ScenarioError(f"{name} is not TOML: its values are nested too deeply") from error
+    except ValueError as error:
         raise ScenarioError(f"{name} is not TOML: {' '.join(str(error).split())}") from error
 
 

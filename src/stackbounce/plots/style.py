@@ -1,6 +1,7 @@
 """The style of all plots."""
 
-from collections.abc import Iterator
+import io
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -8,7 +9,16 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["COLORS", "FORCES", "STYLE", "annotate", "color_of", "styled_figure", "written"]
+__all__ = [
+    "COLORS",
+    "FORCES",
+    "STYLE",
+    "annotate",
+    "color_of",
+    "render",
+    "styled_figure",
+    "written",
+]
 
 COLORS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
 """The palette of Okabe and Ito, which colour-blind readers can tell apart."""
@@ -30,6 +40,8 @@ STYLE: Any = {
 }
 """Matplotlib's settings."""
 
+_UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
+
 
 @contextmanager
 def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[Figure]":
@@ -49,6 +61,35 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
 
     with mpl.rc_context(STYLE | (style or {})):
         yield Figure(figsize=(width, height))
+
+
+def render(make: "Callable[[], Figure]", kind: str) -> bytes:
+    """Return a picture as the bytes of a file, whatever matplotlib's settings of this user are.
+
+    The same picture is the same file: no time of day, no random names inside.
+
+    Parameters
+    ----------
+    make : callable
+        Draws and returns the figure.
+    kind : str
+        ``svg``, ``png`` or ``pdf``.
+
+    Examples
+    --------
+    >>> from matplotlib.figure import Figure
+    >>> render(Figure, "png")[1:4]
+    b'PNG'
+    """
+    import matplotlib as mpl
+
+    stream = io.BytesIO()
+    with mpl.rc_context():
+        mpl.rcdefaults()
+        figure = make()
+        mpl.rcParams.update(STYLE)
+        figure.savefig(stream, format=kind, dpi=150, metadata=_UNDATED.get(kind))
+    return stream.getvalue()
 
 
 def annotate(axes: "Axes", text: str, place: tuple[Any, Any], color: str, **more: Any) -> None:

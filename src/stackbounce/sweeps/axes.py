@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, number_at, numbers_of
-from stackbounce.units import quantity
+from stackbounce.units import count_written, quantity
 
 __all__ = ["axis", "grid"]
 
@@ -82,9 +82,10 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
     if len(parts) < 3 or not parts[2].isdecimal() or spacing not in ([], ["log"], ["lin"]):
         raise InvalidValue(f"--over must be {_RIGHT}, got {shown(text)}")
     start, stop = (quantity(one, number.unit, path) for one in parts[:2])
-    count = int(parts[2])
-    if not 1 <= count <= _MOST:
-        raise InvalidValue(f"--over {path} must have from 1 to {_MOST} values, got {count}")
+    count = count_written(parts[2])
+    if count is None or not 1 <= count <= _MOST:
+        many = shown(parts[2]).strip("'")
+        raise InvalidValue(f"--over {path} must have from 1 to {_MOST} values, got {many}")
     if spacing != ["log"]:
         return path, np.linspace(start, stop, count)
     if not start * stop > 0.0:
@@ -116,13 +117,14 @@ def _reason(drop: Drop, words: list[str]) -> str:
         return f"say which, {' or '.join(same)}" if same else ""
     part, index, *field = words
     count = {"balls": len(drop.balls), "contacts": len(drop.contacts), "gaps": len(drop.gaps)}
-    if part not in count or not index.isdecimal():
+    i = count_written(index)
+    if part not in count or i is None:
         return ""
-    if int(index) >= count[part]:
+    if i >= count[part]:
         last = count[part] - 1
         return f"its {part} count from 0, the lowest, to {last}" if last >= 0 else ""
     if part == "contacts" and len(field) == 1:
-        law = type(drop.contacts[int(index)]).__name__
+        law = type(drop.contacts[i]).__name__
         own = [path.rpartition(".")[2] for path in known if path.startswith(f"contacts.{index}.")]
         if own:
             return f"contact {index} is a {law}, which has {', '.join(own)} (--contact chooses)"

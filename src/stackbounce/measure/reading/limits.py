@@ -1,12 +1,8 @@
-"""Limits on what is read: no folders or devices, no file too large, no file of another kind."""
+"""Limits on what is read: no file too large, no table too wide, no file of another kind."""
 
-import os
-import stat
-from pathlib import Path
+from stackbounce.errors import FileError
 
-from stackbounce.errors import FileError, InvalidType, shown
-
-__all__ = ["BYTES", "CELLS", "COLUMNS", "LINE", "content_of", "refuse_others"]
+__all__ = ["BYTES", "CELLS", "COLUMNS", "LINE", "refuse_others"]
 
 BYTES = 2**28
 """Bytes of a file, and of the tables in a zip archive together, at most."""
@@ -39,41 +35,6 @@ _OTHERS = (
     (0, b"Rar!", "a RAR archive", "unpack it"),
     (0, b"<", "XML or HTML, such as a program's own project", "export its table as text or CSV"),
 )
-
-
-def content_of(path: object) -> tuple[str, bytearray]:
-    """Return the name of a file and its bytes.
-
-    Raises
-    ------
-    InvalidType
-        If `path` is neither a string nor a path.
-    FileError
-        If it cannot be read, is no ordinary file, is empty, or larger than `BYTES`.
-    """
-    name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
-    if not isinstance(name, str):
-        raise InvalidType(f"path must be a string or a path, got {shown(path)}")
-    try:
-        mode = os.stat(name).st_mode  # noqa: PTH116  # Path("") is the folder one is in
-        if stat.S_ISDIR(mode):
-            raise FileError(f"{name} is a folder: give one of its files")
-        if not stat.S_ISREG(mode):  # a pipe or a device may never end
-            raise FileError(f"{name} is no ordinary file: copy what it gives into one")
-        with Path(name).open("rb") as file:  # its read() would allocate the size that is asked for
-            content = bytearray(min(os.fstat(file.fileno()).st_size, BYTES) + 1)
-            del content[file.readinto(content) :]
-    except OSError as error:
-        if isinstance(error, FileError):
-            raise
-        raise FileError(f"{name} cannot be read: {error.strerror or error}") from error
-    except ValueError as error:  # a null character in the name
-        raise FileError(f"{name!r} cannot be read: {error}") from error
-    if len(content) > BYTES:
-        raise FileError(f"{name} is larger than {BYTES >> 20} MiB: cut out what is of interest")
-    if not content:
-        raise FileError(f"{name} is empty")
-    return name, content
 
 
 def refuse_others(content: bytearray) -> None:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import FileError, InvalidValue, StackbounceError, shown
+from stackbounce.files import content_of
 from stackbounce.measure.hints import Hint, Said, about, joined
 from stackbounce.measure.quantities import Array
 from stackbounce.measure.reading import arrays, projects, wav
@@ -19,7 +20,7 @@ from stackbounce.measure.reading.containers import tables_in
 from stackbounce.measure.reading.dataset import assemble, holds_of
 from stackbounce.measure.reading.formats import layout_of
 from stackbounce.measure.reading.layouts import Layout
-from stackbounce.measure.reading.limits import content_of, refuse_others
+from stackbounce.measure.reading.limits import BYTES, refuse_others
 from stackbounce.measure.reading.numbers import Table, rows_of
 from stackbounce.measure.reading.options import ReadOptions, apply_options, of_run
 from stackbounce.measure.reading.roles import Column
@@ -124,7 +125,7 @@ def read(
     array([   0., 1500.,  100.])
     """
     told = ReadOptions(holds, table, run, names, units, decimal, frame_rate, scale)
-    return _named(*content_of(path), told)
+    return _named(*content_of(path, BYTES), told)
 
 
 def read_content(name: str, content: bytes, **options: Any) -> "xr.Dataset":

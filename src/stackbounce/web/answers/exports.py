@@ -9,6 +9,7 @@ import numpy as np
 from stackbounce.model import Drop
 from stackbounce.plots import bounce
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
+from stackbounce.plots.style import render
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import run_drop
 
@@ -24,7 +25,6 @@ KINDS = {
 """Kinds of file, with their media types."""
 
 _SAMPLES = 1001
-_DPI = 150
 
 
 def export_drop(kind: str, drop: Drop, until: float | None) -> bytes:
@@ -106,13 +106,5 @@ def _write_table(drop: Drop, until: float | None) -> str:
 
 
 def _draw(kind: str, drop: Drop, until: float | None) -> bytes:
-    import matplotlib as mpl
-
-    from stackbounce.plots.style import STYLE
-
-    figure = bounce(run_drop(drop, until))
-    stream = io.BytesIO()
-    with mpl.rc_context(STYLE):
-        metadata = {"Date": None} if kind == "svg" else None  # the same bytes on any day
-        figure.savefig(stream, format=kind, dpi=_DPI, metadata=metadata)
-    return stream.getvalue()
+    result = run_drop(drop, until)
+    return render(lambda: bounce(result), kind)

@@ -1,0 +1,177 @@
+"""Files: reading ordinary ones of limited size, and writing them whole or not at all."""
+
+import contextlib
+import os
+import secrets
+import stat
+from collections.abc import Iterable
+from pathlib import Path
+
+from stackbounce.errors import FileError, InvalidType, shown
+
+__all__ = ["check_place", "content_of", "write_file", "write_files"]
+
+
+def content_of(path: object, most: int) -> tuple[str, bytearray]:
+    """Return the name of a file and its bytes.
+
+    Parameters
+    ----------
+    path : str or path-like
+        The file.
+    most : int
+        The bytes that it may have.
+
+    Raises
+    ------
+    InvalidType
+        If `path` is neither a string nor a path.
+    FileError
+        If it cannot be read, is no ordinary file, is empty, or larger than `most`.
+
+    Examples
+    --------
+    >>> path = getfixture("tmp_path") / "ball.toml"
+    >>> write_file(path, b"height = 1")
+    >>> content_of(path, 100)[1]
+    bytearray(b'height = 1')
+    """
+    name = os.fspath(path) if isinstance(path, str | os.PathLike) else None
+    if not isinstance(name, str):
+        raise InvalidType(f"path must be a string or a path, got {shown(path)}")
+    try:
+        mode = os.stat(name).st_mode  # noqa: PTH116  # Path("") is the folder one is in
+        if stat.S_ISDIR(mode):
+            raise FileError(f"{name} is a folder: give one of its files")
+        if not stat.S_ISREG(mode):  # a pipe or a device may never end
+            raise FileError(f"{name} is no ordinary file: copy what it gives into one")
+        with Path(name).open("rb") as file:  # its read() would allocate the size that is asked for
+            content = bytearray(min(os.fstat(file.fileno()).st_size, most) + 1)
+            del content[file.readinto(content) :]
+    except OSError as error:
+        if isinstance(error, FileError):
+            raise
+        raise FileError(f"{name} cannot be read: {error.strerror or error}") from error
+    except ValueError as error:  # a null character in the name
+        raise FileError(f"{name!r} cannot be read: {error}") from error
+    if len(content) > most:
+        raise FileError(f"{name} is larger than {most >> 20} MiB: cut out what is of interest")
+    if not content:
+        raise FileError(f"{name} is empty")
+    return name, content
+
+
+def check_place(path: Path) -> None:
+    """Refuse the path of a file that is to be written into a folder that does not exist.
+
+    Raises
+    ------
+    FileError
+        If the folder does not exist.
+
+    Examples
+    --------
+    >>> check_place(Path("missing/bounce.svg"))
+    Traceback (most recent call last):
+    stackbounce.errors.FileError: missing/bounce.svg cannot be written: there is no folder missing
+    """
+    if not path.parent.is_dir():
+        raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
+
+
+def write_file(path: Path, content: bytes) -> None:
+    """Write a file whole or not at all; see `write_files`.
+
+    Examples
+    --------
+    >>> path = getfixture("tmp_path") / "ball.toml"
+    >>> write_file(path, b"height = 1")
+    >>> path.read_bytes()
+    b'height = 1'
+    """
+    write_files([(path, content)])
+
+
+def write_files(files: Iterable[tuple[Path, bytes]]) -> None:
+    """Write files whole or not at all: all of them beside their places, then each is renamed.
+
+    A file that cannot be written, such as on a full disk, leaves all that was there. A new file
+    has the permissions that the system gives it, and one that is replaced keeps its own. The target
+    of a symbolic link is replaced, not the link. What is no ordinary file, such as a pipe or a
+    device, is written directly.
+
+    Parameters
+    ----------
+    files : iterable of (Path, bytes)
+        The files, in the order in which they are renamed.
+
+    Raises
+    ------
+    FileError
+        If one cannot be written.
+
+    Examples
+    --------
+    >>> folder = getfixture("tmp_path")
+    >>> write_files([(folder / "a.txt", b"1"), (folder / "b.txt", b"2")])
+    >>> sorted(path.name for path in folder.iterdir())
+    ['a.txt', 'b.txt']
+    """
+    parts: list[tuple[Path, Path]] = []
+    path = Path()
+    try:
+        for path, content in files:
+            if _is_stream(path):
+                path.write_bytes(content)
+                continue
+            place = Path(os.path.realpath(path))
+            part = place.with_name(f".stackbounce-{secrets.token_hex(8)}.part")
+            parts.append((part, place))
+            _write_beside(part, place, content)
+        for part, place in parts:
+            path = place
+            part.replace(place)
+    except (OSError, ValueError) as error:  # ValueError: a null character in the name
+        reason = getattr(error, "strerror", None) or error
+        raise FileError(f"{path} cannot be written: {reason}") from error
+    finally:
+        for part, _ in parts:
+            with contextlib.suppress(OSError, ValueError):
+                part.unlink(missing_ok=True)
+
+
+def _is_stream(path: Path) -> bool:
+    """Return whether a path is no ordinary file, or where the standard output goes."""
+    try:
+        found = path.stat()
+    except FileNotFoundError:
+        return False
+    if not stat.S_ISREG(found.st_mode):
+        return True
+    try:
+        return os.path.samestat(found, os.fstat(1))
+    except OSError:  # there is no standard output
+        return False
+
+
+def _write_beside(part: Path, place: Path, content: bytes) -> None:
+    """Write a new file on the disk, with the permissions of the one whose place it takes."""
+    mode = _mode_of(place)
+    with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666), "wb") as file:
+        file.write(content)
+        file.flush()
+        os.fsync(file.fileno())  # some systems say only now that the disk is full
+    if mode is not None:
+        part.chmod(mode)
+
+
+def _mode_of(place: Path) -> int | None:
+    """Return the permissions of a file, None if there is none; raise if it is write-protected."""
+    try:
+        file = os.open(place, os.O_WRONLY)
+    except FileNotFoundError:
+        return None
+    try:
+        return stat.S_IMODE(os.fstat(file).st_mode)
+    finally:
+        os.close(file)

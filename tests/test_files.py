@@ -1,0 +1,122 @@
+import os
+import stat
+from pathlib import Path
+
+import pytest
+
+from stackbounce.cli import main
+from stackbounce.errors import FileError
+from stackbounce.files import content_of, write_file, write_files
+
+posix = pytest.mark.skipif(os.name != "posix", reason="permissions, links and pipes of POSIX")
+
+
+@pytest.fixture(autouse=True)
+def _in_a_folder_of_its_own(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+@pytest.fixture
+def disk_of():
+    """Refuse further bytes of a file, as a full disk does."""
+    resource = pytest.importorskip("resource")
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    yield lambda size: resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def names(folder="."):
+    return sorted(path.name for path in Path(folder).iterdir())
+
+
+HEIGHTS = ["measure", "--heights", "1, 0.6 m", "--mass", "57g"]
+
+
+@pytest.mark.parametrize(
+    ("command", "name"),
+    [
+        (["simulate", "B1", "--plot"], "a.svg"),
+        (["simulate", "B1", "--plot"], "a.png"),
+        (["simulate", "B1", "--plot"], "a.pdf"),
+        ([*HEIGHTS, "--save"], "ball.toml"),
+    ],
+)
+def test_a_full_disk_leaves_the_file_that_was_there(command, name, capsys, disk_of):
+    Path(name).write_bytes(b"as it was")
+    disk_of(10)
+    code = main([*command, name])
+    _, err = capsys.readouterr()
+    assert code == 2
+    assert err.startswith(f"stackbounce: error: {name} cannot be written: ")
+    assert err.count("\n") == 1
+    assert Path(name).read_bytes() == b"as it was"
+    assert names() == [name]
+
+
+def test_of_several_files_all_are_written_or_none(disk_of):
+    write_file(Path("a"), b"old")
+    disk_of(10)
+    with pytest.raises(FileError, match="b cannot be written"):
+        write_files([(Path("a"), b"new"), (Path("b"), bytes(11))])
+    assert names() == ["a"]
+    assert Path("a").read_bytes() == b"old"
+
+
+@posix
+def test_permissions_are_those_of_a_plain_write():
+    before = os.umask(0o027)
+    try:
+        write_file(Path("new"), b"1")
+        assert stat.S_IMODE(Path("new").stat().st_mode) == 0o640
+        Path("new").chmod(0o604)
+        write_file(Path("new"), b"2")
+        assert stat.S_IMODE(Path("new").stat().st_mode) == 0o604
+    finally:
+        os.umask(before)
+
+
+@posix
+@pytest.mark.skipif(os.name == "posix" and os.geteuid() == 0, reason="root may write everywhere")
+def test_a_write_protected_file_is_not_replaced():
+    write_file(Path("kept"), b"1")
+    Path("kept").chmod(0o400)
+    with pytest.raises(FileError, match="kept cannot be written: Permission denied"):
+        write_file(Path("kept"), b"2")
+
+
+@posix
+def test_the_target_of_a_link_is_replaced():
+    Path("below").mkdir()
+    for target in ("below/there", "below/new"):
+        link = Path(f"to-{Path(target).name}")
+        link.symlink_to(target)
+        write_file(link, b"1")
+        assert link.is_symlink()
+        assert Path(target).read_bytes() == b"1"
+    assert names("below") == ["new", "there"]
+
+
+@posix
+def test_a_pipe_is_written_to():
+    out, into = os.pipe()
+    try:
+        write_file(Path(f"/dev/fd/{into}"), b"picture")
+        assert os.read(out, 100) == b"picture"
+    finally:
+        os.close(out)
+        os.close(into)
+
+
+@pytest.mark.parametrize("name", ["none/a", "a\0b", "kept/below", "."])
+def test_places_where_nothing_can_be_written(name):
+    Path("kept").write_bytes(b"1")
+    with pytest.raises(FileError, match="cannot be written"):
+        write_file(Path(name), b"2")
+    assert names() == ["kept"]
+
+
+def test_no_more_is_read_than_allowed():
+    Path("large").write_bytes(bytes(2**20 + 1))
+    assert len(content_of("large", 2**20 + 1)[1]) == 2**20 + 1
+    with pytest.raises(FileError, match="large is larger than 1 MiB"):
+        content_of("large", 2**20)
