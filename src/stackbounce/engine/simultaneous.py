@@ -80,6 +80,7 @@ from stackbounce.engine.taylor import record_series_peaks
 
 _COARSE = 1e-5  # of a contact's duration: the coarsest resolution of time
 _NOTICED = 1e-3  # of the energy of approach: the largest energy stored before a touch is noticed
+_SWINGING = 50_000  # steps without an event after which a stack that lies is left, if no end is set
 _NEWTON = 4  # Newton steps from a time at which the sign is certain to its change
 
 
@@ -123,13 +124,15 @@ def advance_contacts(
             return _final_status(stack)
         if max(stack.counter[EVENTS], stack.counter[CHECKS]) >= event_limit:
             return EVENT_LIMIT
+        if stack.counter[CHECKS] >= _SWINGING and until == math.inf and _lies(stack):
+            return EVENT_LIMIT
         if stack.counter[LOG_ROWS] == room:
             return RUNNING
         stack.clock[LAST_CHECK] = time
         if slot >= size:
             stack.counter[CHECKS] += 1
             _expand_again(stack, slot - size, time)
-            if stack.number[GRAVITY] > 0.0 and stack.counter[CLOSED] == size and is_bound(stack):
+            if _lies(stack) and is_bound(stack):
                 set_static_state(stack)
                 _record_samples(stack, samples, math.inf)
                 return SETTLED
@@ -142,6 +145,12 @@ def advance_contacts(
             if kind == RELEASE and until == math.inf and _all_separating(stack):
                 _record_samples(stack, samples, math.inf)
                 return _final_status(stack)
+
+
+@kernel
+def _lies(stack: Stack) -> bool:
+    """Tell whether all balls are pressed together by their weight."""
+    return stack.number[GRAVITY] > 0.0 and stack.counter[CLOSED] == len(stack.mass)
 
 
 @kernel
