@@ -11,9 +11,10 @@ import pytest
 import uvicorn
 
 from stackbounce.errors import InvalidValue
-from stackbounce.web import LIMITS, timeouts
+from stackbounce.web import LIMITS, connections
 from stackbounce.web.guard import Guard
-from stackbounce.web.worker_pool import Busy, TooLong, Workers
+from stackbounce.web.shares import Busy
+from stackbounce.web.worker_pool import TooMuch, Workers
 
 FOREIGN = [
     ({"host": "evil.example"}, 400),
@@ -197,9 +198,9 @@ def workers():
 @pytest.mark.slow
 def test_a_job_that_takes_too_long_is_ended_and_others_go_on(workers):
     async def run():
-        with pytest.raises(TooLong, match=r"longer than the 0.5 s that one request may"):
+        with pytest.raises(TooMuch, match=r"longer than the 0.5 s that one request may"):
             await workers.run(sleeps, 60.0, seconds=0.5)
-        with pytest.raises(TooLong, match="the process that computed this ended"):
+        with pytest.raises(TooMuch, match="the process that computed this ended"):
             await workers.run(dies, seconds=60.0)
         with pytest.raises(InvalidValue, match="x must be 3"):
             await workers.run(fails, seconds=60.0)
@@ -220,7 +221,7 @@ def test_processes_that_were_ended_while_idle_are_made_anew(workers):
         for _ in range(100):  # the pool sees it a moment later
             try:
                 second = await workers.run(here, seconds=60.0)
-            except TooLong:
+            except TooMuch:
                 continue
             if second != first:
                 return first, second
@@ -232,7 +233,7 @@ def test_processes_that_were_ended_while_idle_are_made_anew(workers):
 
 def test_silent_connections_are_closed():
     async def run():
-        protocol = timeouts.make_protocol(0.2)
+        protocol = connections.make_protocol(dataclasses.replace(LIMITS, head_seconds=0.2))
         config = uvicorn.Config(echo, http=protocol, log_level="error", lifespan="off")
         config.load()
         server = uvicorn.Server(config)
@@ -263,7 +264,7 @@ def test_too_many_at_once_are_sent_away(workers):
     async def run():
         jobs = [asyncio.create_task(workers.run(sleeps, 0.5, seconds=60.0)) for _ in range(2)]
         await asyncio.sleep(0.1)
-        with pytest.raises(Busy, match="wait a few seconds and try again"):
+        with pytest.raises(Busy, match="try again in 5 s"):
             await workers.run(sleeps, 0.0, seconds=60.0)
         assert await asyncio.gather(*jobs) == ["slept", "slept"]
         return await workers.run(sleeps, 0.0, seconds=60.0)
