@@ -3,6 +3,7 @@
 import asyncio
 import contextlib
 import functools
+import math
 import multiprocessing
 import os
 import threading
@@ -19,8 +20,6 @@ from stackbounce.web.turns import Turns
 
 __all__ = ["TooMuch", "Workers"]
 
-_MOMENT = 2.0  # s; a process that is ended needs as long until another one is ready
-_NICE = 10  # the priority of long jobs is so much lower than that of short ones and of the server
 _LESS = "ask for fewer balls, points or numbers at once"
 
 
@@ -29,7 +28,7 @@ class TooMuch(StackbounceError):
 
 
 def _prepare(most_bytes: int, nice: int) -> None:
-    """Prepare a process: it ends with the server, has limited memory, and imports the answers."""
+    """Prepare a process: it ends with the server, has limited memory, and has imported all."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with contextlib.suppress(ImportError, AttributeError):  # Windows has neither
         import resource
@@ -40,10 +39,13 @@ def _prepare(most_bytes: int, nice: int) -> None:
         most = most_bytes if hard == resource.RLIM_INFINITY else min(hard, most_bytes)
         resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
 
-    import xarray  # noqa: F401
+    import stackbounce.web.answers.maps  # noqa: F401
+    from stackbounce.cross2007.cases import list_cases
+    from stackbounce.web.answers.play import play_drop
 
-    import stackbounce.web.answers.maps
-    import stackbounce.web.answers.play  # noqa: F401
+    play_drop(
+        next(list_cases()).drop, until=None, frames=2
+    )  # libraries import parts when first used
 
 
 def _end_with_parent() -> None:
@@ -79,13 +81,16 @@ class _Worker:
         """Whether the process can take a job."""
         return not self._ended and self._process.is_alive()
 
-    async def compute(self, job: Callable[[], Any], seconds: float) -> Any:
-        """Return the result of a job; end the process if it takes too long, or more memory."""
+    async def compute(self, job: Callable[[], Any], seconds: float, abandoned: float) -> Any:
+        """Return the result of a job; end the process if it takes too long, or more memory.
+
+        If this is cancelled, nobody waits for the result: then `abandoned` is the limit in s.
+        """
         try:
             await asyncio.shield(asyncio.wrap_future(self._prepared))
             computing = asyncio.get_running_loop().run_in_executor(self._executor, job)
             computing.add_done_callback(_forget)
-            await self._wait(computing, seconds)
+            await self._wait(computing, seconds, abandoned)
             return computing.result()
         except BrokenProcessPool:
             self.end()
@@ -98,13 +103,13 @@ class _Worker:
                 f"this needs more memory than the process of one request may have: {_LESS}"
             ) from None
 
-    async def _wait(self, computing: asyncio.Future[Any], seconds: float) -> None:
-        """Wait for a job; one that nobody waits for any more has a moment to end by itself."""
+    async def _wait(self, computing: asyncio.Future[Any], seconds: float, abandoned: float) -> None:
+        """Wait for a job, and end it after its time."""
         start = time.monotonic()
         try:
             await asyncio.wait({computing}, timeout=seconds)
         except asyncio.CancelledError:
-            left = _MOMENT - (time.monotonic() - start)
+            left = min(seconds, abandoned) - (time.monotonic() - start)
             await asyncio.wait({computing}, timeout=max(0.0, left))
             raise
         finally:
@@ -126,10 +131,21 @@ class _Worker:
 
 
 class _Lane:
-    """Processes of the same priority, and the jobs that wait for them."""
+    """Processes of the same priority, and the jobs that wait for them.
 
-    def __init__(self, limits: Limits, nice: int) -> None:
-        self._limits, self._nice = limits, nice
+    Parameters
+    ----------
+    limits : Limits
+        How many processes there are.
+    nice : int
+        How much lower their priority is than the server's.
+    abandoned : float
+        Time in s after which a job whose client has gone is ended with its process. Another process
+        needs a second until it is ready.
+    """
+
+    def __init__(self, limits: Limits, nice: int, abandoned: float) -> None:
+        self._limits, self._nice, self._abandoned = limits, nice, abandoned
         self._turns = Turns(limits.workers)
         self._idle: list[_Worker] = []
         self._busy: list[_Worker] = []
@@ -158,7 +174,7 @@ class _Lane:
             self._idle.remove(worker)
             self._busy.append(worker)
             try:
-                return await worker.compute(job, seconds)
+                return await worker.compute(job, seconds, self._abandoned)
             finally:
                 self._busy.remove(worker)
                 self._idle.append(worker)
@@ -182,7 +198,8 @@ class Workers:
 
     def __init__(self, limits: Limits) -> None:
         self._shares = Shares("too many requests", limits.waiting, limits.client_waiting)
-        self._short, self._long = _Lane(limits, 0), _Lane(limits, _NICE)
+        self._short = _Lane(limits, nice=0, abandoned=math.inf)
+        self._long = _Lane(limits, nice=10, abandoned=2.0)
 
     def start(self) -> None:
         """Start the processes, before the first request comes."""
