@@ -24,27 +24,13 @@ import httpx
 from rich.console import Console
 from rich.table import Table
 
-from adversary.requests_server import Server, serving
+from adversary.requests_server import LONG_MAP, Server, make_drop, make_map, serving
 
 __all__ = ["KINDS", "Seen", "flood"]
 
 _FLOODER, _OTHER = "127.0.0.2", "127.0.0.1"
 _SPRING = {"law": "Spring", "stiffness": 2500.0}
-_HYSTERETIC = {"law": "Hysteretic", "stiffness": 1e5, "exponent": 1.5, "restitution": 0.999}
 _POWER = {"law": "PowerLaw", "stiffness": 1e5, "exponent": 1.37}
-
-
-def _drop(balls: int, contact: dict[str, object], **more: float) -> dict[str, object]:
-    masses = [{"mass": 0.1 * 3.0**-i} for i in range(balls)]
-    return {"balls": masses, "contacts": [contact] * balls, "impact_speed": 3.0, **more}
-
-
-def _map(balls: int, contact: dict[str, object], count: int) -> dict[str, object]:
-    sides = {
-        name: {"path": f"balls.{i}.mass", "low": 0.01, "high": 10.0, "count": count}
-        for i, name in enumerate("xy")
-    }
-    return {"drop": _drop(balls, contact), **sides}
 
 
 def _request(path: str, body: bytes, kind: str = "application/json") -> bytes:
@@ -69,15 +55,15 @@ def _form(path: str, fields: dict[str, str], file: bytes = b"") -> bytes:
     return _request(path, body, "multipart/form-data; boundary=cut")
 
 
-_LONG_MAP = _json("/api/map", _map(6, _HYSTERETIC, 200))
+_LONG_MAP = _json("/api/map", LONG_MAP)
 _LONG_RUN = _json(
-    "/api/simulate", {"drop": _drop(6, _POWER, gravity=1000.0), "until": 60.0, "frames": 3000}
+    "/api/simulate", {"drop": make_drop(6, _POWER, gravity=1000.0), "until": 60.0, "frames": 3000}
 )
-_LARGE_RUN = _json("/api/simulate", {"drop": _drop(6, _SPRING), "frames": 3000})
+_LARGE_RUN = _json("/api/simulate", {"drop": make_drop(6, _SPRING), "frames": 3000})
 _FIT = _form(
     "/api/fit",
     {
-        "drop": json.dumps(_drop(6, _HYSTERETIC)),
+        "drop": json.dumps(LONG_MAP["drop"]),
         "vary": json.dumps([f"contacts.{i}.stiffness" for i in range(6)]),
         "measured": json.dumps({f"rebound_ratios.{i}": f"{i + 1} ± 0.01" for i in range(6)}),
     },
@@ -203,8 +189,8 @@ def _send_all(place: tuple[str, int], name: str, ended: Connection) -> None:
 async def _watch(address: str, seconds: float) -> tuple[list[float], list[str]]:
     """Ask for a drop, a small map and a file in turn, without a pause."""
     asked = [
-        ("POST", "/api/simulate", {"drop": _drop(2, _SPRING)}),
-        ("POST", "/api/map", _map(2, _SPRING, 50)),
+        ("POST", "/api/simulate", {"drop": make_drop(2, _SPRING)}),
+        ("POST", "/api/map", make_map(2, _SPRING, 50)),
         ("GET", "/style.css", None),
     ]
     times, failed = [], []

@@ -1,4 +1,4 @@
-"""A server as `stackbounce app` starts it, to be attacked."""
+"""A server as `stackbounce app` starts it, to be attacked, and requests that take it long."""
 
 import contextlib
 import dataclasses
@@ -9,7 +9,28 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
-__all__ = ["Server", "serving"]
+__all__ = ["LONG_MAP", "Server", "make_drop", "make_map", "serving"]
+
+
+def make_drop(balls: int, contact: dict[str, Any], **more: float) -> dict[str, Any]:
+    """Return so many balls with the same contacts, as a request has them."""
+    masses = [{"mass": 0.1 * 3.0**-i} for i in range(balls)]
+    return {"balls": masses, "contacts": [contact] * balls, "impact_speed": 3.0, **more}
+
+
+def make_map(balls: int, contact: dict[str, Any], count: int) -> dict[str, Any]:
+    """Return a request for a map over two masses, of `count` times `count` points."""
+    sides = {
+        name: {"path": f"balls.{i}.mass", "low": 0.01, "high": 10.0, "count": count}
+        for i, name in enumerate("xy")
+    }
+    return {"drop": make_drop(balls, contact), **sides}
+
+
+LONG_MAP = make_map(
+    6, {"law": "Hysteretic", "stiffness": 1e5, "exponent": 1.5, "restitution": 0.999}, 200
+)
+"""A request for a map that takes ten seconds or more."""
 
 
 @dataclasses.dataclass(frozen=True)

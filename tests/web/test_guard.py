@@ -50,8 +50,18 @@ def test_a_link_may_lead_here_and_the_page_itself_may_ask(server, address):
     own = {"origin": address.rstrip("/"), "sec-fetch-site": "same-origin"}
     assert server.post("/api/stack", headers=own, json={"balls": ["B1"]}).status_code == 200
     port = address.rstrip("/").rpartition(":")[2]
-    for name in ("localhost", "[::1]", "192.168.0.7", socket.gethostname()):
+    own = socket.gethostname()
+    for name in ("localhost", "[::1]", "192.168.0.7", own, f"{own.partition('.')[0]}.local"):
         assert server.get("/api/status", headers={"host": f"{name}:{port}"}).status_code == 200
+
+
+def test_the_full_name_of_this_machine_is_answered_and_no_other(monkeypatch):
+    monkeypatch.setattr(socket, "gethostname", lambda: "desk")
+    monkeypatch.setattr(socket, "getfqdn", lambda: "desk.school.example")
+    guard = Guard(echo, LIMITS)
+    for name, status in (("desk.school.example", 200), ("Desk", 200), ("desk.evil.example", 400)):
+        head, _ = asked(guard, [{"type": "http.request", "body": b""}], host=name.encode())
+        assert head["status"] == status
 
 
 @pytest.mark.parametrize("path", ["/", "/api/status", "/none", "/api/openapi.json"])
@@ -93,9 +103,9 @@ def test_large_requests_are_refused(server, path, most):
     assert server.post(path, content=parts()).status_code == 413  # with no length told before
 
 
-def asked(app, messages, path="/api/simulate"):
+def asked(app, messages, path="/api/simulate", host=b"127.0.0.1"):
     """Return head and body of an answer to a request that comes in these parts."""
-    headers = [(b"host", b"127.0.0.1")]
+    headers = [(b"host", host)]
     scope = {"type": "http", "method": "POST", "path": path, "headers": headers}
     sent = []
 

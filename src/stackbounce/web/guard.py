@@ -90,13 +90,14 @@ class Guard:
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
         answer = _Answer(send, scope["path"])
+        coming = _Coming(receive)
         body = bytearray()
         try:
             self._check(scope, headers)
-            await self._receive(body, scope, headers, receive)
+            await self._receive(body, scope, headers, coming)
             await self._pass_on(scope, bytes(body), receive, answer)
         except (_Refused, Busy) as refused:
-            await self._drain(receive)
+            await self._drain(coming)
             await answer.refuse(refused.status, str(refused))
         except asyncio.CancelledError:  # the server ends
             await answer.refuse(503, f"the server ends: try again in {AGAIN_SECONDS} s")
@@ -154,7 +155,7 @@ class Guard:
         return True
 
     async def _receive(
-        self, body: bytearray, scope: _Message, headers: dict[str, str], receive: _Receive
+        self, body: bytearray, scope: _Message, headers: dict[str, str], coming: "_Coming"
     ) -> None:
         """Receive the body of a request; refuse one that is too large or too slow."""
         limits, client = self._limits, client_of(scope)
@@ -164,8 +165,8 @@ class Guard:
             raise _too_large(most)
         try:
             async with asyncio.timeout(limits.upload_seconds):
-                while True:
-                    message = await receive()
+                while not coming.whole:
+                    message = await coming.receive()
                     if message["type"] != "http.request":
                         raise _Refused(400, "the request ended before it was whole")
                     part = message.get("body", b"")
@@ -173,22 +174,31 @@ class Guard:
                         raise _too_large(most)
                     self._held.take(client, len(part))
                     body += part
-                    if not message.get("more_body", False):
-                        return
         except TimeoutError:
             seconds = limits.upload_seconds
             raise _Refused(408, f"the request did not come in whole within {seconds:g} s") from None
 
-    async def _drain(self, receive: _Receive) -> None:
+    async def _drain(self, coming: "_Coming") -> None:
         """Read the rest of a refused request: many clients send all before they read an answer."""
         left = _DRAINED * self._limits.upload_bytes
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(_DRAIN_SECONDS):
-                while left > 0:
-                    message = await receive()
-                    left -= len(message.get("body", b""))
-                    if message["type"] != "http.request" or not message.get("more_body", False):
-                        return
+                while left > 0 and not coming.whole:
+                    left -= len((await coming.receive()).get("body", b""))
+
+
+class _Coming:
+    """A request that is coming in."""
+
+    def __init__(self, receive: _Receive) -> None:
+        self._receive = receive
+        self.whole = False
+
+    async def receive(self) -> _Message:
+        """Receive a part of the request, or that its client has gone."""
+        message = await self._receive()
+        self.whole = not message.get("more_body", False)
+        return message
 
 
 def _too_large(most: int) -> _Refused:

@@ -202,9 +202,8 @@ class Workers:
         self._long = _Lane(limits, nice=10, abandoned=2.0)
 
     def start(self) -> None:
-        """Start the processes, before the first request comes."""
+        """Start the processes for short jobs; those for long ones start with the first such job."""
         self._short.start()
-        self._long.start()
 
     def stop(self) -> None:
         """End the processes, also in the middle of a job."""
