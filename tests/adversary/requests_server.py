@@ -51,9 +51,13 @@ class Server:
         tasks = Path(f"/proc/{self.process.pid}/task").glob("*/children")
         return [int(child) for task in tasks for child in task.read_text().split()]
 
+    def own_memory(self) -> float:
+        """Return the greatest memory in MiB that the server itself had."""
+        return _peak(self.process.pid)
+
     def memory(self) -> float:
         """Return the greatest memory in MiB that it had, and its processes that live have."""
-        return sum(_peak(pid) for pid in [self.process.pid, *self.children()])
+        return self.own_memory() + sum(_peak(pid) for pid in self.children())
 
 
 def _peak(pid: int) -> float:

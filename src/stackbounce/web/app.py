@@ -51,6 +51,8 @@ _EXPORTED: dict[int | str, dict[str, Any]] = {
     }
 }
 _ENDINGS = {"python": "py"}
+_LEVELS = 8  # of lists and objects in each other
+_PLAIN = (str, int, float, bool, type(None))
 
 
 def _is_short(_: schema.Request) -> bool:
@@ -250,9 +252,16 @@ def _parse_object(what: str, text: str) -> dict[str, Any]:
 
 def _parse(what: str, text: str) -> Any:
     try:
-        return json.loads(text)
+        value = json.loads(text)
     except (ValueError, RecursionError):
         raise InvalidValue(f"{what} must be JSON, got {shown(text)}") from None
+    parts = [value]
+    for _ in range(_LEVELS):
+        lists = (one.values() if isinstance(one, dict) else one for one in parts)
+        parts = [part for one in lists if not isinstance(one, _PLAIN) for part in one]
+    if parts:
+        raise InvalidValue(f"{what} must be JSON of at most {_LEVELS} levels, got {shown(text)}")
+    return value
 
 
 def _add_pages(app: FastAPI) -> None:

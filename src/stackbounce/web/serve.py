@@ -68,6 +68,7 @@ def serve(
             "got nothing"
         )
 
+    logging.getLogger("python_multipart").setLevel(logging.CRITICAL)  # of forms that are none
     with contextlib.closing(_open_socket(host, port)) as listening:
         address = f"http://{_name_host(host)}:{listening.getsockname()[1]}/"
         config = uvicorn.Config(
