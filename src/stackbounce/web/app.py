@@ -185,8 +185,7 @@ def _add_files(app: FastAPI, workers: Workers) -> None:
         """Export a drop as a file: its data, its picture, its scenario, or lines of Python."""
         job = functools.partial(exports.export_drop, kind, asked.drop, asked.until)
         seconds, client = LIMITS.job_seconds, client_of(request)
-        short = not exports.KINDS[kind].startswith("image/")
-        content = await workers.run(job, seconds=seconds, client=client, short=short)
+        content = await workers.run(job, seconds=seconds, client=client, short=True)
         name = f"drop.{_ENDINGS.get(kind, kind)}"
         headers = {"content-disposition": f'attachment; filename="{name}"'}
         return Response(content, media_type=exports.KINDS[kind], headers=headers)

@@ -152,10 +152,8 @@ class _Lane:
         self._stopped = False
 
     def start(self) -> None:
-        """Start the processes that are missing."""
-        self._idle = [worker for worker in self._idle if worker.alive]
-        while not self._stopped and len(self._idle) + len(self._busy) < self._limits.workers:
-            self._idle.append(_Worker(self._limits, self._nice))
+        """Start all processes, before there are jobs for them."""
+        self._idle = [self._make_worker() for _ in range(self._limits.workers)]
 
     def stop(self) -> None:
         """End the processes, also in the middle of a job."""
@@ -169,16 +167,26 @@ class _Lane:
     async def compute(self, job: Callable[[], Any], seconds: float, client: str) -> Any:
         """Compute a job when its turn has come."""
         async with self._turns.turn(client):
-            self.start()
-            worker = next((one for one in self._idle if one.ready), self._idle[0])
-            self._idle.remove(worker)
+            if self._stopped:
+                raise TooMuch("the server has ended")
+            worker = self._find_idle()
             self._busy.append(worker)
             try:
                 return await worker.compute(job, seconds, self._abandoned)
             finally:
                 self._busy.remove(worker)
-                self._idle.append(worker)
-                self.start()
+                if not self._stopped:  # the one that worked last has imported most
+                    self._idle.insert(0, worker if worker.alive else self._make_worker())
+
+    def _find_idle(self) -> _Worker:
+        """Take an idle process, one that is ready if there is any; start one if all are busy."""
+        self._idle = [worker for worker in self._idle if worker.alive] or [self._make_worker()]
+        worker = next((one for one in self._idle if one.ready), self._idle[0])
+        self._idle.remove(worker)
+        return worker
+
+    def _make_worker(self) -> _Worker:
+        return _Worker(self._limits, self._nice)
 
 
 class Workers:
@@ -199,10 +207,10 @@ class Workers:
     def __init__(self, limits: Limits) -> None:
         self._shares = Shares("too many requests", limits.waiting, limits.client_waiting)
         self._short = _Lane(limits, nice=0, abandoned=math.inf)
-        self._long = _Lane(limits, nice=10, abandoned=2.0)
+        self._long = _Lane(limits, nice=5, abandoned=2.0)
 
     def start(self) -> None:
-        """Start the processes for short jobs; those for long ones start with the first such job."""
+        """Start the processes for short jobs; those for long ones start when they are needed."""
         self._short.start()
 
     def stop(self) -> None:
