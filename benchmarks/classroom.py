@@ -1,9 +1,9 @@
 """A class on one machine: fifty users of the explorer at once, each with a page of their own.
 
 Run `python -m benchmarks.classroom [--users 50] [--moves 20]`. It starts a server as `stackbounce
-app` does, with two processes that compute. Each user loads the page, drags a slider (a drop
-computed for each place), looks at a map and saves a table; all begin at the same moment, and nobody
-waits between two requests, as people do.
+app` does on two cores. Each user loads the page, drags a slider (a drop computed for each place),
+looks at a map and saves a table; all begin at the same moment, and nobody waits between two
+requests, as people do.
 """
 
 import argparse

@@ -21,7 +21,7 @@ EXTRAS = {
     "sheets": ("openpyxl", "xlrd"),
     "fit": _FIT,
     "paper": _PAPER,
-    "web": (*_PAPER, "fastapi", "pebble", "pydantic", "python_multipart", "uvicorn"),
+    "web": (*_PAPER, "fastapi", "pydantic", "python_multipart", "uvicorn"),
 }
 """The modules that each extra brings; ``all`` has them all, and a plain install none."""
 

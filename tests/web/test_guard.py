@@ -11,9 +11,10 @@ import pytest
 import uvicorn
 
 from stackbounce.errors import InvalidValue
-from stackbounce.web import LIMITS, timeouts
+from stackbounce.web import LIMITS, connections
 from stackbounce.web.guard import Guard
-from stackbounce.web.worker_pool import Busy, TooLong, Workers
+from stackbounce.web.shares import Busy
+from stackbounce.web.worker_pool import TooMuch, Workers
 
 FOREIGN = [
     ({"host": "evil.example"}, 400),
@@ -49,8 +50,18 @@ def test_a_link_may_lead_here_and_the_page_itself_may_ask(server, address):
     own = {"origin": address.rstrip("/"), "sec-fetch-site": "same-origin"}
     assert server.post("/api/stack", headers=own, json={"balls": ["B1"]}).status_code == 200
     port = address.rstrip("/").rpartition(":")[2]
-    for name in ("localhost", "[::1]", "192.168.0.7", socket.gethostname()):
+    own = socket.gethostname()
+    for name in ("localhost", "[::1]", "192.168.0.7", own, f"{own.partition('.')[0]}.local"):
         assert server.get("/api/status", headers={"host": f"{name}:{port}"}).status_code == 200
+
+
+def test_the_full_name_of_this_machine_is_answered_and_no_other(monkeypatch):
+    monkeypatch.setattr(socket, "gethostname", lambda: "desk")
+    monkeypatch.setattr(socket, "getfqdn", lambda: "desk.school.example")
+    guard = Guard(echo, LIMITS)
+    for name, status in (("desk.school.example", 200), ("Desk", 200), ("desk.evil.example", 400)):
+        head, _ = asked(guard, [{"type": "http.request", "body": b""}], host=name.encode())
+        assert head["status"] == status
 
 
 @pytest.mark.parametrize("path", ["/", "/api/status", "/none", "/api/openapi.json"])
@@ -92,9 +103,9 @@ def test_large_requests_are_refused(server, path, most):
     assert server.post(path, content=parts()).status_code == 413  # with no length told before
 
 
-def asked(app, messages, path="/api/simulate"):
+def asked(app, messages, path="/api/simulate", host=b"127.0.0.1"):
     """Return head and body of an answer to a request that comes in these parts."""
-    headers = [(b"host", b"127.0.0.1")]
+    headers = [(b"host", host)]
     scope = {"type": "http", "method": "POST", "path": path, "headers": headers}
     sent = []
 
@@ -197,9 +208,9 @@ def workers():
 @pytest.mark.slow
 def test_a_job_that_takes_too_long_is_ended_and_others_go_on(workers):
     async def run():
-        with pytest.raises(TooLong, match=r"longer than the 0.5 s that one request may"):
+        with pytest.raises(TooMuch, match=r"longer than the 0.5 s that one request may"):
             await workers.run(sleeps, 60.0, seconds=0.5)
-        with pytest.raises(TooLong, match="the process that computed this ended"):
+        with pytest.raises(TooMuch, match="the process that computed this ended"):
             await workers.run(dies, seconds=60.0)
         with pytest.raises(InvalidValue, match="x must be 3"):
             await workers.run(fails, seconds=60.0)
@@ -220,7 +231,7 @@ def test_processes_that_were_ended_while_idle_are_made_anew(workers):
         for _ in range(100):  # the pool sees it a moment later
             try:
                 second = await workers.run(here, seconds=60.0)
-            except TooLong:
+            except TooMuch:
                 continue
             if second != first:
                 return first, second
@@ -232,7 +243,7 @@ def test_processes_that_were_ended_while_idle_are_made_anew(workers):
 
 def test_silent_connections_are_closed():
     async def run():
-        protocol = timeouts.make_protocol(0.2)
+        protocol = connections.make_protocol(dataclasses.replace(LIMITS, head_seconds=0.2))
         config = uvicorn.Config(echo, http=protocol, log_level="error", lifespan="off")
         config.load()
         server = uvicorn.Server(config)
@@ -263,7 +274,7 @@ def test_too_many_at_once_are_sent_away(workers):
     async def run():
         jobs = [asyncio.create_task(workers.run(sleeps, 0.5, seconds=60.0)) for _ in range(2)]
         await asyncio.sleep(0.1)
-        with pytest.raises(Busy, match="wait a few seconds and try again"):
+        with pytest.raises(Busy, match="try again in 5 s"):
             await workers.run(sleeps, 0.0, seconds=60.0)
         assert await asyncio.gather(*jobs) == ["slept", "slept"]
         return await workers.run(sleeps, 0.0, seconds=60.0)

@@ -2,6 +2,7 @@
 
 import asyncio
 import base64
+import contextlib
 import hashlib
 import json
 import os
@@ -15,6 +16,7 @@ from pathlib import Path
 import httpx
 import pytest
 
+from adversary.requests_server import LONG_MAP, serving
 from stackbounce.cli import main
 from stackbounce.web import LIMITS, paper_pages
 from stackbounce.web.serve import PORT
@@ -28,6 +30,10 @@ APP = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--workers", 
         (["--port", "70000"], "port must be a whole number from 0 to 65535, got 70000"),
         (["--port", "x"], "'--port': Input should be a valid integer"),
         (["--host", "no.such.host.invalid"], "--host must be an address of this machine"),
+        (
+            ["--host", ""],
+            "--host must be an address of this machine, such as 127.0.0.1, or 0.0.0.0",
+        ),
         (["--host", "203.0.113.7"], "--host must be an address of this machine"),  # RFC 5737
         (["--workers", "0"], "--workers must be a whole number from 1 to 64, got 0"),
     ],
@@ -77,13 +83,45 @@ def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
     assert process.returncode == 0
     assert out == ""
     assert err == ""
-    left = [pid for pid in workers if runs(pid)]
-    for _ in range(100):  # what watches over shared memory ends by itself once its pipe is closed
-        left = [pid for pid in left if runs(pid)]
-        if not left:
+    assert not left_of(workers)
+
+
+def left_of(pids):
+    """Return those of the processes that do not end by themselves."""
+    for _ in range(100):
+        pids = [pid for pid in pids if runs(pid)]
+        if not pids:
             break
         time.sleep(0.1)
-    assert not left
+    return pids
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
+def test_open_requests_do_not_keep_it_from_ending(how):
+    large = json.dumps(LONG_MAP).encode()
+    head = b"POST /api/map HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    begun = [
+        b"",
+        b"GET / HTT",
+        head + b"Content-Length: %d\r\n\r\n" % len(large),
+        head + b"Content-Length: %d\r\n\r\n" % len(large) + large,
+        b"GET /paper/ HTTP/1.1\r\nHost: localhost\r\n\r\n",
+    ]
+    with serving(stderr=subprocess.PIPE) as server, contextlib.ExitStack() as stack:
+        httpx.post(f"{server.address}api/stack", json={"balls": ["B1"]}, timeout=60.0)
+        for request in begun * 3:
+            connection = stack.enter_context(socket.create_connection(server.place))
+            connection.sendall(request)
+        time.sleep(1.0)
+        workers = server.children()
+        assert workers
+        os.kill(server.process.pid, how)
+        _, err = server.process.communicate(timeout=15)
+        assert not left_of(workers)
+    if how == signal.SIGTERM:
+        assert server.process.returncode == 0
+        assert err == ""
 
 
 @pytest.mark.slow
@@ -142,6 +180,7 @@ def test_pages_of_the_paper(tmp_path):
     folder = tmp_path / "pages"
     folder.mkdir()
     names = ["", "", "index.html", "none.html", "../secret", "../pages/../secret", "figures"]
+    names += ["\0", "index.html\0", "a" * 5000, "/etc/passwd", "index.html/", "."]
     waiting, lead, page, *others = pages(Stub(), folder, names)
     assert b"is being recomputed" in waiting.body
     assert waiting.headers["refresh"] == "2"
@@ -150,7 +189,7 @@ def test_pages_of_the_paper(tmp_path):
     digest = base64.b64encode(hashlib.sha256(b"let a = 1;").digest()).decode()
     policy = page.headers["content-security-policy"]
     assert policy.endswith(f"; script-src 'sha256-{digest}'")  # its own script, and no other
-    assert [other.status_code for other in others] == [404] * 4
+    assert [other.status_code for other in others] == [404] * 10
 
 
 def test_a_paper_that_failed_says_so_and_is_tried_again(tmp_path):

@@ -471,6 +471,7 @@ FORCE = b"Time (s),Force (N)\n" + b"".join(b"%d,0.1\n" % i for i in range(40))
         (TRACK, {"options": '{"gravity": 1e-320}'}, "a.csv"),
         (FORCE, {"options": "3"}, "options must be an object in JSON, got '3'"),
         (FORCE, {"options": "["}, "options must be JSON, got '['"),
+        (FORCE, {"options": '{"mass": ' + "[" * 500 + "]" * 500 + "}"}, "JSON of at most 8 levels"),
         (FORCE, {"options": '{"path": "/etc/passwd"}'}, "'path' is no option"),
         (FORCE, {"options": '{"mass": "57 m"}'}, "“Ball's mass” must be a mass"),
         (FORCE, {"options": '{"law": "sprung"}'}, "did you mean Spring?"),

@@ -36,7 +36,8 @@ def run(
         int | None,
         typer.Option(
             metavar="COUNT",
-            help="Processes that compute; by default one for each core, 2 to 8.",
+            help="Processes for short requests, and as many for long ones; by default half as many "
+            "as cores, 2 to 4.",
             show_default=False,
         ),
     ] = None,
@@ -54,7 +55,7 @@ def run(
         told = json_text({"stackbounce": __version__, "address": address})
         typer.echo(told if as_json else f"The explorer: {address} (Ctrl+C ends it)")
 
-    cores = min(max(os.cpu_count() or 1, 2), 8)
-    count = cores if workers is None else whole("--workers", workers, 1, 64)
+    by_default = min(max((os.cpu_count() or 1) // 2, 2), 4)
+    count = by_default if workers is None else whole("--workers", workers, 1, 64)
     limits = dataclasses.replace(LIMITS, workers=count)
     serve(host, port, limits, browser=browser, tell=tell)

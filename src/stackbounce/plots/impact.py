@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType
+from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.plots.style import color_of, styled_figure, written
 from stackbounce.run.result import Result
@@ -19,6 +19,7 @@ __all__ = ["bounce"]
 
 _SAMPLES = 1200
 _LABEL = 0.13  # height of a label in its axes
+_LARGEST = 1e290  # m or N; matplotlib multiplies numbers
 
 
 def bounce(result: Result) -> "Figure":
@@ -38,6 +39,8 @@ def bounce(result: Result) -> "Figure":
     ------
     InvalidType
         If `result` is no Result.
+    InvalidValue
+        If positions or forces are too large to be drawn, near the largest of floats.
 
     Examples
     --------
@@ -58,6 +61,9 @@ def bounce(result: Result) -> "Figure":
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = np.linspace(*choose_window(result), _SAMPLES)
         sample = sample_with_approach(result, times)
+        _check_size(sample.position.values, "m")
+        if not result.drop.rigid:  # whose forces are infinite
+            _check_size(sample.force.values, "N")
         _draw_positions(above, result, times, sample.position.values)
         _draw_contacts(below, result, times, sample.force.values)
         floor = result.drop.contacts[0] is not None
@@ -65,6 +71,14 @@ def bounce(result: Result) -> "Figure":
         below.set_xlim(1e3 * times[0], 1e3 * times[-1])
         figure.align_ylabels()
     return figure
+
+
+def _check_size(values: NDArray[np.float64], unit: str) -> None:
+    largest = float(np.max(np.abs(values), initial=0.0))
+    if largest > _LARGEST:
+        raise InvalidValue(
+            f"numbers must be at most {_LARGEST:g} {unit} to be drawn, got {largest:g} {unit}"
+        )
 
 
 def _draw_positions(

@@ -4,9 +4,11 @@
 serve       finds a port, runs the server, opens the browser
 app         the server's addresses: request, answer function, schema
 guard       admission of requests, and the headers of every answer
-timeouts    timeouts of connections
-limits      limits of a request
-worker_pool worker processes, with a time limit for each job
+connections limits of connections
+shares      what a client may have at once
+limits      limits of a request, of a client, and of all together
+turns       which of the waiting jobs is computed next
+worker_pool worker processes, with limits of time and memory for each job
 schema      the schema of requests and answers, in pydantic
 paper_pages the paper's pages, computed at the first request
 answers/    the functions that compute answers in the worker processes

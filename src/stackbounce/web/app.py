@@ -25,7 +25,8 @@ from stackbounce.web.answers import catalogue, exports, maps, play, records
 from stackbounce.web.guard import Guard
 from stackbounce.web.limits import LIMITS, Limits
 from stackbounce.web.paper_pages import Papers
-from stackbounce.web.worker_pool import Busy, TooLong, Workers
+from stackbounce.web.shares import AGAIN_SECONDS, Busy, client_of
+from stackbounce.web.worker_pool import Workers
 
 __all__ = ["ROUTES", "Route", "create_app"]
 
@@ -35,8 +36,9 @@ _PROBLEMS: dict[int | str, dict[str, Any]] = {
     for status, says in {
         400: "The request cannot be read.",
         413: "The request is too large.",
-        422: "A value makes no sense; the detail says which, and what would be right.",
-        503: "Too much is asked for at once, or of one request; the detail says what.",
+        422: "A value makes no sense, or one request asks for too much; the detail says which.",
+        429: "This client asks for too much at once; the detail says when to try again.",
+        503: "All clients ask for too much at once; the detail says when to try again.",
     }.items()
 }
 _EXPORTED: dict[int | str, dict[str, Any]] = {
@@ -49,6 +51,12 @@ _EXPORTED: dict[int | str, dict[str, Any]] = {
     }
 }
 _ENDINGS = {"python": "py"}
+_LEVELS = 8  # of lists and objects in each other
+_PLAIN = (str, int, float, bool, type(None))
+
+
+def _is_short(_: schema.Request) -> bool:
+    return True
 
 
 class Route(NamedTuple):
@@ -58,6 +66,12 @@ class Route(NamedTuple):
     compute: Callable[..., str]
     request: type[schema.Request]
     answer: type[BaseModel]
+    is_short: Callable[[Any], bool] = _is_short
+    """Whether a request should take less than a second."""
+
+
+def _is_short_map(asked: schema.MapRequest) -> bool:
+    return asked.x.count * asked.y.count * len(asked.drop.balls) ** 2 <= LIMITS.short_map
 
 
 ROUTES = (
@@ -65,7 +79,7 @@ ROUTES = (
     Route("/api/law", catalogue.calibrate_law, schema.MeasuredLaw, schema.OneContact),
     Route("/api/like", catalogue.convert_law, schema.LikeLaw, schema.OneContact),
     Route("/api/simulate", play.play_drop, schema.Play, schema.Simulation),
-    Route("/api/map", maps.map_drop, schema.MapRequest, schema.Map),
+    Route("/api/map", maps.map_drop, schema.MapRequest, schema.Map, _is_short_map),
     Route("/api/map/paths", maps.list_paths, schema.MapPaths, schema.Paths),
 )
 """All addresses that take and return JSON; a new one is a line here."""
@@ -126,9 +140,10 @@ def _json(text: str) -> Response:
 def _add_route(app: FastAPI, workers: Workers, route: Route) -> None:
     """Add a route: the request's fields are the keywords of its answer function."""
 
-    async def respond(asked: Any) -> Response:
+    async def respond(request: Request, asked: Any) -> Response:
         job = functools.partial(route.compute, **dict(asked))
-        return _json(await workers.run(job, seconds=LIMITS.job_seconds))
+        seconds, client, short = LIMITS.job_seconds, client_of(request), route.is_short(asked)
+        return _json(await workers.run(job, seconds=seconds, client=client, short=short))
 
     respond.__annotations__["asked"] = route.request
     app.post(
@@ -148,10 +163,11 @@ def _add_queries(app: FastAPI, workers: Workers, limits: Limits) -> None:
         return {"stackbounce": __version__}
 
     @app.get("/api/catalogue", response_model=schema.Catalogue)
-    async def list_choices() -> Response:
+    async def list_choices(request: Request) -> Response:
         """List the balls, the contact laws, the paper's cases, and the limits of a request."""
-        job = (catalogue.list_choices, limits)
-        return _json(await workers.run(*job, seconds=LIMITS.job_seconds))
+        job = functools.partial(catalogue.list_choices, limits)
+        seconds, client = LIMITS.job_seconds, client_of(request)
+        return _json(await workers.run(job, seconds=seconds, client=client, short=True))
 
     @app.get("/api/measure/options", response_model=schema.MeasureOptions)
     async def list_options() -> Response:
@@ -163,16 +179,20 @@ def _add_files(app: FastAPI, workers: Workers) -> None:
     """Add the addresses that take or return a file."""
 
     @app.post("/api/export/{kind}", response_class=Response, responses=_EXPORTED)
-    async def export_drop(kind: schema.ExportKind, asked: schema.Export) -> Response:
+    async def export_drop(
+        request: Request, kind: schema.ExportKind, asked: schema.Export
+    ) -> Response:
         """Export a drop as a file: its data, its picture, its scenario, or lines of Python."""
-        job = (exports.export_drop, kind, asked.drop, asked.until)
-        content = await workers.run(*job, seconds=LIMITS.job_seconds)
+        job = functools.partial(exports.export_drop, kind, asked.drop, asked.until)
+        seconds, client = LIMITS.job_seconds, client_of(request)
+        content = await workers.run(job, seconds=seconds, client=client, short=True)
         name = f"drop.{_ENDINGS.get(kind, kind)}"
         headers = {"content-disposition": f'attachment; filename="{name}"'}
         return Response(content, media_type=exports.KINDS[kind], headers=headers)
 
     @app.post("/api/measure", response_model=schema.Measured)
     async def measure_record(
+        request: Request,
         file: Annotated[UploadFile, File()],
         options: Annotated[str, Form()] = "{}",
         alone: Annotated[UploadFile | None, File()] = None,
@@ -181,10 +201,12 @@ def _add_files(app: FastAPI, workers: Workers) -> None:
         other = None if alone is None else (_name(alone), await alone.read())
         known = _parse_object("options", options)
         job = (records.measure_record, _name(file), await file.read(), known, other)
-        return _json(await workers.run(*job, seconds=LIMITS.fit_seconds))
+        client = client_of(request)
+        return _json(await workers.run(*job, seconds=LIMITS.fit_seconds, client=client))
 
     @app.post("/api/fit", response_model=schema.Fitted)
     async def fit_record(
+        request: Request,
         drop: Annotated[str, Form()],
         vary: Annotated[str, Form()],
         measured: Annotated[str, Form()] = "{}",
@@ -210,7 +232,8 @@ def _add_files(app: FastAPI, workers: Workers) -> None:
         name = "" if file is None else _name(file)
         known = _parse_object("options", options)
         job = (records.fit_record, asked, paths, values, name, content, known)
-        return _json(await workers.run(*job, seconds=LIMITS.fit_seconds))
+        client = client_of(request)
+        return _json(await workers.run(*job, seconds=LIMITS.fit_seconds, client=client))
 
 
 def _name(file: UploadFile) -> str:
@@ -228,9 +251,16 @@ def _parse_object(what: str, text: str) -> dict[str, Any]:
 
 def _parse(what: str, text: str) -> Any:
     try:
-        return json.loads(text)
+        value = json.loads(text)
     except (ValueError, RecursionError):
         raise InvalidValue(f"{what} must be JSON, got {shown(text)}") from None
+    parts = [value]
+    for _ in range(_LEVELS):
+        lists = (one.values() if isinstance(one, dict) else one for one in parts)
+        parts = [part for one in lists if not isinstance(one, _PLAIN) for part in one]
+    if parts:
+        raise InvalidValue(f"{what} must be JSON of at most {_LEVELS} levels, got {shown(text)}")
+    return value
 
 
 def _add_pages(app: FastAPI) -> None:
@@ -253,8 +283,8 @@ def _add_errors(app: FastAPI) -> None:
     """Answer every error with one line that says what was wrong."""
 
     def problem(status: int, detail: str) -> JSONResponse:
-        headers = {"retry-after": "5"} if status == 503 else None
         text = detail.encode("utf-8", "replace").decode()  # a lone surrogate cannot be sent
+        headers = {"retry-after": str(AGAIN_SECONDS)} if status in (429, 503) else None
         return JSONResponse({"detail": text}, status, headers)
 
     @app.exception_handler(RequestValidationError)
@@ -263,7 +293,7 @@ def _add_errors(app: FastAPI) -> None:
 
     @app.exception_handler(StackbounceError)
     async def wrong(_: Request, error: StackbounceError) -> Response:
-        return problem(503 if isinstance(error, Busy | TooLong) else 422, str(error))
+        return problem(error.status if isinstance(error, Busy) else 422, str(error))
 
     @app.exception_handler(Exception)
     async def unexpected(_: Request, error: Exception) -> Response:

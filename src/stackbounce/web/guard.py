@@ -10,10 +10,12 @@ import ipaddress
 import json
 import re
 import socket
+import threading
 from collections.abc import Awaitable, Callable, MutableMapping
 from typing import Any
 
 from stackbounce.web.limits import Limits
+from stackbounce.web.shares import AGAIN_SECONDS, Busy, Shares, client_of
 
 __all__ = ["PAPER", "Guard"]
 
@@ -46,6 +48,7 @@ _HOST = re.compile(r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::\d{1,5})?", re.ASCII)
 _POLICY = b"content-security-policy"
 _DRAIN_SECONDS = 3.0  # s, for which a refused request is still read
 _DRAINED = 8  # most uploads' worth of bytes that is read of a refused request
+_PART = 1 << 16  # bytes of a body that are passed on at once
 _UPLOADS = ("/api/measure", "/api/fit")
 
 
@@ -54,7 +57,7 @@ class _Refused(Exception):
 
     def __init__(self, status: int, detail: str) -> None:
         super().__init__(detail)
-        self.status, self.detail = status, detail
+        self.status = status
 
 
 class Guard:
@@ -75,8 +78,8 @@ class Guard:
 
     def __init__(self, app: Any, limits: Limits) -> None:
         self._app, self._limits = app, limits
-        self._held = 0
-        self._names = {"localhost", socket.gethostname().casefold()}
+        self._held = Shares("too much data", limits.held_bytes, limits.client_bytes)
+        self._names = _find_names()
 
     async def __call__(self, scope: _Message, receive: _Receive, send: _Send) -> None:
         """Answer one request, or refuse it."""
@@ -86,17 +89,37 @@ class Guard:
         headers = {
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
-        answer = _add_headers(send, scope["path"])
+        answer = _Answer(send, scope["path"])
+        coming = _Coming(receive)
         body = bytearray()
         try:
             self._check(scope, headers)
-            await self._receive(body, scope, headers, receive)
-            await self._app(scope, _replay(bytes(body), receive), answer)
-        except _Refused as refused:
-            await self._drain(receive)
-            await _refuse(answer, refused)
+            await self._receive(body, scope, headers, coming)
+            await self._pass_on(scope, bytes(body), receive, answer)
+        except (_Refused, Busy) as refused:
+            await self._drain(coming)
+            await answer.refuse(refused.status, str(refused))
+        except asyncio.CancelledError:  # the server ends
+            await answer.refuse(503, f"the server ends: try again in {AGAIN_SECONDS} s")
         finally:
-            self._held -= len(body)
+            self._held.give_back(client_of(scope), len(body))
+
+    async def _pass_on(
+        self, scope: _Message, body: bytes, receive: _Receive, answer: "_Answer"
+    ) -> None:
+        """Let the application answer a request, unless its client goes away before."""
+        leaving = asyncio.ensure_future(receive())  # after a whole body, only this is left to come
+        answering = asyncio.ensure_future(self._app(scope, _replay(body, leaving), answer.send))
+        try:
+            await asyncio.wait({leaving, answering}, return_when=asyncio.FIRST_COMPLETED)
+            if answer.complete or answering.done():
+                await answering
+        finally:
+            for task in (leaving, answering):
+                task.cancel()
+            await asyncio.wait({leaving, answering})
+            if not answering.cancelled():
+                answering.exception()  # it is raised above, or its client has gone
 
     def _check(self, scope: _Message, headers: dict[str, str]) -> None:
         host = headers.get("host", "")
@@ -132,43 +155,50 @@ class Guard:
         return True
 
     async def _receive(
-        self, body: bytearray, scope: _Message, headers: dict[str, str], receive: _Receive
+        self, body: bytearray, scope: _Message, headers: dict[str, str], coming: "_Coming"
     ) -> None:
         """Receive the body of a request; refuse one that is too large or too slow."""
-        limits = self._limits
+        limits, client = self._limits, client_of(scope)
         most = limits.upload_bytes if scope["path"] in _UPLOADS else limits.body_bytes
         length = headers.get("content-length", "0")
         if length.isdecimal() and int(length) > most:
             raise _too_large(most)
         try:
             async with asyncio.timeout(limits.upload_seconds):
-                while True:
-                    message = await receive()
+                while not coming.whole:
+                    message = await coming.receive()
                     if message["type"] != "http.request":
                         raise _Refused(400, "the request ended before it was whole")
                     part = message.get("body", b"")
-                    body += part
-                    self._held += len(part)
-                    if len(body) > most:
+                    if len(body) + len(part) > most:
                         raise _too_large(most)
-                    if self._held > limits.held_bytes:
-                        raise _Refused(503, "too much is being sent at once: try again soon")
-                    if not message.get("more_body", False):
-                        return
+                    self._held.take(client, len(part))
+                    body += part
         except TimeoutError:
             seconds = limits.upload_seconds
             raise _Refused(408, f"the request did not come in whole within {seconds:g} s") from None
 
-    async def _drain(self, receive: _Receive) -> None:
+    async def _drain(self, coming: "_Coming") -> None:
         """Read the rest of a refused request: many clients send all before they read an answer."""
         left = _DRAINED * self._limits.upload_bytes
         with contextlib.suppress(TimeoutError):
             async with asyncio.timeout(_DRAIN_SECONDS):
-                while left > 0:
-                    message = await receive()
-                    left -= len(message.get("body", b""))
-                    if message["type"] != "http.request" or not message.get("more_body", False):
-                        return
+                while left > 0 and not coming.whole:
+                    left -= len((await coming.receive()).get("body", b""))
+
+
+class _Coming:
+    """A request that is coming in."""
+
+    def __init__(self, receive: _Receive) -> None:
+        self._receive = receive
+        self.whole = False
+
+    async def receive(self) -> _Message:
+        """Receive a part of the request, or that its client has gone."""
+        message = await self._receive()
+        self.whole = not message.get("more_body", False)
+        return message
 
 
 def _too_large(most: int) -> _Refused:
@@ -176,44 +206,74 @@ def _too_large(most: int) -> _Refused:
     return _Refused(413, f"the request is larger than {size}: send less, such as a shorter record")
 
 
-def _replay(body: bytes, receive: _Receive) -> _Receive:
-    """Return a `receive` that delivers a body that was already received."""
-    left = [body]
+def _replay(body: bytes, leaving: asyncio.Future[_Message]) -> _Receive:
+    """Return a `receive` that delivers a body that was already received, in parts."""
+    left = [body[i : i + _PART] for i in range(0, len(body), _PART)] or [b""]
+    left.reverse()
 
     async def again() -> _Message:
         if left:
-            return {"type": "http.request", "body": left.pop(), "more_body": False}
-        return await receive()
+            await asyncio.sleep(0)  # others have their turn while a long body is read
+            return {"type": "http.request", "body": left.pop(), "more_body": bool(left)}
+        return await asyncio.shield(leaving)
 
     return again
 
 
-def _add_headers(send: _Send, path: str) -> _Send:
-    """Return a `send` that adds the security headers to an answer."""
-    policy = PAPER if path.startswith("/paper") else _PAGE
-    own = [
-        (name.encode(), value.encode())
-        for name, value in (_HEADERS | {"content-security-policy": policy}).items()
-    ]
-    names = {name for name, _ in own}
+class _Answer:
+    """An answer that is being sent, with the security headers."""
 
-    async def answer(message: _Message) -> None:
+    def __init__(self, send: _Send, path: str) -> None:
+        self._send = send
+        self._paper = path.startswith("/paper")
+        policy = PAPER if self._paper else _PAGE
+        self._own = [
+            (name.encode(), value.encode())
+            for name, value in (_HEADERS | {"content-security-policy": policy}).items()
+        ]
+        self._started = False
+        self.complete = False
+
+    async def send(self, message: _Message) -> None:
+        """Send a part of the answer."""
         if message["type"] == "http.response.start":
-            paper = path.startswith("/paper")  # its policy may list its own scripts
-            kept = {_POLICY} if paper and _POLICY in dict(message["headers"]) else set()
-            given = [one for one in message["headers"] if one[0] not in names - kept]
-            message = {**message, "headers": given + [one for one in own if one[0] not in kept]}
-        await send(message)
+            self._started = True
+            message = {**message, "headers": self._add_headers(message["headers"])}
+        elif message["type"] == "http.response.body":
+            self.complete = not message.get("more_body", False)
+        await self._send(message)
 
-    return answer
+    def _add_headers(self, given: list[tuple[bytes, bytes]]) -> list[tuple[bytes, bytes]]:
+        own = [one for one in self._own if not (self._paper and one[0] == _POLICY in dict(given))]
+        names = {name for name, _ in own}
+        return [one for one in given if one[0] not in names] + own
+
+    async def refuse(self, status: int, detail: str) -> None:
+        """Send a refusal, unless another answer has begun."""
+        if self._started:
+            return
+        body = json.dumps({"detail": detail}).encode()
+        headers = [
+            (b"content-type", b"application/json"),
+            (b"content-length", str(len(body)).encode()),
+            (b"connection", b"close"),
+        ]
+        if status in (429, 503):
+            headers.append((b"retry-after", str(AGAIN_SECONDS).encode()))
+        await self.send({"type": "http.response.start", "status": status, "headers": headers})
+        await self.send({"type": "http.response.body", "body": body})
 
 
-async def _refuse(send: _Send, refused: _Refused) -> None:
-    body = json.dumps({"detail": refused.detail}).encode()
-    headers = [
-        (b"content-type", b"application/json"),
-        (b"content-length", str(len(body)).encode()),
-        (b"connection", b"close"),
-    ]
-    await send({"type": "http.response.start", "status": refused.status, "headers": headers})
-    await send({"type": "http.response.body", "body": body})
+def _find_names() -> set[str]:
+    """Return the names of this machine; the full one is added once the network has answered."""
+    name = socket.gethostname().casefold()
+    short = name.partition(".")[0]
+    names = {"localhost", name, short, f"{short}.local"}
+
+    def add_full() -> None:
+        full = socket.getfqdn().casefold()
+        if full.startswith(f"{short}."):
+            names.add(full)
+
+    threading.Thread(target=add_full, daemon=True).start()
+    return names

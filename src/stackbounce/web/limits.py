@@ -29,6 +29,11 @@ class Limits:
         Size of a request with a file.
     held_bytes : int
         Total size of all requests that are being received or answered.
+    client_bytes : int
+        That of the requests of one client.
+    head_seconds : float
+        Time in s in which the whole head of a request must arrive, from the opening of a connection
+        or from the first bytes of a further head.
     upload_seconds : float
         Time in s in which a whole request must arrive.
     job_seconds : float
@@ -37,12 +42,20 @@ class Limits:
         Time limit of an analysis or a fit in s.
     paper_seconds : float
         Time limit in s of the job that computes the paper's pages.
+    short_map : int
+        Points of a map times the square of its number of balls, up to which it is a short job.
     waiting : int
         Jobs that may run or wait; further requests are refused.
+    client_waiting : int
+        Those of one client.
     connections : int
         Open connections.
+    client_connections : int
+        Those of one client.
     workers : int
-        Worker processes.
+        Worker processes for short jobs, and as many for long ones.
+    worker_bytes : int
+        Memory of a worker process, on Linux.
 
     Examples
     --------
@@ -59,13 +72,19 @@ class Limits:
     body_bytes: int = 64 * 1024
     upload_bytes: int = 16 * 1024 * 1024
     held_bytes: int = 256 * 1024 * 1024
+    client_bytes: int = 128 * 1024 * 1024
+    head_seconds: float = 15.0
     upload_seconds: float = 30.0
     job_seconds: float = 20.0
     fit_seconds: float = 60.0
     paper_seconds: float = 600.0
+    short_map: int = 60_000
     waiting: int = 200
+    client_waiting: int = 100
     connections: int = 400
+    client_connections: int = 200
     workers: int = 2
+    worker_bytes: int = 2 * 1024**3
 
 
 LIMITS = Limits()

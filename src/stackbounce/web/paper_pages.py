@@ -5,6 +5,7 @@ import base64
 import hashlib
 import html
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 from fastapi.responses import FileResponse, HTMLResponse, RedirectResponse, Response
@@ -88,13 +89,17 @@ class Papers:
         return self._send_file(name)
 
     def _send_file(self, name: str) -> Response:
-        path = (self._folder / name).resolve()
-        if not (path.is_relative_to(self._folder.resolve()) and path.is_file()):
+        files = {path.relative_to(self._folder).as_posix(): path for path in self._files()}
+        if name not in files:
             raise HTTPException(404, "the paper has no such page")
+        path = files[name]
         if path.suffix != ".html":
             return FileResponse(path)
         content = path.read_bytes()
         return HTMLResponse(content, headers={"content-security-policy": _allow_scripts(content)})
+
+    def _files(self) -> Iterator[Path]:
+        return (path for path in self._folder.rglob("*") if path.is_file())
 
 
 def _allow_scripts(page: bytes) -> str:

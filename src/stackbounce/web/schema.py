@@ -136,6 +136,7 @@ def describe_error(error: Any) -> str:
     if error["type"] == "json_invalid" or error["loc"] == ("body",):
         return "the request must be an object in JSON, with content-type application/json"
     where = ".".join(str(part) for part in error["loc"] if part != "body")
+    where = where if where.isprintable() and len(where) <= 60 else shown(where)
     words = error["msg"][:1].lower() + error["msg"][1:]
     got = "" if error["type"] == "missing" else f", got {shown(error['input'])}"
     return f"{where}: {words}{got}"

@@ -2,6 +2,7 @@
 
 import contextlib
 import errno
+import logging
 import signal
 import socket
 import threading
@@ -22,6 +23,7 @@ PORT = 8050
 """The first port that is tried by default."""
 
 _MORE = 20  # number of ports that are tried by default
+_BACKLOG = 128  # connections that wait to be accepted
 
 
 def serve(
@@ -58,20 +60,39 @@ def serve(
     import uvicorn
 
     from stackbounce.web.app import create_app
-    from stackbounce.web.timeouts import make_protocol
+    from stackbounce.web.connections import make_protocol
 
+    if not host:
+        raise InvalidValue(
+            f"--host must be an address of this machine, such as {HOST}, or 0.0.0.0 for all, "
+            "got nothing"
+        )
+
+    logging.getLogger("python_multipart").setLevel(logging.CRITICAL)  # of forms that are none
     with contextlib.closing(_open_socket(host, port)) as listening:
         address = f"http://{_name_host(host)}:{listening.getsockname()[1]}/"
         config = uvicorn.Config(
             create_app(limits),
-            http=make_protocol(),
-            log_level="warning",
-            limit_concurrency=limits.connections,
+            http=make_protocol(limits),
+            ws="none",
+            log_level="error",  # what clients do wrong, they are told
+            backlog=_BACKLOG,
+            proxy_headers=False,  # a client could say that it is another one
             timeout_keep_alive=30,
             timeout_graceful_shutdown=2,
             server_header=False,
         )
-        server = uvicorn.Server(config)
+
+        class Server(uvicorn.Server):
+            """A server that does not wait for its answers when it ends."""
+
+            async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+                logging.getLogger("uvicorn.error").setLevel(logging.CRITICAL)
+                for task in self.server_state.tasks:
+                    task.cancel()
+                await super().shutdown(sockets)
+
+        server = Server(config)
         waiting = threading.Thread(
             target=_announce, args=(server, address, browser, tell), daemon=True
         )

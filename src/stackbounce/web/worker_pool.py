@@ -1,40 +1,201 @@
-"""A pool of worker processes: the server never computes itself, and every job has a time limit."""
+"""Worker processes: the server never computes itself; each job has limits of time and memory."""
 
 import asyncio
-import concurrent.futures
+import contextlib
+import functools
+import math
 import multiprocessing
+import os
+import threading
+import time
 from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures.process import BrokenProcessPool
 from typing import Any
 
 from stackbounce.errors import StackbounceError
 from stackbounce.web.limits import Limits
+from stackbounce.web.shares import Shares
+from stackbounce.web.turns import Turns
 
-__all__ = ["Busy", "TooLong", "Workers"]
+__all__ = ["TooMuch", "Workers"]
 
-
-class Busy(StackbounceError):
-    """Too many jobs are waiting."""
-
-
-class TooLong(StackbounceError):
-    """A job exceeded its time limit, or its process ended."""
+_LESS = "ask for fewer balls, points or numbers at once"
 
 
-def _import_answers() -> None:
-    """Import what most answers need, so that no request waits for it."""
-    import xarray  # noqa: F401
-
-    import stackbounce.web.answers.maps
-    import stackbounce.web.answers.play  # noqa: F401
+class TooMuch(StackbounceError):
+    """A job exceeded its limit of time or memory, or its process ended."""
 
 
-class Workers:
-    """A few processes, and a queue of jobs for them.
+def _prepare(most_bytes: int, nice: int) -> None:
+    """Prepare a process: it ends with the server, has limited memory, and has imported all."""
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+    with contextlib.suppress(ImportError, AttributeError):  # Windows has neither
+        import resource
+
+        os.nice(nice)
+
+        _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+        most = most_bytes if hard == resource.RLIM_INFINITY else min(hard, most_bytes)
+        resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
+
+    import stackbounce.web.answers.maps  # noqa: F401
+    from stackbounce.cross2007.cases import list_cases
+    from stackbounce.web.answers.play import play_drop
+
+    play_drop(
+        next(list_cases()).drop, until=None, frames=2
+    )  # libraries import parts when first used
+
+
+def _end_with_parent() -> None:
+    """End this process when the server has ended, however that ended."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)
+
+
+class _Worker:
+    """A process that computes one job at a time."""
+
+    def __init__(self, limits: Limits, nice: int) -> None:
+        self._ended = False
+        others = set(multiprocessing.active_children())
+        self._executor = ProcessPoolExecutor(
+            max_workers=1,
+            mp_context=multiprocessing.get_context("spawn"),  # a fork would copy the threads
+            initializer=_prepare,
+            initargs=(limits.worker_bytes, nice),
+        )
+        self._prepared = self._executor.submit(os.getpid)
+        (self._process,) = set(multiprocessing.active_children()) - others
+
+    @property
+    def ready(self) -> bool:
+        """Whether the process is prepared."""
+        return self._prepared.done()
+
+    @property
+    def alive(self) -> bool:
+        """Whether the process can take a job."""
+        return not self._ended and self._process.is_alive()
+
+    async def compute(self, job: Callable[[], Any], seconds: float, abandoned: float) -> Any:
+        """Return the result of a job; end the process if it takes too long, or more memory.
+
+        If this is cancelled, nobody waits for the result: then `abandoned` is the limit in s.
+        """
+        try:
+            await asyncio.shield(asyncio.wrap_future(self._prepared))
+            computing = asyncio.get_running_loop().run_in_executor(self._executor, job)
+            computing.add_done_callback(_forget)
+            await self._wait(computing, seconds, abandoned)
+            return computing.result()
+        except BrokenProcessPool:
+            self.end()
+            raise TooMuch(
+                f"the process that computed this ended, perhaps for want of memory: {_LESS}"
+            ) from None
+        except MemoryError:
+            self.end()
+            raise TooMuch(
+                f"this needs more memory than the process of one request may have: {_LESS}"
+            ) from None
+
+    async def _wait(self, computing: asyncio.Future[Any], seconds: float, abandoned: float) -> None:
+        """Wait for a job, and end it after its time."""
+        start = time.monotonic()
+        try:
+            await asyncio.wait({computing}, timeout=seconds)
+        except asyncio.CancelledError:
+            left = min(seconds, abandoned) - (time.monotonic() - start)
+            await asyncio.wait({computing}, timeout=max(0.0, left))
+            raise
+        finally:
+            if not computing.done():
+                computing.cancel()
+                self.end()
+        if computing.cancelled():
+            raise TooMuch(f"this takes longer than the {seconds:g} s that one request may: {_LESS}")
+
+    def end(self) -> None:
+        """End the process, also in the middle of a job."""
+        self._ended = True
+        self._process.kill()
+        self._executor.shutdown(wait=False, cancel_futures=True)
+
+    def join(self) -> None:
+        """Wait until the process has ended."""
+        self._executor.shutdown(wait=True)
+
+
+class _Lane:
+    """Processes of the same priority, and the jobs that wait for them.
 
     Parameters
     ----------
     limits : Limits
-        How many processes, and how many jobs may wait.
+        How many processes there are.
+    nice : int
+        How much lower their priority is than the server's.
+    abandoned : float
+        Time in s after which a job whose client has gone is ended with its process. Another process
+        needs a second until it is ready.
+    """
+
+    def __init__(self, limits: Limits, nice: int, abandoned: float) -> None:
+        self._limits, self._nice, self._abandoned = limits, nice, abandoned
+        self._turns = Turns(limits.workers)
+        self._idle: list[_Worker] = []
+        self._busy: list[_Worker] = []
+        self._stopped = False
+
+    def start(self) -> None:
+        """Start all processes, before there are jobs for them."""
+        self._idle = [self._make_worker() for _ in range(self._limits.workers)]
+
+    def stop(self) -> None:
+        """End the processes, also in the middle of a job."""
+        self._stopped = True
+        every = [*self._idle, *self._busy]
+        for worker in every:
+            worker.end()
+        for worker in every:
+            worker.join()
+
+    async def compute(self, job: Callable[[], Any], seconds: float, client: str) -> Any:
+        """Compute a job when its turn has come."""
+        async with self._turns.turn(client):
+            if self._stopped:
+                raise TooMuch("the server has ended")
+            worker = self._find_idle()
+            self._busy.append(worker)
+            try:
+                return await worker.compute(job, seconds, self._abandoned)
+            finally:
+                self._busy.remove(worker)
+                if not self._stopped:  # the one that worked last has imported most
+                    self._idle.insert(0, worker if worker.alive else self._make_worker())
+
+    def _find_idle(self) -> _Worker:
+        """Take an idle process, one that is ready if there is any; start one if all are busy."""
+        self._idle = [worker for worker in self._idle if worker.alive] or [self._make_worker()]
+        worker = next((one for one in self._idle if one.ready), self._idle[0])
+        self._idle.remove(worker)
+        return worker
+
+    def _make_worker(self) -> _Worker:
+        return _Worker(self._limits, self._nice)
+
+
+class Workers:
+    """Processes for short jobs and as many for long ones, and the jobs that wait for them.
+
+    Parameters
+    ----------
+    limits : Limits
+        How many processes there are, and how many jobs may wait.
 
     Examples
     --------
@@ -44,36 +205,31 @@ class Workers:
     """
 
     def __init__(self, limits: Limits) -> None:
-        self._context = multiprocessing.get_context("spawn")  # a fork would copy the threads
-        self._limits = limits
-        self._jobs = 0
-        self._stopped = False
-        self._pool = self._make_pool()
-
-    def _make_pool(self) -> Any:
-        from pebble import ProcessPool
-
-        return ProcessPool(self._limits.workers, initializer=_import_answers, context=self._context)
+        self._shares = Shares("too many requests", limits.waiting, limits.client_waiting)
+        self._short = _Lane(limits, nice=0, abandoned=math.inf)
+        self._long = _Lane(limits, nice=5, abandoned=2.0)
 
     def start(self) -> None:
-        """Start the processes, before the first request comes."""
-        self._pool.submit(_import_answers, None)
+        """Start the processes for short jobs; those for long ones start when they are needed."""
+        self._short.start()
 
     def stop(self) -> None:
         """End the processes, also in the middle of a job."""
-        self._stopped = True
-        self._pool.stop()
-        self._pool.join(timeout=5.0)
+        self._short.stop()
+        self._long.stop()
 
-    def _submit(self, job: Callable[..., Any], seconds: float, *arguments: Any) -> Any:
-        """Submit a job; start new processes first if the pool was stopped from outside."""
-        if not self._pool.active and not self._stopped:
-            self._pool.stop()
-            self._pool = self._make_pool()
-        return self._pool.submit(job, seconds, *arguments)
-
-    async def run(self, job: Callable[..., Any], *arguments: Any, seconds: float) -> Any:
+    async def run(
+        self,
+        job: Callable[..., Any],
+        *arguments: Any,
+        seconds: float,
+        client: str = "",
+        short: bool = False,
+    ) -> Any:
         """Run a job in a worker process; return its result, or raise its error.
+
+        If this is cancelled, because the client has gone, the job is taken out of its queue. One
+        that runs already is ended soon.
 
         Parameters
         ----------
@@ -83,35 +239,34 @@ class Workers:
             Arguments of the function.
         seconds : float
             Time limit in s; the process is ended after it.
+        client : str, optional
+            Who asks: each client has its turn.
+        short : bool, optional
+            Whether the job should take less than a second.
 
         Raises
         ------
         Busy
             If too many jobs are waiting.
-        TooLong
-            If the job exceeded its time limit, or its process ended.
+        TooMuch
+            If the job exceeded its limit of time or memory, or its process ended.
         """
-        from concurrent.futures.process import BrokenProcessPool
-
-        from pebble import ProcessExpired
-
-        if self._jobs >= self._limits.waiting:
-            raise Busy(
-                f"{self._limits.waiting} requests are being computed already: "
-                "wait a few seconds and try again"
-            )
-        self._jobs += 1
+        lane = self._short if short else self._long
+        self._shares.take(client)
         try:
-            return await asyncio.wrap_future(self._submit(job, seconds, *arguments))
-        except (ProcessExpired, BrokenProcessPool):
-            raise TooLong(
-                "the process that computed this ended, perhaps for want of memory: "
-                "ask for fewer balls, points or numbers at once"
-            ) from None
-        except concurrent.futures.TimeoutError:
-            raise TooLong(
-                f"this takes longer than the {seconds:g} s that one request may: "
-                "ask for fewer balls, points or numbers at once"
-            ) from None
+            work = lane.compute(functools.partial(job, *arguments), seconds, client)
+            computing = asyncio.create_task(work)  # of its own: it may have to outlast the client
+            computing.add_done_callback(_forget)
+            try:
+                await asyncio.wait({computing})
+            finally:
+                computing.cancel()
+            return computing.result()
         finally:
-            self._jobs -= 1
+            self._shares.give_back(client)
+
+
+def _forget(task: asyncio.Future[Any]) -> None:
+    """Take note of an error for which nobody waits, and which asyncio would report otherwise."""
+    if not task.cancelled():
+        task.exception()

@@ -10,7 +10,7 @@ async function ask(path, options) {
   if (!response.ok) {
     const body = await response.json().catch(() => ({}));
     const detail = typeof body.detail === "string" ? body.detail : response.statusText;
-    const busy = response.status >= 500;
+    const busy = response.status >= 500 || response.status === 429;
     throw Object.assign(new Error(detail || `The server answered ${response.status}.`), { offline: busy });
   }
   return response;
