@@ -104,6 +104,7 @@ def test_parts_make_a_drop():
         ([], "at least three"),
         ([1.0, 2.0], "at least three"),
         ([0.0, 1.0, 1.0], "must ascend"),
+        ([0.0, 9e-10, 16e-10], "in s, got intervals of at most 9e-10 s"),
         ([0.0, 2.0, 1.0], "must ascend"),
         ([0.0, math.nan, 1.0], "finite"),
     ],

@@ -1,5 +1,7 @@
 """Press curves: what went in comes out, whatever the record looks like."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import xarray as xr
@@ -8,6 +10,7 @@ from uncertainties import ufloat
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
+from stackbounce.measure.kinds.press.notes import sentences
 from stackbounce.plots.measurements.press import draw
 from stackbounce.synthetic.press import press_record
 from work import calls_of, memory_of
@@ -143,6 +146,14 @@ def test_several_cycles():
     assert draw(data, found).axes
 
 
+def test_a_cycle_of_no_stiffness_is_not_compared():
+    found = press(press_record(BALL, cycles=2, **USUAL))
+    flat = replace(found.others[0], linear_stiffness=ufloat(0.0, 1.0))
+    words = sentences(replace(found, others=(flat,), notes=()), 0)
+    assert any("cycle 2 of 2" in note for note in words)
+    assert not any("% softer" in note or "% stiffer" in note for note in words)
+
+
 def test_small_reversals_on_the_way_in():
     way = np.concatenate([np.linspace(0, 2, 80), np.linspace(2, 1.8, 10), np.linspace(1.8, 5, 120)])
     way = 1e-3 * np.concatenate([way, np.linspace(5, 0, 200)])
@@ -194,7 +205,7 @@ def test_a_million_points_take_hardly_more_steps_than_few():
     assert found.exponent.std_dev < 2e-3
 
 
-def test_noise_with_a_memory_has_larger_errors():
+def test_correlated_noise_has_larger_errors():
     quiet = press(press_record(BALL, peak=5e-3, slack=1e-3, noise=0.1, points=600, seed=4))
     slow = press(
         press_record(BALL, peak=5e-3, slack=1e-3, noise=0.1, memory=20, points=600, seed=4)

@@ -21,6 +21,10 @@ STACK = sb.Drop(
     gravity=9.80665,
 )
 
+NO_BALL = xr.Dataset(
+    {"y": (("track", "time"), np.zeros((0, 9)))}, {"time": np.arange(9.0), "track": []}
+)
+
 
 def near(found, true, errors=4.0):
     return abs(found.nominal_value - true) < errors * found.std_dev
@@ -184,6 +188,7 @@ def test_a_second_ball_that_lies_still_is_left_out():
         ((np.arange(3.0), np.zeros(3)), InvalidValue, "at least 4"),
         ((np.arange(20.0), np.zeros(3)), InvalidValue, "time and y of one length"),
         ("track.txt", InvalidType, "data must be"),
+        (NO_BALL, InvalidValue, "the track of a ball, got none"),
         (3, InvalidType, "data must be"),
         (xr.Dataset({"z": ("time", [1.0])}), InvalidType, "variables x and y"),
     ],

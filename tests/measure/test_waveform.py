@@ -8,6 +8,7 @@ from uncertainties import ufloat
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
+from stackbounce.measure.kinds.waveform.peaks import impulse_of
 from stackbounce.plots.measurements.waveform import draw
 from stackbounce.synthetic.waveform import waveform as record_of
 from work import calls_of, memory_of
@@ -340,6 +341,11 @@ def test_what_is_no_waveform_is_refused_in_one_line(data, error):
 def test_options_are_checked(option):
     with pytest.raises((InvalidValue, InvalidType), match=next(iter(option))):
         waveform(pulses(1), **option)
+
+
+def test_an_impulse_between_two_samples_is_zero():
+    times = np.arange(5.0)
+    assert impulse_of(times, np.ones(5), 0.0, 0.0, (7.0, 1.5)) == (0.0, 0.0)
 
 
 def test_pictures_of_every_kind():

@@ -22,6 +22,7 @@ __all__ = ["bounces"]
 
 _LONGEST = 200  # bounces of one drop
 _EQUAL = 1e-9  # of an interval, by which equal ones differ
+_INSTANT = 1e-6  # s: no ball bounces twice in so short a time
 
 
 def bounces(
@@ -174,6 +175,10 @@ def _moments(
         k = int(np.argmax(steps <= 0.0))
         raise InvalidValue(
             f"times must ascend, got {plain[k + 1]:g} s after {plain[k]:g} s (time {k + 1})"
+        )
+    if steps.max() < _INSTANT:
+        raise InvalidValue(
+            f"times must be in s, got intervals of at most {steps.max():.3g} s: is it another unit?"
         )
     if missed is None:
         missed = missed_between(steps)

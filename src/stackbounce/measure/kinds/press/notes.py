@@ -96,7 +96,7 @@ def _on_cycles(found: Press) -> list[str]:
     notes = [f"This is cycle {found.cycle + 1} of {found.cycles}."]
     first = found.others[0]
     own, other = found.linear_stiffness, first.linear_stiffness
-    if own is not None and other is not None:
+    if own is not None and other is not None and other.nominal_value != 0.0:
         change = (own - other) / other
         if abs(change.nominal_value) > max(_CLEAR * change.std_dev, _WORTH):
             word = "softer" if change.nominal_value < 0.0 else "stiffer"

@@ -18,6 +18,7 @@ from stackbounce.measure.samples import runs
 
 __all__ = ["knocks"]
 
+_LEAST_RATE = 400  # samples per second: with fewer an onset lies between two samples
 _DEAD = 8e-3  # s: two knocks closer than that are one impact
 _AS_LATE = 1.5e-3  # s by which the delay of an echo may differ
 _SECOND_SERIES = 4
@@ -166,6 +167,11 @@ def _samples(data: Any, rate: float | None) -> tuple[NDArray[np.float32], float,
     if values.ndim > 2 or not values.size:
         raise InvalidValue(f"data must hold samples (N,) or (channels, N), got {values.shape}")
     rate = positive("rate", rate, "samples per second")
+    if rate < _LEAST_RATE:
+        raise InvalidValue(
+            f"sound must have {_LEAST_RATE} samples per second or more, got {rate:.3g}: "
+            "are its times in another unit?"
+        )
     return np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0), rate, origin
 
 

@@ -75,6 +75,8 @@ def positions_of(data: Any, clock: float, ruler: float) -> Columns:
             f"times must ascend and be at least 4, got {len(times)}"
             + " that do not ascend" * (len(times) > 3)
         )
+    if not found.positions:
+        raise InvalidValue("data must hold the track of a ball, got none")
     positions = [{axis: ruler * one[good] for axis, one in p.items()} for p in found.positions]
     return _thinned(Columns(times / clock, found.names, positions))
 

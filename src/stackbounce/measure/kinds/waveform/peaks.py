@@ -142,7 +142,7 @@ def impulse_of(
     """
     # from the last sample before the touch to the first one after the release
     first = max(int(np.searchsorted(times, ends[0], "right")) - 1, 0)
-    last = min(int(np.searchsorted(times, ends[1], "left")), len(times) - 1)
+    last = max(first, min(int(np.searchsorted(times, ends[1], "left")), len(times) - 1))
     t, f = times[first : last + 1], values[first : last + 1]
     steps = np.diff(t)
     weights = trapezoid(t)
