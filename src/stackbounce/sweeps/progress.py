@@ -44,6 +44,8 @@ class Progress:
         self._path, self._file = path, file
         file.seek(0)
         content = file.read()
+        if content and not content.startswith(_WRITER.encode()):  # another program's
+            raise self._damaged(content[:40])
         whole = content[: content.rfind(b"\n") + 1]  # the last line may be half written
         lines = whole.decode("ascii", "replace").splitlines()
         self.is_known = any(line.startswith(_WRITER) for line in lines)
