@@ -12,7 +12,13 @@ DROPS ?= 1000000
 FILES ?= 5000
 FOLDER ?=
 SEED ?= 1
+ATTACKS ?= signals kills pairs stores disks measurements
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
+# Not the tests of the project's own rules, of pages and kept answers, and none of libraries' warnings of what comes.
+OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal -m 'not slow' \
+  --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning \
+  -W ignore::FutureWarning tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz \
+  --ignore=tests/web/browser --ignore=tests/web/test_openapi.py
 # Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.
 RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
@@ -20,7 +26,7 @@ DEV := $(VENV)/dev.stamp
 BUILD_NEEDS := import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["build-system"]["requires"], sep="\n")
 
 .DEFAULT_GOAL := help
-.PHONY: help venv kernels paper app test coverage bench check lint types imports docs format fuzz frozen constraints clean \
+.PHONY: help venv kernels paper app test lowest coverage bench check lint types imports docs format fuzz attack frozen constraints clean \
 	distclean
 
 help:  ## list the targets
@@ -37,6 +43,14 @@ app: kernels  ## open the explorer in the browser
 test: $(DEV) kernels  ## run the fast tests of every kind, in under four minutes on two cores
 	@$(PYTEST) -m 'not slow' --hypothesis-profile=quick
 
+lowest: kernels  ## the fast tests with the lowest versions of all dependencies that pyproject.toml allows
+	@rm -rf build/lowest
+	@$(PYTHON) -m venv build/lowest
+	@$(BIN)/python .ci/lowest.py > build/lowest/requirements.txt
+	@build/lowest/bin/python -m pip --disable-pip-version-check install --quiet --quiet \
+	  --requirement build/lowest/requirements.txt
+	@PYTHONPATH=$(CURDIR)/src build/lowest/$(OF_LOWEST)
+
 coverage: $(DEV) kernels  ## hold all error bars to their claim (make check: some of them); half an hour
 	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py
 
@@ -51,6 +65,10 @@ check: kernels lint types imports docs  ## everything: lint, types, import rules
 fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS=1000000 FILES=5000 FOLDER= SEED=1
 	@cd tests && ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
 	@cd tests && ../$(BIN)/python -m fuzz.files --count $(FILES) --seed $(SEED) $(abspath $(FOLDER))
+
+attack: $(DEV) kernels  ## all attacks of tests/adversary in great number, a row of a table each: up to an hour; SEED=1
+	@cd tests && for name in $(ATTACKS); do ../$(BIN)/python -m adversary.$$name --seed $(SEED) || failed=1; done; \
+	  exit $${failed:-0}
 
 frozen: $(DEV) kernels  ## compare all answers with those that were kept in tests/frozen
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m frozen

@@ -113,7 +113,9 @@ def _wrong(code: int, err: str) -> str:
         return f"exit status {code}: {err}"
     if err.count("\n") != (code == 2):
         return f"not one line: {err}"
-    own = re.sub(r"'[^']*'|--column \S+|known: .*|got .*", "", err)  # what the file itself says
+    own = re.sub(
+        r"'[^']*'|--column \S+|known: .*|got .*|it has [^:]*", "", err
+    )  # what the file itself says
     return f"inner words: {err}" if _INNER.search(own) else ""
 
 
@@ -166,11 +168,17 @@ def report(cases: list[Case], sources: dict[str, bytes], seed: int) -> str:
               inner.most_common()]  # fmt: skip
     for case in cases:
         if case.wrong:
-            KEPT.mkdir(parents=True, exist_ok=True)
-            kept = KEPT / f"{seed}-{case.index}"
-            kept.write_bytes(made(sources, seed, case.index)[1])
+            kept = keep(case, sources, seed)
             lines.append(f"{kept} {' '.join(case.options)} (of {case.source}): {case.wrong}")
     return "\n".join(lines) + "\n"
+
+
+def keep(case: Case, sources: dict[str, bytes], seed: int) -> Path:
+    """Write the file of a case, to be looked at; return where."""
+    KEPT.mkdir(parents=True, exist_ok=True)
+    kept = KEPT / f"{seed}-{case.index}"
+    kept.write_bytes(made(sources, seed, case.index)[1])
+    return kept
 
 
 def _sources(folder: Path | None) -> dict[str, bytes]:

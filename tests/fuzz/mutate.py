@@ -23,6 +23,10 @@ OPTIONS = (
     ("--holds", "table"), ("--column", "time=1", "--column", "y=2"),
     ("--column", "1=time", "--column", "2=force"), ("--unit", "1=ms"), ("--height", "1m"),
     ("--mass", "57g", "--law", "hertz"), ("--run", "2"), ("--decimal", ","),
+    ("--frame-rate", "60", "--scale", "1mm"), ("--time-constant", "1ms"), ("--table", "1"),
+    ("--mass", "57g", "--speed", "3m/s", "--diameter", "66mm"), ("--floor", "10cm"),
+    ("--mass", "57g", "--law", "viscoelastic", "--restitution", "0.7"),
+    ("--gravity", "1.6m/s^2", "--contact-time", "5ms", "--mass", "1g"),
 )  # fmt: skip
 
 
@@ -38,7 +42,39 @@ def minimal_cases() -> dict[str, bytes]:
     cases["phone.csv"] = _lines(
         "time,seconds_elapsed,z,y,x", 1.69e18 + 1e7 * np.arange(80), *[ball[:80]] * 4
     )
-    return cases
+    return cases | _long_cases() | _short_cases()
+
+
+def _long_cases() -> dict[str, bytes]:
+    """Return files whose analysis takes memory and time: many pieces, many samples."""
+    times = np.arange(1000) / 240.0
+    noise = np.random.default_rng(2).normal(0.0, 0.01, 1000)
+    return {
+        "sine.csv": _lines("t,y", times, np.abs(np.sin(20.0 * times))),
+        "drift.csv": _lines("time,force", times, 0.1 * times + noise),
+        "spring.csv": _lines("time,force", times, np.sin(30.0 * times) + noise),
+        "swing.csv": _lines("t,x,y", times, np.cos(3.0 * times), np.sin(3.0 * times) ** 2),
+        "trace.csv": _lines(
+            "time,acceleration", times, 9.81 * np.sign(np.sin(60.0 * times)) + noise
+        ),
+    }
+
+
+def _short_cases() -> dict[str, bytes]:
+    """Return files with hardly a row, of the kinds of all columns."""
+    heads = (
+        "t,y",
+        "time,force",
+        "time,sound",
+        "time,acceleration",
+        "compression,force",
+        "bounce,e",
+    )
+    return {
+        f"{rows} of {head}.csv": _lines(head, *[np.arange(rows) * 0.1] * 2)
+        for head in heads
+        for rows in (0, 1, 2, 3, 5)
+    }
 
 
 def _lines(head: str, *columns: np.ndarray) -> bytes:
@@ -88,7 +124,21 @@ def _double(content: bytes, random: Random) -> bytes:
     return content[: span.stop] + content[span]
 
 
-BYTES: tuple[Callable[[bytes, Random], bytes], ...] = (_flip, _cut, _end, _double)
+def _encoded(content: bytes, random: Random) -> bytes:
+    """Return a text in another encoding, or with other ends of lines."""
+    text = content.decode("latin-1")
+    match int(random.integers(4)):
+        case 0:
+            return text.encode("utf-16")
+        case 1:
+            return b"\xef\xbb\xbf" + content
+        case 2:
+            return content.replace(b"\n", b"\r")
+        case _:
+            return content.replace(b"\n", b"\n\0")
+
+
+BYTES: tuple[Callable[[bytes, Random], bytes], ...] = (_flip, _cut, _end, _double, _encoded)
 
 
 # --- lines of text
@@ -166,6 +216,22 @@ def _marks(lines: list[str], random: Random) -> list[str]:
     return [(one.replace(".", ",") if comma else one).replace(mark, other) for one in lines]
 
 
+def _long(lines: list[str], random: Random) -> list[str]:
+    """Repeat all lines, up to some thousands."""
+    times = int(random.integers(2, 20))
+    return lines[:3] + lines[3:] * min(times, 1 + 5000 // len(lines))
+
+
+def _constant(lines: list[str], random: Random) -> list[str]:
+    """Let all lines after one be like it, but for the first column."""
+    mark, at = _mark(lines), int(random.integers(len(lines)))
+    first, rest = lines[at].partition(mark)[::2]
+    return lines[:at] + [
+        f"{line.partition(mark)[0] if random.random() < 0.99 else first}{mark}{rest}"
+        for line in lines[at:]
+    ]
+
+
 def _mark(lines: list[str]) -> str:
     """Return what stands between the cells."""
     return max("\t;, ", key=lambda mark: sum(line.count(mark) for line in lines[:50]))
@@ -173,4 +239,5 @@ def _mark(lines: list[str]) -> str:
 
 TEXT: tuple[Callable[[list[str], Random], list[str]], ...] = (
     _few, _without, _again, _order, _header, _cells, _column, _column, _column, _no_column, _marks,
+    _long, _constant,
 )  # fmt: skip

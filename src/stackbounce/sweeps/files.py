@@ -8,8 +8,10 @@ the bytes depend on the order of writing.
 
 import contextlib
 import errno
+import json
 import math
 import os
+import re
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
 __all__ = ["Form", "Format", "format_of"]
 
 _HEADER = 2**20  # bytes of a NetCDF file besides its results, about
+_UNFINISHED = re.compile(r"\.[0-9a-f]{32}\.partial$")  # a chunk that zarr was writing
 Writer: TypeAlias = Callable[[Block, "xr.Dataset"], None]
 
 
@@ -63,10 +66,18 @@ class Form:
         return self.sides + self.shape(one)[len(self.sides) :]
 
     def is_of(self, found: "xr.Dataset") -> bool:
-        """Return whether a file belongs to this sweep: same attributes and coordinates."""
-        return found.attrs == self.attrs and all(
-            name in found.coords and np.array_equal(found[name].values, values)
-            for name, values in self.values.items()
+        """Return whether a file is of this sweep: with its attributes, coordinates and results."""
+        return (
+            found.attrs == self.attrs
+            and all(
+                name in found.coords and np.array_equal(found[name].values, values)
+                for name, values in self.values.items()
+            )
+            and all(
+                name in found
+                and (found[name].dims, found[name].shape) == (one.dims, self.shape(one))
+                for name, one in self.results.items()
+            )
         )
 
 
@@ -82,8 +93,13 @@ class Format(Protocol):
     def opened(self, path: Path) -> "xr.Dataset":
         """Open a file; numbers are read lazily."""
 
-    def lost(self, path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:
-        """Return the sides of a block, and the numbers of the blocks that cannot be read."""
+    def lost(
+        self, path: Path, form: Form, sides: Sequence[int]
+    ) -> tuple[tuple[int, ...], list[int]]:
+        """Return the sides of a block, and the numbers of the blocks that are not there.
+
+        The sides are those of the file if it has blocks of its own.
+        """
 
     def remove(self, path: Path) -> None:
         """Remove a file."""
@@ -114,8 +130,9 @@ class _Zarr:
     def writer(self, path: Path) -> Iterator[Writer]:
         import zarr
 
-        for leftover in path.rglob("*.partial"):  # of a chunk that was being written
-            leftover.unlink()
+        for leftover in path.rglob("*.partial"):
+            if _UNFINISHED.search(leftover.name):
+                leftover.unlink()
         with zarr.config.set({"array.write_empty_chunks": True}):  # a chunk that lacks is lost
             group: Any = zarr.open_group(path, mode="r+")
             arrays = dict(group.arrays())
@@ -129,14 +146,17 @@ class _Zarr:
     def opened(self, path: Path) -> "xr.Dataset":
         import xarray as xr
 
+        _check_metadata(path)
         return xr.open_dataset(path, engine="zarr", chunks=None)
 
-    def lost(self, path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:
+    def lost(
+        self, path: Path, form: Form, sides: Sequence[int]
+    ) -> tuple[tuple[int, ...], list[int]]:
         import zarr
 
         group: Any = zarr.open_group(path, mode="r")
         arrays = {name: group[name] for name in form.results}
-        sides = next(iter(arrays.values())).chunks[: len(form.grid)]
+        sides = tuple(next(iter(arrays.values())).chunks[: len(form.grid)])
         lost = []
         for number, block in enumerate(blocks(form.grid, sides)):
             place = [side.start // length for side, length in zip(block, sides, strict=True)]
@@ -194,11 +214,30 @@ class _NetCDF:
 
         return xr.open_dataset(path, engine="h5netcdf", chunks=None)
 
-    def lost(self, path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:  # noqa: ARG002
-        return form.sides, []  # of one file, all can be read or nothing
+    def lost(
+        self, path: Path, form: Form, sides: Sequence[int]
+    ) -> tuple[tuple[int, ...], list[int]]:
+        with self.opened(path) as data:
+            lost = [
+                number
+                for number, block in enumerate(blocks(form.grid, sides))
+                if (data["status"][block] == 0).any()  # no status is 0
+            ]
+        return tuple(sides), lost
 
     def remove(self, path: Path) -> None:
         path.unlink()
+
+
+def _check_metadata(store: Path) -> None:
+    """Raise OSError unless all metadata of a store are there, as they were consolidated."""
+    try:
+        consolidated = json.loads((store / ".zmetadata").read_bytes())["metadata"]
+        own = {name: json.loads((store / name).read_bytes()) for name in consolidated}
+    except (KeyError, OSError, TypeError, ValueError) as error:
+        raise OSError("its metadata are damaged") from error
+    if json.dumps(own) != json.dumps(consolidated):  # a nan equals no nan
+        raise OSError("its metadata are damaged")
 
 
 def _is_there(folder: Path, array: Any, place: Sequence[int], block: Block) -> bool:

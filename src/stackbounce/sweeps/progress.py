@@ -11,18 +11,22 @@ The second line comes when the coordinates are there; before, nothing in ``NAME.
 """
 
 import contextlib
+import errno
 import os
 import platform
-from collections.abc import Iterable, Iterator
+import time
+from collections.abc import Iterable, Iterator, Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
 
 from stackbounce.errors import FileError, shown
 
-__all__ = ["Progress", "only_writer"]
+__all__ = ["Progress", "only_writer", "tidy"]
 
 _WRITER = "# "
+_PATIENCE = 2.0  # s, for a writer to say who it is
+_PAUSE = 0.01  # s
 
 
 class Progress:
@@ -40,11 +44,13 @@ class Progress:
         self._path, self._file = path, file
         file.seek(0)
         content = file.read()
+        if content and not content.startswith(_WRITER.encode()):  # another program's
+            raise self._damaged(content[:40])
         whole = content[: content.rfind(b"\n") + 1]  # the last line may be half written
         lines = whole.decode("ascii", "replace").splitlines()
         self.is_known = any(line.startswith(_WRITER) for line in lines)
         """Whether the file was there, and so ``NAME.partial`` is of this program."""
-        numbers = [line.split() for line in lines if not line.startswith(_WRITER)]
+        numbers = [line.split() for line in lines if line and not line.startswith(_WRITER)]
         try:
             values = [[int(word) for word in words] for words in numbers]
             self.sides = tuple(values[0]) if values else None
@@ -52,34 +58,59 @@ class Progress:
             self.done = {number for (number,) in values[1:]}
             """The numbers of the blocks that are written."""
         except ValueError:
-            raise FileError(f"{path} is damaged, it has {shown(whole[:40])}") from None
+            raise self._damaged(whole[:40]) from None
         self._length = len(whole)
+
+    def sides_of(self, grid: Sequence[int]) -> tuple[int, ...]:
+        """Return the sides of a block of a grid; raise FileError if they cannot be."""
+        sides = self.sides or ()
+        if len(sides) != len(grid) or min(sides, default=1) < 1:
+            raise self._damaged(" ".join(map(str, sides)))
+        return sides
 
     def sign(self) -> None:
         """Note that this process is the writer from now on."""
         self._file.truncate(self._length)
-        self._append(f"{_WRITER}{_this_process()}")
+        self._append(f"{_WRITER}{_this_process()}\n")
+
+    def withdraw(self) -> None:
+        """Take back that this process is the writer: leave the file as it was found."""
+        self._file.truncate(self._length)
+        if not self._length:
+            self.remove()
 
     def begin(self, sides: Iterable[int], done: Iterable[int] = ()) -> None:
         """Note that the coordinates are there, in blocks of these sides, some written already."""
-        self._file.truncate(0)
         self.sides, self.done = tuple(sides), set(done)
         words = " ".join(map(str, self.sides))
-        self._append("\n".join([f"{_WRITER}{_this_process()}", words, *map(str, self.done)]))
+        lines = [f"{_WRITER}{_this_process()}", words, *map(str, self.done)]
+        length = os.fstat(self._file.fileno()).st_size
+        self._file.seek(0)
+        self._write("".join(f"{line}\n" for line in lines).ljust(length, "\n"))  # never empty
 
     def add(self, number: int) -> None:
         """Note that a block is written."""
-        self._append(str(number))
+        self._append(f"{number}\n")
 
     def remove(self) -> None:
         """Remove the file: the sweep is complete, or nothing of it is there."""
         with contextlib.suppress(PermissionError):  # of Windows, while it is open
             self._path.unlink(missing_ok=True)
 
-    def _append(self, line: str) -> None:
+    def _damaged(self, what: object) -> FileError:
+        return FileError(
+            f"{self._path} is damaged, it has {shown(what)}: remove it, and move "
+            f"{self._path.stem}.partial away or remove it"
+        )
+
+    def _append(self, text: str) -> None:
         self._file.seek(0, os.SEEK_END)
-        self._file.write(f"{line}\n".encode("ascii", "replace"))
-        self._file.flush()
+        self._write(text)
+
+    def _write(self, text: str) -> None:
+        content = text.encode("ascii", "replace")
+        if self._file.write(content) != len(content):
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
 
 @contextlib.contextmanager
@@ -93,21 +124,47 @@ def only_writer(out: Path) -> Iterator[Progress]:
     OSError
         If the file cannot be opened.
     """
-    path = out.with_name(f"{out.name}.progress")
+    path = _path(out)
     with _opened(path, out) as file:
         yield Progress(path, file)
+
+
+def tidy(out: Path) -> None:
+    """Remove what is left of a writer that was killed when the sweep was already complete."""
+    if _path(out).exists():
+        with contextlib.suppress(OSError), only_writer(out) as log:
+            if log.is_known:
+                log.remove()
+
+
+def _path(out: Path) -> Path:
+    return out.with_name(f"{out.name}.progress")
 
 
 @contextlib.contextmanager
 def _opened(path: Path, out: Path) -> Iterator[BinaryIO]:
     """Open and lock a file that a writer that ends may remove at any time."""
+    end = time.monotonic() + _PATIENCE
     while True:
         with os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b", buffering=0) as file:
-            if not _locked(file):
-                raise FileError(f"{out} is being written {_writer(path)}: wait until it has ended")
-            if path.exists() and os.path.samestat(path.stat(), os.fstat(file.fileno())):
+            locked = _locked(file)
+            if locked and _is_at(path, file):
                 yield file
                 return
+        if not locked:
+            writer = _writer(path)
+            if writer or time.monotonic() > end:
+                who = writer or "another process"
+                raise FileError(f"{out} is being written by {who}: wait until it has ended")
+            time.sleep(_PAUSE)  # it has not said who it is, or has just ended
+
+
+def _is_at(path: Path, file: BinaryIO) -> bool:
+    """Return whether an open file still has its name."""
+    try:
+        return os.path.samestat(path.stat(), os.fstat(file.fileno()))
+    except FileNotFoundError:
+        return False
 
 
 def _locked(file: object) -> bool:
@@ -129,15 +186,13 @@ def _locked(file: object) -> bool:
 
 
 def _writer(path: Path) -> str:
-    """Return who writes a file that is locked, as it says."""
+    """Return who writes a file that is locked, as it says; nothing if it does not."""
     try:
         lines = path.read_text("ascii", "replace").splitlines()
     except OSError:
-        lines = []
-    return next(
-        (f"by {line[len(_WRITER) :]}" for line in reversed(lines) if line.startswith(_WRITER)),
-        "by another process",
-    )
+        return ""
+    signed = [line[len(_WRITER) :] for line in lines if line.startswith(_WRITER)]
+    return signed[-1] if signed else ""
 
 
 def _this_process() -> str:

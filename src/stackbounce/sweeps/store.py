@@ -9,7 +9,7 @@ can be read; those that cannot are computed again.
 import contextlib
 import math
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -22,7 +22,7 @@ from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
 from stackbounce.sweeps.dataset import check_axis, sweep
 from stackbounce.sweeps.files import Form, Format, format_of
-from stackbounce.sweeps.progress import Progress, only_writer
+from stackbounce.sweeps.progress import Progress, only_writer, tidy
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -104,14 +104,14 @@ def write(
     total = math.prod(shape)
     try:
         if _is_complete(out, kind, form):
+            tidy(out)
             tell(total, total)
             return out
         with only_writer(out) as log:
-            if _is_complete(out, kind, form):  # by now
-                log.remove()
+            partial = _begin(out, kind, form, log)
+            if partial is None:  # it has been completed by now
                 tell(total, total)
                 return out
-            partial = _begin(out, kind, form, log)
             cut = list(enumerate(blocks(shape, log.sides or ())))
             finished = sum(size(one) for k, one in cut if k in log.done)
             tell(finished, total)
@@ -146,11 +146,11 @@ def _is_complete(out: Path, kind: Format, form: Form) -> bool:
         return False
     if not _is_same(out, kind, form):
         raise FileError(f"{out} exists, and is not this sweep: remove it or choose another name")
-    return not kind.lost(out, form)[1]
+    return not kind.lost(out, form, form.sides)[1]
 
 
-def _begin(out: Path, kind: Format, form: Form, log: Progress) -> Path:
-    """Create the partial file, or resume it, or take blocks that are lost out of the whole one."""
+def _begin(out: Path, kind: Format, form: Form, log: Progress) -> Path | None:
+    """Create the partial file or resume it, as its writer; return None if the sweep is complete."""
     partial = out.with_name(f"{out.name}.partial")
     if partial.exists() and not log.is_known:
         log.remove()
@@ -158,29 +158,60 @@ def _begin(out: Path, kind: Format, form: Form, log: Progress) -> Path:
             f"{partial} exists, and no {out.name}.progress says what it is: "
             "move it away, or choose another name"
         )
-    if out.exists() and not partial.exists():
-        sides, lost = kind.lost(out, form)
-        count = sum(1 for _ in blocks(form.grid, sides))
-        warnings.warn(
-            f"{out}: {len(lost)} of {count} blocks are missing or damaged, and computed again",
-            stacklevel=3,
-        )
-        log.begin(sides, set(range(count)) - set(lost))
-        out.rename(partial)
-    elif log.sides is None or not partial.exists():  # stopped while it was being made
-        log.sign()
-        if partial.exists():
-            kind.remove(partial)
-        kind.create(partial, form)
-        log.begin(form.sides)
-    elif not _is_same(partial, kind, form):
+    log.sign()
+    try:
+        if _is_complete(out, kind, form):
+            log.remove()
+            return None
+        if partial.exists() and log.sides is not None:
+            _resume(partial, kind, form, log)
+        elif out.exists():
+            _mend(out, partial, kind, form, log)
+        else:
+            _create(partial, kind, form, log)
+    except FileError:
+        log.withdraw()
+        raise
+    return partial
+
+
+def _create(partial: Path, kind: Format, form: Form, log: Progress) -> None:
+    """Create the partial file, after a writer that was stopped while it did."""
+    if partial.exists():
+        kind.remove(partial)
+    kind.create(partial, form)
+    log.begin(form.sides)
+
+
+def _resume(partial: Path, kind: Format, form: Form, log: Progress) -> None:
+    """Go on with the partial file; blocks that are not in it are not done, whatever the log has."""
+    if not _is_same(partial, kind, form):
         raise FileError(
-            f"{partial} is part of another sweep: remove it and {out.name}.progress, "
+            f"{partial} is part of another sweep: remove it and {partial.stem}.progress, "
             "or choose another name"
         )
-    else:
-        log.sign()
-    return partial
+    sides, lost = kind.lost(partial, form, log.sides_of(form.grid))
+    if sides != log.sides:
+        log.begin(sides, set(range(_count(form, sides))) - set(lost))
+    log.done -= set(lost)
+
+
+def _mend(out: Path, partial: Path, kind: Format, form: Form, log: Progress) -> None:
+    """Make a whole file that has lost blocks the partial one."""
+    if partial.exists():
+        kind.remove(partial)
+    sides, lost = kind.lost(out, form, form.sides)
+    count = _count(form, sides)
+    warnings.warn(
+        f"{out}: {len(lost)} of {count} blocks are missing or damaged, and computed again",
+        stacklevel=4,
+    )
+    log.begin(sides, set(range(count)) - set(lost))
+    out.rename(partial)
+
+
+def _count(form: Form, sides: Sequence[int]) -> int:
+    return sum(1 for _ in blocks(form.grid, sides))
 
 
 def _is_same(path: Path, kind: Format, form: Form) -> bool:
@@ -190,7 +221,7 @@ def _is_same(path: Path, kind: Format, form: Form) -> bool:
             return form.is_of(found)
     except (KeyError, ValueError):
         return False
-    except OSError as error:
+    except (OSError, RuntimeError) as error:  # of the file, or of what decompresses it
         raise FileError(
             f"{path} exists, and cannot be read ({' '.join(str(error).split())[:100]}): "
             "remove it or choose another name"

@@ -6,6 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.measure.hints import Hint, Said
@@ -26,6 +27,7 @@ __all__ = ["assemble", "holds_of"]
 Values = Array
 _ASSUMED = {"time": "s", "knock_time": "s", "force": "N", "compression": "m", "x": "m", "y": "m"}
 _OTHER_UNITS = {"s": "ms", "N": "kN", "m": "cm"}  # examples in doubts
+_LEAST, _MOST = 1e-60, 1e60  # of a number in any unit; squares and ratios of such are finite
 _UNITS = _ASSUMED | {"voltage": "V", "sound": "1"} | dict.fromkeys(ACCELERATIONS, "m/s^2")
 
 
@@ -69,6 +71,7 @@ def assemble(
     FileError
         If there is no row of it.
     """
+    values = np.where(_is_number(values), values, np.nan)
     if holds == "bounces":
         return bounces(columns, values), [INFERRED]
     kind = KINDS[holds]
@@ -84,6 +87,13 @@ def assemble(
             values[:, k] *= one.factor
     data, more = build(columns, values, run)
     return data, doubts + more
+
+
+def _is_number(values: Values) -> NDArray[np.bool_]:
+    """Tell which numbers can be measured: programs write others where a number is missing."""
+    sizes = np.abs(values)
+    known: NDArray[np.bool_] = (sizes == 0.0) | ((sizes >= _LEAST) & (sizes <= _MOST))
+    return known
 
 
 def _named_first(columns: Sequence[Column], values: Values) -> tuple[Sequence[Column], Values]:

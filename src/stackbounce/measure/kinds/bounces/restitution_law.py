@@ -13,6 +13,9 @@ from stackbounce.measure.statistics.regression import Fit, covariance_of, fit_wi
 __all__ = ["RestitutionLaw", "fit_line", "laws_of"]
 
 _MOST = 0.3  # largest excess scatter of restitutions
+_STEEPEST = (
+    30.0  # logarithm of a power law's restitution at 1 m/s; beyond it all speeds are far away
+)
 _ALIKE = 1e-6  # part of a speed by which speeds must differ for a line
 
 
@@ -90,7 +93,7 @@ def _differ(speeds: Sequence[Any]) -> None:
 def laws_of(
     speeds: Sequence[Any], kept: Sequence[Any], most: float = _MOST
 ) -> tuple[Number, tuple[RestitutionLaw, ...], float]:
-    """Return the mean restitution, its two laws, and the scatter about the linear one."""
+    """Return the mean restitution, its laws, and the scatter about the linear one."""
     from uncertainties import correlated_values, umath
 
     if any(np.isnan(one.std_dev) for one in kept):
@@ -103,6 +106,8 @@ def laws_of(
             first, second = correlated_values(fit.values, fit.covariance)
             if not power:
                 scatter = more
+            elif abs(first.nominal_value) > _STEEPEST:
+                continue
             coefficient = umath.exp(first) if power else first
             laws.append(
                 RestitutionLaw(form, coefficient, -second, fit.chi_squared, fit.freedom)  # type: ignore[arg-type]

@@ -29,8 +29,8 @@ class Bounces(Finding):
     mean : ufloat
         Their weighted mean, which supposes that restitution does not depend on speed.
     laws : tuple of RestitutionLaw
-        The fits of its fall with speed, a line and a power law; empty for fewer than three
-        restitutions.
+        The fits of its fall with speed, a line and a power law, the latter only where the speeds
+        are not far from 1 m/s; empty for fewer than three restitutions.
     drop_height : ufloat or float or None
         In m, as given or inferred.
     inferred : bool

@@ -14,7 +14,7 @@ def gwinstek(text: Text) -> Layout | None:
     if not {"Memory Length", "Sampling Period", "Waveform Data"} <= set(lines):
         return None
     keys = {name: text.head[k][1:] for name, k in lines.items()}
-    if keys.get("Mode", [""])[0].casefold() == "fast":
+    if (keys.get("Mode") or [""])[0].casefold() == "fast":
         raise FileError(
             "it is a file of a GW Instek in the mode Fast, with counts instead of volts: save it "
             "in the mode Detail"

@@ -27,7 +27,7 @@ def tektronix_mdo(text: Text) -> Layout | None:
         for i, name in enumerate(row)
         if name
     )
-    model = keys.get("Model", [""])[0]
+    model = (keys.get("Model") or [""])[0]
     why = f"'TIME,{row[1]}' below keys and values is how a Tektronix {model or 'MDO'} writes"
     return Layout("Tektronix MDO oscilloscope", why, columns, first_row(text, k + 1))
 

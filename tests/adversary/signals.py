@@ -1,0 +1,123 @@
+"""Commands that are stopped by signals: `python -m adversary.signals --count 156`, in tests.
+
+No traceback, an exit status that says so, no half a file; afterwards the same command answers as
+if it had never been stopped.
+"""
+
+import itertools
+import re
+import shutil
+import signal
+import sys
+import time
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from adversary.processes import Ended, Started, content, random_of, run, sweep
+from adversary.table import Failure, begin
+
+START = 0.15  # s; every third signal comes that early
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+_PAIR = ("basketball", "tennis", "--height", "63cm")
+_INTERPRETER = re.compile(r'File "(?!<frozen )(?!.*lib.python3)')  # a place outside of Python's own
+_FALL = np.abs((np.arange(120) / 60.0) % 0.9 - 0.45)  # s from the top of each of three flights
+_RECORD = "\n".join(
+    ["t,y", *(f"{row / 60.0:.4f},{1.0 - 4.903 * t**2:.5f}" for row, t in enumerate(_FALL))]
+)
+
+
+class Command(NamedTuple):
+    """A command, and the files that it writes."""
+
+    arguments: list[str]
+    files: tuple[str, ...]
+
+
+COMMANDS = (
+    Command(sweep("map.zarr", 3000), ("map.zarr",)),
+    Command(sweep("map.nc", 3000), ("map.nc",)),
+    Command(["simulate", *_PAIR, "--plot", "new.svg"], ("new.svg",)),
+    Command(
+        [
+            *("fit", *_PAIR, "--measured", "rebound_ratios.1=1.64 ± 0.02"),
+            *("--vary", "contacts.1.stiffness=0.7kN/m:2.5kN/m", "--save", "new.toml"),
+        ],
+        ("new.toml",),
+    ),
+    Command(["measure", "ball.csv", "--json"], ()),
+    Command(["paper", "--out", "paper"], ("paper",)),
+)
+_ATTACKS = tuple(itertools.product(COMMANDS, SIGNALS))
+
+
+def attack(count: int, seed: int, folder: Path) -> list[Failure]:
+    """Send so many signals."""
+    whole: dict[int, tuple[Ended, dict[str, bytes], float]] = {}
+    failures = []
+    for index in range(count):
+        random = random_of(seed, index)
+        place = 7 * index % len(_ATTACKS)  # each command soon, with another signal
+        (command, number), key = _ATTACKS[place], place // len(SIGNALS)
+        own = folder / str(index)
+        if key not in whole:
+            whole[key] = _undisturbed(command, own, folder / "logs")
+        _begin(own)
+        delay = random.uniform(
+            0.0, START if index % 3 == index // len(_ATTACKS) % 3 else whole[key][2]
+        )
+        process = Started(command.arguments, own, folder / "logs")
+        process.send(number, delay)
+        ended = process.wait()
+        wrong = _wrong(command, number, ended, own, whole[key][1])
+        if not wrong:
+            again = run(command.arguments, own, folder / "logs", Started)
+            if (again.code, again.out) != (0, whole[key][0].out):
+                wrong = "another answer afterwards"
+            elif content(own) != whole[key][1]:
+                wrong = "other files afterwards"
+        if wrong:
+            what = f"{index} ({command.arguments[0]}, {number.name} after {delay:.3f} s)"
+            failures.append(Failure(wrong, f"{what}: {ended.code} {ended.err[-1500:]}"))
+        shutil.rmtree(own)
+    return failures
+
+
+def _begin(own: Path) -> None:
+    own.mkdir()
+    (own / "ball.csv").write_text(_RECORD)
+
+
+def _undisturbed(command: Command, own: Path, logs: Path) -> tuple[Ended, dict[str, bytes], float]:
+    """Return how a command ends that nothing stops, its files, and how long it runs."""
+    _begin(own)
+    begun = time.monotonic()
+    ended = run(command.arguments, own, logs, Started)
+    if ended.code:
+        raise RuntimeError(f"{' '.join(command.arguments)} does not run at all: {ended.err}")
+    made = ended, content(own), time.monotonic() - begun
+    shutil.rmtree(own)
+    return made
+
+
+def _wrong(
+    command: Command, number: signal.Signals, ended: Ended, own: Path, files: dict[str, bytes]
+) -> str:
+    """Return what is wrong with the end of a command that a signal came to."""
+    if _INTERPRETER.search(ended.err):
+        return "traceback"
+    if ended.code not in (0, -number, 128 + number):
+        at_start = ended.code == 1 and "KeyboardInterrupt" in ended.err  # before any of our code
+        return "" if at_start else "another exit status"
+    now = content(own)
+    parts = [
+        name
+        for name, bytes_ in now.items()
+        if name.split("/")[0] in command.files and files.get(name) != bytes_
+    ]
+    return "half a file" if parts else ""
+
+
+if __name__ == "__main__":
+    sys.exit(begin("signals", attack, 156))

@@ -1,0 +1,44 @@
+"""A small part of each attack; `make attack` makes all of them in great number."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from adversary.table import Failure, begin, row
+
+TESTS = Path(__file__).parents[1]
+COUNTS = {"signals": 5, "kills": 14, "pairs": 14, "stores": 16, "disks": 10, "measurements": 200}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("name", "count"), COUNTS.items())
+def test_an_attack_fails(name, count):
+    paths = [str(TESTS), *filter(None, [os.environ.get("PYTHONPATH")])]
+    done = subprocess.run(
+        [sys.executable, "-m", f"adversary.{name}", "--count", str(count)],
+        cwd=TESTS,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(paths)},
+        capture_output=True,
+        text=True,
+        timeout=280,
+        check=False,
+    )
+    if "| skipped |" in done.stdout:
+        pytest.skip(done.stdout)
+    assert (done.stdout, done.returncode) == (row(name, count, []), 0), done.stderr
+
+
+def test_a_row_counts_failures_by_kind():
+    failures = [Failure("junk left", "1"), Failure("inner error", "2"), Failure("junk left", "3")]
+    assert row("kills", 96, failures) == "| kills | 96 | 2 junk left, 1 inner error |\n"
+    assert row("kills", 96, []) == "| kills | 96 | 0 |\n"
+
+
+def test_a_failure_is_told_by_the_exit_status(monkeypatch, capsys):
+    monkeypatch.setattr(sys, "argv", ["attack", "--count", "3"])
+    assert begin("nothing", lambda *_: [], 1) == 0
+    assert begin("harm", lambda count, *_: [Failure("harm", f"of {count}")], 1) == 1
+    assert capsys.readouterr() == ("| nothing | 3 | 0 |\n| harm | 3 | 1 harm |\n", "harm: of 3\n")
