@@ -12,7 +12,7 @@ DROPS ?= 1000000
 FILES ?= 5000
 FOLDER ?=
 SEED ?= 1
-ATTACKS ?= signals kills pairs stores disks measurements
+ATTACKS ?= signals kills pairs stores disks measurements requests
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
 # Not the tests of the project's own rules, of pages and kept answers, and none of libraries' warnings of what comes.
 OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal -m 'not slow' \
@@ -68,7 +68,7 @@ fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS
 
 attack: $(DEV) kernels  ## all attacks of tests/adversary in great number, a row of a table each: up to an hour; SEED=1
 	@cd tests && for name in $(ATTACKS); do ../$(BIN)/python -m adversary.$$name --seed $(SEED) || failed=1; done; \
-	  exit $${failed:-0}
+	  ../$(BIN)/python -m adversary.flood || failed=1; exit $${failed:-0}
 
 frozen: $(DEV) kernels  ## compare all answers with those that were kept in tests/frozen
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m frozen

@@ -1,6 +1,7 @@
 """Stores that are damaged, and logs that are: mended or refused, never taken for whole."""
 
 import json
+import os
 import shutil
 import threading
 
@@ -8,6 +9,7 @@ import pytest
 
 import stackbounce as sb
 from slow_sweep import DROP, OVER
+from stackbounce.errors import FileError
 from stackbounce.sweeps import grid, write
 from stackbounce.sweeps.progress import only_writer
 
@@ -140,3 +142,17 @@ def test_another_sweep_leaves_no_log_behind(whole, out):
     with pytest.raises(sb.StackbounceError, match="is not this sweep"):
         write(out, DROP, grid(DROP, OVER[:1]), block=64)
     assert list(out.parent.iterdir()) == [out]
+
+
+def test_a_log_that_is_no_file_is_refused(tmp_path):
+    out = tmp_path / "map.zarr"
+    os.mkfifo(tmp_path / "map.zarr.progress")
+    with pytest.raises(FileError, match="is no ordinary file"):
+        write(out, DROP, VALUES, block=64)
+
+
+def test_a_log_without_an_end_is_refused(tmp_path):
+    with (tmp_path / "map.zarr.progress").open("wb") as log:
+        log.truncate(2**40)
+    with pytest.raises(FileError, match="damaged"):
+        write(tmp_path / "map.zarr", DROP, VALUES, block=64)

@@ -14,6 +14,7 @@ import contextlib
 import errno
 import os
 import platform
+import stat
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from datetime import datetime
@@ -27,6 +28,7 @@ __all__ = ["Progress", "only_writer", "tidy"]
 _WRITER = "# "
 _PATIENCE = 2.0  # s, for a writer to say who it is
 _PAUSE = 0.01  # s
+_LONGEST = 2**26  # bytes: ten million blocks
 
 
 class Progress:
@@ -43,7 +45,9 @@ class Progress:
     def __init__(self, path: Path, file: BinaryIO) -> None:
         self._path, self._file = path, file
         file.seek(0)
-        content = file.read()
+        content = file.read(_LONGEST + 1)
+        if len(content) > _LONGEST:
+            raise self._damaged(f"more than {_LONGEST} bytes")
         if content and not content.startswith(_WRITER.encode()):  # another program's
             raise self._damaged(content[:40])
         whole = content[: content.rfind(b"\n") + 1]  # the last line may be half written
@@ -147,6 +151,8 @@ def _opened(path: Path, out: Path) -> Iterator[BinaryIO]:
     end = time.monotonic() + _PATIENCE
     while True:
         with os.fdopen(os.open(path, os.O_RDWR | os.O_CREAT, 0o666), "r+b", buffering=0) as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise FileError(f"{path} is no ordinary file: remove it")
             locked = _locked(file)
             if locked and _is_at(path, file):
                 yield file
