@@ -7,7 +7,7 @@ from typing import Any
 
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.study import inputs
-from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED, CHOSEN
+from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED, CHOSEN, MISPRINT
 from stackbounce.cross2007.study.comparison import FittedModels
 from stackbounce.cross2007.study.figures import (
     draw_comparison,
@@ -16,7 +16,7 @@ from stackbounce.cross2007.study.figures import (
     name_pair,
 )
 from stackbounce.cross2007.study.figures_predictions import draw_decisive, draw_energy
-from stackbounce.cross2007.study.readings import LAWS
+from stackbounce.cross2007.study.readings import LAWS, Reading
 from stackbounce.cross2007.study.results import Study, run_study
 from stackbounce.cross2007.style import Picture, render, use_style
 from stackbounce.fitting import Residual
@@ -77,9 +77,16 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         balls={"printed": AS_PRINTED, "heights": AS_HEIGHTS},
         said={one.what: one for one in done.predictions},
         laws=list(LAWS),
+        heights=_reading(done, AS_HEIGHTS),
+        misprint=_reading(done, MISPRINT),
         chosen=CHOSEN,
         version=__version__,
     )
+
+
+def _reading(done: Study, known: dict[str, float]) -> Reading:
+    """Return the fits of one reading of Table I."""
+    return next(one for one in done.readings if one.restitutions == known)
 
 
 def _firm(compared: FittedModels) -> tuple[float, float]:

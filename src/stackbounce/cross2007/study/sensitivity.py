@@ -22,6 +22,7 @@ __all__ = [
     "Held",
     "hold_out",
     "loosen_delays",
+    "ratios_at",
     "scan_loss",
     "score_late_delay",
     "score_with_gravity",
@@ -169,8 +170,8 @@ def hold_out(compared: FittedModels, name: str) -> list[Held]:
         delay = rest[key][inputs.DELAY]
         rest[key] = {inputs.DELAY: delay}
         found = refit(THEORIES[name].model(), rest, compared[name])
-        middle = _ratios(found, key, delay[0])
-        ends = [_ratios(found, key, delay[0] + sign * delay[1]) for sign in (-1.0, 1.0)]
+        middle = ratios_at(found, key, delay[0])
+        ends = [ratios_at(found, key, delay[0] + sign * delay[1]) for sign in (-1.0, 1.0)]
         errors = np.max(np.abs(np.array(ends) - middle), axis=0)
         rows.append(Held(key, inputs.read_ratios(key), _pair(middle), _pair(errors)))
     return rows
@@ -180,7 +181,7 @@ def _pair(numbers: Any) -> tuple[float, float]:
     return float(numbers[0]), float(numbers[1])
 
 
-def _ratios(found: Fit, key: str, delay: float) -> Any:
+def ratios_at(found: Fit, key: str, delay: float) -> Any:
     """Return e1 and e2 of a pair that meets at a delay in s, by the numbers of a fit."""
     k = found.names.index(f"{key}.gaps.0")
     trials = np.tile(found.x, (241, 1))
@@ -188,4 +189,4 @@ def _ratios(found: Fit, key: str, delay: float) -> Any:
     out, *_ = found.objective.outcomes(key, trials)
     order = np.argsort(out.first_touch[:, 1])
     touch = out.first_touch[order, 1]
-    return np.array([np.interp(delay, touch, out.velocity[order, ball]) for ball in (0, 1)])
+    return np.array([np.interp(delay, touch, out.rebound_ratio[order, ball]) for ball in (0, 1)])
