@@ -38,6 +38,7 @@ TARGETS = {
         "x86_64-linux-musl",
         "linux-x86_64.so",
         _X86,
+        features="-prefer-256-bit",
         wheel="manylinux_2_17_x86_64.manylinux2014_x86_64.musllinux_1_1_x86_64",
     ),
     "linux-aarch64": Target(
