@@ -140,6 +140,16 @@ def test_limits_of_powers():
     assert math.isnan(elementary.power(-2.0, 3.0))
 
 
+def test_roots_that_are_near():
+    random = np.random.default_rng(4)
+    for x in 10.0 ** random.uniform(-307.0, 308.0, 2000):
+        n = int(random.integers(1, 61))
+        assert elementary.near_root(x, n) == pytest.approx(x ** (1.0 / n), rel=2e-4)
+    for x in (0.0, math.inf):
+        assert elementary.near_root(x, 7) == x
+    assert math.isnan(elementary.near_root(math.nan, 7))
+
+
 def test_hypotenuse():
     for _ in range(CASES):
         a, b = uniform(-1.0, 1.0) * 10.0 ** uniform(-300.0, 300.0), anything()

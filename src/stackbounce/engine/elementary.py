@@ -256,6 +256,23 @@ def power(x: float, y: float) -> float:
 
 
 @kernel
+def near_root(x: float, n: int) -> float:
+    """Return x^(1/n) for x >= 0, with a relative error below 2e-4: enough to choose a step.
+
+    Polynomials stand for log2 of a significand and for 2^f, |f| <= 1/2.
+    """
+    if not 0.0 < x < math.inf:
+        return x
+    m, e = _significand(x)
+    series = -2.07833517 + m * (0.62603218 + m * -0.07844068)
+    y = (e + (-2.49835315 + m * (4.02921139 + m * series))) / n
+    whole = (y + _ROUND) - _ROUND
+    f = y - whole
+    root = 0.99992456 + f * (0.69313673 + f * (0.24263948 + f * 0.05583828))
+    return times_power_of_two(root, int(whole))
+
+
+@kernel
 def _within_eighth_turn(x: float) -> tuple[int, float, float]:
     """Return a whole number of quarter turns, and the rest of the angle x as a sum of two doubles.
 

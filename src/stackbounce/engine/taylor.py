@@ -15,7 +15,7 @@ eigenvalues; the tolerance is then round-off, whatever the user asks for.
 import math
 
 from stackbounce.engine.codes import POWER, PRODUCT
-from stackbounce.engine.elementary import exp, log
+from stackbounce.engine.elementary import near_root
 from stackbounce.engine.forces import (
     find_terms,
     force,
@@ -85,7 +85,7 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         for b in range(bottom, high):
             size = max(size, abs(stack.velocity_series[b][k]))
         if size * x > before:  # otherwise this term is as small as the last one
-            x = min(x, exp(log(allowed / size) / k))
+            x = min(x, near_root(allowed / size, k))
         before = size
     step = min(step, x if root == 1 else x * x)
     for i in range(low, high):
@@ -111,7 +111,7 @@ def _steep_step(stack: Stack, i: int, order: int, root: int, step: float) -> flo
     far = min(_time_to_rise(c[1], c[2], furthest), _time_to_rise(-c[1], -c[2], reach))
     first, last = stack.power_series[i][0], abs(stack.power_series[i][order])
     if far > near and last > 0.0:
-        far = min(far, exp(log(_CLEAR * stack.number[TOLERANCE] * first / last) / order))
+        far = min(far, near_root(_CLEAR * stack.number[TOLERANCE] * first / last, order))
     return min(max(near, far), step)
 
 
