@@ -16,6 +16,11 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 NATIVE = "stackbounce/engine/native"
 MANIFEST = "manifest.json"
 BUILT = "build/kernels"  # what is only for wheels
+# Not PYTHONPATH: beside an editable installation, pip's build takes its folder out of that path.
+START = (
+    "import sys; sys.path[:0] = sys.argv[1:3]; del sys.argv[1:3]; "
+    "from kernel_build.__main__ import main; sys.exit(main())"
+)
 
 
 class KernelHook(BuildHookInterface[Any]):
@@ -33,13 +38,9 @@ class KernelHook(BuildHookInterface[Any]):
         other = "" if version == "editable" else os.environ.get("STACKBOUNCE_PLATFORM", "")
         name = other or platform_name()
         folder = root / BUILT / name if other else root / "src" / NATIVE
-        paths = [str(root / "src"), *filter(None, [os.environ.get("PYTHONPATH")])]
-        command = [sys.executable, "-m", "kernel_build", "--platform", name, "--folder"]
+        start = [sys.executable, "-c", START, str(root / "src"), str(root)]
         done = subprocess.run(
-            [*command, str(folder)],
-            cwd=root,
-            env=os.environ | {"PYTHONPATH": os.pathsep.join(paths)},
-            check=False,
+            [*start, "--platform", name, "--folder", str(folder)], cwd=root, check=False
         )
         if done.returncode == IMPOSSIBLE and not other:
             return  # it has said why
