@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from stackbounce.engine.records import Outcomes
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.measurements import Measured
-from stackbounce.fitting.parameters import Parameter, find_numbers, value_in
+from stackbounce.fitting.parameters import Parameter, find_numbers
 from stackbounce.fitting.quantities import QUANTITIES, Array
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
@@ -22,7 +22,7 @@ from stackbounce.run.batch import solve
 from stackbounce.run.columns import Rows, check, incidence
 from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
-from stackbounce.run.paths import Number, drop_at, numbers_of
+from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
 from stackbounce.run.result import Status
 
 __all__ = ["ABSENT", "Objective", "touch_name"]

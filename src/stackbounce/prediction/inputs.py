@@ -86,7 +86,7 @@ class Inputs:
             found += slope * (one - one.nominal_value)
         return found
 
-    def draw(self, drop: Drop, count: int, seed: int) -> tuple[Array, str]:
+    def draw(self, drop: Drop, count: int, seed: int) -> tuple[Array, str, float]:
         """Return draws from the normal distribution of the numbers that are possible drops.
 
         Parameters
@@ -104,6 +104,8 @@ class Inputs:
             (count, numbers)
         refused : str
             Why draws that are not possible were left out, by the first of them; empty if none was.
+        share : float
+            The share of those left out.
 
         Raises
         ------
@@ -113,8 +115,8 @@ class Inputs:
         random = np.random.default_rng(seed)
         if self.given:
             count = len(next(iter(self.given.values())))
-        found, refused = np.empty((0, len(self.numbers))), ""
-        for _ in range(_ATTEMPTS):
+        found, refused, left_out = np.empty((0, len(self.numbers))), "", 0
+        for attempt in range(1, _ATTEMPTS + 1):
             z = random.standard_normal((count, self.spread.shape[1]))
             # a product of matrices need not be the same bit for bit on all machines
             x = self.values + np.sum(z[:, None, :] * self.spread, axis=2)
@@ -122,11 +124,10 @@ class Inputs:
                 x[:, k] = draws
             good, wrong = possible(drop, self.numbers, x)
             refused = refused or wrong
-            if wrong and self.given:
-                return x[good], refused
+            left_out += int(np.sum(~good))
             found = np.concatenate([found, x[good]])[:count]
-            if len(found) == count:
-                return found, refused
+            if len(found) == count or (self.given and len(found)):
+                return found, refused, left_out / (attempt * count)
         raise InvalidValue(f"errors leave few drops that are possible: {refused}")
 
 

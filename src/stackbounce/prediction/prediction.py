@@ -80,12 +80,12 @@ def predict(
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
     best = drop_at(drop, dict(zip(inputs.numbers, inputs.values.tolist(), strict=True)))
-    drawn, refused = inputs.draw(
+    drawn, refused, share = inputs.draw(
         best, whole("draws", draws, 1000, _MOST), whole("seed", seed, 0, 2**32 - 1)
     )
     reason = "draws were given" if inputs.given else ""
-    if refused and not reason:
-        reason = f"numbers within the errors are not possible: {refused}"
+    if share > 1.0 / PROBES and not reason:
+        reason = f"numbers within the errors are not possible and left out: {refused}"
     slopes: Slopes = {}
     difference = np.inf
     if not reason:

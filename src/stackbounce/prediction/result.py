@@ -1,6 +1,7 @@
 """The result of `predict`: what follows of a drop whose numbers have errors, with errors."""
 
 import functools
+import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -250,20 +251,20 @@ class Prediction:
         >>> import stackbounce as sb
         >>> drop = sb.Drop([sb.Ball(0.06)], [sb.Rigid(0.8)], height=0.63)
         >>> sb.predict(drop, {"height": "63 ± 1 cm"}).how
-        'errors by derivatives: 512 drops within the errors follow them to 0.8 % of the error'
+        'errors by derivatives: 512 drops within the errors follow them to 1 % of the error'
         """
         if self.reason:
             return f"errors by {len(self._drawn)} draws: {self.reason}"
         return (
             f"errors by derivatives: {min(PROBES, len(self._drawn))} drops within the errors "
-            f"follow them to {max(100.0 * self.difference, 0.1):.1g} % of the error"
+            f"follow them to {math.ceil(100.0 * self.difference)} % of the error"
         )
 
     @property
     def notes(self) -> tuple[str, ...]:
         """What limits the prediction, a sentence each."""
         found = []
-        if self._refused:
+        if self._refused and self._refused not in self.reason:
             found.append(f"numbers that are not possible were left out: {self._refused}")
         if self.reason:
             status = self.draws.status.values

@@ -71,7 +71,8 @@ class Runs:
 
     def band(self, times: Any, name: str) -> tuple[Array, Array]:
         """Return the ends of one standard deviation of a curve; see `Prediction.band`."""
-        curves = np.array([result.sample(times)[name].values for result in self.results])
+        within = np.minimum(times, self.options.until)
+        curves = np.array([result.sample(within)[name].values for result in self.results])
         if self.drawn is not None:
             low, high = np.nanquantile(curves, _ONE_SIGMA, axis=0)
             return low, high
