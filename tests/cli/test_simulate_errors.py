@@ -21,7 +21,7 @@ def test_tables_have_errors_and_say_how(capsys):
     out = said(capsys, *PAIR, "--error", "balls.1.mass=1g")
     rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line.strip()}
     assert rows["tennis"][:2] == ["-3.515(28)", "6.413(53)"]
-    assert "Errors by derivatives: 512 drops within the errors follow them" in out
+    assert "Errors by derivatives: 10000 drops within the errors follow them" in out
     assert "Measure height better: it makes 8" in out
 
 

@@ -5,10 +5,12 @@ import pytest
 import xarray as xr
 
 import stackbounce as sb
+from stackbounce.prediction.inputs import error_of_deviation
 
 COUNT = 100_000
 SEED = 20_07
 WITHIN = 0.05
+SETTLED = 0.01  # a standard deviation of direct draws that is known to that is one to compare with
 
 HEAVY = [sb.Ball(0.6), sb.Ball(0.06)]
 SUPER = [sb.Ball(0.105), sb.Ball(0.0248)]
@@ -92,11 +94,16 @@ def test_errors_are_those_of_direct_draws(name):
         pairs.append((f"rebound_ratios.{i}", ds.rebound_ratio.sel(ball=i)))
         pairs.append((f"first_touch.{i}", ds.first_touch.sel(contact=i)))
         pairs.append((f"durations.{i}", duration.sel(contact=i)))
-    compared = 0
+    compared, rare = 0, []
     for quantity, values in pairs:
         mean, deviation = float(values.mean()), float(values.std())
-        if deviation > 1e-9 * abs(mean):
+        if error_of_deviation(values.values) > SETTLED:  # few draws far out make this error
+            low, high = np.nanquantile(values, (0.159, 0.841))
+            assert np.diff(found.quantiles(quantity)[::2]) == pytest.approx(high - low, rel=WITHIN)
+            rare.append(quantity)
+        elif deviation > 1e-9 * abs(mean):
             assert found[quantity].std_dev == pytest.approx(deviation, rel=WITHIN), quantity
             assert abs(found[quantity].nominal_value - mean) < 0.1 * deviation, quantity
             compared += 1
     assert compared >= 2
+    assert len(rare) <= 3

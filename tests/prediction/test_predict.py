@@ -84,6 +84,23 @@ def test_draws_repeat_bit_for_bit_and_follow_the_seed():
     assert not np.array_equal(other.draws.rebound_speeds, first.rebound_speeds)
 
 
+def test_long_runs_are_drawn_less_often():
+    tower = sb.Drop([sb.Ball(0.06)], [sb.Rigid(0.99)], height=1.0, gravity=9.81)
+    found = sb.predict(tower, {"height": (1.0, 0.01)}, until=60.0)
+    events = len(found.result.events)
+    assert events > 60
+    assert found.draws.sizes["draw"] == min(10_000, 3_000_000 // events)
+    assert (
+        sb.predict(tower, {"height": (1.0, 0.01)}, until=6.0, draws=200).draws.sizes["draw"] == 200
+    )
+
+
+def test_an_error_that_comes_from_few_draws_is_said_to_be_rough():
+    errors = {"gaps.0": (0.0014, 3e-4), "balls.0.mass": (0.03, 0.001)}
+    (note,) = sb.predict(LOSSY, errors, draws=200).notes
+    assert note.startswith("the error of rebound_ratios.0, rebound_ratios.1, rebound_speeds.0 and")
+
+
 def test_draws_are_drops_of_their_own():
     draws = sb.predict(LOSSY, CHANGING).draws.isel(draw=slice(300))
     paths = list(CHANGING)

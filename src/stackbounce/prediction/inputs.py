@@ -79,6 +79,10 @@ class Inputs:
         """Whether no two numbers depend on the same variable."""
         return not self.given and bool(np.all(np.count_nonzero(self.spread, axis=0) <= 1))
 
+    def rows(self, x: Array) -> dict[Number, Array]:
+        """Return values (n, numbers) as a batch takes them."""
+        return dict(zip(self.numbers, x.T, strict=True))
+
     def linear(self, value: float, slopes: Array) -> Any:
         """Return a value that depends on the numbers with these derivatives (numbers,)."""
         found: Any = known_to(value, 0.0)

@@ -1,6 +1,7 @@
 """Derivatives of what follows from a drop, and whether it follows them within the errors."""
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,10 +12,9 @@ from stackbounce.run.options import Options
 from stackbounce.run.quantities import QUANTITIES, solve_quantities
 from stackbounce.run.result import Status
 
-__all__ = ["PROBES", "STEP", "Slopes", "differentiate"]
+__all__ = ["STEP", "Slopes", "Solved", "differentiate"]
 
 STEP = 0.1  # of a standard deviation, for central differences
-PROBES = 512  # draws that must follow the derivatives
 
 _ALLOWED = 0.1  # root mean square of their differences, in standard deviations of the result
 _ROUND_OFF = 1e-10  # relative: differences of this size are none
@@ -23,10 +23,17 @@ Slopes = Mapping[str, tuple[Array, Array]]
 """Values (parts,) by the name of a quantity, and derivatives (parts, numbers); nan where none."""
 
 
+class Solved(NamedTuple):
+    """All quantities of some drops: (n, parts) by name, and (n,) how the runs ended."""
+
+    tables: dict[str, Array]
+    status: NDArray[np.int64]
+
+
 def differentiate(
     drop: Drop, inputs: Inputs, draws: Array, options: Options
-) -> tuple[Slopes, str, float]:
-    """Return the derivatives of all quantities, and why they do not do, if so.
+) -> tuple[Slopes, Solved, str, float]:
+    """Return the derivatives of all quantities, the draws, and why derivatives do not do, if so.
 
     Parameters
     ----------
@@ -43,6 +50,8 @@ def differentiate(
     -------
     slopes : mapping
         By the name of a quantity.
+    solved : Solved
+        The quantities of the draws.
     reason : str
         Why derivatives do not describe the draws; empty if they do.
     difference : float
@@ -54,6 +63,8 @@ def differentiate(
     x = np.concatenate([inputs.values[None], inputs.values + steps, inputs.values - steps, draws])
     rows = dict(zip(inputs.numbers, x.T, strict=True))
     found, status = solve_quantities(drop, rows, len(x), options)
+    first = 2 * count + 1
+    solved = Solved({name: table[first:] for name, table in found.items()}, status[first:])
     reason = _changed_status(status) or _changed_counts(found.pop("collisions"))
     widths = np.where(inputs.deviations > 0.0, 2.0 * STEP * inputs.deviations, np.inf)
     slopes, largest = {}, 0.0
@@ -77,7 +88,7 @@ def differentiate(
             largest = max(largest, off / spread if spread > 0.0 else np.inf)
             if off > _ALLOWED * spread:
                 reason = reason or f"{here} does not change in proportion to the errors"
-    return slopes, reason, largest
+    return slopes, solved, reason, largest
 
 
 def _changed_status(status: NDArray[np.int64]) -> str:

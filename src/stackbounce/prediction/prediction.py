@@ -9,14 +9,18 @@ from stackbounce.errors import whole
 from stackbounce.extras import need
 from stackbounce.model import Drop
 from stackbounce.prediction.inputs import read_inputs
-from stackbounce.prediction.linearity import PROBES, Slopes, differentiate
+from stackbounce.prediction.linearity import Slopes, Solved, differentiate
 from stackbounce.prediction.result import Prediction
-from stackbounce.run.options import run_options
+from stackbounce.run.driver import simulate
+from stackbounce.run.options import Options, run_options
 from stackbounce.run.paths import drop_at
+from stackbounce.run.quantities import solve_quantities
 
 __all__ = ["predict"]
 
-_MOST = 10_000_000  # draws
+_MOST, _DRAWS, _FEWEST = 10_000_000, 10_000, 100
+_EVENTS = 3_000_000  # of all draws together, by default
+_FEW = 1e-3  # share of draws that are not possible, which derivatives do without
 
 
 def predict(
@@ -26,7 +30,7 @@ def predict(
     until: float | None = None,
     rtol: float = 1e-12,
     event_limit: int = 1_000_000,
-    draws: int = 10_000,
+    draws: int | None = None,
     seed: int = 0,
 ) -> Prediction:
     """Run a drop whose numbers have errors; return speeds, times and energy with errors.
@@ -42,7 +46,9 @@ def predict(
     until, rtol, event_limit
         As in `simulate`, for every drop.
     draws : int, optional
-        The number of draws, 1000 or above. Given draws have their own.
+        The number of draws, 100 or above; by default 10 000, and fewer where a drop has more than
+        300 events: about three million events in all, and 100 draws at least. Given draws have
+        their own number.
     seed : int, optional
         Of the random numbers: the same seed gives the same draws, bit for bit.
 
@@ -62,7 +68,7 @@ def predict(
     Notes
     -----
     Errors are those of normal distributions. They are carried by derivatives (central differences)
-    where 512 draws follow these to a tenth of the error and all have the same numbers of contact
+    where all draws follow these to a tenth of the error and have the same numbers of contact
     intervals. Elsewhere values and errors are mean and standard deviation of draws; numbers that
     no drop can have, such as negative gaps, are left out. `Prediction.how` says which and why.
 
@@ -80,14 +86,24 @@ def predict(
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
     best = drop_at(drop, dict(zip(inputs.numbers, inputs.values.tolist(), strict=True)))
-    drawn, refused, share = inputs.draw(
-        best, whole("draws", draws, 1000, _MOST), whole("seed", seed, 0, 2**32 - 1)
+    count = (
+        _default_draws(best, options) if draws is None else whole("draws", draws, _FEWEST, _MOST)
     )
+    drawn, refused, share = inputs.draw(best, count, whole("seed", seed, 0, 2**32 - 1))
     reason = "draws were given" if inputs.given else ""
-    if share > 1.0 / PROBES and not reason:
+    if share > _FEW and not reason:
         reason = f"numbers within the errors are not possible and left out: {refused}"
-    slopes: Slopes = {}
-    difference = np.inf
-    if not reason:
-        slopes, reason, difference = differentiate(best, inputs, drawn[:PROBES], options)
-    return Prediction(best, inputs, options, reason, difference, drawn, refused, slopes)
+    if reason:
+        slopes: Slopes = {}
+        solved = Solved(*solve_quantities(best, inputs.rows(drawn), len(drawn), options))
+        difference = np.inf
+    else:
+        slopes, solved, reason, difference = differentiate(best, inputs, drawn, options)
+    return Prediction(best, inputs, options, reason, difference, slopes, drawn, solved, refused)
+
+
+def _default_draws(drop: Drop, options: Options) -> int:
+    """Return how many draws of a drop have a reasonable number of events together."""
+    until = options.until if np.isfinite(options.until) else None
+    result = simulate(drop, until=until, rtol=options.rtol, event_limit=options.event_limit)
+    return min(_DRAWS, max(_FEWEST, _EVENTS // max(1, len(result.events))))

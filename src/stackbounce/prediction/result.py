@@ -11,7 +11,7 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.prediction.inputs import Array, Inputs, error_of_deviation, of_draws, possible
-from stackbounce.prediction.linearity import PROBES, Slopes
+from stackbounce.prediction.linearity import Slopes, Solved
 from stackbounce.prediction.runs import Runs
 from stackbounce.prediction.sensitivity import fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.options import Options
@@ -79,9 +79,10 @@ class Prediction:
     options: Options = field(repr=False)
     reason: str
     difference: float
-    _drawn: Array = field(repr=False)
-    _refused: str = field(repr=False)
     _slopes: Slopes = field(repr=False)
+    _drawn: Array = field(repr=False)
+    _solved: Solved = field(repr=False)
+    _refused: str = field(repr=False)
 
     @property
     def method(self) -> str:
@@ -147,7 +148,7 @@ class Prediction:
     @property
     def collisions(self) -> list[dict[int, float]]:
         """The share of the drops within the errors by the count of each contact's intervals."""
-        counts = self.draws.collisions.values
+        counts = self._solved.tables["collisions"]
         found = [np.unique(column, return_counts=True) for column in counts.T]
         return [dict(zip(k.tolist(), (n / len(counts)).tolist(), strict=True)) for k, n in found]
 
@@ -159,9 +160,8 @@ class Prediction:
         """
         import xarray as xr
 
-        tables, status = self._solve(self._drawn)
-        data: dict[str, Any] = {"status": ("draw", status)}
-        for name, table in tables.items():
+        data: dict[str, Any] = {"status": ("draw", self._solved.status)}
+        for name, table in self._solved.tables.items():
             part, unit = QUANTITIES[name].part, QUANTITIES[name].unit
             attrs = {"units": unit or "1"}
             data[name] = (("draw", part), table, attrs) if part else ("draw", table[:, 0], attrs)
@@ -251,12 +251,12 @@ class Prediction:
         >>> import stackbounce as sb
         >>> drop = sb.Drop([sb.Ball(0.06)], [sb.Rigid(0.8)], height=0.63)
         >>> sb.predict(drop, {"height": "63 ± 1 cm"}).how
-        'errors by derivatives: 512 drops within the errors follow them to 1 % of the error'
+        'errors by derivatives: 10000 drops within the errors follow them to 1 % of the error'
         """
         if self.reason:
             return f"errors by {len(self._drawn)} draws: {self.reason}"
         return (
-            f"errors by derivatives: {min(PROBES, len(self._drawn))} drops within the errors "
+            f"errors by derivatives: {len(self._drawn)} drops within the errors "
             f"follow them to {math.ceil(100.0 * self.difference)} % of the error"
         )
 
@@ -267,17 +267,23 @@ class Prediction:
         if self._refused and self._refused not in self.reason:
             found.append(f"numbers that are not possible were left out: {self._refused}")
         if self.reason:
-            status = self.draws.status.values
+            status = self._solved.status
             bad = int(np.isin(status, (Status.EVENT_LIMIT, Status.INVALID)).sum())
             if bad:
                 found.append(f"{bad} of {len(status)} drops did not finish and were left out")
-            found += [
-                f"{_label(name, part)} has draws far out: its error is known to {rough:.0%}, and "
-                "quantiles say more"
+            errors = {
+                _label(name, part): error_of_deviation(column)
                 for name in _FLOATS
-                for part, rough in enumerate(map(error_of_deviation, self._columns(name).T))
-                if rough > _ROUGH
-            ]
+                for part, column in enumerate(self._solved.tables[name].T)
+            }
+            rough = [name for name, error in errors.items() if error > _ROUGH]
+            if rough:
+                names = ", ".join(rough[:3]) + " and others" * (len(rough) > 3)
+                found.append(
+                    f"the error of {names} is known "
+                    f"to {max(errors.values()):.0%} only, for it comes from few draws far out or "
+                    "from few draws; quantiles say more"
+                )
         return tuple(found)
 
     def table(self) -> str:
@@ -374,36 +380,29 @@ class Prediction:
         """Yield the names and values of all quantities."""
         for name in _FLOATS:
             if self.reason:
-                for part, column in enumerate(self._columns(name).T):
+                for part, column in enumerate(self._solved.tables[name].T):
                     yield _label(name, part), of_draws(column)
             else:
                 values, slopes = self._slopes[name]
                 for part, value in enumerate(values.tolist()):
                     yield _label(name, part), self.inputs.linear(value, slopes[part])
 
-    def _columns(self, name: str) -> Array:
-        """Return a quantity of all draws, (draws, parts)."""
-        return np.asarray(self.draws[name].values.reshape(len(self._drawn), -1))
-
     def _parts(self, name: str) -> list[Any]:
         return [self[f"{name}.{k}"] for k in range(len(self.drop.balls))]
 
-    def _solve(self, x: Array) -> tuple[dict[str, Array], Any]:
-        rows = dict(zip(self.inputs.numbers, x.T, strict=True))
-        return solve_quantities(self.drop, rows, len(x), self.options)
-
-    def _solve_possible(self, x: Array) -> dict[str, Array]:
+    def _solve(self, x: Array) -> dict[str, Array]:
         """Return all quantities of some drops; nan for those that are not possible."""
-        if not self._refused:
-            return self._solve(x)[0]
-        good, _ = possible(self.drop, self.inputs.numbers, x)
-        tables = self._solve(np.where(good[:, None], x, self.inputs.values))[0]
+        inputs, good = self.inputs, np.ones(len(x), dtype=bool)
+        if self._refused:
+            good, _ = possible(self.drop, inputs.numbers, x)
+        rows = inputs.rows(np.where(good[:, None], x, inputs.values))
+        tables, _ = solve_quantities(self.drop, rows, len(x), self.options)
         return {name: np.where(good[:, None], table, np.nan) for name, table in tables.items()}
 
     def _linear(self) -> dict[str, Any]:
         inputs, slopes = self.inputs, {name: one for name, (_, one) in self._slopes.items()}
         if self.reason:
-            slopes = {name: fit_slopes(self._drawn, self._columns(name)) for name in _FLOATS}
+            slopes = {name: fit_slopes(self._drawn, self._solved.tables[name]) for name in _FLOATS}
         return {
             name: linear_shares(one, inputs.covariance, independent=inputs.independent)
             for name, one in slopes.items()
@@ -411,9 +410,9 @@ class Prediction:
 
     def _sobol(self) -> dict[str, Any]:
         half = len(self._drawn) // 2
-        answers = {name: self._columns(name)[: 2 * half] for name in _FLOATS}
+        answers = {name: self._solved.tables[name][: 2 * half] for name in _FLOATS}
         first, second = self._drawn[:half], self._drawn[half : 2 * half]
-        return sobol_indices(self._solve_possible, first, second, answers)
+        return sobol_indices(self._solve, first, second, answers)
 
 
 def _label(name: str, part: int) -> str:
