@@ -31,9 +31,18 @@ _FLOATS = [name for name in QUANTITIES if name != "collisions"]
 
 
 class Apex(NamedTuple):
-    """The highest point of a flight: its ball, time (s) and height (m) with errors.
+    """The highest point of a flight.
 
-    `flight` counts those of its ball from 0. `share` is that of the drops that have it.
+    Parameters
+    ----------
+    ball : int
+        Which ball.
+    flight : int
+        Which of its flights that have a highest point, from 0.
+    time, height : UFloat
+        In s and m.
+    share : float
+        The share of the drops that have it.
     """
 
     ball: int
@@ -63,6 +72,14 @@ class Prediction:
         Why the errors come from draws; empty if they come from derivatives.
     difference : float
         How far draws are from the straight lines of the derivatives, in standard deviations.
+    slopes : mapping
+        Value and derivatives of each quantity; empty if draws were needed from the first.
+    drawn : ndarray
+        (draws, numbers) the numbers of the draws.
+    solved : Solved
+        The quantities of the draws.
+    refused : str
+        Why some draws were left out; empty if none was.
 
     Examples
     --------
@@ -79,10 +96,10 @@ class Prediction:
     options: Options = field(repr=False)
     reason: str
     difference: float
-    _slopes: Slopes = field(repr=False)
-    _drawn: Array = field(repr=False)
-    _solved: Solved = field(repr=False)
-    _refused: str = field(repr=False)
+    slopes: Slopes = field(repr=False)
+    drawn: Array = field(repr=False)
+    solved: Solved = field(repr=False)
+    refused: str = field(repr=False)
 
     @property
     def method(self) -> str:
@@ -101,7 +118,7 @@ class Prediction:
 
     @functools.cached_property
     def _runs(self) -> Runs:
-        return Runs(self.drop, self.inputs, self.options, self._drawn if self.reason else None)
+        return Runs(self.drop, self.inputs, self.options, self.drawn if self.reason else None)
 
     def __getitem__(self, name: str) -> "UFloat":
         """Return a value with its error, such as ``rebound_speeds.1``, in SI units."""
@@ -148,7 +165,7 @@ class Prediction:
     @property
     def collisions(self) -> list[dict[int, float]]:
         """The share of the drops within the errors by the count of each contact's intervals."""
-        counts = self._solved.tables["collisions"]
+        counts = self.solved.tables["collisions"]
         found = [np.unique(column, return_counts=True) for column in counts.T]
         return [dict(zip(k.tolist(), (n / len(counts)).tolist(), strict=True)) for k, n in found]
 
@@ -160,13 +177,13 @@ class Prediction:
         """
         import xarray as xr
 
-        data: dict[str, Any] = {"status": ("draw", self._solved.status)}
-        for name, table in self._solved.tables.items():
+        data: dict[str, Any] = {"status": ("draw", self.solved.status)}
+        for name, table in self.solved.tables.items():
             part, unit = QUANTITIES[name].part, QUANTITIES[name].unit
             attrs = {"units": unit or "1"}
             data[name] = (("draw", part), table, attrs) if part else ("draw", table[:, 0], attrs)
         numbers = {
-            number.path: ("draw", self._drawn[:, k], {"units": number.unit})
+            number.path: ("draw", self.drawn[:, k], {"units": number.unit})
             for k, number in enumerate(self.inputs.numbers)
         }
         return xr.Dataset(data, numbers, {"stackbounce": __version__, "drop": self.drop.to_toml()})
@@ -233,9 +250,11 @@ class Prediction:
         """
         name = name or f"rebound_speeds.{len(self.drop.balls) - 1}"
         _ = self[name]
+        if len(self.inputs.numbers) < 2:
+            return ""
         row = self.sensitivity.sel(quantity=name)
         shares = (row["first"] if np.isnan(row.total).all() else row.total).values
-        if len(shares) < 2 or not np.isfinite(shares).all():
+        if not np.isfinite(shares).all():
             return ""
         best = int(np.argmax(shares))
         words = f"measure {self.inputs.paths[best]} better: it makes {100.0 * shares[best]:.0f} %"
@@ -254,27 +273,27 @@ class Prediction:
         'errors by derivatives: 10000 drops within the errors follow them to 1 % of the error'
         """
         if self.reason:
-            return f"errors by {len(self._drawn)} draws: {self.reason}"
+            return f"errors by {len(self.drawn)} draws: {self.reason}"
         return (
-            f"errors by derivatives: {len(self._drawn)} drops within the errors "
-            f"follow them to {math.ceil(100.0 * self.difference)} % of the error"
+            f"errors by derivatives: {len(self.drawn)} drops within the errors "
+            f"follow them to {max(1, math.ceil(100.0 * self.difference))} % of the error"
         )
 
     @property
     def notes(self) -> tuple[str, ...]:
         """What limits the prediction, a sentence each."""
         found = []
-        if self._refused and self._refused not in self.reason:
-            found.append(f"numbers that are not possible were left out: {self._refused}")
+        if self.refused and self.refused not in self.reason:
+            found.append(f"numbers that are not possible were left out: {self.refused}")
         if self.reason:
-            status = self._solved.status
+            status = self.solved.status
             bad = int(np.isin(status, (Status.EVENT_LIMIT, Status.INVALID)).sum())
             if bad:
                 found.append(f"{bad} of {len(status)} drops did not finish and were left out")
             errors = {
                 _label(name, part): error_of_deviation(column)
                 for name in _FLOATS
-                for part, column in enumerate(self._solved.tables[name].T)
+                for part, column in enumerate(self.solved.tables[name].T)
             }
             rough = [name for name, error in errors.items() if error > _ROUGH]
             if rough:
@@ -380,10 +399,10 @@ class Prediction:
         """Yield the names and values of all quantities."""
         for name in _FLOATS:
             if self.reason:
-                for part, column in enumerate(self._solved.tables[name].T):
+                for part, column in enumerate(self.solved.tables[name].T):
                     yield _label(name, part), of_draws(column)
             else:
-                values, slopes = self._slopes[name]
+                values, slopes = self.slopes[name]
                 for part, value in enumerate(values.tolist()):
                     yield _label(name, part), self.inputs.linear(value, slopes[part])
 
@@ -393,25 +412,25 @@ class Prediction:
     def _solve(self, x: Array) -> dict[str, Array]:
         """Return all quantities of some drops; nan for those that are not possible."""
         inputs, good = self.inputs, np.ones(len(x), dtype=bool)
-        if self._refused:
+        if self.refused:
             good, _ = possible(self.drop, inputs.numbers, x)
         rows = inputs.rows(np.where(good[:, None], x, inputs.values))
         tables, _ = solve_quantities(self.drop, rows, len(x), self.options)
         return {name: np.where(good[:, None], table, np.nan) for name, table in tables.items()}
 
     def _linear(self) -> dict[str, Any]:
-        inputs, slopes = self.inputs, {name: one for name, (_, one) in self._slopes.items()}
+        inputs, slopes = self.inputs, {name: one for name, (_, one) in self.slopes.items()}
         if self.reason:
-            slopes = {name: fit_slopes(self._drawn, self._solved.tables[name]) for name in _FLOATS}
+            slopes = {name: fit_slopes(self.drawn, self.solved.tables[name]) for name in _FLOATS}
         return {
             name: linear_shares(one, inputs.covariance, independent=inputs.independent)
             for name, one in slopes.items()
         }
 
     def _sobol(self) -> dict[str, Any]:
-        half = len(self._drawn) // 2
-        answers = {name: self._solved.tables[name][: 2 * half] for name in _FLOATS}
-        first, second = self._drawn[:half], self._drawn[half : 2 * half]
+        half = len(self.drawn) // 2
+        answers = {name: self.solved.tables[name][: 2 * half] for name in _FLOATS}
+        first, second = self.drawn[:half], self.drawn[half : 2 * half]
         return sobol_indices(self._solve, first, second, answers)
 
 
