@@ -135,8 +135,10 @@ class Inputs:
         raise InvalidValue(f"errors leave few drops that are possible: {refused}")
 
 
-def of_draws(column: Array) -> Any:
+def of_draws(column: Array, scale: float = 0.0) -> Any:
     """Return the mean and the standard deviation of those draws that have a number.
+
+    Next to numbers of the size `scale`, deviations of round-off are none.
 
     Examples
     --------
@@ -147,7 +149,7 @@ def of_draws(column: Array) -> Any:
     if not len(known):
         return known_to(np.nan, 0.0)
     mean, deviation = float(np.mean(known)), float(np.std(known))
-    return known_to(mean, deviation if deviation > _ROUND_OFF * abs(mean) else 0.0)
+    return known_to(mean, deviation if deviation > _ROUND_OFF * max(abs(mean), scale) else 0.0)
 
 
 def error_of_deviation(column: Array) -> float:

@@ -78,7 +78,7 @@ def differentiate(
             if not np.all(np.isfinite(table[:, part])):
                 reason = reason or f"some drops have no {here}"
                 continue
-            size = _ROUND_OFF * np.max(np.abs(table[:, part]))
+            size = _ROUND_OFF * np.nanmax(np.abs(table))
             if np.ptp(table[:, part]) <= size:
                 slope[part] = 0.0
             off = float(np.sqrt(np.mean((tested[:, part] - lines[:, part]) ** 2)))

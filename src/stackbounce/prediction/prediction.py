@@ -15,11 +15,12 @@ from stackbounce.run.driver import simulate
 from stackbounce.run.options import Options, run_options
 from stackbounce.run.paths import drop_at
 from stackbounce.run.quantities import solve_quantities
+from stackbounce.run.result import ROUND_OFF
 
 __all__ = ["predict"]
 
 _MOST, _DRAWS, _FEWEST = 10_000_000, 10_000, 100
-_EVENTS = 3_000_000  # of all draws together, by default
+_EVENTS, _NONLINEAR_EVENTS = 1_000_000, 200_000  # of all draws together, by default
 _FEW = 1e-3  # share of draws that are not possible, which derivatives do without
 
 
@@ -46,9 +47,9 @@ def predict(
     until, rtol, event_limit
         As in `simulate`, for every drop.
     draws : int, optional
-        The number of draws, 100 or above; by default 10 000, and fewer where a drop has more than
-        300 events: about three million events in all, and 100 draws at least. Given draws have
-        their own number.
+        The number of draws, 100 or above; by default 10 000, and fewer where these would have more
+        than a million events (200 000 under nonlinear contact laws), but 100 at least. Given draws
+        have their own number.
     seed : int, optional
         Of the random numbers: the same seed gives the same draws, bit for bit.
 
@@ -106,4 +107,5 @@ def _default_draws(drop: Drop, options: Options) -> int:
     """Return how many draws of a drop have a reasonable number of events together."""
     until = options.until if np.isfinite(options.until) else None
     result = simulate(drop, until=until, rtol=options.rtol, event_limit=options.event_limit)
-    return min(_DRAWS, max(_FEWEST, _EVENTS // max(1, len(result.events))))
+    most = _NONLINEAR_EVENTS if result.precision > ROUND_OFF else _EVENTS
+    return min(_DRAWS, max(_FEWEST, most // max(1, len(result.events))))

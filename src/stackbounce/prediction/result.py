@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Apex", "Prediction"]
 
+_CURVES = ("position", "velocity", "force", "compression")
 _ROUGH = 0.02  # the relative error of a standard deviation above which a note says so
 _FLOATS = [name for name in QUANTITIES if name != "collisions"]
 
@@ -285,11 +286,11 @@ class Prediction:
         found = []
         if self.refused and self.refused not in self.reason:
             found.append(f"numbers that are not possible were left out: {self.refused}")
+        status = self.solved.status
+        bad = int(np.isin(status, (Status.EVENT_LIMIT, Status.INVALID)).sum())
+        if bad:
+            found.append(f"{bad} of {len(status)} drops did not finish and were left out")
         if self.reason:
-            status = self.solved.status
-            bad = int(np.isin(status, (Status.EVENT_LIMIT, Status.INVALID)).sum())
-            if bad:
-                found.append(f"{bad} of {len(status)} drops did not finish and were left out")
             errors = {
                 _label(name, part): error_of_deviation(column)
                 for name in _FLOATS
@@ -373,7 +374,14 @@ class Prediction:
         -------
         low, high : ndarray
             (balls, T) in SI units; with draws, quantiles at 15.9 and 84.1 % of 1000 of them.
+
+        Raises
+        ------
+        InvalidValue
+            If there is no such variable, or a time is not one of the run.
         """
+        if name not in _CURVES:
+            raise InvalidValue(f"{shown(name)} is not a curve; {nearest(name, _CURVES)}")
         return self._runs.band(times, name)
 
     def as_dict(self) -> dict[str, Any]:
@@ -399,8 +407,10 @@ class Prediction:
         """Yield the names and values of all quantities."""
         for name in _FLOATS:
             if self.reason:
-                for part, column in enumerate(self.solved.tables[name].T):
-                    yield _label(name, part), of_draws(column)
+                table = self.solved.tables[name]
+                scale = float(np.max(np.abs(table), initial=0.0, where=np.isfinite(table)))
+                for part, column in enumerate(table.T):
+                    yield _label(name, part), of_draws(column, scale)
             else:
                 values, slopes = self.slopes[name]
                 for part, value in enumerate(values.tolist()):
