@@ -83,7 +83,7 @@ def predict(
     >>> str(found["rebound_speeds.1"])
     '4.28+/-0.10'
     """
-    need("measure", "predict")
+    need("measure", "a number with an error")
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
     best = drop_at(drop, dict(zip(inputs.numbers, inputs.values.tolist(), strict=True)))
