@@ -55,11 +55,13 @@ def test_errors_stand_in_every_option():
     }
 
 
+@pytest.mark.slow
 def test_apexes_and_counts_have_errors(capsys):
     out = said(capsys, *PAIR, "--gravity", "9.81", "--until", "1s")
     assert "Highest points, the first 3 of each ball" in out
 
 
+@pytest.mark.slow
 def test_a_picture_with_bands(tmp_path, capsys):
     path = tmp_path / "bounce.svg"
     said(capsys, *PAIR, "--plot", str(path))

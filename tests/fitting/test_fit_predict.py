@@ -14,6 +14,7 @@ PAIR = sb.Drop(
 DATA = {"rebound_ratios.1": "1.90 ± 0.02", "durations.0": "20.0 ± 0.5 ms"}
 
 
+@pytest.mark.slow
 def test_a_fitted_quantity_has_the_error_of_its_datum():
     drop = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
     found = sb.fit(drop, {"durations.0": "5.0 ± 0.1 ms"}, ["contacts.0.stiffness"])
@@ -45,6 +46,7 @@ def test_tied_numbers_follow():
     assert (upper - 0.4 * lower).std_dev < 1e-6 * upper.std_dev
 
 
+@pytest.mark.slow
 def test_of_several_drops_one_is_named():
     drops = {"low": PAIR, "high": sb.Drop(PAIR.balls, PAIR.contacts, PAIR.gaps, height=1.0)}
     data = {key: {"rebound_ratios.1": "1.90 ± 0.02"} for key in drops}

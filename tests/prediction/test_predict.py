@@ -118,6 +118,7 @@ def test_impossible_numbers_are_left_out_and_named():
     assert float(found.draws["gaps.0"].std()) == pytest.approx(half, rel=0.03)
 
 
+@pytest.mark.slow
 def test_sobol_indices_of_a_product():
     # v = e v0: the variance of a product is known
     e, v = (0.5, 0.2), (3.0, 1.0)
@@ -171,6 +172,7 @@ def test_apexes_and_forces_have_errors():
     assert (peak.nominal_value, peak.std_dev) == pytest.approx((exact.n, exact.s), rel=1e-3)
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize("errors", [{"height": (0.2, 0.002)}, {"gaps.0": (1e-4, 1e-4)}])
 def test_a_band_encloses_the_curve(errors):
     found = sb.predict(LOSSY, errors)
