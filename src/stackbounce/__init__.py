@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         Viscoelastic,
         series,
     )
+    from stackbounce.prediction import Prediction, predict
     from stackbounce.run.driver import simulate
     from stackbounce.run.result import Result, Status
     from stackbounce.sweeps import sweep
@@ -37,6 +38,7 @@ __all__ = [
     "Hysteretic",
     "Model",
     "PowerLaw",
+    "Prediction",
     "Range",
     "Result",
     "Rigid",
@@ -51,6 +53,7 @@ __all__ = [
     "contact_time",
     "fit",
     "highest",
+    "predict",
     "read",
     "restitution",
     "separate",
@@ -68,6 +71,7 @@ _ROOMS = {
     "fitting": ("Fit", "Model", "Range", "compare", "fit", "standard_models"),
     "gaps_and_masses": ("best_masses", "highest", "transition"),
     "measure": ("read",),
+    "prediction": ("Prediction", "predict"),
     "run.driver": ("simulate",),
     "run.result": ("Result", "Status"),
     "sweeps": ("sweep",),

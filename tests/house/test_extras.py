@@ -96,6 +96,7 @@ def test_a_plain_install_sweeps():
         (["paper", "--out", "paper"], "paper", "stackbounce paper"),
         (["app"], "web", "stackbounce app"),
         (["simulate", "B1", "--plot", "b1.png"], "plots", "--plot"),
+        (["simulate", "B1", "--height", "63 ± 1 cm"], "measure", "a number with an error"),
         (["sweep", "B1", "--over", "balls.0.mass=1,2", "--out", "a.nc"], "netcdf", "a .nc file"),
         (["sweep", "B1", "--over", "balls.0.mass=1,2", "--out", "a.zarr"], "sweep", "a .zarr file"),
     ],

@@ -206,3 +206,14 @@ def test_errors(draw, message):
 def test_no_figure_is_left_with_pyplot():
     plots.lines(sb.sweep(DROP, {"balls.0.mass": MASS}))
     assert not plt.get_fignums()
+
+
+def test_a_prediction_is_drawn_with_bands():
+    drop = sb.Drop([sb.Ball(0.15), sb.Ball(0.057)], [sb.Spring(2500.0)] * 2, height=0.6)
+    figure = plots.bounce(sb.predict(drop, {"height": (0.6, 0.02)}))
+    plain = plots.bounce(sb.simulate(drop))
+    bands = [
+        len(one.collections) - len(other.collections)
+        for one, other in zip(figure.axes, plain.axes, strict=True)
+    ]
+    assert bands == [2, 2]

@@ -1,6 +1,8 @@
 """The command ``stackbounce simulate``: how each ball of one drop bounces."""
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
 
 from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, Until, What, add_options
 from stackbounce.cli.output import (
@@ -14,6 +16,7 @@ from stackbounce.cli.output import (
 
 if TYPE_CHECKING:
     from stackbounce.cli.scenario import Scenario
+    from stackbounce.prediction import Prediction
     from stackbounce.run.result import Result
 
 __all__ = ["EPILOG", "run"]
@@ -27,30 +30,47 @@ def run(
     *,
     until: Until = None,
     rtol: Tolerance = 1e-12,
+    error: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="PATH=ERROR",
+            help="Error of a number of the drop, such as balls.1.mass=1g; once per number. "
+            "--height '63 ± 1 cm' and the like have it in the value.",
+        ),
+    ] = None,
     plot: Plot = None,
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
     """Drop a stack of balls and tell how each one bounces."""
-    from stackbounce import simulate
+    from stackbounce import predict, simulate
     from stackbounce.calibration import separate
     from stackbounce.cli import scenario
+    from stackbounce.cli.errors_given import read_errors, split_errors
     from stackbounce.cli.simulation_tables import print_simulation
 
     check_picture(plot)
-    chosen = scenario.read(what, **given)
-    result = simulate(chosen.drop, until=scenario.read_until(until), rtol=rtol)
+    plain, written = split_errors(given)
+    chosen, end = scenario.read(what, **plain), scenario.read_until(until)
+    errors = read_errors(chosen.drop, written, error)
+    prediction = predict(chosen.drop, errors, until=end, rtol=rtol) if errors else None
+    result = simulate(chosen.drop, until=end, rtol=rtol)
     textbook = None if chosen.drop.rigid else simulate(separate(chosen.drop))
-    draw_picture(plot, "bounce", result)
+    draw_picture(plot, "bounce", prediction or result)
     if as_json:
-        print_json(summary(chosen, result, textbook))
+        print_json(summary(chosen, result, textbook, prediction))
     else:
-        print_simulation(console(), chosen, result, textbook)
+        print_simulation(console(), chosen, result, textbook, prediction)
         print_files(plot)
     check_solved({result.status.name: 1})
 
 
-def summary(scenario: "Scenario", result: "Result", textbook: "Result | None") -> dict[str, object]:
+def summary(
+    scenario: "Scenario",
+    result: "Result",
+    textbook: "Result | None",
+    prediction: "Prediction | None" = None,
+) -> dict[str, object]:
     """Return what ``stackbounce simulate --json`` prints."""
     from stackbounce.version import __version__
 
@@ -64,4 +84,5 @@ def summary(scenario: "Scenario", result: "Result", textbook: "Result | None") -
         "intervals": result.intervals,
         "apexes": result.apexes,
         "separate": None if textbook is None else textbook.to_mapping(),
+        **({} if prediction is None else {"errors": prediction.as_dict()}),
     }

@@ -1,10 +1,12 @@
 """The tables of ``stackbounce simulate``: balls, contacts, highest points, energy."""
 
 import math
+from typing import TYPE_CHECKING
 
 from rich.console import Console
 from rich.table import Table
 
+from stackbounce.cli.prediction_tables import print_how, print_prediction
 from stackbounce.cli.scenario import Scenario
 from stackbounce.cli.tables import (
     add_columns,
@@ -20,6 +22,9 @@ from stackbounce.cli.tables import (
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.result import Result, Status
 
+if TYPE_CHECKING:
+    from stackbounce.prediction import Prediction
+
 __all__ = ["print_simulation"]
 
 _APEXES = 4  # highest points shown for each ball
@@ -27,9 +32,16 @@ _LONG = 1_000_000  # numbers in the log of a run that is not repeated to find it
 
 
 def print_simulation(
-    console: Console, scenario: Scenario, result: Result, textbook: Result | None
+    console: Console,
+    scenario: Scenario,
+    result: Result,
+    textbook: Result | None,
+    prediction: "Prediction | None" = None,
 ) -> None:
-    """Print the result of a drop, beside the result of separate collisions if there is one."""
+    """Print the result of a drop, beside the result of separate collisions if there is one.
+
+    With a prediction, the numbers have errors instead.
+    """
     drop = scenario.drop
     console.print(incidence(scenario), style="bold")
     for i, source in enumerate(scenario.contact_sources):
@@ -39,11 +51,17 @@ def print_simulation(
     for i, source in enumerate(scenario.gap_sources):
         gap = f"{drop.gaps[i] * 1e3:.6g} mm"
         console.print(f"  gap {i}, {meeting(drop, i + 1)}: {gap}  [{source}]")
-    console.print(_bounces(result, textbook))
-    console.print(_contacts(result))
-    if len(result.apexes):
-        console.print(_apexes(result))
+    if prediction is None:
+        console.print(_bounces(result, textbook))
+        console.print(_contacts(result))
+        if len(result.apexes):
+            console.print(_apexes(result))
+        console.print(f"\nEnergy retained: {percent(result.energy_retained)}")
+    else:
+        print_prediction(console, prediction)
     _closing(console, result, textbook)
+    if prediction is not None:
+        print_how(console, prediction)
 
 
 def _bounces(result: Result, textbook: Result | None) -> Table:
@@ -113,7 +131,6 @@ def _end(time: float) -> str:
 
 
 def _closing(console: Console, result: Result, textbook: Result | None) -> None:
-    console.print(f"\nEnergy retained: {percent(result.energy_retained)}")
     if not any(law.loss for law in result.drop.contacts if law is not None):
         console.print(
             "Springs lose nothing. With losses: --contact 'Hysteretic stiffness=K restitution=E'"

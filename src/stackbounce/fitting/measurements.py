@@ -23,7 +23,7 @@ class Datum:
     name : str
         Such as ``rebound_ratios.1``.
     quantity : str
-        A key of `stackbounce.fitting.quantities.QUANTITIES`.
+        A key of `stackbounce.run.quantities.QUANTITIES`.
     index : int
         The number of its ball or contact.
     value, error : float

@@ -13,16 +13,16 @@ from numpy.typing import NDArray
 from stackbounce.engine.records import Outcomes
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting.measurements import Measured
-from stackbounce.fitting.parameters import Parameter, find_numbers, value_in
+from stackbounce.fitting.parameters import Parameter, find_numbers
 from stackbounce.fitting.quantities import QUANTITIES, Array
 from stackbounce.fitting.ties import Tie, evaluate_ties
 from stackbounce.fitting.waveforms import Waveform
 from stackbounce.model import Drop
 from stackbounce.run.batch import solve
-from stackbounce.run.columns import Rows, base_rows, check, fill
+from stackbounce.run.columns import Rows, check, incidence
 from stackbounce.run.driver import forces_at
 from stackbounce.run.options import Options
-from stackbounce.run.paths import Number, drop_at, numbers_of
+from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
 from stackbounce.run.result import Status
 
 __all__ = ["ABSENT", "Objective", "touch_name"]
@@ -192,9 +192,7 @@ class Objective:
                 out.energy_retained,
             ):
                 array[bad] = np.nan
-        drops = base_rows(drop, len(x))
-        fill(drops, drop, rows)
-        return out, np.max(np.abs(drops.velocity), axis=1), drops.gravity
+        return out, *incidence(drop, rows, len(x))
 
     def predict(self, key: str, x: Array) -> Array:
         """Return what trials (n, parameters) predict for one drop's data: (n, data) in SI units."""

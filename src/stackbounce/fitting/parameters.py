@@ -12,7 +12,7 @@ from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import OWN_WORDS
 from stackbounce.fitting.quantities import Array, read_with_error
 from stackbounce.model import Drop
-from stackbounce.run.paths import Number, drop_at, numbers_of
+from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
 from stackbounce.units import quantity
 
 __all__ = ["Parameter", "Range", "read_parameters"]
@@ -252,12 +252,3 @@ def _legal(
         return good
 
     return moved(low), moved(high)
-
-
-def value_in(drop: Drop, number: Number) -> float:
-    """Return a number of a drop; nan for a diameter that is not given."""
-    if number.part == "":
-        return float(getattr(drop, number.field))
-    part = getattr(drop, number.part)[number.index]
-    value = getattr(part, number.field) if number.field else part
-    return math.nan if value is None else float(value)

@@ -11,10 +11,11 @@ from stackbounce.errors import InvalidType, InvalidValue, between, nearest, show
 from stackbounce.fitting.least_squares import find_minima
 from stackbounce.fitting.measurements import Measured, read_measured
 from stackbounce.fitting.objective import Objective, touch_name
-from stackbounce.fitting.parameters import Parameter, find_numbers, read_parameters, value_in
+from stackbounce.fitting.parameters import Parameter, find_numbers, read_parameters
 from stackbounce.fitting.result import Fit
 from stackbounce.fitting.ties import read_ties
 from stackbounce.model import Drop
+from stackbounce.run.paths import value_in
 
 __all__ = ["FitProblem", "Model", "TooFewData", "fit"]
 

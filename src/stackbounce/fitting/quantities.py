@@ -1,75 +1,20 @@
-"""What can be measured of a drop, and how it follows from the engine's results."""
+"""What was measured of a drop: the names of quantities, and numbers with errors."""
 
-from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple, TypeAlias
+from collections.abc import Sequence
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.engine.records import Outcomes
 from stackbounce.errors import InvalidValue, finite, nearest, positive, shown
 from stackbounce.measure.quantities import quantity_with_error
-from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.model import Drop
+from stackbounce.run.quantities import QUANTITIES
 from stackbounce.units import quantity
 
-__all__ = ["QUANTITIES", "Array", "Quantity", "find_quantity", "read_index", "read_with_error"]
+__all__ = ["QUANTITIES", "Array", "find_quantity", "read_index", "read_with_error"]
 
 Array: TypeAlias = NDArray[np.float64]
-
-
-class Quantity(NamedTuple):
-    """A quantity that can be measured.
-
-    Parameters
-    ----------
-    part : str
-        What has the quantity: ``ball``, ``contact``, or empty for the whole stack.
-    unit : str
-        The SI unit.
-    example : str
-        How a measured value is written, with its error.
-    predict : callable
-        Takes the outcomes of many drops, their impact speeds (drops,) in m/s and gravity (drops,)
-        in m/s**2; returns the quantity (drops, part).
-    """
-
-    part: str
-    unit: str
-    example: str
-    predict: Callable[[Outcomes, Array, Array], Any]
-
-
-def _speeds(out: Outcomes, speed: Array, _: Array) -> Any:
-    """Return the velocities after the impact, up-positive."""
-    return out.rebound_ratio * speed[:, None]
-
-
-def _heights(out: Outcomes, speed: Array, gravity: Array) -> Any:
-    """Return how far each ball rises at its speed; with a minus sign if it moves down."""
-    velocity = _speeds(out, speed, gravity)
-    pull = np.where(gravity > 0.0, gravity, STANDARD_GRAVITY)
-    return velocity * np.abs(velocity) / (2.0 * pull[:, None])
-
-
-def _durations(out: Outcomes, *_: Array) -> Any:
-    """Return the times from the first touch of each contact to its last release."""
-    return out.last_release - out.first_touch
-
-
-QUANTITIES: dict[str, Quantity] = {
-    "rebound_ratios": Quantity("ball", "", "1.64 ± 0.02", lambda out, *_: out.rebound_ratio),
-    "rebound_speeds": Quantity("ball", "m/s", "5.8 ± 0.1 m/s", _speeds),
-    "rebound_heights": Quantity("ball", "m", "1.72 ± 0.03 m", _heights),
-    "first_touch": Quantity("contact", "s", "2.0 ± 0.5 ms", lambda out, *_: out.first_touch),
-    "last_release": Quantity("contact", "s", "2.0 ± 0.5 ms", lambda out, *_: out.last_release),
-    "durations": Quantity("contact", "s", "2.0 ± 0.5 ms", _durations),
-    "energy_retained": Quantity("", "", "0.64 ± 0.02", lambda out, *_: out.energy_retained),
-    "collisions": Quantity("contact", "", "2", lambda out, *_: out.collisions),
-}
-"""By name, as in `Result`; that of one ball or contact is ``rebound_ratios.1``.
-
-Collisions are compared, not fitted.
-"""
 
 
 def find_quantity(drop: Drop, name: str, path: str) -> tuple[str, int]:

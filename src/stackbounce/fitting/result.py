@@ -18,6 +18,7 @@ from stackbounce.fitting.profile import Interval, Profile
 from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.residuals import Record, Residual, list_records, list_residuals
 from stackbounce.model import Drop
+from stackbounce.prediction import Prediction, predict
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Fit"]
 
+_STEP = 1e-5  # of the width of the bounds: the step of a numerical derivative
 _GOODNESS = ("chi_squared", "degrees_of_freedom", "probability", "aicc", "bic")
 
 
@@ -270,6 +272,77 @@ class Fit:
         deviations = np.sqrt(np.diag(self.covariance.values))
         others = len(self.minima) - 1
         return posterior.sample(self.objective, self.x, deviations, draws, others=others, **options)
+
+    def predict(
+        self, drop: str | None = None, *, posterior: Posterior | None = None, **options: Any
+    ) -> Prediction:
+        """Return what follows of a fitted drop, with the errors of the fit.
+
+        Parameters
+        ----------
+        drop : str, optional
+            Its name, if there are several.
+        posterior : Posterior, optional
+            Draws by `sample`, each of which is run; by default the errors are normal, with the
+            covariance of the fit.
+        **options
+            As `stackbounce.predict` takes them.
+
+        Returns
+        -------
+        Prediction
+
+        Raises
+        ------
+        InvalidValue
+            If there are several drops and none of this name, or the fit does not vary the drop.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
+        >>> found = sb.fit(drop, {"durations.0": "5.0 ± 0.1 ms"}, vary=["contacts.0.stiffness"])
+        >>> str(found.predict()["durations.0"])
+        '0.00500+/-0.00010'
+        """
+        known = self.objective.drops
+        key = next(iter(known)) if drop is None and len(known) == 1 else drop
+        if key is None or key not in known:
+            right = nearest(key or "", known)
+            raise InvalidValue(f"drop must name one of the drops, got {shown(drop)}; {right}")
+        errors = self._numbers(key) if posterior is None else self._drawn(key, posterior)
+        if not errors:
+            raise InvalidValue(f"drop {shown(key)} has no number that was varied")
+        return predict(known[key], errors, **options)
+
+    def _numbers(self, key: str) -> "dict[str, UFloat]":
+        """Return the varied and tied numbers of a drop by path, correlated as in `covariance`."""
+        objective, own = self.objective, list(self.values.values())
+        (low, high), steps = objective.spans.T, _STEP * objective.widths
+        up, down = np.minimum(self.x + steps, high), np.maximum(self.x - steps, low)
+        count = len(self.x)
+        trials = np.tile(self.x, (2 * count + 1, 1))
+        each = np.arange(count)
+        trials[each, each], trials[count + each, each] = up, down
+        parameters = np.array(list(objective.values(trials).values()))
+        moved = parameters[each, each] - parameters[each, count + each]
+        found = {}
+        for number, column in objective.rows(key, trials).items():
+            slopes = (column[:count] - column[count:-1]) / moved
+            value: Any = float(column[-1])
+            for one, slope in zip(own, slopes.tolist(), strict=True):
+                value = value + slope * (one - one.nominal_value)
+            found[number.path] = value
+        return found
+
+    def _drawn(self, key: str, posterior: Posterior) -> dict[str, Array]:
+        """Return the draws of the varied and tied numbers of a drop by path."""
+        columns = [
+            np.log(posterior.draws(one.name)) if one.logarithmic else posterior.draws(one.name)
+            for one in self.objective.parameters
+        ]
+        rows = self.objective.rows(key, np.stack(columns, axis=1))
+        return {number.path: column for number, column in rows.items()}
 
     def as_dict(self) -> dict[str, Any]:
         """Return the result as plain values, for JSON."""

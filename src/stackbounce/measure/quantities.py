@@ -21,6 +21,7 @@ __all__ = [
     "nominal",
     "quantity_with_error",
     "unit_of_both",
+    "without_error",
 ]
 
 # 1.64(2)e3 m: the number, its decimals, the error of its last digits, the power of ten, the unit.
@@ -187,6 +188,18 @@ def unit_of_both(text: str) -> str | None:
     value, error = _split(text)
     own = unit_written(value)
     return unit_written(error or "") or "" if own == "" else own
+
+
+def without_error(text: str) -> str | None:
+    """Return the text of a quantity without its error; None if it has none.
+
+    Examples
+    --------
+    >>> without_error("63 ± 1 cm"), without_error("63 cm")
+    ('63 cm', None)
+    """
+    value, error = _split(text)
+    return None if error is None else _with_unit(value, unit_of_both(text) or "").strip()
 
 
 def _with_unit(text: str, unit: str) -> str:

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from stackbounce.prediction import Prediction
+
 __all__ = ["bounce"]
 
 _SAMPLES = 1200
@@ -22,13 +24,14 @@ _LABEL = 0.13  # height of a label in its axes
 _LARGEST = 1e290  # m or N; matplotlib multiplies numbers
 
 
-def bounce(result: Result) -> "Figure":
+def bounce(result: "Result | Prediction") -> "Figure":
     """Draw the impact: the position of each ball and the force at each contact against time.
 
     Parameters
     ----------
-    result : Result
-        What to draw. A rigid stack has no finite forces: its impulses are drawn instead.
+    result : Result or Prediction
+        What to draw. A rigid stack has no finite forces: its impulses are drawn instead. The curves
+        of a prediction have bands of one standard deviation.
 
     Returns
     -------
@@ -38,7 +41,7 @@ def bounce(result: Result) -> "Figure":
     Raises
     ------
     InvalidType
-        If `result` is no Result.
+        If `result` is neither.
     InvalidValue
         If positions or forces are too large to be drawn, near the largest of floats.
 
@@ -55,8 +58,11 @@ def bounce(result: Result) -> "Figure":
     >>> [axes.get_ylabel() for axes in figure.axes]
     ['position (mm)', 'force (N)']
     """
+    prediction: Prediction | None = None
     if not isinstance(result, Result):
-        raise InvalidType(f"result must be a Result, got {type(result).__name__}")
+        if not hasattr(result, "band"):
+            raise InvalidType(f"result must be a Result or Prediction, got {type(result).__name__}")
+        prediction, result = result, result.result
     with styled_figure(7.2, 5.6) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
         times = np.linspace(*choose_window(result), _SAMPLES)
@@ -66,6 +72,10 @@ def bounce(result: Result) -> "Figure":
             _check_size(sample.force.values, "N")
         _draw_positions(above, result, times, sample.position.values)
         _draw_contacts(below, result, times, sample.force.values)
+        if prediction is not None:
+            _draw_bands(above, prediction, times, "position", 1e3)
+            if not result.drop.rigid:
+                _draw_bands(below, prediction, times, "force", 1.0)
         floor = result.drop.contacts[0] is not None
         below.set_xlabel("time" + floor * " since the lowest ball touched the floor" + " (ms)")
         below.set_xlim(1e3 * times[0], 1e3 * times[-1])
@@ -94,6 +104,18 @@ def _draw_positions(
     axes.set_ylabel("position (mm)")
     axes.axhline(0.0, color="#808080", linewidth=0.8)
     axes.set_title(_summary(result), loc="left", fontsize=10)
+
+
+def _draw_bands(
+    axes: "Axes", prediction: "Prediction", times: NDArray[np.float64], name: str, factor: float
+) -> None:
+    """Draw one standard deviation on both sides of each curve, from the first touch on."""
+    after = times[times >= 0.0]
+    for k, (low, high) in enumerate(zip(*prediction.band(after, name), strict=True)):
+        if prediction.drop.contacts[k] is not None or name == "position":
+            axes.fill_between(
+                1e3 * after, factor * low, factor * high, color=color_of(k), alpha=0.3, linewidth=0
+            )
 
 
 def _label_ends(

@@ -15,7 +15,7 @@ from stackbounce.model.laws import contact_numbers
 from stackbounce.run.parameters import drop_numbers
 from stackbounce.run.paths import Number, drop_at
 
-__all__ = ["Rows", "base_rows", "check", "fill"]
+__all__ = ["Rows", "base_rows", "check", "fill", "incidence"]
 
 Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
 """The numbers that vary, in SI units: arrays that broadcast with each other."""
@@ -60,6 +60,15 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
         height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
         pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)
         drops.velocity[...] = -np.sqrt(2.0 * pull * height)[..., None]
+
+
+def incidence(
+    drop: Drop, rows: Rows, count: int
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return the impact speeds in m/s and gravity in m/s**2 of some drops, (count,) each."""
+    drops = base_rows(drop, count)
+    fill(drops, drop, rows)
+    return np.max(np.abs(drops.velocity), axis=1), drops.gravity
 
 
 def check(drop: Drop, rows: Rows, where: Callable[[tuple[int, ...]], str]) -> None:

@@ -1,6 +1,7 @@
 """The parameters of a drop by their paths: ``contacts.1.stiffness``, ``gaps.0``."""
 
 import functools
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from types import UnionType
@@ -10,7 +11,7 @@ from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.units import Unit
 
-__all__ = ["Number", "drop_at", "number_at", "numbers_of"]
+__all__ = ["Number", "drop_at", "number_at", "numbers_of", "value_in"]
 
 
 @dataclass(frozen=True)
@@ -96,6 +97,23 @@ def number_at(drop: Drop, path: object) -> Number:
     if path not in known:
         raise InvalidValue(f"{path[:60]} is not a parameter of this drop; {nearest(path, known)}")
     return known[path]
+
+
+def value_in(drop: Drop, number: Number) -> float:
+    """Return a number of a drop; nan for a diameter that is not given.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Spring
+    >>> drop = Drop([Ball(1.0)], [Spring(1.0)], height=1.0)
+    >>> value_in(drop, number_at(drop, "contacts.0.stiffness"))
+    1.0
+    """
+    if number.part == "":
+        return float(getattr(drop, number.field))
+    part = getattr(drop, number.part)[number.index]
+    value = getattr(part, number.field) if number.field else part
+    return math.nan if value is None else float(value)
 
 
 def drop_at(drop: Drop, values: Mapping[Number, float]) -> Drop:

@@ -49,9 +49,11 @@ def sweep(
     values : mapping
         The numbers that vary, by their paths: ``balls.0.mass``, ``contacts.1.stiffness``,
         ``gaps.0``, ``velocities.2``, ``impact_speed``, ``height``, ``gravity``. Each value is a
-        DataArray, broadcast by the names of its dimensions, or a number or 1-D array_like, which
-        gets a dimension of its own, named by its path. SI units, or those of a DataArray's
-        attribute `units`. Arrays of dask make the Dataset lazy, with their chunks.
+        DataArray, broadcast by the names of its dimensions; or a number or 1-D array_like, which
+        gets a dimension of its own, named by its path; or a pair of a dimension's name and a 1-D
+        array_like. Numbers that share a dimension vary together: 300 values of each are 300 drops.
+        SI units, or those of a DataArray's attribute `units`. Arrays of dask make the Dataset lazy,
+        with their chunks.
     until, rtol, event_limit
         As in `simulate`, for every drop.
 
@@ -89,17 +91,24 @@ def sweep(
     >>> ds.rebound_ratio.values.round(4)
     array([[0.7664, 1.1886],
            [0.9864, 1.1269]])
+
+    Three drops, in which two numbers vary together:
+
+    >>> pairs = {"balls.0.mass": ("row", [1.0, 2.0, 3.0]), "gaps.0": ("row", [0.0, 0.1, 0.2])}
+    >>> sb.sweep(drop, pairs).sizes["row"]
+    3
     """
     options = run_options(drop, until, rtol, event_limit)
     if not isinstance(values, Mapping):
         raise InvalidType(f"values must be a mapping of paths to values, got {shown(values)}")
     numbers = [number_at(drop, path) for path in values]
-    _check_together(numbers)
+    check_together(numbers)
     arrays = [_named(number, values[number.path]) for number in numbers]
+    _check_pairs(numbers, arrays)
     return _dataset(drop, numbers, arrays, options)
 
 
-def _check_together(numbers: Sequence[Number]) -> None:
+def check_together(numbers: Sequence[Number]) -> None:
     """Raise if two parameters vary that determine each other: e and n of a `Hysteretic` contact."""
     for number in numbers:
         if number.field == "restitution":
@@ -108,17 +117,28 @@ def _check_together(numbers: Sequence[Number]) -> None:
                 raise InvalidValue(f"{number.path} and {other}: only one of the two can vary")
 
 
+def _check_pairs(numbers: Sequence[Number], arrays: Sequence["xr.DataArray"]) -> None:
+    """Raise if parameters share a dimension and have not as many values along it."""
+    known: dict[Any, tuple[str, int]] = {}
+    for number, array in zip(numbers, arrays, strict=True):
+        for dim, size in array.sizes.items():
+            path, other = known.setdefault(dim, (number.path, size))
+            if other != size:
+                raise InvalidValue(
+                    f"{number.path} must have as many values along {dim} as {path}, {other}, "
+                    f"got {size}"
+                )
+
+
 def _named(number: Number, value: Any) -> "xr.DataArray":
     """Return the values of a parameter as a DataArray of floats in SI units."""
     import xarray as xr
 
+    own = number.path
+    if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], str):
+        own, value = value
     if isinstance(value, xr.DataArray):
         array = value
-        clash = {"ball", "contact"} & set(array.dims)
-        if clash:
-            raise InvalidValue(
-                f"{number.path} has a dimension named {clash.pop()}, which results have"
-            )
     else:
         try:
             plain = np.asarray(value) if not hasattr(value, "dask") else value
@@ -129,7 +149,10 @@ def _named(number: Number, value: Any) -> "xr.DataArray":
                 f"{number.path} must be a number, one dimension of them, or a DataArray with named "
                 f"dimensions, got {plain.ndim} dimensions"
             )
-        array = xr.DataArray(plain, dims=[number.path] * plain.ndim)
+        array = xr.DataArray(plain, dims=[own] * plain.ndim)
+    clash = {"ball", "contact"} & set(array.dims)
+    if clash:
+        raise InvalidValue(f"{number.path} has a dimension named {clash.pop()}, which results have")
     if array.dtype.kind not in "iuf":
         raise InvalidType(f"{number.path} must be numbers, got {array.dtype}")
     given = array.attrs.get("units", number.unit)

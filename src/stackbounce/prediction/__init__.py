@@ -1,0 +1,16 @@
+"""A drop whose numbers have errors -> speeds, heights, times and energy with errors.
+
+=========== =====================================================================
+inputs      the numbers with errors, and draws of them
+linearity   derivatives, and whether the results follow them within the errors
+runs        single runs, for forces, apexes and curves in time
+sensitivity which number makes how much of the variance: shares, Sobol indices
+result      `Prediction`: the result, with all of these
+prediction  `predict`: from the arguments to the result
+=========== =====================================================================
+"""
+
+from stackbounce.prediction.prediction import predict
+from stackbounce.prediction.result import Apex, Prediction
+
+__all__ = ["Apex", "Prediction", "predict"]

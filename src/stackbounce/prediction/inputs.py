@@ -1,0 +1,254 @@
+"""The numbers of a drop that have errors, and draws of them.
+
+A number with an error is a ``UFloat`` of `uncertainties`: a value, and how it depends on variables
+that are independent of each other. Numbers that share a variable are correlated.
+"""
+
+import functools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidType, InvalidValue, finite, shown
+from stackbounce.measure.quantities import known_to, quantity_with_error
+from stackbounce.model import Drop
+from stackbounce.run.columns import check
+from stackbounce.run.paths import Number, drop_at, number_at
+from stackbounce.sweeps.dataset import check_together
+from stackbounce.units import quantity
+
+__all__ = ["Array", "Inputs", "error_of_deviation", "of_draws", "possible", "read_inputs"]
+
+Array: TypeAlias = NDArray[np.float64]
+
+_FEWEST = 100  # draws that an array must hold
+_ROUND_OFF = 1e-12  # relative: an error of this size is none
+_ATTEMPTS = 50  # rounds of draws, of which some are possible drops
+
+
+@dataclass(frozen=True, eq=False)
+class Inputs:
+    """The numbers of a drop that have errors.
+
+    Parameters
+    ----------
+    numbers : tuple of Number
+        Which numbers.
+    errors : tuple of UFloat
+        Their values with errors.
+    given : mapping of int to ndarray
+        Draws (n,) of those numbers that were given by draws, by index: a row holds for all of them.
+    """
+
+    numbers: tuple[Number, ...]
+    errors: tuple[Any, ...]
+    given: Mapping[int, Array]
+
+    @property
+    def paths(self) -> list[str]:
+        """The paths of the numbers."""
+        return [number.path for number in self.numbers]
+
+    @functools.cached_property
+    def values(self) -> Array:
+        """(numbers,) values without errors, in SI units."""
+        return np.array([one.nominal_value for one in self.errors])
+
+    @functools.cached_property
+    def spread(self) -> Array:
+        """(numbers, variables) change of each number by one standard deviation of a variable."""
+        variables = list(dict.fromkeys(v for one in self.errors for v in one.derivatives))
+        rows = [[one.derivatives.get(v, 0.0) * v.std_dev for v in variables] for one in self.errors]
+        return np.array(rows)
+
+    @property
+    def covariance(self) -> Array:
+        """(numbers, numbers) covariances."""
+        return np.asarray(self.spread @ self.spread.T)
+
+    @property
+    def deviations(self) -> Array:
+        """(numbers,) standard deviations."""
+        return np.asarray(np.sqrt(np.sum(self.spread**2, axis=1)))
+
+    @property
+    def independent(self) -> bool:
+        """Whether no two numbers depend on the same variable."""
+        return not self.given and bool(np.all(np.count_nonzero(self.spread, axis=0) <= 1))
+
+    def rows(self, x: Array) -> dict[Number, Array]:
+        """Return values (n, numbers) as a batch takes them."""
+        return dict(zip(self.numbers, x.T, strict=True))
+
+    def linear(self, value: float, slopes: Array) -> Any:
+        """Return a value that depends on the numbers with these derivatives (numbers,)."""
+        found: Any = known_to(value, 0.0)
+        for one, slope in zip(self.errors, slopes.tolist(), strict=True):
+            found += slope * (one - one.nominal_value)
+        return found
+
+    def draw(self, drop: Drop, count: int, seed: int) -> tuple[Array, str, float]:
+        """Return draws from the normal distribution of the numbers that are possible drops.
+
+        Parameters
+        ----------
+        drop : Drop
+            The drop that has the numbers.
+        count : int
+            The number of draws; all given ones, if there are any.
+        seed : int
+            Of the random numbers.
+
+        Returns
+        -------
+        draws : ndarray
+            (count, numbers)
+        refused : str
+            Why draws that are not possible were left out, by the first of them; empty if none was.
+        share : float
+            The share of those left out.
+
+        Raises
+        ------
+        InvalidValue
+            If few draws are possible.
+        """
+        random = np.random.default_rng(seed)
+        if self.given:
+            count = len(next(iter(self.given.values())))
+        found, refused, left_out = np.empty((0, len(self.numbers))), "", 0
+        for attempt in range(1, _ATTEMPTS + 1):
+            z = random.standard_normal((count, self.spread.shape[1]))
+            # a product of matrices need not be the same bit for bit on all machines
+            x = self.values + np.sum(z[:, None, :] * self.spread, axis=2)
+            for k, draws in self.given.items():
+                x[:, k] = draws
+            good, wrong = possible(drop, self.numbers, x)
+            refused = refused or wrong
+            left_out += int(np.sum(~good))
+            found = np.concatenate([found, x[good]])[:count]
+            if len(found) == count or (self.given and len(found)):
+                return found, refused, left_out / (attempt * count)
+        raise InvalidValue(f"errors leave few drops that are possible: {refused}")
+
+
+def of_draws(column: Array, scale: float = 0.0) -> Any:
+    """Return the mean and the standard deviation of those draws that have a number.
+
+    Next to numbers of the size `scale`, deviations of round-off are none.
+
+    Examples
+    --------
+    >>> of_draws(np.array([1.0, 3.0, np.nan]))
+    2.0+/-1.0
+    """
+    known = column[np.isfinite(column)]
+    if not len(known):
+        return known_to(np.nan, 0.0)
+    mean, deviation = float(np.mean(known)), float(np.std(known))
+    return known_to(mean, deviation if deviation > _ROUND_OFF * max(abs(mean), scale) else 0.0)
+
+
+def error_of_deviation(column: Array) -> float:
+    """Return the relative standard error of the standard deviation of draws; 0 without spread.
+
+    Examples
+    --------
+    >>> round(error_of_deviation(np.array([-1.0, 0.0, 0.0, 1.0] * 25)), 3)
+    0.05
+    """
+    known = column[np.isfinite(column)]
+    if not len(known) or of_draws(known).std_dev == 0.0:
+        return 0.0
+    z = (known - np.mean(known)) / np.std(known)
+    return float(np.sqrt(max(np.mean(z**4) - 1.0, 0.0) / (4.0 * len(known))))
+
+
+def read_inputs(drop: Drop, errors: object) -> Inputs:
+    """Check the numbers with errors and return them; see `predict`."""
+    if not isinstance(errors, Mapping) or not errors:
+        raise InvalidType(
+            "errors must map paths to numbers with errors, such as {'height': '63 ± 1 cm'}, "
+            f"got {shown(errors)}"
+        )
+    numbers = tuple(number_at(drop, path) for path in errors)
+    check_together(numbers)
+    given = {
+        k: _draws(number.path, errors[number.path])
+        for k, number in enumerate(numbers)
+        if getattr(errors[number.path], "ndim", 0) > 0
+    }
+    lengths = {len(draws) for draws in given.values()}
+    if len(lengths) > 1:
+        listed = " and ".join(map(str, sorted(lengths)))
+        raise InvalidValue(f"errors must have as many draws of each number, got {listed}")
+    known = dict(zip(given, _as_normal(list(given.values())), strict=True))
+    values = tuple(
+        known[k] if k in known else _with_error(number, errors[number.path])
+        for k, number in enumerate(numbers)
+    )
+    inputs = Inputs(numbers, values, given)
+    if not inputs.spread.any():
+        raise InvalidValue("errors must have a number with an error above 0, got none")
+    return inputs
+
+
+def _with_error(number: Number, value: Any) -> Any:
+    """Return a value with its error as a UFloat in SI units."""
+    path, unit = number.path, number.unit
+    right = "a number with an error, such as ufloat(0.63, 0.01), (0.63, 0.01) or '0.63 ± 0.01'"
+    found = value
+    if isinstance(value, str):
+        found = quantity_with_error(value, unit, path)
+    elif isinstance(value, Sequence) and len(value) == 2:
+        mean, error = (quantity(one, unit, path) for one in value)
+        if error < 0.0:
+            raise InvalidValue(f"{path}'s error must be 0 or above, got {error:g}")
+        found = known_to(mean, error)
+    if not hasattr(found, "nominal_value"):
+        raise InvalidType(f"{path} must be {right}, got {shown(value)}")
+    finite(path, found.nominal_value)
+    finite(f"{path}'s error", found.std_dev)
+    return found
+
+
+def _draws(path: str, value: Any) -> Array:
+    """Return the draws of a number."""
+    draws = np.asarray(value)
+    if draws.ndim != 1 or len(draws) < _FEWEST or draws.dtype.kind not in "iuf":
+        raise InvalidValue(
+            f"{path} must be a number with an error or an array of {_FEWEST} draws or more, "
+            f"got an array of {draws.dtype} {draws.shape}"
+        )
+    if not np.all(np.isfinite(draws)):
+        raise InvalidValue(f"{path} must have finite draws")
+    return draws.astype(float)
+
+
+def _as_normal(draws: Sequence[Array]) -> list[Any]:
+    """Return UFloats with the means and the covariances of draws."""
+    from uncertainties import correlated_values
+
+    if not draws:
+        return []
+    means = [float(np.mean(one)) for one in draws]
+    return list(correlated_values(means, np.atleast_2d(np.cov(np.array(draws)))))
+
+
+def possible(drop: Drop, numbers: Sequence[Number], x: Array) -> tuple[NDArray[np.bool_], str]:
+    """Return which rows (n, numbers) are possible drops, and the first message of those not."""
+    every = np.ones(len(x), dtype=bool)
+    try:
+        check(drop, dict(zip(numbers, x.T, strict=True)), lambda _: "")
+    except (InvalidValue, InvalidType) as error:
+        wrong = str(error).strip()
+        for i, row in enumerate(x.tolist()):
+            try:
+                drop_at(drop, dict(zip(numbers, row, strict=True)))
+            except (InvalidValue, InvalidType):
+                every[i] = False
+        return every, wrong
+    return every, ""

@@ -1,0 +1,111 @@
+"""`predict`: what follows of a drop whose numbers have errors."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from stackbounce.errors import whole
+from stackbounce.extras import need
+from stackbounce.model import Drop
+from stackbounce.prediction.inputs import read_inputs
+from stackbounce.prediction.linearity import Slopes, Solved, differentiate
+from stackbounce.prediction.result import Prediction
+from stackbounce.run.driver import simulate
+from stackbounce.run.options import Options, run_options
+from stackbounce.run.paths import drop_at
+from stackbounce.run.quantities import solve_quantities
+from stackbounce.run.result import ROUND_OFF
+
+__all__ = ["predict"]
+
+_MOST, _DRAWS, _FEWEST = 10_000_000, 10_000, 100
+_EVENTS, _NONLINEAR_EVENTS = 1_000_000, 200_000  # of all draws together, by default
+_FEW = 1e-3  # share of draws that are not possible, which derivatives do without
+
+
+def predict(
+    drop: Drop,
+    errors: Mapping[str, Any],
+    *,
+    until: float | None = None,
+    rtol: float = 1e-12,
+    event_limit: int = 1_000_000,
+    draws: int | None = None,
+    seed: int = 0,
+) -> Prediction:
+    """Run a drop whose numbers have errors; return speeds, times and energy with errors.
+
+    Parameters
+    ----------
+    drop : Drop
+        All numbers; those in `errors` replace its own.
+    errors : mapping
+        Numbers with errors, by the paths that `sweep` has: a ``UFloat`` of `uncertainties`, in SI
+        units (correlated ones stay so), a text such as ``"63 ± 1 cm"``, a pair of value and
+        standard deviation, or an array of draws, of which each row holds for all arrays.
+    until, rtol, event_limit
+        As in `simulate`, for every drop.
+    draws : int, optional
+        The number of draws, 100 or above; by default 10 000, and fewer where these would have more
+        than a million events (200 000 under nonlinear contact laws), but 100 at least. Given draws
+        have their own number.
+    seed : int, optional
+        Of the random numbers: the same seed gives the same draws, bit for bit.
+
+    Returns
+    -------
+    Prediction
+
+    Raises
+    ------
+    InvalidValue
+        If the drop has no such number, an error is negative, or few draws are possible drops.
+    InvalidType
+        If something has the wrong type.
+    MissingExtra
+        If the extra `measure` is not installed.
+
+    Notes
+    -----
+    Errors are those of normal distributions. They are carried by derivatives (central differences)
+    where all draws follow these to a tenth of the error and have the same numbers of contact
+    intervals. Elsewhere values and errors are mean and standard deviation of draws; numbers that
+    no drop can have, such as negative gaps, are left out. `Prediction.how` says which and why.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(0.6), sb.Ball(0.06)], [sb.Spring(2e4)] * 2, height=0.63)
+    >>> found = sb.predict(drop, {"height": "63 ± 1 cm", "gaps.0": "1.0 ± 0.5 mm"})
+    >>> found.how[:62]
+    'errors by 10000 draws: numbers within the errors are not possi'
+    >>> str(found["rebound_speeds.1"])
+    '4.28+/-0.10'
+    """
+    need("measure", "a number with an error")
+    options = run_options(drop, until, rtol, event_limit)
+    inputs = read_inputs(drop, errors)
+    best = drop_at(drop, dict(zip(inputs.numbers, inputs.values.tolist(), strict=True)))
+    count = (
+        _default_draws(best, options) if draws is None else whole("draws", draws, _FEWEST, _MOST)
+    )
+    drawn, refused, share = inputs.draw(best, count, whole("seed", seed, 0, 2**32 - 1))
+    reason = "draws were given" if inputs.given else ""
+    if share > _FEW and not reason:
+        reason = f"numbers within the errors are not possible and left out: {refused}"
+    if reason:
+        slopes: Slopes = {}
+        solved = Solved(*solve_quantities(best, inputs.rows(drawn), len(drawn), options))
+        difference = np.inf
+    else:
+        slopes, solved, reason, difference = differentiate(best, inputs, drawn, options)
+    return Prediction(best, inputs, options, reason, difference, slopes, drawn, solved, refused)
+
+
+def _default_draws(drop: Drop, options: Options) -> int:
+    """Return how many draws of a drop have a reasonable number of events together."""
+    until = options.until if np.isfinite(options.until) else None
+    result = simulate(drop, until=until, rtol=options.rtol, event_limit=options.event_limit)
+    most = _NONLINEAR_EVENTS if result.precision > ROUND_OFF else _EVENTS
+    return min(_DRAWS, max(_FEWEST, most // max(1, len(result.events))))

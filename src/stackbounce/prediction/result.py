@@ -1,0 +1,452 @@
+"""The result of `predict`: what follows of a drop whose numbers have errors, with errors."""
+
+import functools
+import math
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.model import Drop
+from stackbounce.prediction.inputs import Array, Inputs, error_of_deviation, of_draws, possible
+from stackbounce.prediction.linearity import Slopes, Solved
+from stackbounce.prediction.runs import Runs
+from stackbounce.prediction.sensitivity import fit_slopes, linear_shares, sobol_indices
+from stackbounce.run.options import Options
+from stackbounce.run.quantities import QUANTITIES, solve_quantities
+from stackbounce.run.result import Result, Status
+from stackbounce.units import rounded
+from stackbounce.version import __version__
+
+if TYPE_CHECKING:
+    import xarray as xr
+    from uncertainties import UFloat
+
+__all__ = ["Apex", "Prediction"]
+
+_CURVES = ("position", "velocity", "force", "compression")
+_ROUGH = 0.02  # the relative error of a standard deviation above which a note says so
+_FLOATS = [name for name in QUANTITIES if name != "collisions"]
+
+
+class Apex(NamedTuple):
+    """The highest point of a flight.
+
+    Parameters
+    ----------
+    ball : int
+        Which ball.
+    flight : int
+        Which of its flights that have a highest point, from 0.
+    time, height : UFloat
+        In s and m.
+    share : float
+        The share of the drops that have it.
+    """
+
+    ball: int
+    flight: int
+    time: Any
+    height: Any
+    share: float
+
+
+@dataclass(frozen=True, eq=False)
+class Prediction:
+    """What follows of a drop whose numbers have errors, with errors; made by `predict`.
+
+    ``prediction["rebound_speeds.1"]`` is a value with its error; the names are those that `fit`
+    has: `rebound_speeds` (m/s), `rebound_ratios`, `rebound_heights` (m), `first_touch`,
+    `last_release` and `durations` of the contacts (s), `energy_retained`.
+
+    Parameters
+    ----------
+    drop : Drop
+        With the values of the numbers.
+    inputs : Inputs
+        The numbers with errors.
+    options : Options
+        Of each run.
+    reason : str
+        Why the errors come from draws; empty if they come from derivatives.
+    difference : float
+        How far draws are from the straight lines of the derivatives, in standard deviations.
+    slopes : mapping
+        Value and derivatives of each quantity; empty if draws were needed from the first.
+    drawn : ndarray
+        (draws, numbers) the numbers of the draws.
+    solved : Solved
+        The quantities of the draws.
+    refused : str
+        Why some draws were left out; empty if none was.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> laws = [sb.Spring(2e4), sb.Spring(1e4)]
+    >>> drop = sb.Drop([sb.Ball(0.6), sb.Ball(0.06)], laws, gaps=[0.002], height=0.63)
+    >>> found = sb.predict(drop, {"height": "63 ± 1 cm", "balls.1.mass": (0.06, 0.001)})
+    >>> found.method, str(found["rebound_speeds.1"])
+    ('derivatives', '4.93+/-0.05')
+    """
+
+    drop: Drop
+    inputs: Inputs = field(repr=False)
+    options: Options = field(repr=False)
+    reason: str
+    difference: float
+    slopes: Slopes = field(repr=False)
+    drawn: Array = field(repr=False)
+    solved: Solved = field(repr=False)
+    refused: str = field(repr=False)
+
+    @property
+    def method(self) -> str:
+        """``derivatives`` or ``draws``."""
+        return "draws" if self.reason else "derivatives"
+
+    @property
+    def errors(self) -> "dict[str, UFloat]":
+        """The numbers with errors, by their paths, in SI units."""
+        return dict(zip(self.inputs.paths, self.inputs.errors, strict=True))
+
+    @property
+    def result(self) -> Result:
+        """The run with the values of the numbers."""
+        return self._runs.best
+
+    @functools.cached_property
+    def _runs(self) -> Runs:
+        return Runs(self.drop, self.inputs, self.options, self.drawn if self.reason else None)
+
+    def __getitem__(self, name: str) -> "UFloat":
+        """Return a value with its error, such as ``rebound_speeds.1``, in SI units."""
+        values = self._all
+        if name not in values:
+            raise InvalidValue(f"{shown(name)} is not predicted; {nearest(name, values)}")
+        return values[name]
+
+    @property
+    def rebound_speeds(self) -> list[Any]:
+        """(N,) velocity of each ball after the impact, m/s, up-positive."""
+        return self._parts("rebound_speeds")
+
+    @property
+    def rebound_ratios(self) -> list[Any]:
+        """(N,) rebound speed of each ball over the impact speed v0."""
+        return self._parts("rebound_ratios")
+
+    @property
+    def rebound_heights(self) -> list[Any]:
+        """(N,) how far each ball rises at its rebound speed, m; negative if it moves down."""
+        return self._parts("rebound_heights")
+
+    @property
+    def first_touch(self) -> list[Any]:
+        """(N,) time of each contact's first touch, s."""
+        return self._parts("first_touch")
+
+    @property
+    def last_release(self) -> list[Any]:
+        """(N,) time at which each contact opened last, s."""
+        return self._parts("last_release")
+
+    @property
+    def durations(self) -> list[Any]:
+        """(N,) time from each contact's first touch to its last release, s."""
+        return self._parts("durations")
+
+    @property
+    def energy_retained(self) -> Any:
+        """Kinetic energy of all balls at the end over that at the start."""
+        return self["energy_retained"]
+
+    @property
+    def collisions(self) -> list[dict[int, float]]:
+        """The share of the drops within the errors by the count of each contact's intervals."""
+        counts = self.solved.tables["collisions"]
+        found = [np.unique(column, return_counts=True) for column in counts.T]
+        return [dict(zip(k.tolist(), (n / len(counts)).tolist(), strict=True)) for k, n in found]
+
+    @functools.cached_property
+    def draws(self) -> "xr.Dataset":
+        """All quantities of drops that are drawn within the errors.
+
+        With the dimensions `draw`, and `ball` or `contact`; the numbers drawn are coordinates.
+        """
+        import xarray as xr
+
+        data: dict[str, Any] = {"status": ("draw", self.solved.status)}
+        for name, table in self.solved.tables.items():
+            part, unit = QUANTITIES[name].part, QUANTITIES[name].unit
+            attrs = {"units": unit or "1"}
+            data[name] = (("draw", part), table, attrs) if part else ("draw", table[:, 0], attrs)
+        numbers = {
+            number.path: ("draw", self.drawn[:, k], {"units": number.unit})
+            for k, number in enumerate(self.inputs.numbers)
+        }
+        return xr.Dataset(data, numbers, {"stackbounce": __version__, "drop": self.drop.to_toml()})
+
+    def quantiles(self, name: str, at: Any = (0.159, 0.5, 0.841)) -> Array:
+        """Return quantiles of a number over the draws, by default the median and one sigma.
+
+        Parameters
+        ----------
+        name : str
+            Such as ``rebound_speeds.1``.
+        at : array_like, optional
+            (n,) from 0 to 1.
+
+        Returns
+        -------
+        ndarray
+            (n,) in SI units; nan if no draw has the number.
+        """
+        _ = self[name]
+        base, _, part = name.partition(".")
+        column = self.draws[base].values
+        return np.asarray(np.nanquantile(column[:, int(part)] if part else column, at))
+
+    @functools.cached_property
+    def sensitivity(self) -> "xr.Dataset":
+        """The share of each number's error in the variance of each quantity.
+
+        `first` (quantity, number) is the share that a number makes on its own, and `total` that
+        which it makes on its own and together with others. With draws these are Sobol indices, and
+        `first_error` and `total_error` their standard errors. For correlated numbers they are not
+        defined: `first` is then the share by derivatives, or by a straight line through the draws,
+        and `total` is nan.
+        """
+        import xarray as xr
+
+        found = self._sobol() if self.reason and self.inputs.independent else self._linear()
+        labels = [_label(name, k) for name, one in found.items() for k in range(len(one.first))]
+        fields = {
+            key: (("quantity", "number"), np.concatenate([getattr(s, key) for s in found.values()]))
+            for key in ("first", "first_error", "total", "total_error")
+        }
+        return xr.Dataset(fields, {"quantity": labels, "number": self.inputs.paths})
+
+    def advice(self, name: str = "") -> str:
+        """Return which number to measure better, in a sentence; empty if there is only one.
+
+        Parameters
+        ----------
+        name : str, optional
+            For which quantity; by default the speed of the uppermost ball.
+
+        Returns
+        -------
+        str
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(0.06)], [sb.Rigid(0.8)], height=0.63)
+        >>> errors = {"height": "63 ± 1 cm", "contacts.0.restitution": (0.8, 0.01)}
+        >>> sb.predict(drop, errors).advice()
+        'measure contacts.0.restitution better: it makes 71 % of the variance of rebound_speeds.0'
+        """
+        name = name or f"rebound_speeds.{len(self.drop.balls) - 1}"
+        _ = self[name]
+        if len(self.inputs.numbers) < 2:
+            return ""
+        row = self.sensitivity.sel(quantity=name)
+        shares = (row["first"] if np.isnan(row.total).all() else row.total).values
+        if not np.isfinite(shares).all():
+            return ""
+        best = int(np.argmax(shares))
+        words = f"measure {self.inputs.paths[best]} better: it makes {100.0 * shares[best]:.0f} %"
+        together = "" if self.inputs.independent else " (the errors are correlated)"
+        return f"{words} of the variance of {name}{together}"
+
+    @property
+    def how(self) -> str:
+        """How the errors were found, in a sentence.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(0.06)], [sb.Rigid(0.8)], height=0.63)
+        >>> sb.predict(drop, {"height": "63 ± 1 cm"}).how
+        'errors by derivatives: 10000 drops within the errors follow them to 1 % of the error'
+        """
+        if self.reason:
+            return f"errors by {len(self.drawn)} draws: {self.reason}"
+        return (
+            f"errors by derivatives: {len(self.drawn)} drops within the errors "
+            f"follow them to {max(1, math.ceil(100.0 * self.difference))} % of the error"
+        )
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What limits the prediction, a sentence each."""
+        found = []
+        if self.refused and self.refused not in self.reason:
+            found.append(f"numbers that are not possible were left out: {self.refused}")
+        status = self.solved.status
+        bad = int(np.isin(status, (Status.EVENT_LIMIT, Status.INVALID)).sum())
+        if bad:
+            found.append(f"{bad} of {len(status)} drops did not finish and were left out")
+        if self.reason:
+            errors = {
+                _label(name, part): error_of_deviation(column)
+                for name in _FLOATS
+                for part, column in enumerate(self.solved.tables[name].T)
+            }
+            rough = [name for name, error in errors.items() if error > _ROUGH]
+            if rough:
+                names = ", ".join(rough[:3]) + " and others" * (len(rough) > 3)
+                found.append(
+                    f"the error of {names} is known "
+                    f"to {max(errors.values()):.0%} only, for it comes from few draws far out or "
+                    "from few draws; quantiles say more"
+                )
+        return tuple(found)
+
+    def table(self) -> str:
+        """Return all numbers with their errors as a text, a line each."""
+        lines = []
+        for name, one in self._all.items():
+            value, error = rounded((one.nominal_value, one.std_dev), one.std_dev)
+            unit = QUANTITIES[name.partition(".")[0]].unit
+            lines.append(f"{name:<20} {value:>10} ± {error:<8} {unit}".rstrip())
+        return "\n".join(lines)
+
+    @functools.cached_property
+    def apexes(self) -> list[Apex]:
+        """The highest points of the flights; with gravity only. From 1000 draws, if by draws."""
+
+        def points(result: Result) -> dict[tuple[int, int, str], float]:
+            counts: dict[int, int] = {}
+            found = {}
+            for ball, time, height in result.apexes.tolist():
+                k = counts.setdefault(ball, 0)
+                counts[ball] += 1
+                found[ball, k, "time"], found[ball, k, "height"] = time, height
+            return found
+
+        found = self._runs.carry(points)
+        return [
+            Apex(ball, k, time, found[ball, k, "height"][0], share)
+            for (ball, k, what), (time, share) in sorted(found.items())
+            if what == "time"
+        ]
+
+    def carry(self, function: Callable[[Result], Mapping[Any, float]]) -> "dict[Any, UFloat]":
+        """Return any numbers of a `Result` with their errors.
+
+        Parameters
+        ----------
+        function : callable
+            Takes a Result, returns numbers by name. A number may be missing in some results.
+
+        Returns
+        -------
+        dict of str to UFloat
+            By derivatives, or from 1000 draws, as all others.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(0.06)], [sb.Spring(2e4)], height=0.63)
+        >>> found = sb.predict(drop, {"height": "63 ± 1 cm"})
+        >>> forces = found.carry(lambda result: {"peak": result.intervals["peak_force"].max()})
+        >>> str(forces["peak"])
+        '121.8+/-1.0'
+        """
+        return {name: value for name, (value, _) in self._runs.carry(function).items()}
+
+    def band(self, times: Any, name: str = "position") -> tuple[Array, Array]:
+        """Return the lower and the upper end of one standard deviation of a curve.
+
+        Parameters
+        ----------
+        times : array_like
+            (T,) in s, as `Result.sample` takes them.
+        name : str, optional
+            A variable of `Result.sample` that has a ball or a contact: ``position``, ``velocity``,
+            ``force`` or ``compression``.
+
+        Returns
+        -------
+        low, high : ndarray
+            (balls, T) in SI units; with draws, quantiles at 15.9 and 84.1 % of 1000 of them.
+
+        Raises
+        ------
+        InvalidValue
+            If there is no such variable, or a time is not one of the run.
+        """
+        if name not in _CURVES:
+            raise InvalidValue(f"{shown(name)} is not a curve; {nearest(name, _CURVES)}")
+        return self._runs.band(times, name)
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the prediction as plain values, for JSON."""
+        return {
+            "method": self.method,
+            "how": self.how,
+            "advice": self.advice(),
+            "notes": list(self.notes),
+            "numbers": {name: _plain(one) for name, one in self.errors.items()},
+            "values": {name: _plain(one) for name, one in self._all.items()},
+            "shares": {
+                number: self.sensitivity["first"].sel(number=number).to_series().to_dict()
+                for number in self.inputs.paths
+            },
+        }
+
+    @functools.cached_property
+    def _all(self) -> dict[str, Any]:
+        return dict(self._values())
+
+    def _values(self) -> Iterator[tuple[str, Any]]:
+        """Yield the names and values of all quantities."""
+        for name in _FLOATS:
+            if self.reason:
+                table = self.solved.tables[name]
+                scale = float(np.max(np.abs(table), initial=0.0, where=np.isfinite(table)))
+                for part, column in enumerate(table.T):
+                    yield _label(name, part), of_draws(column, scale)
+            else:
+                values, slopes = self.slopes[name]
+                for part, value in enumerate(values.tolist()):
+                    yield _label(name, part), self.inputs.linear(value, slopes[part])
+
+    def _parts(self, name: str) -> list[Any]:
+        return [self[f"{name}.{k}"] for k in range(len(self.drop.balls))]
+
+    def _solve(self, x: Array) -> dict[str, Array]:
+        """Return all quantities of some drops; nan for those that are not possible."""
+        inputs, good = self.inputs, np.ones(len(x), dtype=bool)
+        if self.refused:
+            good, _ = possible(self.drop, inputs.numbers, x)
+        rows = inputs.rows(np.where(good[:, None], x, inputs.values))
+        tables, _ = solve_quantities(self.drop, rows, len(x), self.options)
+        return {name: np.where(good[:, None], table, np.nan) for name, table in tables.items()}
+
+    def _linear(self) -> dict[str, Any]:
+        inputs, slopes = self.inputs, {name: one for name, (_, one) in self.slopes.items()}
+        if self.reason:
+            slopes = {name: fit_slopes(self.drawn, self.solved.tables[name]) for name in _FLOATS}
+        return {
+            name: linear_shares(one, inputs.covariance, independent=inputs.independent)
+            for name, one in slopes.items()
+        }
+
+    def _sobol(self) -> dict[str, Any]:
+        half = len(self.drawn) // 2
+        answers = {name: self.solved.tables[name][: 2 * half] for name in _FLOATS}
+        first, second = self.drawn[:half], self.drawn[half : 2 * half]
+        return sobol_indices(self._solve, first, second, answers)
+
+
+def _label(name: str, part: int) -> str:
+    return f"{name}.{part}" if QUANTITIES[name].part else name
+
+
+def _plain(one: Any) -> dict[str, float]:
+    return {"value": one.nominal_value, "error": one.std_dev}

@@ -1,0 +1,94 @@
+"""Runs of a drop one by one, for what a batch does not give: forces, apexes, curves in time."""
+
+import functools
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from stackbounce.model import Drop
+from stackbounce.prediction.inputs import Array, Inputs, of_draws
+from stackbounce.prediction.linearity import STEP
+from stackbounce.run.driver import simulate
+from stackbounce.run.options import Options
+from stackbounce.run.paths import drop_at
+from stackbounce.run.result import Result
+
+__all__ = ["Runs"]
+
+_MOST = 1000  # draws that are run
+_ONE_SIGMA = (0.159, 0.841)
+
+
+@dataclass(frozen=True, eq=False)
+class Runs:
+    """Runs of a drop whose numbers have errors, each a `Result`.
+
+    Parameters
+    ----------
+    drop : Drop
+        With the values of the numbers.
+    inputs : Inputs
+        The numbers with errors.
+    options : Options
+        Of each run.
+    drawn : ndarray or None
+        (n, numbers) draws, of which the first 1000 are run; None for derivatives.
+    """
+
+    drop: Drop
+    inputs: Inputs
+    options: Options
+    drawn: Array | None
+
+    @functools.cached_property
+    def best(self) -> Result:
+        """The run with the values of the numbers."""
+        return self._simulate(self.inputs.values)
+
+    @functools.cached_property
+    def results(self) -> list[Result]:
+        """The runs of draws; or the best one, those with each number larger, those with smaller."""
+        if self.drawn is not None:
+            return [self._simulate(x) for x in self.drawn[:_MOST]]
+        values, steps = self.inputs.values, np.diag(STEP * self.inputs.deviations)
+        return [self.best, *map(self._simulate, [*(values + steps), *(values - steps)])]
+
+    def carry(self, function: Callable[[Result], Mapping[Any, float]]) -> dict[Any, Any]:
+        """Return numbers of the results with errors, and the share of the results with each."""
+        answers = [function(result) for result in self.results]
+        found = {}
+        for name in dict.fromkeys(name for answer in answers for name in answer):
+            column = np.array([float(answer.get(name, np.nan)) for answer in answers])
+            column[~np.isfinite(column)] = np.nan
+            share = float(np.mean(np.isfinite(column)))
+            if self.drawn is None and share == 1.0:
+                found[name] = self.inputs.linear(float(column[0]), self._slopes(column)), share
+            else:
+                found[name] = of_draws(column), share
+        return found
+
+    def band(self, times: Any, name: str) -> tuple[Array, Array]:
+        """Return the ends of one standard deviation of a curve; see `Prediction.band`."""
+        within = np.minimum(times, self.options.until)
+        curves = np.array([result.sample(within)[name].values for result in self.results])
+        if self.drawn is not None:
+            low, high = np.nanquantile(curves, _ONE_SIGMA, axis=0)
+            return low, high
+        each = np.tensordot(self.inputs.spread.T, self._slopes(curves), axes=1)
+        deviation = np.sqrt(np.sum(each**2, axis=0))
+        return curves[0] - deviation, curves[0] + deviation
+
+    def _slopes(self, answers: Array) -> Array:
+        """Return the derivatives (numbers, ...) of answers (results, ...)."""
+        up, down = np.split(answers[1:], 2)
+        widths = 2.0 * STEP * self.inputs.deviations
+        widths[widths == 0.0] = np.inf
+        return np.asarray(((up - down).T / widths).T)
+
+    def _simulate(self, x: Array) -> Result:
+        numbers = dict(zip(self.inputs.numbers, x.tolist(), strict=True))
+        until, rtol, limit = self.options
+        end = until if np.isfinite(until) else None
+        return simulate(drop_at(self.drop, numbers), until=end, rtol=rtol, event_limit=limit)

@@ -1,0 +1,87 @@
+"""``stackbounce simulate`` of numbers with errors."""
+
+import json
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.cli.errors_given import split_errors
+
+PAIR = ["simulate", "basketball", "tennis", "--height", "63 ± 1 cm", "--gap", "2mm"]
+
+
+def said(capsys, *arguments):
+    """Return what a command printed; it has to succeed."""
+    assert main(list(arguments)) == 0
+    return capsys.readouterr().out
+
+
+def test_tables_have_errors_and_say_how(capsys):
+    out = said(capsys, *PAIR, "--error", "balls.1.mass=1g")
+    rows = {line.split()[0]: line.split()[1:] for line in out.splitlines() if line.strip()}
+    assert rows["tennis"][:2] == ["-3.515(28)", "6.413(53)"]
+    assert "Errors by derivatives: 10000 drops within the errors follow them" in out
+    assert "Measure height better: it makes 8" in out
+
+
+def test_json_has_the_errors_of_predict(capsys):
+    plain = json.loads(said(capsys, *PAIR[:4], "63 cm", *PAIR[5:], "--json"))
+    found = json.loads(said(capsys, *PAIR, "--json"))
+    errors = found.pop("errors")
+    assert found == plain
+    assert errors["method"] == "derivatives"
+    drop = sb.Drop.from_mapping(found["drop"])
+    exact = sb.predict(drop, {"height": (0.63, 0.01)})["rebound_speeds.1"]
+    assert errors["values"]["rebound_speeds.1"]["error"] == pytest.approx(exact.std_dev)
+
+
+def test_errors_stand_in_every_option():
+    given = {
+        "height": None,
+        "speed": "3.5(1) m/s",
+        "gravity": "9.81 +/- 0.01 m/s^2",
+        "gap": ["1mm", "2 mm ± 0.1"],
+        "contact": ["Spring stiffness='2.5 ± 0.1 kN/m'", "Spring stiffness=1kN/m"],
+    }
+    plain, written = split_errors(given)
+    assert plain["contact"] == ["Spring 'stiffness=2.5 kN/m'", "Spring stiffness=1kN/m"]
+    assert plain["gap"] == ["1mm", "2 mm"]
+    assert written == {
+        "impact_speed": "3.5(1) m/s",
+        "gravity": "9.81 +/- 0.01 m/s^2",
+        "gaps.1": "2 mm ± 0.1",
+        "contacts.0.stiffness": "2.5±0.1 kN/m",
+    }
+
+
+@pytest.mark.slow
+def test_apexes_and_counts_have_errors(capsys):
+    out = said(capsys, *PAIR, "--gravity", "9.81", "--until", "1s")
+    assert "Highest points, the first 3 of each ball" in out
+
+
+@pytest.mark.slow
+def test_a_picture_with_bands(tmp_path, capsys):
+    path = tmp_path / "bounce.svg"
+    said(capsys, *PAIR, "--plot", str(path))
+    assert path.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--error", "balls.1.mass"], "--error must be PATH=ERROR, such as balls.1.mass=1g"),
+        (["--error", "mass=1g"], "mass is not a parameter of this drop"),
+        (["--error", "balls.1.mass=1cm"], "--error balls.1.mass must be a mass"),
+        (["--error", "height=1cm"], "--error height: only one error can be given, got two"),
+        (["--error", "balls.1.mass=-1g"], "balls.1.mass's error must be 0 or above"),
+        (["--gap", "2 mm ± 1 s"], "gaps.0 must be a length"),
+        (["--contact", "Spring stiffness=1±kN/m", "--contact", "Spring stiffness=1"], "must be"),
+    ],
+)
+def test_wrong_errors_are_one_line(arguments, message, capsys):
+    assert main([*PAIR[:-2], *arguments]) == 2
+    err = capsys.readouterr().err
+    assert message in err
+    assert err.count("\n") == 1
