@@ -4,6 +4,7 @@ Each start is a process of its own, with what Python keeps of the files it has r
 bytecode) at hand. The starts take turns, so that a busy second does not fall on all tries of one.
 """
 
+import os
 import resource
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from statistics import median
 from time import perf_counter
 
 ROUNDS = 20
+_KEEPS = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
 BASE = "import numpy"
 SIMULATE = (
     "import stackbounce as sb; "
@@ -59,7 +61,7 @@ def measure(progress: Callable[[str], None], rounds: int = ROUNDS) -> list[Start
 def _spent(code: str) -> tuple[float, float]:
     """Return processor time and time by the clock, in s, of a process that runs some code."""
     before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), perf_counter()
-    subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL)
+    subprocess.run([sys.executable, "-c", code], check=True, stdout=subprocess.DEVNULL, env=_KEEPS)
     clock, after = perf_counter() - begin, resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime - before.ru_utime + after.ru_stime - before.ru_stime, clock
 
