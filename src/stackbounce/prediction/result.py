@@ -285,7 +285,7 @@ class Prediction:
         """What limits the prediction, a sentence each."""
         found = []
         if self.refused and self.refused not in self.reason:
-            found.append(f"numbers that are not possible were left out: {self.refused}")
+            found.append(f"draws that no drop can have were left out, the first as {self.refused}")
         status = self.solved.status
         bad = int(np.isin(status, (Status.EVENT_LIMIT, Status.INVALID)).sum())
         if bad:
