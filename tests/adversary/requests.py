@@ -285,7 +285,7 @@ async def _ask(place: tuple[str, int], request: Request) -> tuple[int, str]:
                     whole = await reader.read(1 << 16)
             writer.write_eof()
         whole += await reader.read()
-    except ConnectionError:
+    except OSError:
         return 0, ""  # a server may close a connection at any time
     finally:
         writer.close()

@@ -1,5 +1,6 @@
 """How far errors of a drop's numbers grow, against runs of drops whose numbers are off."""
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
@@ -75,6 +76,16 @@ def test_chaos_is_told():
     assert 2.0 < rough.known_until < fine.known_until
     early = [sb.simulate(drop, until=1.8, rtol=rtol).rebound_speeds for rtol in (1e-12, 1e-14)]
     assert early[0] == pytest.approx(early[1], abs=1e-4)
+
+
+@pytest.mark.parametrize("speed", [1e-300, 1e300, 1.7e308])
+def test_speeds_at_the_ends_of_the_range(speed):
+    balls = [sb.Ball(0.6), sb.Ball(0.06)]
+    result = sb.simulate(sb.Drop(balls, [sb.Rigid(1.0)] * 2, impact_speed=speed))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert (result.conditioning >= 0.0).all()
+        assert result.known_until >= 0.0
 
 
 def test_a_run_without_speeds_knows_none():

@@ -69,9 +69,10 @@ def amplification(result: "Result") -> "NDArray[np.float64]":
     factors = np.full(len(final), math.nan)
     for error in _ERRORS:
         ends = [result.rerun((), error, seed).velocities for seed in range(_RUNS)]
-        differences = np.abs(np.array(ends) - final) / speed
-        differences[~np.isfinite(differences)] = math.inf
-        factors = np.sqrt(np.mean(differences**2, axis=0)) / error
+        with np.errstate(all="ignore"):  # speeds may be near the largest numbers, or none
+            differences = np.abs(np.array(ends) - final) / speed
+            differences[~np.isfinite(differences)] = math.inf
+            factors = np.sqrt(np.mean(differences**2, axis=0)) / error
         if differences.max() <= _PROPORTIONAL:
             break
     return factors
@@ -90,6 +91,7 @@ def known_until(result: "Result") -> float:
     runs = [result.rerun(times.tolist(), 0.0, 0)]
     runs += [result.rerun(times.tolist(), result.precision, seed) for seed in range(_RUNS)]
     first, *others = (np.reshape(np.array(run.samples.velocity), shape) for run in runs)
-    spread = np.max([np.abs(other - first).max(axis=1) for other in others], axis=0)
+    with np.errstate(all="ignore"):
+        spread = np.max([np.abs(other - first).max(axis=1) for other in others], axis=0)
     unknown = np.flatnonzero(~(spread < _NO_DIGIT * result.drop.reference_speed))
     return float(times[unknown[0]]) if len(unknown) else math.inf
