@@ -9,7 +9,9 @@ import signal
 import sys
 from typing import Any, NoReturn
 
-__all__ = ["main"]
+__all__ = ["interrupt_again", "main"]
+
+_SOON = 0.02  # s, after which the object is finalised
 
 
 def main() -> int:
@@ -20,11 +22,36 @@ def main() -> int:
     from stackbounce.cli import main as run
 
     signal.signal(signal.SIGINT, wanted)
+    sys.unraisablehook = interrupt_again
     try:
         return run()
     finally:
         if wanted is signal.default_int_handler:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def interrupt_again(lost: Any) -> None:
+    """Interrupt the program once more if Python dropped an interruption; else report as usual.
+
+    It drops one that comes while an object is finalised. This is a `sys.unraisablehook`.
+    """
+    if not issubclass(lost.exc_type, KeyboardInterrupt):
+        sys.__unraisablehook__(lost)
+        return
+    import threading
+
+    threading.Timer(_SOON, _interrupt).start()
+
+
+def _interrupt() -> None:
+    """Interrupt the main thread, even if it waits for something."""
+    import _thread
+    import threading
+
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(threading.main_thread().ident or 0, signal.SIGINT)
+    else:  # Windows
+        _thread.interrupt_main()
 
 
 def _end(*_: Any) -> NoReturn:

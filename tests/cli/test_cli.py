@@ -443,6 +443,34 @@ def test_an_interruption_while_modules_are_imported_is_one_line():
     assert (done.returncode, done.stderr) == (130, "stackbounce: interrupted\n")
 
 
+LOST = """
+import signal, sys, time
+import stackbounce.cli
+from stackbounce.__main__ import main
+
+class Finalised:
+    def __del__(self):
+        signal.raise_signal(signal.SIGINT)
+
+def run():
+    try:
+        Finalised()
+        time.sleep(600.0)
+    except KeyboardInterrupt:
+        return 130
+
+stackbounce.cli.main = run
+sys.exit(main())
+"""
+
+
+def test_an_interruption_that_python_drops_comes_again():
+    done = subprocess.run(
+        [sys.executable, "-c", LOST], capture_output=True, text=True, timeout=60, check=False
+    )
+    assert (done.returncode, done.stderr) == (130, "")
+
+
 @pytest.mark.slow
 def test_pictures_do_not_depend_on_the_settings_of_matplotlib(run):
     assert run("simulate", "B1", "--plot", "plain.svg")[0] == 0
