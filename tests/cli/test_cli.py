@@ -443,6 +443,14 @@ def test_an_interruption_while_modules_are_imported_is_one_line():
     assert (done.returncode, done.stderr) == (130, "stackbounce: interrupted\n")
 
 
+def test_an_import_that_an_interruption_breaks_is_interrupted(run, monkeypatch):
+    def broken(*_, **__):
+        raise ImportError("initialization failed") from KeyboardInterrupt()
+
+    monkeypatch.setattr(sb, "simulate", broken)
+    assert run("simulate", "B1") == (130, "", "stackbounce: interrupted\n")
+
+
 LOST = """
 import signal, sys, time
 import stackbounce.cli

@@ -108,10 +108,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except MemoryError:
         return _failed("out of memory: ask for fewer balls", 1)
     except Exception as error:
-        return _failed(f"unexpected {type(error).__name__}: {error} (please report it)", 1)
+        if not _follows_an_interruption(error):
+            return _failed(f"unexpected {type(error).__name__}: {error} (please report it)", 1)
+        code = 130
     if code == 130:
         typer.echo("stackbounce: interrupted", err=True)
     return int(code or 0)
+
+
+def _follows_an_interruption(error: BaseException | None) -> bool:
+    """Tell whether Ctrl+C led to an error, as to one of a compiled module that was imported."""
+    while error is not None and not isinstance(error, KeyboardInterrupt):
+        error = error.__cause__ or error.__context__
+    return error is not None
 
 
 def _command(arguments: Sequence[str] | None) -> str:
