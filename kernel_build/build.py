@@ -5,7 +5,7 @@ import json
 import os
 import tempfile
 from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor, as_completed
 from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
@@ -60,22 +60,45 @@ def build(names: list[str], folder: Path) -> None:
 
 
 def compile_entries(entries: list[str], names: list[str]) -> list[list[bytes]]:
-    """Return the object files for each target; two processes compile half of the entries each."""
+    """Return the object files for each target, by as many processes as there are processors.
+
+    Two of them lower half of the entries each, and others compile what these return.
+    """
+    from kernel_build.machine_code import compile_level
+
     halves = [one for one in entries if one in _HALF], [one for one in entries if one not in _HALF]
     os.environ["PYTHONHASHSEED"] = "0"  # numba writes what it keeps in sets in another order else
-    with ProcessPoolExecutor(len(halves), mp_context=get_context("spawn")) as pool:
-        parts = list(pool.map(_compile, halves, [names] * len(halves)))
-    return [[one for part in parts for one in part[k]] for k in range(len(names))]
+    new = get_context("spawn")
+    with (
+        ProcessPoolExecutor(len(halves), mp_context=new) as lowering,
+        # What LLVM compiled before in a process changes a few bytes of what it compiles next.
+        ProcessPoolExecutor(mp_context=new, max_tasks_per_child=1) as compiling,
+    ):
+        lowered = {lowering.submit(_lower, half): k for k, half in enumerate(halves)}
+        parts = {
+            (name, lowered[ir], level): compiling.submit(
+                compile_level, ir.result(), TARGETS[name], level
+            )
+            for ir in as_completed(lowered)
+            for name in names
+            for level in TARGETS[name].levels
+        }
+        return [
+            [
+                parts[name, half, level].result()
+                for half in range(len(halves))
+                for level in TARGETS[name].levels
+            ]
+            for name in names
+        ]
 
 
-def _compile(entries: list[str], names: list[str]) -> list[list[bytes]]:
-    """Return the object files of some entries for each target, one for each level."""
+def _lower(entries: list[str]) -> str:
+    """Return the IR of some entries."""
     from kernel_build.lowering import lower
-    from kernel_build.machine_code import compile_levels
     from stackbounce.engine.entries import ENTRIES
 
-    ir = lower([ENTRIES[name] for name in entries])
-    return [compile_levels(ir, TARGETS[name]) for name in names]
+    return lower([ENTRIES[name] for name in entries])
 
 
 def _kinds(entry: Callable[..., Any]) -> list[str]:

@@ -17,11 +17,15 @@ _OPTIONS: dict[str, Any] = {  # no reference counts: kernels allocate nothing
     "nogil": True,
     "_nrt": False,
 }
+_NO_WRAPPERS = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 @functools.cache
-def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
-    """Return the numba-compiled form of a kernel; its marked callees are compiled with it."""
+def compile_kernel(function: Callable[..., Any], *, called: bool = True) -> Callable[..., Any]:
+    """Return the numba-compiled form of a kernel; its marked callees are compiled with it.
+
+    What is not to be `called` from Python has no wrappers for that, and compiles in less time.
+    """
     namespace = dict(function.__globals__)
     for instruction in dis.get_instructions(function):
         if instruction.opname != "LOAD_GLOBAL":
@@ -29,7 +33,7 @@ def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
         name = instruction.argval
         callee = namespace.get(name)
         if getattr(callee, MARK, False):
-            namespace[name] = compile_kernel(callee)
+            namespace[name] = compile_kernel(callee, called=called)
         elif isinstance(callee, tuple):  # a table: quick to look up and to compile as an array
             namespace[name] = np.array(callee)
     clone = types.FunctionType(
@@ -37,5 +41,6 @@ def compile_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     )
     clone.__qualname__ = function.__qualname__
     clone.__module__ = function.__module__
-    result: Callable[..., Any] = njit(**_OPTIONS)(clone)
+    options = _OPTIONS if called else _OPTIONS | _NO_WRAPPERS
+    result: Callable[..., Any] = njit(**options)(clone)
     return result

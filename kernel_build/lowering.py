@@ -4,6 +4,7 @@ numba compiles each kernel to IR of its own; here it stops there. All of it is l
 once for each target, which takes a tenth of the time that numba takes to compile for one.
 """
 
+import gc
 import re
 from collections.abc import Callable, Iterable
 from typing import Any
@@ -59,8 +60,9 @@ def lower(entries: Iterable[Callable[..., Any]]) -> str:
     """Return the IR of kernels, for no target yet; each is exported under its own name.
 
     The name of an exported function ends with ``@level@``, in place of which comes the level of the
-    processor. Nothing else is exported.
+    processor. Nothing else is exported. A process can call this once.
     """
+    gc.disable()  # numba's objects live to the end, and the search for dead ones takes its time
     generator: Any = cpu_target.target_context.codegen()
     generator._library_class = _Library
     generator.set_env = lambda *_: None
@@ -68,7 +70,7 @@ def lower(entries: Iterable[Callable[..., Any]]) -> str:
     for entry in entries:
         takes = signature(entry)
         kinds = tuple(_SCALARS.get(kind) or RecordType(kind) for kind in takes.arguments)
-        kernel: Any = compile_kernel(entry)
+        kernel: Any = compile_kernel(entry, called=False)
         kernel.compile(kinds)
         compiled = kernel.overloads[kinds]
         compiled.library._ensure_finalized()

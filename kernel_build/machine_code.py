@@ -15,8 +15,10 @@ _WINDOWS = Path(__file__).with_name("windows.c")
 _INLINING = 275  # LLVM's threshold at its third level of optimisation
 
 
-def compile_levels(ir: str, target: Target) -> list[bytes]:
-    """Compile the IR of `lowering.lower`; return an object file for each level of a target.
+def compile_level(ir: str, target: Target, level: str) -> bytes:
+    """Compile the IR of `lowering.lower`; return optimised machine code as an object file.
+
+    No fast-math and no contraction: what each operation rounds to is the same for all targets.
 
     Raises
     ------
@@ -25,10 +27,29 @@ def compile_levels(ir: str, target: Target) -> list[bytes]:
     """
     llvm.initialize_all_targets()
     llvm.initialize_all_asmprinters()
-    return [
-        _emit(ir.replace("@level@", f"_{level}" if level else ""), target, processor)
-        for level, processor in target.levels.items()
+    machine = llvm.Target.from_triple(target.triple).create_target_machine(
+        cpu=target.levels[level],
+        features=target.features,
+        opt=3,
+        reloc="pic",
+        codemodel="default",
+    )
+    text = ir.replace("@level@", f"_{level}" if level else "")
+    module = llvm.parse_assembly(text)
+    module.triple, module.data_layout = target.triple, str(machine.target_data)
+    tuning = llvm.create_pipeline_tuning_options(speed_level=3)
+    tuning.loop_vectorization = tuning.slp_vectorization = True
+    tuning.inlining_threshold = _INLINING
+    builder = llvm.create_pass_builder(machine, tuning)
+    builder.getModulePassManager().run(module, builder)
+    foreign = [
+        function.name
+        for function in module.functions
+        if function.is_declaration and not function.name.startswith("llvm.")
     ]
+    if foreign:
+        raise RuntimeError(f"kernels call {', '.join(foreign)}, which is no function of their own")
+    return bytes(machine.emit_object(module))
 
 
 def link(objects: list[bytes], entries: list[str], target: Target) -> bytes:
@@ -68,28 +89,3 @@ def link(objects: list[bytes], entries: list[str], target: Target) -> bytes:
         if done.returncode:
             raise RuntimeError(f"the linker failed for {target.file}: {done.stderr.strip()}")
         return Path(room, target.file).read_bytes()
-
-
-def _emit(text: str, target: Target, processor: str) -> bytes:
-    """Return optimised machine code as an object file.
-
-    No fast-math and no contraction: what each operation rounds to is the same for all targets.
-    """
-    machine = llvm.Target.from_triple(target.triple).create_target_machine(
-        cpu=processor, features=target.features, opt=3, reloc="pic", codemodel="default"
-    )
-    module = llvm.parse_assembly(text)
-    module.triple, module.data_layout = target.triple, str(machine.target_data)
-    tuning = llvm.create_pipeline_tuning_options(speed_level=3)
-    tuning.loop_vectorization = tuning.slp_vectorization = True
-    tuning.inlining_threshold = _INLINING
-    builder = llvm.create_pass_builder(machine, tuning)
-    builder.getModulePassManager().run(module, builder)
-    foreign = [
-        function.name
-        for function in module.functions
-        if function.is_declaration and not function.name.startswith("llvm.")
-    ]
-    if foreign:
-        raise RuntimeError(f"kernels call {', '.join(foreign)}, which is no function of their own")
-    return bytes(machine.emit_object(module))
