@@ -1,9 +1,11 @@
 """What happens when a stack of balls hits the floor: predicted, measured, fitted, explained."""
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
-
+# Nothing is imported here: importing typing alone would be most of the time until the program
+# handles Ctrl+C.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from stackbounce.calibration import calibrate, contact_time, restitution, separate
     from stackbounce.errors import StackbounceError
     from stackbounce.fitting import Fit, Model, Range, compare, fit, standard_models
@@ -82,7 +84,8 @@ _HOMES = dict.fromkeys(__all__, "model") | {
 }
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> "Any":
+    from importlib import import_module
     from importlib.util import find_spec
 
     if name in _HOMES:

@@ -7,7 +7,10 @@ handle the interruption, and when it has already ended.
 import os
 import signal
 import sys
-from typing import Any, NoReturn
+
+TYPE_CHECKING = False  # importing typing takes longer than all else before `main`
+if TYPE_CHECKING:
+    from typing import Any, NoReturn
 
 __all__ = ["interrupt_again", "main"]
 
@@ -30,7 +33,7 @@ def main() -> int:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
-def interrupt_again(lost: Any) -> None:
+def interrupt_again(lost: "Any") -> None:
     """Interrupt the program once more if Python dropped an interruption; else report as usual.
 
     It drops one that comes while an object is finalised. This is a `sys.unraisablehook`.
@@ -54,7 +57,7 @@ def _interrupt() -> None:
         _thread.interrupt_main()
 
 
-def _end(*_: Any) -> NoReturn:
+def _end(*_: "Any") -> "NoReturn":
     os.write(2, b"stackbounce: interrupted\n")
     os._exit(130)
 
