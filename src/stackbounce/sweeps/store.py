@@ -188,7 +188,7 @@ def _begin(out: Path, kind: Format, form: Form, log: Progress) -> Path | None:
             log.remove()
             return None
         if partial.exists() and log.sides is not None:
-            _resume(partial, kind, form, log)
+            _resume(out, partial, kind, form, log)
         elif out.exists():
             _mend(out, partial, kind, form, log)
         else:
@@ -207,8 +207,13 @@ def _create(partial: Path, kind: Format, form: Form, log: Progress) -> None:
     log.begin(form.sides)
 
 
-def _resume(partial: Path, kind: Format, form: Form, log: Progress) -> None:
+def _resume(out: Path, partial: Path, kind: Format, form: Form, log: Progress) -> None:
     """Go on with the partial file; blocks that are not in it are not done, whatever the log has."""
+    if out.exists():
+        raise FileError(
+            f"{out} has lost blocks, and {partial} is a second one, not complete: "
+            "remove one of the two"
+        )
     if not _is_same(partial, kind, form):
         raise FileError(
             f"{partial} is part of another sweep: remove it and {partial.stem}.progress, "
