@@ -1,5 +1,6 @@
 """The cases of `reference` as drops of stackbounce, and what the tests compare."""
 
+import math
 from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
@@ -9,6 +10,8 @@ from mpmath import mpf
 
 import stackbounce as sb
 from reference import rigid as rigid_reference
+
+INTERVAL = ["contact", "start", "end", "peak_force", "peak_compression", "impulse"]
 
 
 def contact(stiffness: float, **law: float) -> sb.Spring | sb.Hysteretic:
@@ -24,6 +27,29 @@ def drop_of(case: Mapping[str, Any]) -> sb.Drop:
         gaps=case["gaps"],
         velocities=case["velocities"],
     )
+
+
+def drop_of_laws(case: Mapping[str, Any]) -> sb.Drop:
+    """Return the drop of a case whose contacts have the names of their laws."""
+    contacts = []
+    for law in case["contacts"]:
+        numbers = dict(law or {})
+        contacts.append(getattr(sb, numbers.pop("law"))(**numbers) if law else None)
+    return sb.Drop(
+        [sb.Ball(mass) for mass in case["masses"]],
+        contacts,
+        case["gaps"],
+        velocities=case["velocities"],
+        gravity=case.get("gravity", 0.0),
+    )
+
+
+def interval_table(rows: Sequence[Sequence[Any]]) -> np.ndarray:
+    """Return intervals in order of contact and start; nan for an end that is open."""
+    rows = sorted(tuple(math.nan if x is None else float(x) for x in row) for row in rows)
+    out = np.array(rows).reshape(-1, len(INTERVAL))
+    out[~np.isfinite(out)] = math.nan
+    return out
 
 
 def springs(
@@ -71,8 +97,7 @@ def of_contact(result: sb.Result, index: int) -> np.ndarray:
 def by_contact(rows: np.ndarray) -> np.ndarray:
     """Return intervals as a table, contact by contact, each in order of time."""
     order = np.lexsort((rows["start"], rows["contact"]))
-    names = ("contact", "start", "end", "peak_force", "peak_compression", "impulse")
-    return np.stack([rows[name][order].astype(float) for name in names], axis=-1)
+    return np.stack([rows[name][order].astype(float) for name in INTERVAL], axis=-1)
 
 
 def exact(drop, limit=2000):

@@ -17,6 +17,7 @@ __all__ = [
     "ScenarioError",
     "StackbounceError",
     "UnitError",
+    "a_or_an",
     "between",
     "finite",
     "fraction",
@@ -201,6 +202,17 @@ def shown(value: object) -> str:
     except Exception:
         text = f"<unprintable {type(value).__name__} object>"
     return text if len(text) <= 60 else text[:57] + "..."
+
+
+def a_or_an(noun: str) -> str:
+    """Return a noun with its indefinite article.
+
+    Examples
+    --------
+    >>> a_or_an("acceleration"), a_or_an("press curve")
+    ('an acceleration', 'a press curve')
+    """
+    return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
 
 
 def _of(unit: str) -> str:

@@ -55,7 +55,8 @@ def content_of(path: object, most: int) -> tuple[str, bytearray]:
     except ValueError as error:  # a null character in the name
         raise FileError(f"{name!r} cannot be read: {error}") from error
     if len(content) > most:
-        raise FileError(f"{name} is larger than {most >> 20} MiB: cut out what is of interest")
+        size = f"{most >> 20} MiB" if most >= 2**20 else f"{most >> 10} KiB"
+        raise FileError(f"{name} is larger than {size}: cut out what is of interest")
     if not content:
         raise FileError(f"{name} is empty")
     return name, content

@@ -28,6 +28,7 @@ _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,4})?"
 _WRITTEN = re.compile(rf"({_NUMBER})\s*(.*)", re.DOTALL)
 # What pint may parse: names with small powers, so that no input causes a long computation.
 _TERM = r"[^\W\d_]+(?:(?:\*\*|\^)-?\d(?:\.\d{1,3})?)?"
+_WITH_ERROR = re.compile(r"±|\+/-|[0-9] ?\([0-9.]+\)")  # 63 ± 1 cm, 63(1) cm
 _UNIT = re.compile(rf"%|{_TERM}(?:\s*[*/·\s]\s*{_TERM}){{0,5}}")
 _KINDS = {
     "": ("a pure number", "0.78"),
@@ -237,6 +238,8 @@ def _message(name: str, value: object, unit: str) -> str:
     kind, example = _KINDS.get(unit, ("a quantity", f"20 {unit}"))
     number = f"a number of {unit}" if unit else "a number"
     right = f'{kind} ({number} or a string such as "{example}")'
+    if isinstance(value, str) and _WITH_ERROR.search(value):
+        right = f'{kind} without an error here, such as "{example}"'
     return f"{name} must be {right}, got {shown(value)}"
 
 

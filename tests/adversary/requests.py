@@ -50,6 +50,7 @@ _BASES: dict[str, list[dict[str, Any]]] = {
         {"drop": make_drop(2, _SPRING), "frames": 50},
         {"drop": make_drop(3, _SPRING, gravity=9.81), "until": 0.5, "frames": 50},
     ],
+    "/api/predict": [{"drop": make_drop(2, _SPRING), "errors": {"balls.0.mass": "1 g"}}],
     "/api/map": [make_map(2, _SPRING, 5), make_map(3, _SPRING, 5) | {"show": "collisions.1"}],
     "/api/map/paths": [{"drop": make_drop(2, _SPRING)}],
     "/api/export/csv": [{"drop": make_drop(2, _SPRING)}],

@@ -823,7 +823,7 @@ def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
             ["--over", "gaps.0=0", "--over", "height=1", "--over", "gravity=0", "--plot", "a.png"],
             "--plot needs one or two parameters that vary, got 3",
         ),
-        ([], "Missing option '--over'"),
+        ([], "nothing is to vary: give --over PATH=VALUES or --draws FILE"),
     ],
 )
 def test_sweep_says_what_is_wrong_in_one_line(run, tmp_path, arguments, message):

@@ -352,8 +352,8 @@ def test_what_may_never_end_is_not_read(tmp_path):
 
 def test_a_file_too_large_is_not_read(tmp_path):
     path = tmp_path / "large.toml"
-    path.write_bytes(b"#" * (2**21 + 1))
-    assert "is larger than 2 MiB" in refused(errors.FileError, Drop.from_toml, path)
+    path.write_bytes(b"#" * (2**19 + 1))
+    assert "is larger than 512 KiB" in refused(errors.FileError, Drop.from_toml, path)
 
 
 def test_no_text(read):

@@ -18,7 +18,11 @@ from stackbounce.cross2007.curves import after_collision, rebound_by_mass, rebou
 DOCS = Path(__file__).parents[2] / "docs"
 TEXT = (DOCS / "sweeps.md").read_text(encoding="utf-8")
 FENCES = re.findall(r"^```console\n\$ (stackbounce .*?)^```", TEXT, re.MULTILINE | re.DOTALL)
-COMMANDS = [shlex.split(fence.replace("\\\n", " "))[1:] for fence in FENCES]
+WORDS = [
+    [shlex.split(one)[1:] for one in fence.replace("\\\n", " ").split("\n$ ")] for fence in FENCES
+]
+COMMANDS = [words for (words, *_) in WORDS if "--plot" in words]
+(OF_DRAWS,) = (commands for commands in WORDS if len(commands) > 1)
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +53,14 @@ def test_a_command_makes_the_data_of_its_picture(command, sweeps, folder, monkey
     store = command[command.index("--out") + 1]
     xr.testing.assert_equal(xr.open_zarr(store).load(), sweeps[store.removesuffix(".zarr")])
     assert (folder / command[-1]).stat().st_size > 10_000
+
+
+def test_draws_are_dropped_from_each_height(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    assert [main(words) for words in OF_DRAWS] == [0, 0]
+    ds = xr.open_zarr("posterior.zarr")
+    assert dict(ds.status.sizes) == {"draw": 2400, "height": 3}
+    assert ds.rebound_ratio.std("draw").sel(ball=1).values == pytest.approx(0.02, rel=0.2)
 
 
 def test_every_picture_has_its_command():

@@ -1,11 +1,12 @@
 """`precise` agrees with closed forms, with published values, with the other references, itself."""
 
+import itertools
 import json
 
 import pytest
 from mpmath import mp, mpf
 
-from reference import make_data, make_laws, precise, taylor
+from reference import make_data, make_gentle, make_laws, precise, taylor
 
 CLOSE = mpf(10) ** -34
 
@@ -144,3 +145,11 @@ def test_data_file_is_what_the_script_writes():
     for index in (0, 9, 27):
         row = stored[index]
         assert row == json.loads(make_laws.row(row["case"], make_laws.solve(row["case"])))
+
+
+@pytest.mark.slow
+def test_data_file_of_gentle_contacts_is_what_the_script_writes():
+    stored = make_data.read("gentle")
+    assert [row["case"] for row in stored[:2]] == list(itertools.islice(make_gentle.pairs(), 2))
+    solved = make_laws.solve(stored[1]["case"])
+    assert stored[1] == json.loads(make_laws.row(stored[1]["case"], solved))

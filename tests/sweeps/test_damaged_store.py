@@ -60,6 +60,22 @@ def test_blocks_that_only_the_log_has_are_computed(whole, out):
     assert content(write(out, DROP, VALUES, block=64)) == content(whole)
 
 
+def test_a_damaged_store_beside_one_that_is_not_complete(tmp_path):
+    out, kept = tmp_path / "map.zarr", tmp_path / "kept"
+    shutil.move(write(out, DROP, VALUES, block=64), kept)
+    begin(out)
+    shutil.move(kept, out)
+    (out / "status" / "0.0").unlink()
+    before = content(tmp_path)
+    with pytest.raises(
+        FileError, match=r"map\.zarr has lost blocks, and .*partial is a second one"
+    ):
+        write(out, DROP, VALUES, block=64)
+    assert content(tmp_path) == before
+    shutil.rmtree(out)
+    assert write(out, DROP, VALUES, block=64) == out
+
+
 def test_blocks_of_another_shape_than_the_stores(tmp_path):
     out = tmp_path / "map.zarr"
     begin(out)

@@ -17,6 +17,7 @@ import xarray as xr
 import slow_sweep
 import stackbounce as sb
 from slow_sweep import DROP, OVER
+from stackbounce.errors import FileError, InvalidValue
 from stackbounce.sweeps import grid, opened, write
 
 KINDS = [".zarr", ".nc"]
@@ -84,6 +85,66 @@ def test_killed_at_any_moment_it_goes_on_and_ends_with_the_same_bytes(whole, tmp
     assert int(last.stdout.split()[0]) >= first[-1]
     assert digest(out) == whole[1]
     assert list(tmp_path.iterdir()) == [out]
+
+
+PAIRED = {
+    "gaps.0": ("draw", np.linspace(0.0, 1e-3, 60)),
+    "balls.0.mass": ("draw", np.geomspace(2.0, 1.0, 60)),
+    "impact_speed": [0.5, 1.0],
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_numbers_that_vary_together_are_resumed_to_the_same_bytes(tmp_path, kind):
+    if kind == ".nc":
+        pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
+    one, other = tmp_path / f"one{kind}", tmp_path / f"other{kind}"
+    write(one, DROP, PAIRED, block=50)
+    for _ in range(2):
+        with pytest.raises(Stopped):
+            write(other, DROP, PAIRED, block=50, progress=stop_after_one())
+    write(other, DROP, PAIRED, block=7)
+    assert digest(one) == digest(other)
+    with opened(other) as data:
+        assert data.load().identical(sb.sweep(DROP, PAIRED))
+    again = {**PAIRED, "gaps.0": ("draw", np.linspace(0.0, 2e-3, 60))}
+    with pytest.raises(FileError, match="is not this sweep"):
+        write(other, DROP, again)
+
+
+def stop_after_one():
+    """Return a progress that stops a sweep after its next block."""
+    calls = []
+
+    def progress(*_):
+        calls.append(1)
+        if len(calls) == 2:
+            raise Stopped
+
+    return progress
+
+
+@pytest.mark.parametrize(
+    ("values", "message"),
+    [
+        (
+            {"gaps.0": ("draw", [0.0]), "impact_speed": ("draw", [1.0, 2.0])},
+            "as many values along draw",
+        ),
+        ({"gaps.0": ("a/b", [0.0])}, "must have one dimension in a file, with a name of letters"),
+        ({"gaps.0": 0.0}, "gaps.0 must have one dimension in a file"),
+        ({"gaps.0": ("draw", [0.0, -1.0]), "impact_speed": ("draw", [1.0, 2.0])}, r"\(at draw 1\)"),
+        ({"gaps.0": ("status", [0.0])}, "a dimension named status, as results are"),
+        (
+            {"gaps.0": ("impact_speed", [0.0]), "impact_speed": ("x", [1.0])},
+            "impact_speed must do so too, got x",
+        ),
+    ],
+)
+def test_values_that_cannot_be_in_a_file(tmp_path, values, message):
+    with pytest.raises(InvalidValue, match=message):
+        write(tmp_path / "a.zarr", DROP, values)
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.slow

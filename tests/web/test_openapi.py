@@ -26,6 +26,7 @@ OPERATIONS = [
     ("POST", "/api/law"),
     ("POST", "/api/like"),
     ("POST", "/api/simulate"),
+    ("POST", "/api/predict"),
     ("POST", "/api/map"),
     ("POST", "/api/map/paths"),
     ("POST", "/api/export/{kind}"),

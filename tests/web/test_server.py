@@ -98,6 +98,50 @@ def test_separate_collisions_stand_beside(server, drop):
     assert np.array(got["separate"]["position"])[:, times >= 0.0] == pytest.approx(place, abs=1e-8)
 
 
+def test_errors_are_carried_as_by_predict(server, drop):
+    asked = {"impact_speed": "5 cm/s", "balls.1.mass": 0.001}
+    found = answer(server, "predict", drop=drop, errors=asked)
+    plain = sb.Drop.from_mapping(drop)
+    exact = sb.predict(
+        plain,
+        {"impact_speed": (plain.impact_speed, 0.05), "balls.1.mass": (plain.balls[1].mass, 0.001)},
+    )
+    for name in ("rebound_speeds.1", "energy_retained", "last_release.0"):
+        assert found["values"][name]["error"] == pytest.approx(
+            exact[name].std_dev, rel=1e-4, abs=1e-9
+        )
+    band = found["band"]
+    assert found["method"] == exact.method
+    low, high = exact.band(band["time"])
+    assert np.array(band["position"]) == pytest.approx(np.array([low, high]), abs=1e-7)
+    assert np.array(band["force"]).shape == (2, 2, len(band["time"]))
+
+
+def test_errors_of_rigid_balls_have_no_force(server, drop):
+    rigid = drop | {"contacts": [{"law": "Rigid", "restitution": 0.8}] * len(drop["balls"])}
+    found = answer(server, "predict", drop=rigid, errors={"contacts.0.restitution": 0.01})
+    assert set(found["band"]) == {"time", "position"}
+    whole = rigid | {"gravity": 9.81}
+    found = answer(server, "predict", drop=whole, errors={"balls.0.mass": "1 g"}, until=0.4)
+    assert found["band"]["time"][-1] == 0.4
+
+
+@pytest.mark.parametrize(
+    ("errors", "message"),
+    [
+        ({"balls.9.mass": 1}, "balls.9.mass is not a parameter of this drop"),
+        ({"balls.0.mass": "1 cm"}, "error of balls.0.mass must be a mass"),
+        ({"balls.0.mass": -1}, "balls.0.mass's error must be 0 or above, got -1"),
+        ({"balls.0.mass": 0}, "errors must have a number with an error above 0, got none"),
+        ({}, "errors"),
+    ],
+)
+def test_errors_that_are_none(server, drop, errors, message):
+    response = post(server, "predict", drop=drop, errors=errors)
+    assert response.status_code == 422
+    assert message in response.json()["detail"]
+
+
 def test_a_rigid_drop_has_no_other(server, drop):
     rigid = drop | {"contacts": [{"law": "Rigid", "restitution": 0.8}] * 2}
     got = answer(server, "simulate", drop=rigid)

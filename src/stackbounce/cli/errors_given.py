@@ -79,15 +79,9 @@ def read_errors(
 
 def _split(text: str, path: str, written: dict[str, str]) -> str:
     """Return a quantity without its error; a text that has one is noted by its path."""
-    if "±" not in text and "+/-" not in text and "(" not in text:
-        return text
-    from stackbounce.measure.quantities import without_error
+    from stackbounce.prediction.scenario import split_error
 
-    plain = without_error(text)
-    if plain is None:
-        return text
-    written[path] = text
-    return plain
+    return split_error(text, path, written)
 
 
 def _split_contact(text: str, path: str, written: dict[str, str]) -> str:

@@ -97,6 +97,15 @@ Corner = Annotated[
         metavar="FILE", readable=False, help="Draw the posterior of --sample: .svg, .png or .pdf."
     ),
 ]
+Draws = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="FILE",
+        readable=False,
+        help="Write the draws of --sample as a table, for stackbounce sweep --draws: draws.csv; "
+        "of several drops into a folder of that name, a file each.",
+    ),
+]
 Save = Annotated[
     Path | None,
     typer.Option(
@@ -117,6 +126,7 @@ def run(
     sample: Sample = None,
     starts: Starts = None,
     seed: Seed = 0,
+    draws: Draws = None,
     save: Save = None,
     plot: Plot = None,
     corner: Corner = None,
@@ -131,6 +141,8 @@ def run(
     check_picture(corner, "--corner")
     if corner is not None and sample is None:
         raise InvalidValue("--corner draws the posterior of --sample: give both")
+    if draws is not None and sample is None:
+        raise InvalidValue("--draws writes the draws of --sample: give both")
     single = {"interval": interval, "sample": sample, "save": save}
     for name, value in (given | single).items():
         if compare and value and name in ("vary", "tie", *single):
@@ -140,16 +152,19 @@ def run(
         _compare(problem, starts, seed, plot, as_json)
         return
     fit_results.check_save(save, problem)
+    fit_results.check_save(draws, problem, "--draws", ".csv")
     done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
     draw_picture(plot, "fitted", done.fit)
     draw_picture(corner, "corner", done.posterior)
-    saved = fit_results.save(done, save)
+    saved, drawn = fit_results.save(done, save), fit_results.save_draws(done, draws)
     if as_json:
-        print_json(fit_results.as_dict(done, saved))
+        print_json(fit_results.as_dict(done, saved, drawn))
         return
     fit_results.print_fit(console(), done)
     if saved:
         typer.echo(f"Fitted: {save}; now: stackbounce simulate {saved[0]}")
+    if drawn:
+        typer.echo(f"Draws: {draws}; now: stackbounce sweep … --draws {drawn[0]}")
     print_files(plot, corner)
 
 

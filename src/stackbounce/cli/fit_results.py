@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.cli import scenario
-from stackbounce.cli.output import check_scenario, progress_bar, write_scenario
+from stackbounce.cli.draws import draws_text
+from stackbounce.cli.output import check_file, progress_bar
 from stackbounce.cli.tables import new_table, number
 from stackbounce.cross2007.datasets import PREFIX, load_dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
-from stackbounce.files import check_place
+from stackbounce.files import check_place, write_file
 from stackbounce.fitting import (
     Comparison,
     Fit,
@@ -44,6 +45,7 @@ __all__ = [
     "read_problem",
     "run",
     "save",
+    "save_draws",
 ]
 
 _STRONG = 0.5  # a correlation above it is printed
@@ -157,13 +159,15 @@ def run(
     return Fitted(found, intervals, drawn)
 
 
-def check_save(path: Path | None, problem: FitProblem) -> None:
-    """Refuse a path for --save that cannot be written, before anything is computed."""
+def check_save(
+    path: Path | None, problem: FitProblem, option: str = "--save", suffix: str = ".toml"
+) -> None:
+    """Refuse a path for --save or --draws that cannot be written, before anything is computed."""
     if path is None or len(problem.drops) == 1:
-        check_scenario(path)
+        check_file(path, option, suffix)
     elif path.suffix or (path.exists() and not path.is_dir()):
         raise InvalidValue(
-            f"--save must name a folder for {len(problem.drops)} drops, a file each, got {path}"
+            f"{option} must name a folder for {len(problem.drops)} drops, a file each, got {path}"
         )
     else:
         check_place(path)
@@ -171,22 +175,36 @@ def check_save(path: Path | None, problem: FitProblem) -> None:
 
 def save(done: Fitted, path: Path | None) -> list[Path]:
     """Write the fitted drop into a file, or several into a folder, and return the files."""
-    if path is None:
+    texts = {key: drop.to_toml() for key, drop in done.fit.drops.items()} if path else {}
+    return _write_each(texts, path, ".toml")
+
+
+def save_draws(done: Fitted, path: Path | None) -> list[Path]:
+    """Write the draws of the drop into a file, of several into a folder, and return the files."""
+    if path is None or done.posterior is None:
         return []
     drops = done.fit.drops
-    files = {path: next(iter(drops.values()))}
-    if len(drops) > 1:
+    texts = {key: draws_text(drops[key], done.fit.draws(done.posterior, key)) for key in drops}
+    return _write_each(texts, path, ".csv")
+
+
+def _write_each(texts: Mapping[str, str], path: Path | None, suffix: str) -> list[Path]:
+    """Write one text into a file, or several into a folder by their names."""
+    if path is None:
+        return []
+    files = dict.fromkeys([path], next(iter(texts.values())))
+    if len(texts) > 1:
         try:
             path.mkdir(exist_ok=True)
         except OSError as error:
             raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
-        files = {path / f"{name}.toml": drop for name, drop in drops.items()}
-    for file, drop in files.items():
-        write_scenario(drop.to_toml(), file)
+        files = {path / f"{name}{suffix}": text for name, text in texts.items()}
+    for file, text in files.items():
+        write_file(file, text.encode())
     return list(files)
 
 
-def as_dict(done: Fitted, saved: Sequence[Path]) -> dict[str, Any]:
+def as_dict(done: Fitted, saved: Sequence[Path], drawn_files: Sequence[Path]) -> dict[str, Any]:
     """Return the results for --json."""
     found, intervals, drawn = done.fit, done.intervals, done.posterior
     return {
@@ -205,6 +223,7 @@ def as_dict(done: Fitted, saved: Sequence[Path]) -> dict[str, Any]:
             "values": {name: _drawn(drawn, name) for name in drawn.names},
         },
         "saved": list(saved),
+        "draws": list(drawn_files),
     }
 
 

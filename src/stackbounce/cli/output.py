@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 __all__ = [
     "SUFFIXES",
     "Unsolved",
+    "check_file",
     "check_picture",
     "check_scenario",
     "check_solved",
@@ -87,21 +88,26 @@ def check_picture(path: Path | None, option: str = "--plot") -> None:
     need("plots", option)
 
 
-def check_scenario(path: Path | None) -> None:
-    """Refuse a scenario's path with another suffix, or in a folder that does not exist.
+def check_file(path: Path | None, option: str, suffix: str) -> None:
+    """Refuse a file's path with another suffix, or in a folder that does not exist.
 
     Raises
     ------
     InvalidValue
-        If the suffix is not that of TOML.
+        If it has another suffix.
     FileError
         If the folder does not exist, or `path` is one.
     """
     if path is None:
         return
-    if path.suffix.lower() != ".toml":
-        raise InvalidValue(f"--save must end in .toml, got {path}")
+    if path.suffix.lower() != suffix:
+        raise InvalidValue(f"{option} must end in {suffix}, got {path}")
     _check_file(path)
+
+
+def check_scenario(path: Path | None) -> None:
+    """Refuse a path of --save; see `check_file`."""
+    check_file(path, "--save", ".toml")
 
 
 def _check_file(path: Path) -> None:

@@ -3,7 +3,7 @@
 import dataclasses
 import itertools
 import shlex
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -37,9 +37,11 @@ class Scenario:
     contact_sources: tuple[str, ...]
     gap_sources: tuple[str, ...]
     speed_source: str
+    errors: Mapping[str, str] = dataclasses.field(default_factory=dict)
+    """The numbers of the file that have errors, as they are written, by path."""
 
 
-def read(what: Sequence[str], **options: Any) -> Scenario:
+def read(what: Sequence[str], *, with_errors: bool = False, **options: Any) -> Scenario:
     """Return the scenario that the arguments of ``stackbounce simulate`` describe.
 
     Parameters
@@ -47,6 +49,8 @@ def read(what: Sequence[str], **options: Any) -> Scenario:
     what : sequence of str
         One scenario file; files of one ball each, the lowest first, to be stacked; or names of the
         catalogue, the lowest first.
+    with_errors : bool, optional
+        Take a single file whose numbers have errors; without it these are refused.
     **options
         ``height``, ``speed`` and ``gravity``, texts with or without a unit, replace the numbers of
         the file; ``gap`` and ``contact``, sequences of texts, all gaps and all contacts.
@@ -67,8 +71,9 @@ def read(what: Sequence[str], **options: Any) -> Scenario:
                 "either scenario files or balls of the catalogue must be given, "
                 f"got {' '.join(what)}"
             )
-        one = _from_file(what[0]) if len(what) == 1 else _from_files(what, changes)
-        return _with(one, changes)
+        if len(what) > 1:
+            return _with(_from_files(what, changes), changes)
+        return _with(_from_file(what[0], with_errors=with_errors), changes)
     return _with(_from_catalogue(what, changes), changes)
 
 
@@ -173,9 +178,14 @@ def _changes(
     return changes
 
 
-def _from_file(name: str) -> Scenario:
-    drop = Drop.from_toml(name)
-    return Scenario(drop, (name,) * len(drop.contacts), (name,) * len(drop.gaps), name)
+def _from_file(name: str, *, with_errors: bool) -> Scenario:
+    if with_errors:
+        from stackbounce.prediction import read_scenario
+
+        drop, errors = read_scenario(name)
+    else:
+        drop, errors = Drop.from_toml(name), {}
+    return Scenario(drop, (name,) * len(drop.contacts), (name,) * len(drop.gaps), name, errors)
 
 
 def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
@@ -229,6 +239,11 @@ def _with(scenario: Scenario, changes: dict[str, Any]) -> Scenario:
             sources["speed_source"] = option
             others = dict.fromkeys(("height", "impact_speed", "velocities"))
             changes = others | changes
+    errors = {
+        path: text
+        for path, text in scenario.errors.items()
+        if path.partition(".")[0] not in changes
+    }
     return dataclasses.replace(
-        scenario, drop=dataclasses.replace(scenario.drop, **changes), **sources
+        scenario, drop=dataclasses.replace(scenario.drop, **changes), errors=errors, **sources
     )

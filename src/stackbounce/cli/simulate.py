@@ -51,8 +51,8 @@ def run(
 
     check_picture(plot)
     plain, written = split_errors(given)
-    chosen, end = scenario.read(what, **plain), scenario.read_until(until)
-    errors = read_errors(chosen.drop, written, error)
+    chosen, end = scenario.read(what, with_errors=True, **plain), scenario.read_until(until)
+    errors = read_errors(chosen.drop, {**chosen.errors, **written}, error)
     prediction = predict(chosen.drop, errors, until=end, rtol=rtol) if errors else None
     result = simulate(chosen.drop, until=end, rtol=rtol)
     textbook = None if chosen.drop.rigid else simulate(separate(chosen.drop))

@@ -3,7 +3,7 @@
 import contextlib
 import logging
 import socket
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -42,8 +42,9 @@ _SPOKEN = ("rebound_ratio", "collisions", "energy_retained")
 @add_options(DROP)
 def run(
     what: What,
+    *,
     over: Annotated[
-        list[str],
+        list[str] | None,
         typer.Option(
             metavar="PATH=VALUES",
             help="A parameter that varies: balls.0.mass=50g:500g:40 (start, stop, how many), "
@@ -51,7 +52,16 @@ def run(
             "once per parameter. Balls, contacts and gaps count from 0, the lowest.",
             show_default=False,
         ),
-    ],
+    ] = None,
+    draws: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            readable=False,
+            help="A table whose rows are a drop each, such as fit --draws writes: its columns are "
+            "numbers of the drop that vary together, gaps.0 (mm). 300 rows are 300 drops.",
+        ),
+    ] = None,
     out: Annotated[
         Path,
         typer.Option(
@@ -62,7 +72,6 @@ def run(
             show_default=False,
         ),
     ],
-    *,
     until: Until = None,
     rtol: Tolerance = 1e-12,
     cluster: Annotated[
@@ -87,10 +96,11 @@ def run(
     check_picture(plot)
     check_place(out)
     drop = scenario.read(what, **given).drop
-    if plot is not None:
-        _check_shown(drop, over, show)
     end = scenario.read_until(until)
-    done = _write(drop, over, out, cluster=cluster, until=end, rtol=rtol)
+    values = _values(drop, over or [], draws)
+    if plot is not None:
+        _check_shown(drop, over or [], show, draws)
+    done = _write(drop, values, out, cluster=cluster, until=end, rtol=rtol)
     if plot is not None:
         _draw(done.load(), show, plot)
     found = summary(done, out)
@@ -102,22 +112,36 @@ def run(
     check_solved(found["status"])
 
 
-def _write(
-    drop: "Drop", over: Sequence[str], out: Path, *, cluster: str | None, **options: Any
-) -> "xr.Dataset":
-    """Sweep a drop over the numbers of ``--over`` into a file with a progress bar; return it."""
-    from stackbounce.sweeps import grid, opened, write
+def _values(drop: "Drop", over: Sequence[str], draws: Path | None) -> dict[str, Any]:
+    """Return the numbers that vary: those of ``--over``, and those of ``--draws``, together."""
+    from stackbounce.cli.draws import read_draws
+    from stackbounce.sweeps import grid
 
-    values = grid(drop, over)
+    if not over and draws is None:
+        raise InvalidValue("nothing is to vary: give --over PATH=VALUES or --draws FILE")
+    values, drawn = grid(drop, over), {} if draws is None else read_draws(drop, draws)
+    for path in values.keys() & drawn.keys():
+        raise InvalidValue(f"{path} is in --over and in --draws: only one of the two can have it")
+    return {**drawn, **values}
+
+
+def _write(
+    drop: "Drop", values: Mapping[str, Any], out: Path, *, cluster: str | None, **options: Any
+) -> "xr.Dataset":
+    """Sweep a drop over values into a file with a progress bar; return it."""
+    from stackbounce.sweeps import opened, write
+
     with _client(cluster) as client, progress_bar("drops") as progress:
         write(out, drop, values, client=client, progress=progress, **options)
     return opened(out)
 
 
-def _check_shown(drop: "Drop", over: Sequence[str], show: str) -> None:
+def _check_shown(drop: "Drop", over: Sequence[str], show: str, draws: Path | None) -> None:
     """Refuse a picture that could not be drawn, before anything is computed."""
     from stackbounce.plots.sweep_curves import TITLES
 
+    if draws is not None:
+        raise InvalidValue("--plot draws over the numbers of --over, and has no picture of --draws")
     if len(over) not in (1, 2):
         raise InvalidValue(f"--plot needs one or two parameters that vary, got {len(over)}")
     name, dot, which = show.partition(".")
@@ -175,14 +199,24 @@ def print_sweep(console: "Console", data: "xr.Dataset", found: dict[str, Any]) -
 
     console.print(f"{found['drops']} drops, over")
     for dim, size in found["over"].items():
-        values, unit = data[dim].values, data[dim].attrs.get("units", "")
-        console.print(f"  {dim}: {size}, {_range(values.min(), values.max())} {unit}".rstrip())
+        if dim in data.coords:
+            console.print(f"  {dim}: {size}, {_span(data[dim])}")
+            continue
+        console.print(f"  {dim}: {size}, each with its own")
+        for path, one in data.coords.items():
+            if one.dims == (dim,):
+                console.print(f"    {path}: {_span(one)}")
     for name, ranges in found["ranges"].items():
         for part, (low, high) in ranges.items():
             console.print(f"  {name} {part}".rstrip() + f": {_range(low, high)}")
     for name, count in found["status"].items():
         console.print(f"  {count} {name}: {Status[name].advice}")
     console.print(f"Written: {found['store']}")
+
+
+def _span(axis: "xr.DataArray") -> str:
+    """Return the smallest and the largest value of a number that varies, with its unit."""
+    return f"{_range(axis.values.min(), axis.values.max())} {axis.attrs.get('units', '')}".rstrip()
 
 
 def _range(low: float, high: float) -> str:

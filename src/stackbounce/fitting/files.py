@@ -11,6 +11,7 @@ from stackbounce.errors import (
     InvalidValue,
     ScenarioError,
     StackbounceError,
+    a_or_an,
     nearest,
     positive,
     shown,
@@ -144,7 +145,9 @@ def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
     data = read(path, **{key: one for key, one in table.items() if key in _READING})
     own = [one for one in data.data_vars if str(one).split("_")[0] in ("force", "voltage")]
     if data.attrs["holds"] != "waveform" or not own:
-        raise InvalidValue(f"{name}: {path} holds no force over time, but a {data.attrs['holds']}")
+        raise InvalidValue(
+            f"{name}: {path} holds no force over time, but {a_or_an(data.attrs['holds'])}"
+        )
     record = data[own[0]].dropna("time")
     ends = [quantity(table[k], "s", f"{name}.{k}") if k in table else None for k in _RECORD[1:3]]
     record = record.sortby("time").sel(time=slice(*ends))

@@ -305,15 +305,56 @@ class Fit:
         >>> str(found.predict()["durations.0"])
         '0.00500+/-0.00010'
         """
+        key = self._key(drop)
+        errors = self._numbers(key) if posterior is None else self.draws(posterior, key)
+        if not errors:
+            raise InvalidValue(f"drop {shown(key)} has no number that was varied")
+        return predict(self.objective.drops[key], errors, **options)
+
+    def draws(self, posterior: Posterior, drop: str | None = None) -> dict[str, Array]:
+        """Return draws of the numbers of a drop, of those that were varied and those tied to them.
+
+        Parameters
+        ----------
+        posterior : Posterior
+            Draws by `sample`.
+        drop : str, optional
+            The name of the drop, if there are several.
+
+        Returns
+        -------
+        dict of str to ndarray
+            (n,) in SI units, by path: row by row they are one drop.
+
+        Raises
+        ------
+        InvalidValue
+            If there are several drops and none of this name.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
+        >>> found = sb.fit(drop, {"durations.0": "5.0 ± 0.1 ms"}, vary=["contacts.0.stiffness"])
+        >>> drawn = found.draws(found.sample(6400, seed=1))
+        >>> sb.sweep(drop, {path: ("draw", x) for path, x in drawn.items()}).sizes["draw"]
+        4800
+        """
+        columns = [
+            np.log(posterior.draws(one.name)) if one.logarithmic else posterior.draws(one.name)
+            for one in self.objective.parameters
+        ]
+        rows = self.objective.rows(self._key(drop), np.stack(columns, axis=1))
+        return {number.path: column for number, column in rows.items()}
+
+    def _key(self, drop: str | None) -> str:
+        """Return the name of a drop, None for the only one; raise if there is none of that name."""
         known = self.objective.drops
         key = next(iter(known)) if drop is None and len(known) == 1 else drop
         if key is None or key not in known:
             right = nearest(key or "", known)
             raise InvalidValue(f"drop must name one of the drops, got {shown(drop)}; {right}")
-        errors = self._numbers(key) if posterior is None else self._drawn(key, posterior)
-        if not errors:
-            raise InvalidValue(f"drop {shown(key)} has no number that was varied")
-        return predict(known[key], errors, **options)
+        return key
 
     def _numbers(self, key: str) -> "dict[str, UFloat]":
         """Return the varied and tied numbers of a drop by path, correlated as in `covariance`."""
@@ -334,15 +375,6 @@ class Fit:
                 value = value + slope * (one - one.nominal_value)
             found[number.path] = value
         return found
-
-    def _drawn(self, key: str, posterior: Posterior) -> dict[str, Array]:
-        """Return the draws of the varied and tied numbers of a drop by path."""
-        columns = [
-            np.log(posterior.draws(one.name)) if one.logarithmic else posterior.draws(one.name)
-            for one in self.objective.parameters
-        ]
-        rows = self.objective.rows(key, np.stack(columns, axis=1))
-        return {number.path: column for number, column in rows.items()}
 
     def as_dict(self) -> dict[str, Any]:
         """Return the result as plain values, for JSON."""

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, StackbounceError
+from stackbounce.errors import InvalidValue, StackbounceError, a_or_an
 from stackbounce.measure.analysis import analyse
 from stackbounce.measure.finding import Curve, Finding, channels
 from stackbounce.measure.hints import Hint, Said, Words, about, in_python, in_words, said
@@ -147,7 +147,7 @@ def _refusal(data: Any) -> Said:
             spans.append(f"{name} from {known.min():.4g} to {known.max():.4g}{unit}")
     rows = max(data.sizes.values(), default=0)
     return Said(
-        f"its {rows} rows cannot be analysed as a {data.attrs['holds']}, got "
+        f"its {rows} rows cannot be analysed as {a_or_an(data.attrs['holds'])}, got "
         f"{', '.join(spans) or 'no numbers'}: ",
         Hint({"holds": None, "names": None, "units": None}),
         " tell another kind, other columns and units",

@@ -15,7 +15,7 @@ __all__ = ["load_toml", "read_toml", "write_toml"]
 
 _T = TypeVar("_T")
 
-_BYTES = 2**21  # of a file, at most; it has room for 20 000 balls
+_BYTES = 2**19  # of a file, at most: room for 5000 balls, and read in about a second
 _DEPTH = 5  # parts of a key, at most: time and memory grow with their square
 _WORD = r"""(?:[\w-]+|"[^"\n]*"|'[^'\n]*')"""
 _KEY = rf"{_WORD}(?:[ \t]*\.[ \t]*{_WORD}){{{_DEPTH}}}"

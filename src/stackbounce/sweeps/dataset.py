@@ -99,13 +99,19 @@ def sweep(
     3
     """
     options = run_options(drop, until, rtol, event_limit)
+    numbers, arrays = read_values(drop, values)
+    return _dataset(drop, numbers, arrays, options)
+
+
+def read_values(drop: Drop, values: Mapping[str, Any]) -> tuple[list[Number], list["xr.DataArray"]]:
+    """Return the numbers that vary, and their values with named dimensions in SI units."""
     if not isinstance(values, Mapping):
         raise InvalidType(f"values must be a mapping of paths to values, got {shown(values)}")
     numbers = [number_at(drop, path) for path in values]
     check_together(numbers)
     arrays = [_named(number, values[number.path]) for number in numbers]
     _check_pairs(numbers, arrays)
-    return _dataset(drop, numbers, arrays, options)
+    return numbers, arrays
 
 
 def check_together(numbers: Sequence[Number]) -> None:
@@ -119,6 +125,9 @@ def check_together(numbers: Sequence[Number]) -> None:
 
 def _check_pairs(numbers: Sequence[Number], arrays: Sequence["xr.DataArray"]) -> None:
     """Raise if parameters share a dimension and have not as many values along it."""
+    own: dict[Any, Any] = {
+        number.path: array.dims for number, array in zip(numbers, arrays, strict=True)
+    }
     known: dict[Any, tuple[str, int]] = {}
     for number, array in zip(numbers, arrays, strict=True):
         for dim, size in array.sizes.items():
@@ -127,6 +136,11 @@ def _check_pairs(numbers: Sequence[Number], arrays: Sequence["xr.DataArray"]) ->
                 raise InvalidValue(
                     f"{number.path} must have as many values along {dim} as {path}, {other}, "
                     f"got {size}"
+                )
+            if own.get(dim, (dim,)) != (dim,):
+                raise InvalidValue(
+                    f"{number.path} varies along {dim}, so that {dim} must do so too, "
+                    f"got {' and '.join(map(str, own[dim])) or 'one number'}"
                 )
 
 
@@ -150,9 +164,9 @@ def _named(number: Number, value: Any) -> "xr.DataArray":
                 f"dimensions, got {plain.ndim} dimensions"
             )
         array = xr.DataArray(plain, dims=[own] * plain.ndim)
-    clash = {"ball", "contact"} & set(array.dims)
+    clash = {"ball", "contact", *_OUTPUTS} & set(array.dims)
     if clash:
-        raise InvalidValue(f"{number.path} has a dimension named {clash.pop()}, which results have")
+        raise InvalidValue(f"{number.path} has a dimension named {clash.pop()}, as results are")
     if array.dtype.kind not in "iuf":
         raise InvalidType(f"{number.path} must be numbers, got {array.dtype}")
     given = array.attrs.get("units", number.unit)
@@ -198,9 +212,13 @@ def _dataset(
     return data.assign_coords(coordinates | index).assign_attrs(_provenance(drop, numbers, options))
 
 
-def check_axis(drop: Drop, path: str, values: NDArray[np.float64]) -> None:
-    """Raise for the first value that is not valid for the parameter at a path of the drop."""
-    check(drop, {number_at(drop, path): values}, lambda index: f"(at {path} {index[0]})")
+def check_along(drop: Drop, dim: str, values: Mapping[str, NDArray[np.float64]]) -> None:
+    """Raise for the first values, of numbers that vary together, with which the drop is not valid.
+
+    ``values`` are 1-D, by path, and have the dimension ``dim``.
+    """
+    rows = {number_at(drop, path): axis for path, axis in values.items()}
+    check(drop, rows, lambda index: f"(at {dim} {index[0]})")
 
 
 def run_block(

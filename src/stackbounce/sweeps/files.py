@@ -42,24 +42,35 @@ class Form:
     sample : xarray.Dataset
         As from `sweep`, with the first value of each parameter only.
     axes : mapping
-        All values of each parameter, by dimension.
+        The dimension and all values of each parameter, by its path.
     sides : sequence of int
         The shape of a block of drops, by dimension.
     """
 
     def __init__(
-        self, sample: "xr.Dataset", axes: Mapping[str, NDArray[np.float64]], sides: Sequence[int]
+        self,
+        sample: "xr.Dataset",
+        axes: Mapping[str, tuple[str, NDArray[np.float64]]],
+        sides: Sequence[int],
     ) -> None:
         self.attrs = sample.attrs
         self.results = {str(name): one for name, one in sample.data_vars.items()}
         self.coordinates = {str(name): one for name, one in sample.coords.items()}
-        self.values = {name: one.values for name, one in self.coordinates.items()} | dict(axes)
-        self.grid = tuple(len(axis) for axis in axes.values())
+        own = {name: one.values for name, one in self.coordinates.items()}
+        self.values = own | {path: axis for path, (_, axis) in axes.items()}
+        self.sizes = {
+            str(one.dims[0]): len(self.values[name]) for name, one in self.coordinates.items()
+        }
+        self.grid = tuple({dim: len(axis) for dim, axis in axes.values()}.values())
         self.sides = tuple(sides)
+        paired = " ".join(path for path, (dim, _) in axes.items() if dim != path)
+        self.marked = {**self.attrs, **({"coordinates": paired} if paired else {})}
+        """The attributes in a file; `coordinates` names those that have not their dimension's name,
+        as xarray does."""
 
     def shape(self, one: "xr.DataArray") -> tuple[int, ...]:
         """Return the shape of a variable in the whole file."""
-        return tuple(len(self.values[str(dim)]) for dim in one.dims)
+        return tuple(self.sizes[str(dim)] for dim in one.dims)
 
     def chunk(self, one: "xr.DataArray") -> tuple[int, ...]:
         """Return the shape of one block of a variable."""
@@ -70,7 +81,9 @@ class Form:
         return (
             found.attrs == self.attrs
             and all(
-                name in found.coords and np.array_equal(found[name].values, values)
+                name in found.coords
+                and found[name].dims == self.coordinates[name].dims
+                and np.array_equal(found[name].values, values)
                 for name, values in self.values.items()
             )
             and all(
@@ -111,7 +124,7 @@ class _Zarr:
     def create(self, path: Path, form: Form) -> None:
         import zarr
 
-        group = zarr.create_group(path, zarr_format=2, attributes=form.attrs)
+        group = zarr.create_group(path, zarr_format=2, attributes=form.marked)
         for name, one in (form.results | form.coordinates).items():
             own = name in form.coordinates
             array = group.create_array(
@@ -180,8 +193,8 @@ class _NetCDF:
         _reserve(path, 8 * numbers + _HEADER)  # HDF5 crashes where the disk is full
         path.unlink()
         with h5netcdf.File(path, "w") as file:
-            file.attrs.update(form.attrs)
-            file.dimensions = {name: len(values) for name, values in form.values.items()}
+            file.attrs.update(form.marked)
+            file.dimensions = form.sizes
             for name, one in (form.results | form.coordinates).items():
                 array = file.create_variable(name, one.dims, one.dtype)
                 array.attrs.update(

@@ -8,6 +8,7 @@ can be read; those that cannot are computed again.
 
 import contextlib
 import math
+import re
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
@@ -20,7 +21,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
-from stackbounce.sweeps.dataset import check_axis, sweep
+from stackbounce.sweeps.dataset import check_along, read_values, sweep
 from stackbounce.sweeps.files import Form, Format, format_of
 from stackbounce.sweeps.progress import Progress, only_writer, tidy
 
@@ -28,13 +29,14 @@ if TYPE_CHECKING:
     import xarray as xr
     from distributed import Client
 
-__all__ = ["Grid", "opened", "write"]
+__all__ = ["opened", "write"]
 
 BLOCK = 2**16
 """Drops in a block, at most."""
 
 _AHEAD = 3  # blocks submitted to a cluster for each of its threads
-Grid: TypeAlias = Mapping[str, NDArray[np.float64]]
+_DIMENSION = re.compile(r"\w[\w.-]*")  # a name that all kinds of file can have
+_Axes: TypeAlias = Mapping[str, tuple[str, NDArray[np.float64]]]  # dimension and values, by path
 _Todo: TypeAlias = Iterator[tuple[int, Block]]
 _Done: TypeAlias = Iterator[tuple[int, Block, "xr.Dataset"]]
 
@@ -42,7 +44,7 @@ _Done: TypeAlias = Iterator[tuple[int, Block, "xr.Dataset"]]
 def write(
     out: str | Path,
     drop: Drop,
-    values: Grid,
+    values: Mapping[str, Any],
     *,
     client: "Client | None" = None,
     block: int = BLOCK,
@@ -59,7 +61,9 @@ def write(
     drop : Drop
         The base.
     values : mapping
-        The numbers that vary, by their paths, each a 1-D array: a dimension of the file.
+        The numbers that vary, by their paths, as `sweep` takes them: each a 1-D array, which is a
+        dimension of the file, or a pair of a dimension's name and such an array. Numbers that share
+        a dimension vary together.
     client : distributed.Client, optional
         A cluster to solve the blocks on; by default they are solved here, on all cores.
     block : int, optional
@@ -96,11 +100,10 @@ def write(
     kind = format_of(out)
     if block < 1:
         raise InvalidValue(f"block must be a number of drops, 1 or above, got {block}")
-    for path, axis in values.items():
-        check_axis(drop, path, axis)
-    shape = tuple(len(axis) for axis in values.values())
-    first = sweep(drop, {path: axis[:1] for path, axis in values.items()}, **options)
-    form = Form(first, values, sides(shape, block))
+    axes = _read_axes(drop, values)
+    shape = tuple(_sizes(axes).values())
+    first = sweep(drop, {path: (dim, axis[:1]) for path, (dim, axis) in axes.items()}, **options)
+    form = Form(first, axes, sides(shape, block))
     total = math.prod(shape)
     try:
         if _is_complete(out, kind, form):
@@ -117,7 +120,7 @@ def write(
             tell(finished, total)
             todo = ((k, one) for k, one in cut if k not in log.done)
             with kind.writer(partial) as put:
-                for k, one, data in _solved(drop, values, todo, options, client):
+                for k, one, data in _solved(drop, axes, todo, options, client):
                     put(one, data)
                     log.add(k)
                     finished += size(one)
@@ -134,6 +137,27 @@ def write(
 def opened(path: str | Path) -> "xr.Dataset":
     """Open what `write` has written; numbers are read when they are needed."""
     return format_of(Path(path)).opened(Path(path))
+
+
+def _read_axes(drop: Drop, values: Mapping[str, Any]) -> _Axes:
+    """Return the dimension and the values of each number that varies, all of them checked."""
+    axes = {}
+    for number, array in zip(*read_values(drop, values), strict=True):
+        if array.ndim != 1 or not _DIMENSION.fullmatch(str(array.dims[0])):
+            listed = ", ".join(map(str, array.dims)) or "none"
+            raise InvalidValue(
+                f"{number.path} must have one dimension in a file, with a name of letters, digits, "
+                f"_, . and -, got {listed}"
+            )
+        axes[number.path] = str(array.dims[0]), array.values
+    for dim in _sizes(axes):
+        check_along(drop, dim, {path: axis for path, (own, axis) in axes.items() if own == dim})
+    return axes
+
+
+def _sizes(axes: _Axes) -> dict[str, int]:
+    """Return the number of values along each dimension."""
+    return {dim: len(axis) for dim, axis in axes.values()}
 
 
 def _tell_nobody(done: int, total: int) -> None:
@@ -164,7 +188,7 @@ def _begin(out: Path, kind: Format, form: Form, log: Progress) -> Path | None:
             log.remove()
             return None
         if partial.exists() and log.sides is not None:
-            _resume(partial, kind, form, log)
+            _resume(out, partial, kind, form, log)
         elif out.exists():
             _mend(out, partial, kind, form, log)
         else:
@@ -183,8 +207,13 @@ def _create(partial: Path, kind: Format, form: Form, log: Progress) -> None:
     log.begin(form.sides)
 
 
-def _resume(partial: Path, kind: Format, form: Form, log: Progress) -> None:
+def _resume(out: Path, partial: Path, kind: Format, form: Form, log: Progress) -> None:
     """Go on with the partial file; blocks that are not in it are not done, whatever the log has."""
+    if out.exists():
+        raise FileError(
+            f"{out} has lost blocks, and {partial} is a second one, not complete: "
+            "remove one of the two"
+        )
     if not _is_same(partial, kind, form):
         raise FileError(
             f"{partial} is part of another sweep: remove it and {partial.stem}.progress, "
@@ -228,16 +257,16 @@ def _is_same(path: Path, kind: Format, form: Form) -> bool:
         ) from error
 
 
-def solve_block(drop: Drop, values: Grid, options: Mapping[str, Any]) -> "xr.Dataset":
+def solve_block(drop: Drop, values: _Axes, options: Mapping[str, Any]) -> "xr.Dataset":
     """Return the results of one block, which fits in memory."""
     return sweep(drop, values, **options)
 
 
 def _solved(
-    drop: Drop, values: Grid, todo: _Todo, options: Mapping[str, Any], client: "Client | None"
+    drop: Drop, axes: _Axes, todo: _Todo, options: Mapping[str, Any], client: "Client | None"
 ) -> _Done:
     """Yield blocks with their results as they are finished; few are in memory at a time."""
-    jobs = ((k, block, (drop, _part(values, block), options)) for k, block in todo)
+    jobs = ((k, block, (drop, _part(axes, block), options)) for k, block in todo)
     if client is None:
         return ((k, block, solve_block(*job)) for k, block, job in jobs)
     return _on_cluster(client, jobs)
@@ -286,5 +315,6 @@ def _cluster_errors() -> Iterator[None]:
         ) from error
 
 
-def _part(values: Grid, block: Block) -> dict[str, NDArray[np.float64]]:
-    return {path: axis[side] for (path, axis), side in zip(values.items(), block, strict=True)}
+def _part(axes: _Axes, block: Block) -> _Axes:
+    sides = dict(zip(_sizes(axes), block, strict=True))
+    return {path: (dim, axis[sides[dim]]) for path, (dim, axis) in axes.items()}

@@ -21,7 +21,7 @@ from pydantic import BaseModel
 from stackbounce.errors import InvalidValue, StackbounceError, shown
 from stackbounce.version import __version__
 from stackbounce.web import schema
-from stackbounce.web.answers import catalogue, exports, maps, play, records
+from stackbounce.web.answers import catalogue, exports, maps, play, predictions, records
 from stackbounce.web.guard import Guard
 from stackbounce.web.limits import LIMITS, Limits
 from stackbounce.web.paper_pages import Papers
@@ -59,6 +59,10 @@ def _is_short(_: schema.Request) -> bool:
     return True
 
 
+def _is_long(_: schema.Request) -> bool:
+    return False
+
+
 class Route(NamedTuple):
     """An address that takes JSON and returns JSON, computed by a worker process."""
 
@@ -79,6 +83,7 @@ ROUTES = (
     Route("/api/law", catalogue.calibrate_law, schema.MeasuredLaw, schema.OneContact),
     Route("/api/like", catalogue.convert_law, schema.LikeLaw, schema.OneContact),
     Route("/api/simulate", play.play_drop, schema.Play, schema.Simulation),
+    Route("/api/predict", predictions.predict_drop, schema.Uncertain, schema.Predicted, _is_long),
     Route("/api/map", maps.map_drop, schema.MapRequest, schema.Map, _is_short_map),
     Route("/api/map/paths", maps.list_paths, schema.MapPaths, schema.Paths),
 )

@@ -161,6 +161,12 @@ class Play(Export):
     frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
 
 
+class Uncertain(Export):
+    """A drop, and the errors of some of its numbers by path: SI numbers, or texts with a unit."""
+
+    errors: Annotated[dict[_Name, _Finite | _Name], Field(min_length=1, max_length=LIMITS.varied)]
+
+
 class StackRequest(Request):
     """Balls of the catalogue, the lowest first."""
 
@@ -272,6 +278,19 @@ class Simulation(BaseModel):
     impact: list[float]
     frames: _Json
     separate: _Json | None
+
+
+class Predicted(BaseModel):
+    """Numbers of a drop with errors, how these were found, and bands of one standard deviation."""
+
+    stackbounce: str
+    method: str
+    how: str
+    advice: str
+    notes: list[str]
+    numbers: dict[str, _Json]
+    values: dict[str, _Json]
+    band: _Json
 
 
 class Side(BaseModel):

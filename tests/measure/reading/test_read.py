@@ -261,6 +261,7 @@ def test_every_file_is_read_without_being_told_anything(tmp_path):
 @pytest.mark.parametrize(("options", "error", "message"), [
     ({"holds": "sand"}, InvalidValue, "holds must be what a file holds, got 'sand'; did you mean"),
     ({"holds": "track"}, InvalidValue, "a track needs columns of time and y or x; it has t"),
+    ({"holds": "acceleration"}, InvalidValue, "an acceleration needs columns"),
     ({"holds": "bounces"}, InvalidValue, "only phyphox's"),
     ({"holds": 3}, InvalidValue, "holds must be what"),
     ({"names": {"z": "force"}}, InvalidValue, "names: there is no column 'z'; known: t "),

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import FileError, InvalidValue
+from stackbounce.errors import FileError, InvalidValue, a_or_an
 from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS
@@ -127,7 +127,7 @@ def _fitting(holds: str, columns: Sequence[Column]) -> list[Column]:
             raise InvalidValue(
                 Said(
                     Hint({"holds": None}),
-                    f": a {holds} needs columns of {needs}; it has {names}: ",
+                    f": {a_or_an(holds)} needs columns of {needs}; it has {names}: ",
                     Hint({"names": {found[-1].index + 1: roles[0]}}),
                     " tells which, for instance",
                 )

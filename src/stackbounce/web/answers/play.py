@@ -17,18 +17,20 @@ from stackbounce.run.result import Result
 from stackbounce.version import __version__
 from stackbounce.web.limits import LIMITS
 
-__all__ = ["play_drop", "run_drop"]
+__all__ = ["RTOL", "choose_times", "play_drop", "run_drop"]
+
+RTOL = 1e-10
+"""Relative error of the runs for the page."""
 
 _Times = NDArray[np.float64]
 
 _INTERVALS = 60  # most contact intervals that get frames of their own
-_RTOL = 1e-10
 _DIGITS = 9  # of a frame's largest number
 
 
 def run_drop(drop: Drop, until: float | None) -> Result:
     """Return the result of a drop within the limits of a request."""
-    return simulate(drop, until=until, rtol=_RTOL, event_limit=LIMITS.events)
+    return simulate(drop, until=until, rtol=RTOL, event_limit=LIMITS.events)
 
 
 def play_drop(drop: Drop, until: float | None, frames: int) -> str:
@@ -50,7 +52,7 @@ def play_drop(drop: Drop, until: float | None, frames: int) -> str:
         a list per ball or contact) and `separate`, the same drop by separate collisions.
     """
     result = run_drop(drop, until)
-    times = _choose_times(result, until, frames)
+    times = choose_times(result, until, frames)
     answer = {
         "stackbounce": __version__,
         "drop": drop.to_mapping(),
@@ -75,7 +77,7 @@ def _find_last_release(result: Result) -> float:
     return float(max([0.0, *ends[np.isfinite(ends)]]))
 
 
-def _choose_times(result: Result, until: float | None, frames: int) -> _Times:
+def choose_times(result: Result, until: float | None, frames: int) -> _Times:
     """Return ascending times in s: evenly spaced, and the starts and ends of contacts."""
     begin, end = choose_window(result)
     drop = result.drop

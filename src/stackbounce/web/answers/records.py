@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.errors import InvalidValue, a_or_an, nearest, shown
 from stackbounce.fitting import Fit, fit
 from stackbounce.json_values import as_json
 from stackbounce.measure.finding import Curve
@@ -200,7 +200,7 @@ def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr
     }
     if not own:
         raise InvalidValue(
-            f"{what}: {record.source} holds no force over time, but a {record.told['holds']}"
+            f"{what}: {record.source} holds no force over time, but {a_or_an(record.told['holds'])}"
         )
     if which not in own:
         raise InvalidValue(f"{what} must be a channel, got {shown(which)}; {nearest(which, own)}")

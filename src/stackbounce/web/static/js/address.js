@@ -12,6 +12,7 @@ const MOST = 16; // more members than any list of a drop may have
 export function write(state) {
   const pairs = [["view", state.view]];
   flatten("", state.drop, pairs);
+  for (const [path, error] of Object.entries(state.errors)) pairs.push([`error.${path}`, error]);
   if (state.until !== FIRST.until) pairs.push(["until", state.until]);
   if (state.ghosts !== FIRST.ghosts) pairs.push(["ghosts", Number(state.ghosts)]);
   if (state.slow !== FIRST.slow) pairs.push(["slow", state.slow]);
@@ -26,6 +27,7 @@ export function read(fragment) {
   const patch = {};
   const drop = {};
   const map = {};
+  const errors = {};
   for (const pair of fragment.replace(/^#/, "").split("&")) {
     const cut = pair.indexOf("=");
     if (cut < 1) continue;
@@ -33,10 +35,11 @@ export function read(fragment) {
     const text = decode(pair.slice(cut + 1));
     const parts = key.split(".");
     if (DROP.includes(parts[0])) insert(drop, parts, text);
+    else if (parts[0] === "error" && parts.length > 1) errors[parts.slice(1).join(".")] = number(text);
     else if (parts[0] === "map") insert(map, parts.slice(1), text);
     else readOne(patch, key, text);
   }
-  if (isDrop(drop)) patch.drop = complete(drop);
+  if (isDrop(drop)) Object.assign(patch, { drop: complete(drop), errors });
   else if (Object.keys(drop).length) patch.notice = "The link holds no whole drop: this is what was here.";
   if (Object.keys(map).length) patch.map = map;
   return patch;

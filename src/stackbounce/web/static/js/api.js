@@ -39,6 +39,7 @@ async function upload(path, form) {
 export const catalogue = () => get("api/catalogue");
 export const simulate = (drop, until = null, frames = 1500) =>
   send("api/simulate", { drop, until, frames });
+export const predict = (drop, errors, until = null) => send("api/predict", { drop, errors, until });
 export const stack = (balls, height) => send("api/stack", { balls, height });
 export const law = (request) => send("api/law", request);
 export const like = (request) => send("api/like", request);

@@ -4,6 +4,7 @@ import { h, write } from "./dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
 import { choice, numberField } from "./fields.js";
 import { asMeasured, changeLaw } from "./laws.js";
+import { withError } from "./prediction.js";
 import { FIRST } from "./store.js";
 import { capital } from "./words.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
@@ -28,11 +29,17 @@ export function mountControls(root, store, api, catalogue) {
     notes = news;
     store.set({ drop });
   };
-  const set = (path, value) => {
-    const { drop } = store.get();
-    if (path === "until") store.set({ until: value });
-    else if (valueAt(drop, path) !== value) store.set({ drop: withValue({ ...drop, gaps: gapsOf(drop) }, path, value) });
+  const set = (path, value, error) => {
+    const { drop, errors } = store.get();
+    if (path === "until") {
+      store.set({ until: value });
+      return;
+    }
+    const patch = { errors: withError(errors, path, error) };
+    if (valueAt(drop, path) !== value) patch.drop = withValue({ ...drop, gaps: gapsOf(drop) }, path, value);
+    store.set(patch);
   };
+  const errorAt = (path) => store.get().errors[path];
   const attempt = async (act) => {
     try {
       await act();
@@ -57,7 +64,7 @@ export function mountControls(root, store, api, catalogue) {
       const { contact: changed, note } = await asMeasured(api, catalogue, drop, contact, values);
       change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
-  const tools = { catalogue, set, change, choose, relaw, measured, drop: () => store.get().drop };
+  const tools = { catalogue, set, errorAt, change, choose, relaw, measured, drop: () => store.get().drop };
 
   const rebuild = () => {
     const { drop, until } = store.get();
@@ -92,12 +99,12 @@ export function mountControls(root, store, api, catalogue) {
     notes = [];
     example = complete(preset.drop);
     const { until, slow, replay } = store.get();
-    store.set({ drop: example, until: null, t: null, slow: until === null ? slow : FIRST.slow, replay: replay + 1 });
+    store.set({ drop: example, errors: {}, until: null, t: null, slow: until === null ? slow : FIRST.slow, replay: replay + 1 });
   });
   root.replaceChildren(presets, said, general, drops, tower);
   store.subscribe((state, before) => {
     if (state.notice !== before.notice) write(said, state.notice ?? "");
-    const touched = ["drop", "error", "until"].some((name) => state[name] !== before[name]);
+    const touched = ["drop", "error", "errors", "until"].some((name) => state[name] !== before[name]);
     if (touched) update();
   });
   write(said, store.get().notice ?? "");
@@ -142,7 +149,7 @@ function presetChoice({ presets }, use) {
 }
 
 /** Fill the box on how the tower comes in; returns its fields. */
-function incidence(box, drop, until, { set, change, drop: current }) {
+function incidence(box, drop, until, { set, errorAt, change, drop: current }) {
   const kind = incidenceOf(drop);
   const radios = INCIDENCE.map(([value, text]) =>
     h(
@@ -160,8 +167,8 @@ function incidence(box, drop, until, { set, change, drop: current }) {
     ),
   );
   const fields = [];
-  if (kind === "height") fields.push(numberField({ path: "height", label: "falls from", unit: "m", large: true, low: 0.02, high: 10, set }));
-  if (kind === "impact_speed") fields.push(numberField({ path: "impact_speed", label: "comes in at", unit: "m/s", low: 0.1, high: 15, set }));
+  if (kind === "height") fields.push(numberField({ path: "height", label: "falls from", unit: "m", large: true, low: 0.02, high: 10, set, errorAt }));
+  if (kind === "impact_speed") fields.push(numberField({ path: "impact_speed", label: "comes in at", unit: "m/s", low: 0.1, high: 15, set, errorAt }));
   if (until !== null) fields.push(numberField({ path: "until", label: "shown for", unit: "s", large: true, low: 0.2, high: 20, set }));
   for (const field of fields) field.update(field.path === "until" ? until : drop[field.path]);
   const gravity = h("input", {

@@ -5,9 +5,9 @@ import { shortBall, shortContact } from "./words.js";
 
 /**
  * Return the panels of a result: `{what, title, unit, times, lines, stems, factor}`; a line is
- * `{label, index, values, dash}` and has the colour of ball or contact `index`, or of text.
+ * `{label, index, values, dash}` and has the colour of ball or contact `index`, or of text; a band is `{index, time, low, high}`.
  */
-export function panels(result, whole, overlays = []) {
+export function panels(result, whole, overlays = [], prediction = null) {
   const scale = whole ? 1 : 1e3;
   const times = result.frames.time.map((time) => time * scale);
   const common = { times, scale, timeUnit: whole ? "s" : "ms" };
@@ -20,8 +20,21 @@ export function panels(result, whole, overlays = []) {
         values: one.values.map((value) => (value === null ? null : value * factor)),
       }));
   return [positions(result, whole), result.separate ? forces(result) : impulses(result, scale), energies(result)].map(
-    (panel) => ({ ...common, ...panel, overlays: own(panel.what, panel.factor ?? 1) }),
+    (panel) => ({
+      ...common,
+      ...panel,
+      overlays: own(panel.what, panel.factor ?? 1),
+      bands: bands(prediction?.band, panel, scale),
+    }),
   );
+}
+
+/** Return one standard deviation around each line of a panel that has an error. */
+function bands(band, { what, lines, factor }, scale) {
+  const [low, high] = band?.[what] ?? [];
+  if (!low) return [];
+  const time = band.time.map((one) => one * scale);
+  return lines.map(({ index }) => ({ index, time, low: scaled(low[index], factor), high: scaled(high[index], factor) }));
 }
 
 function scaled(values, factor) {

@@ -1,13 +1,14 @@
 /** One number of the drop: a label, a slider and a field that reads "57 g". */
 
 import { h } from "./dom.js";
-import { clean, format, numeric, pretty, read, shownUnit } from "./units.js";
+import { clean, format, numeric, pretty, read, shownUnit, splitError } from "./units.js";
 
 const STEPS = 1000; // of a slider
 
 /**
  * Return a field `{element, path, update(value), fail(message)}`.
- * @param {object} spec `{path, label, of, unit, low, high, large, says, optional, set(path, value)}`
+ * @param {object} spec `{path, label, of, unit, low, high, large, says, optional, set(path, value, error), errorAt(path)}`;
+ * with `errorAt` a text such as "63 ± 1 cm" has an error, which is null where none is typed
  */
 export function numberField(spec) {
   const { path, label, unit, low, high } = spec;
@@ -54,7 +55,10 @@ export function numberField(spec) {
   };
   const written = (value) => {
     const si = numeric(value, unit);
-    return Number.isFinite(si) ? format(clean(si / shown.size), 5) : String(value ?? "");
+    if (!Number.isFinite(si)) return String(value ?? "");
+    const error = spec.errorAt?.(path);
+    const spread = typeof error === "number" ? ` ± ${format(clean(error / shown.size), 3)}` : error ? ` ± ${error}` : "";
+    return format(clean(si / shown.size), 5) + spread;
   };
   let before = "";
   const show = (value) => {
@@ -64,13 +68,18 @@ export function numberField(spec) {
   };
   const update = (value) => {
     place(value);
+    element.classList.toggle("uncertain", Boolean(spec.errorAt?.(path)));
     if (document.activeElement !== input) show(value);
   };
   const commit = () => {
     if (input.value === before) return; // the shown value may be rounded
     before = input.value;
     if (spec.optional && input.value.trim() === "") spec.set(path, undefined);
-    else spec.set(path, read(input.value, unit, shown));
+    else spec.set(path, ...typed());
+  };
+  const typed = () => {
+    const { value, error } = spec.errorAt ? splitError(input.value) : { value: input.value, error: null };
+    return [read(value, unit, shown), error === null ? null : read(error, unit, shown)];
   };
   slider.addEventListener("input", () => {
     const value = ladder.toValue(Number(slider.value));
@@ -79,7 +88,7 @@ export function numberField(spec) {
   });
   input.addEventListener("change", () => {
     commit();
-    const value = read(input.value, unit, shown);
+    const [value] = typed();
     if (typeof value === "number") show(value);
   });
   input.addEventListener("keydown", (event) => {

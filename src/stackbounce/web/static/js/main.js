@@ -7,6 +7,7 @@ import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
 import { mountNumbers } from "./numbers.js";
 import { mountPlots } from "./plots.js";
+import { carryErrors } from "./prediction.js";
 import { run } from "./runner.js";
 import { mountShare } from "./share.js";
 import { mountStage } from "./stage.js";
@@ -23,6 +24,7 @@ window.stackbounce = { store, clock };
 
 address.follow(store);
 const runner = run(store, api);
+carryErrors(store, api);
 mountStage(place("stage"), store, clock);
 mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);

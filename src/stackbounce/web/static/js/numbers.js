@@ -2,6 +2,7 @@
 
 import { h, write } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
+import { formatMeasured, withSpread } from "./quantity.js";
 import { fixed, format } from "./units.js";
 import { ballName, capital, contactName, count, height, highest, percent, setUp, shortContact, shortly, told } from "./words.js";
 
@@ -11,16 +12,16 @@ const SETTLED = 700; // ms without a new result before it is said
 export function mountNumbers({ root, table, live }, store) {
   let timer = 0;
   const show = () => {
-    const { result, until } = store.get();
+    const { result, until, prediction } = store.get();
     if (!result) return;
     const sentence = h("p", { class: "told", "aria-hidden": "true", text: shortly(result, until) });
-    root.replaceChildren(sentence, ballTable(result, until), facts(result, until));
+    root.replaceChildren(sentence, ballTable(result, until, prediction), facts(result, until, prediction));
     table.replaceChildren(intervalTable(result));
     clearTimeout(timer);
     timer = setTimeout(() => write(live, told(result, until)), SETTLED);
   };
   store.subscribe((state, before) => {
-    if (state.result !== before.result) show();
+    if (state.result !== before.result || state.prediction !== before.prediction) show();
   });
 }
 
@@ -40,10 +41,10 @@ function textbook({ separate }) {
 }
 
 /** The table of the balls, the highest first, as they lie. */
-function ballTable(result, until) {
+function ballTable(result, until, prediction) {
   const { drop } = result;
-  const separate = textbook(result);
-  const own = until === null ? impactColumns(result, result) : wholeColumns(result, result.frames.position);
+  const separate = prediction?.values ? null : textbook(result); // there is no room for both
+  const own = until === null ? impactColumns(result, result, prediction) : wholeColumns(result, result.frames.position);
   const theirs = separate && (until === null ? impactColumns(result, separate).slice(1) : wholeColumns(result, separate.position));
   const all = [...own, ...(theirs ?? [])];
   const when = until === null ? "After the impact" : `Within ${format(until)} s`;
@@ -60,12 +61,17 @@ function ballTable(result, until) {
 }
 
 /** The columns of an impact, of the drop itself or of its separate collisions. */
-function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }) {
+function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }, prediction) {
+  const known = (name, ball) => prediction?.values?.[`${name}.${ball}`];
+  const rise = (ball) => {
+    const { value, error } = known("rebound_heights", ball) ?? {};
+    return error > 0 ? formatMeasured(value, error, "m") : height(heights[ball]);
+  };
   const fallen = speedOf(drop) ** 2 / 2 / GRAVITY;
   return [
-    { name: "m/s", cell: (ball) => fixed(speeds[ball], 2) },
-    { name: "v / v₀", cell: (ball) => fixed(ratios[ball], 3) },
-    { name: ["rises", wide(" (× drop)")], cell: (ball) => [height(heights[ball]), times(heights[ball], fallen)] },
+    { name: "m/s", cell: (ball) => withSpread(known("rebound_speeds", ball)) ?? fixed(speeds[ball], 2) },
+    { name: "v / v₀", cell: (ball) => withSpread(known("rebound_ratios", ball)) ?? fixed(ratios[ball], 3) },
+    { name: ["rises", wide(" (× drop)")], cell: (ball) => [rise(ball), times(heights[ball], fallen)] },
   ];
 }
 
@@ -87,7 +93,7 @@ function wide(text) {
 }
 
 /** Energy, collisions and how the run ended. */
-function facts(result, until) {
+function facts(result, until, prediction) {
   const { drop } = result;
   const separate = textbook(result);
   const pair = (name, own, other) => {
@@ -97,7 +103,9 @@ function facts(result, until) {
   const list = h("dl", { class: "facts" }, pair("Impact speed", `${format(result.reference_speed, 3)} m/s`));
   if (until === null) {
     const theirs = separate ? percent(separate.energy_retained) : undefined;
-    list.append(pair("Energy retained", percent(result.energy_retained), theirs));
+    const { value, error } = prediction?.values?.energy_retained ?? {};
+    const own = withSpread({ value: 100 * value, error: 100 * error });
+    list.append(pair("Energy retained", own ? `${own} %` : percent(result.energy_retained), theirs));
   }
   const met = drop.contacts
     .map((_, contact) => contact)
@@ -109,9 +117,20 @@ function facts(result, until) {
   set.classList.add("print-only");
   list.prepend(set);
   if (result.separate?.error) list.append(pair("Textbook", result.separate.error));
+  const said = errorWords(prediction);
+  if (said) list.append(pair("Errors", said));
   const asked = until !== null && result.status === "TIME_REACHED";
   if (result.status !== "FINISHED" && !asked) list.append(pair("Note", capital(result.advice)));
   return list;
+}
+
+/** How the errors were found, and what to measure better, in sentences. */
+function errorWords(prediction) {
+  if (!prediction) return "";
+  if (prediction.problem) return capital(prediction.problem);
+  const { how, advice, notes } = prediction;
+  const words = [how, advice, ...notes, "bands show one standard deviation"].filter(Boolean);
+  return words.map((text) => `${capital(text)}.`).join(" ");
 }
 
 /** The table of the contact intervals. */

@@ -11,9 +11,9 @@ import { format } from "./units.js";
 export function mountPlots(root, store, clock) {
   let shown = [];
   const build = () => {
-    const { result, until, overlays } = store.get();
+    const { result, until, overlays, prediction } = store.get();
     if (!result) return;
-    const wanted = panels(result, until !== null, overlays);
+    const wanted = panels(result, until !== null, overlays, prediction);
     const same = shown.length > 0 && wanted.every((panel, i) => shown[i].key === keyOf(panel));
     if (same) {
       wanted.forEach((panel, i) => shown[i].update(panel));
@@ -31,7 +31,7 @@ export function mountPlots(root, store, clock) {
     build();
   };
   store.subscribe((state, before) => {
-    if (state.result !== before.result || state.overlays !== before.overlays) build();
+    if (["result", "overlays", "prediction"].some((name) => state[name] !== before[name])) build();
   });
   clock.subscribe(() => {
     for (const one of shown) one.follow(clock.time);
@@ -162,7 +162,7 @@ class Panel {
           pxAlign: 0,
         })),
       ],
-      hooks: { drawAxes: [(plot) => this.drawDots(plot)], draw: [(plot) => this.drawStems(plot)] },
+      hooks: { drawAxes: [(plot) => this.drawBands(plot), (plot) => this.drawDots(plot)], draw: [(plot) => this.drawStems(plot)] },
     };
   }
 
@@ -172,9 +172,10 @@ class Panel {
 
   /** Return the range of the values, of what is laid over them, with a little air. */
   range(low, high) {
-    const { floor, ceiling, overlays, times } = this.panel;
+    const { floor, ceiling, overlays, bands, times } = this.panel;
     const seen = (time) => time >= times[0] && time <= times.at(-1);
-    const more = overlays.flatMap(({ time, values }) => values.filter((value, i) => value !== null && seen(time[i])));
+    const laid = [...overlays, ...bands.flatMap(({ time, low, high }) => [{ time, values: low }, { time, values: high }])];
+    const more = laid.flatMap(({ time, values }) => values.filter((value, i) => value !== null && seen(time[i])));
     const bottom = more.reduce((a, b) => Math.min(a, b), Math.min(floor ?? Infinity, low ?? Infinity));
     const top = more.reduce((a, b) => Math.max(a, b), Math.max(ceiling ?? -Infinity, high ?? -Infinity));
     if (!Number.isFinite(bottom) || !Number.isFinite(top)) return [0, 1];
@@ -192,6 +193,21 @@ class Panel {
         ctx.moveTo(plot.valToPos(time, "x", true), plot.valToPos(0, "y", true));
         ctx.lineTo(plot.valToPos(time, "x", true), plot.valToPos(impulse, "y", true));
         ctx.stroke();
+      }
+    });
+  }
+
+  /** Draw one standard deviation around each line, below the lines. */
+  drawBands(plot) {
+    clipped(plot, (ctx) => {
+      for (const { index, time, low, high } of this.panel.bands) {
+        const known = [...time.keys()].filter((i) => low[i] !== null && high[i] !== null);
+        const place = (i, values) => [plot.valToPos(time[i], "x", true), plot.valToPos(values[i], "y", true)];
+        ctx.fillStyle = `${colorOf(this.colors, index)}44`;
+        ctx.beginPath();
+        for (const i of known) ctx.lineTo(...place(i, low));
+        for (const i of known.reverse()) ctx.lineTo(...place(i, high));
+        ctx.fill();
       }
     });
   }

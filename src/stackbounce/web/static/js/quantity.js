@@ -27,6 +27,12 @@ export function formatMeasured(value, error, unit) {
   return `${number} ± ${spread}${written}`;
 }
 
+/** Return a value with its error without a unit, "6.41 ± 0.05"; null without an error. */
+export function withSpread({ value, error } = {}) {
+  if (typeof value !== "number" || !(error > 0)) return null;
+  return rounded(value, error).join(" ± ");
+}
+
 /** Return a value and its error, rounded where the error's second digit is, or its first from 3 on. */
 function rounded(value, error) {
   const digit = Math.floor(Math.log10(error));

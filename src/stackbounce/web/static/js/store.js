@@ -24,7 +24,9 @@ export const FIRST = {
   magnify: null, // how many times movement is shown larger, null to let the page choose
   t: null, // s, where the cursor stands, null for the begin
   map: null,
+  errors: {}, // of numbers of the drop, by path: SI numbers, or texts that the server reads
   result: null,
+  prediction: null, // what follows of the errors, or {problem}
   busy: false,
   error: null, // {detail, offline}
   notice: null, // one line about the page itself, such as a link that could not be read

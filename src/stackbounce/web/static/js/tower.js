@@ -16,7 +16,7 @@ const OWN = "";
 export function towerOf(drop, tools, notes) {
   const fields = [];
   const field = (spec) => {
-    const one = numberField({ set: tools.set, ...spec });
+    const one = numberField({ set: tools.set, errorAt: tools.errorAt, ...spec });
     one.update(valueAt(drop, spec.path));
     fields.push(one);
     return one.element;

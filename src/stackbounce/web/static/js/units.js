@@ -73,6 +73,16 @@ export function read(text, unit, shown) {
   return size === undefined ? text.trim() : clean(number * size);
 }
 
+/** Split "63 ± 1 cm" into `{value, error}`, each with the unit that only one has; without ± the error is null. */
+export function splitError(text) {
+  const [value, error, ...more] = text.split(/±|\+\/-/).map((part) => part.replace(/[()]/g, "").trim());
+  if (error === undefined || more.length) return { value: text, error: null };
+  const unit = (part) => QUANTITY.exec(pointed(part))?.[2] ?? "";
+  const own = unit(value) || unit(error);
+  const whole = (part) => (unit(part) ? part : `${part} ${own}`.trim());
+  return { value: whole(value), error: whole(error) };
+}
+
 /** Return a text with a decimal point for a decimal comma; 1,000 could be either and stays as it is. */
 function pointed(text) {
   return /^[+-]?[1-9]\d{0,2},\d{3}(?!\d)/.test(text) ? text : text.replace(/^([+-]?\d*),(\d+)/, "$1.$2");

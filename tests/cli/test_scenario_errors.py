@@ -1,0 +1,102 @@
+"""Scenario files whose numbers have errors."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.cli import main
+from stackbounce.prediction import read_scenario
+
+DROP = sb.Drop(
+    [sb.Ball(0.15, name="a (1) ± b"), sb.Ball(0.057)],
+    [sb.Hertz(2e5), sb.Spring(1000.0)],
+    gaps=[0.002],
+    height=0.63,
+)
+
+
+@pytest.fixture
+def run(capfd, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("plain.toml").write_text(DROP.to_toml(), encoding="utf-8")
+    text = DROP.to_toml()
+    for old, new in (
+        ("height = 0.63", 'height = "63 ± 1 cm"'),
+        ("gaps = [0.002]", 'gaps = ["2.0(5) mm"]'),
+        ("mass = 0.057", 'mass = "57 g ± 0.5 g"'),
+        ("stiffness = 200000.0", 'stiffness = "200000 ± 10000"'),
+    ):
+        assert old in text
+        text = text.replace(old, new)
+    Path("drop.toml").write_text(text, encoding="utf-8")
+
+    def run_main(*arguments):
+        code = main(list(arguments))
+        captured = capfd.readouterr()
+        return code, captured.out, captured.err
+
+    return run_main
+
+
+@pytest.mark.usefixtures("run")
+def test_a_file_has_the_drop_and_its_errors():
+    drop, errors = read_scenario("drop.toml")
+    assert drop == DROP
+    assert errors == {
+        "height": "63 ± 1 cm",
+        "gaps.0": "2.0(5) mm",
+        "balls.1.mass": "57 g ± 0.5 g",
+        "contacts.0.stiffness": "200000 ± 10000",
+    }
+    assert read_scenario("plain.toml") == (DROP, {})
+
+
+def test_simulate_carries_the_errors_of_a_file(run):
+    code, out, err = run("simulate", "drop.toml", "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)["errors"]
+    exact = sb.predict(
+        DROP,
+        {
+            "gaps.0": (0.002, 0.0005),
+            "height": (0.63, 0.01),
+            "balls.1.mass": (0.057, 0.0005),
+            "contacts.0.stiffness": (2e5, 1e4),
+        },
+    )
+    speed = exact["rebound_speeds.1"]
+    assert found["values"]["rebound_speeds.1"]["error"] == pytest.approx(speed.std_dev, rel=1e-9)
+    assert found["numbers"]["balls.1.mass"] == {"value": 0.057, "error": 0.0005}
+    assert set(found["numbers"]) == set(exact.errors)
+    assert "errors" not in json.loads(run("simulate", "plain.toml", "--json")[1])
+
+
+def test_an_option_takes_the_place_of_a_number_and_its_error(run):
+    options = ("--speed", "3.5m/s", "--gap", "1 ± 0.1 mm", "--json")
+    found = json.loads(run("simulate", "drop.toml", *options)[1])["errors"]["numbers"]
+    assert list(found) == ["balls.1.mass", "contacts.0.stiffness", "gaps.0"]
+    assert found["gaps.0"] == {"value": 0.001, "error": pytest.approx(1e-4)}
+
+
+@pytest.mark.parametrize(
+    ("command", "message"),
+    [
+        (("simulate", "drop.toml", "--error", "height=1cm"), "only one error can be given"),
+        (("simulate", "drop.toml", "plain.toml"), "drop.toml: "),
+        (("sweep", "drop.toml", "--over", "gaps.0=0,1mm", "--out", "a.zarr"), "gaps.0"),
+        (("fit", "drop.toml", "--measured", "durations.0=1 ± 0.1 ms"), "gaps.0"),
+        (("highest", "drop.toml", "plain.toml"), "gaps.0"),
+    ],
+)
+def test_where_errors_mean_nothing_they_are_refused(run, command, message):
+    code, out, err = run(*command)
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert message in err
+    assert "without an error here" in err or "--error" in command
+
+
+def test_a_drop_has_no_errors():
+    with pytest.raises(sb.errors.ScenarioError, match="height must be a length without an error"):
+        sb.Drop.from_mapping(DROP.to_mapping() | {"height": "63 ± 1 cm"})
