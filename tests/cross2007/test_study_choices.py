@@ -155,8 +155,8 @@ def test_claims_are_checked_with_every_choice():
     assert found["no model gives all values"].fails == ["one", "two"]
     assert found["S has a smaller BIC than B"].fails == ["two"]
     text = state_headline(fits, list(found.values()))
-    assert text.startswith("Which model describes Table II is undecided: 2 models")
-    assert "“S” with 1 choice, “B” with 1 choice" in text
+    assert text.startswith("Which model describes Table II is undecided: of 2 choices")
+    assert "belongs to “S” with 1, “B” with 1." in text
     assert "elastic balls are excluded" in text
     assert "separate" not in text
 
@@ -165,7 +165,8 @@ def test_a_headline_without_survivors_says_so():
     table = {"one": {name: (0.5, 10.0 if name == "S" else 12.0) for name in MODELS}}
     text = state_headline(fits_with(table), [Claim("it is so", [], ["one"])])
     assert text == (
-        "Model S has the smallest BIC with every choice. No other claim holds with every choice."
+        "Model “S” has the smallest BIC with every choice of the analysis. "
+        "No claim holds with every choice."
     )
 
 
@@ -183,6 +184,7 @@ def test_an_exact_prediction_scores_nothing():
     whole = Fit(objective, [Minimum(np.array([2e-3]), 0.0, True)])
     held = predict_held_out(whole, {}, "B2_on_B1")
     assert held.score < 0.01
+    assert held.expected == pytest.approx(2.0, abs=0.1)
     assert held.predicted == pytest.approx(right[:2], abs=1e-3)
     data["B2_on_B1"]["rebound_ratios"][0] = (right[0] + 0.06, 0.02)
     wrong = Fit(observe(replace(model, data=data)), whole.minima)

@@ -19,7 +19,7 @@ from stackbounce.cross2007.study import (
     sensitivity,
 )
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
-from stackbounce.cross2007.study.choices import CHOICES
+from stackbounce.cross2007.study.choices import BASE, CHOICES
 from stackbounce.cross2007.study.observed import observe
 from stackbounce.fitting import Fit
 from stackbounce.fitting.least_squares import Minimum
@@ -117,7 +117,7 @@ def test_every_model_is_there(page, folder):
     assert {one["name"] for one in done["models"]} == names
     for one in done["models"]:
         assert one["title"] in text
-        assert set(one["pairs"]) == set(done["data"])
+        assert set(one["pairs"]) == set(done["data"][BASE.name])
     assert "nan" not in text.lower().replace("resonant", "")
 
 

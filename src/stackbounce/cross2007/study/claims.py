@@ -1,5 +1,6 @@
 """What may be claimed of Table II: each claim is checked with every choice of the analysis."""
 
+from collections import Counter
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -53,25 +54,19 @@ def check_claims(fits: ChoiceFits) -> list[Claim]:
 def state_headline(fits: ChoiceFits, claims: list[Claim]) -> str:
     """Return the conclusion that holds with every choice, in a few sentences."""
     leaders = list(fits.leaders.values())
-    often = {name: leaders.count(name) for name in sorted(set(leaders), key=leaders.index)}
+    often = dict(Counter(leaders).most_common())
     if len(often) == 1:
-        first = f"Model {leaders[0]} has the smallest BIC with every choice."
+        first = f"Model “{leaders[0]}” has the smallest BIC with every choice of the analysis."
     else:
-        named = ", ".join(
-            f"“{name}” with {_count(count, 'choice')}" for name, count in often.items()
-        )
+        named = ", ".join(f"“{name}” with {count}" for name, count in often.items())
         first = (
-            f"Which model describes Table II is undecided: {len(often)} models have the smallest "
-            f"BIC, {named} of the analysis."
+            f"Which model describes Table II is undecided: of {len(leaders)} choices of the "
+            f"analysis, the smallest BIC belongs to {named}."
         )
     kept = [one.text for one in claims if one.survives]
     if not kept:
-        return f"{first} No other claim holds with every choice."
-    return f"{first} With every choice: {'; '.join(kept)}."
-
-
-def _count(count: int, what: str) -> str:
-    return f"{count} {what}{'' if count == 1 else 's'}"
+        return f"{first} No claim holds with every choice."
+    return f"{first} With every choice, and among these models: {'; '.join(kept)}."
 
 
 def _excluded(*names: str) -> Callable[[ChoiceFits, str], bool]:
@@ -125,7 +120,6 @@ _CLAIMS: dict[str, Callable[[ChoiceFits, str], bool]] = {
     "loss at the floor only is excluded": _excluded("A", "A, fitted"),
     "no model gives all values": _none_fits,
     "S has a smaller BIC than B": _beats("S", "B"),
-    "S has the smallest BIC": _leads("S"),
     "a hysteresis that loses on reloading has the smallest BIC": _leads("L", "L, linear"),
     "one model's BIC is smaller than that of all others by more than 6": _decided,
 }

@@ -21,18 +21,21 @@ __all__ = ["HeldOut", "cross_validate", "cross_validate_selection", "predict_hel
 
 _STEPS = 601  # of the gap
 _SPAN = 4.0  # errors of the delay
+_DRAWS = 2000  # of both ratios, for the mean score of a right model
 
 
 class HeldOut(NamedTuple):
     """A pair that was left out: twice the negative logarithm of the density of its ratios.
 
-    The score is 0 if both ratios are predicted exactly whatever the delay; a right model at a known
-    delay has 2 on average. `predicted` are the ratios at the recorded delay itself. `chosen` says
-    which law and reading had the smallest chi squared for the other pairs, if they were chosen so.
+    The score is 0 if both ratios are predicted exactly whatever the delay. `expected` is its mean
+    if the model is right: 2 at a known delay, more if the ratios depend on it. `predicted` are the
+    ratios at the recorded delay itself. `chosen` says which law and reading had the smallest chi
+    squared for the other pairs, if they were chosen so.
     """
 
     pair: str
     score: float
+    expected: float
     predicted: tuple[float, float]
     chosen: str = ""
 
@@ -78,21 +81,44 @@ def predict_held_out(whole: Fit, shared: Mapping[str, float], pair: str) -> Held
     first, second, touch = objective.predict(pair, trials).T
     order = np.argsort(touch)
     times = delay.value + delay.error * np.linspace(-_SPAN, _SPAN, _STEPS)
-    curves = [np.interp(times, touch[order], ratio[order]) for ratio in (first, second)]
-    pulls = [
-        (curve - one.value) / one.error for curve, one in zip(curves, (lower, upper), strict=True)
-    ]
-    middle = [float(curve[_STEPS // 2]) for curve in curves]
-    density = -0.5 * (np.square(pulls[0]) + np.square(pulls[1]))
-    return HeldOut(pair, -2.0 * _log_mean(density), (middle[0], middle[1]))
+    curves = np.stack(
+        [
+            np.interp(times, touch[order], ratio[order]) / one.error
+            for ratio, one in ((first, lower), (second, upper))
+        ]
+    )
+    measured = np.array([[lower.value / lower.error], [upper.value / upper.error]])
+    middle = curves[:, _STEPS // 2] * (lower.error, upper.error)
+    return HeldOut(
+        pair,
+        float(_scores(curves, measured)[0]),
+        float(np.mean(_scores(curves, _draw(curves)))),
+        (float(middle[0]), float(middle[1])),
+    )
 
 
-def _log_mean(logs: Array) -> float:
-    """Return the logarithm of a mean, weighted by the normal distribution of the delay."""
+def _scores(curves: Array, measured: Array) -> Array:
+    """Return scores (n,) of both ratios (2, n), by their curves (2, steps) against the delay.
+
+    All are in errors.
+    """
     from scipy.special import logsumexp
 
-    weights = np.exp(-0.5 * np.linspace(-_SPAN, _SPAN, len(logs)) ** 2)
-    return float(logsumexp(logs, b=weights / weights.sum()))
+    squares = np.sum(np.square(curves[:, None, :] - measured[:, :, None]), axis=0)
+    return np.asarray(-2.0 * logsumexp(-0.5 * squares, axis=1, b=_weights()))
+
+
+def _draw(curves: Array) -> Array:
+    """Return both ratios (2, n) as a right model would have them, in errors."""
+    random = np.random.default_rng(0)
+    at = random.choice(_STEPS, _DRAWS, p=_weights())
+    return np.asarray(curves[:, at] + random.standard_normal((2, _DRAWS)))
+
+
+def _weights() -> Array:
+    """Return the weights of the delays (steps,), by the normal distribution."""
+    weights = np.exp(-0.5 * np.linspace(-_SPAN, _SPAN, _STEPS) ** 2)
+    return np.asarray(weights / weights.sum())
 
 
 def cross_validate_selection(tried: list[Combination]) -> list[HeldOut]:

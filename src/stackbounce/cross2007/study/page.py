@@ -99,6 +99,7 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         },
         penalty=penalty,
         total=_total,
+        expected=lambda rows: sum(one.expected for one in rows),
         best_first=lambda rows: sorted(rows, key=lambda name: _total(rows[name])),
         correction=own["S, six"].aicc - own["S, six"].chi_squared - 2.0 * own["S, six"].free,
         fits=FITS,
