@@ -622,7 +622,8 @@ def write(monkeypatch):
     """Stands in for the report, which has tests of its own, and takes its time."""
     written = []
 
-    def stand_in(out, progress, *, study):
+    def stand_in(out, progress, *, study, workers):
+        assert workers >= 1
         progress("study" if study else "figure 2a")
         written.append(out)
         rows = (Row("agrees", True), Row("agrees", True), Row("differs", False))

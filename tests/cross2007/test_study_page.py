@@ -10,8 +10,17 @@ import pytest
 
 from stackbounce import cross2007
 from stackbounce.cross2007 import paper
-from stackbounce.cross2007.study import basketball, comparison, readings, results, sensitivity
+from stackbounce.cross2007.study import (
+    basketball,
+    choice_fits,
+    cross_validation,
+    readings,
+    results,
+    sensitivity,
+)
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
+from stackbounce.cross2007.study.choices import BASE, CHOICES
+from stackbounce.cross2007.study.observed import observe
 from stackbounce.fitting import Fit
 from stackbounce.fitting.least_squares import Minimum
 
@@ -22,7 +31,7 @@ FIGURES = ["comparison", "misfits", "delays", "energy", "decisive"]
 
 def looked_at(model, data, *_, **__):
     """Stands for a fit: one trial in the middle, gaps of 5 mm."""
-    objective = replace(model, data=data, rtol=1e-5).objective
+    objective = observe(replace(model, data=data))
     x = np.array(
         [5e-3 if one.name.endswith("gaps.0") else sum(one.span) / 2 for one in objective.parameters]
     )
@@ -39,9 +48,12 @@ def told():
 def folder(tmp_path_factory, told):
     out = tmp_path_factory.mktemp("study")
     with pytest.MonkeyPatch.context() as patch:
-        for module in (comparison, readings, sensitivity, basketball):
+        for module in (choice_fits, readings, basketball):
             patch.setattr(module, "fit_model", looked_at)
-        patch.setattr(sensitivity, "refit", looked_at)
+        for module in (choice_fits, sensitivity):
+            patch.setattr(module, "fit_near", looked_at)
+        for module in (sensitivity, cross_validation):
+            patch.setattr(module, "refit", looked_at)
         patch.setattr(results, "refit_section_v", list)
         patch.setattr(paper, "FIGURES", {"6": paper.FIGURES["6"]})
         patch.setattr(paper, "SECTIONS", paper.SECTIONS[:1])
@@ -105,8 +117,19 @@ def test_every_model_is_there(page, folder):
     assert {one["name"] for one in done["models"]} == names
     for one in done["models"]:
         assert one["title"] in text
-        assert set(one["pairs"]) == set(done["data"])
+        assert set(one["pairs"]) == set(done["data"][BASE.name])
     assert "nan" not in text.lower().replace("resonant", "")
+
+
+def test_every_choice_is_there(page, folder):
+    text = " ".join("".join(page.text).split())
+    done = json.loads((folder / "study.json").read_text(encoding="utf-8"))
+    assert done["headline"] in text
+    for one in done["claims"]:
+        assert len(one["holds"]) + len(one["fails"]) == len(CHOICES)
+    for choice in CHOICES:
+        assert choice.name in text
+        assert all(choice.name in row for row in done["choices"]["cells"].values())
 
 
 def test_it_says_what_it_is_doing(told):

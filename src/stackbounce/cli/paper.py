@@ -1,5 +1,6 @@
 """The command ``stackbounce paper``: the paper recomputed."""
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -26,7 +27,7 @@ def run(
         bool,
         typer.Option(
             "--study",
-            help="All of Table II by one model after the other, too: a minute or two more.",
+            help="All of Table II by one model after the other, too: some minutes more.",
         ),
     ] = False,
     as_json: AsJson = False,
@@ -38,7 +39,12 @@ def run(
     if not out:  # Path("") is the current folder
         raise InvalidValue("--out must name a folder, got ''")
     folder = Path(out)
-    audit = cross2007.write(folder, lambda line: typer.echo(line, err=True), study=study)
+    audit = cross2007.write(
+        folder,
+        lambda line: typer.echo(line, err=True),
+        study=study,
+        workers=os.cpu_count() or 1,
+    )
     if as_json:
         print_json(audit.as_dict())
     else:

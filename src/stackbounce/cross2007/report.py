@@ -33,7 +33,11 @@ _COLUMNS = (
 
 
 def write(
-    out: Path, progress: Callable[[str], None] = lambda _: None, *, study: bool = False
+    out: Path,
+    progress: Callable[[str], None] = lambda _: None,
+    *,
+    study: bool = False,
+    workers: int = 1,
 ) -> Audit:
     """Recompute the paper and write the results to files.
 
@@ -49,6 +53,9 @@ def write(
         Receives a line of text for each step.
     study : bool, optional
         Whether to add the study of Table II: ``study.html``, ``study.json`` and its figures.
+    workers : int, optional
+        Processes that share the study's fits; the files do not depend on it. A script that asks for
+        several needs ``if __name__ == "__main__":`` around its call.
 
     Returns
     -------
@@ -75,7 +82,7 @@ def write(
     if study:
         from stackbounce.cross2007.study.page import make_files as study_files
 
-        files |= study_files(progress)
+        files |= study_files(progress, workers)
     progress(f"writing to {out}")
     files["audit.csv"] = _csv(done).encode()
     files["audit.json"] = _json(done, [picture for picture, _ in drawn], tables).encode()

@@ -1,18 +1,17 @@
-"""The comparison: every model of the catalogue fitted to the same ten values and five delays."""
+"""Fits of all models of the catalogue to the same data, side by side."""
 
 import functools
-from collections.abc import Callable
+import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from stackbounce.cross2007.study import inputs
-from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
-from stackbounce.cross2007.study.searches import fit_model
-from stackbounce.cross2007.study.theories import make_rigid_model
+from stackbounce.cross2007.study.catalogue import THEORIES
 from stackbounce.fitting import Fit, Residual
 from stackbounce.fitting.comparison import Comparison
 from stackbounce.model import Drop
 
-__all__ = ["FittedModels", "fit_models"]
+__all__ = ["FittedModels", "Score", "score"]
 
 _MISS = 2.0  # errors
 
@@ -29,16 +28,28 @@ class FittedModels:
 
     comparison: Comparison
 
+    @functools.cached_property
+    def order(self) -> list[str]:
+        """The names of the models, that with the smallest BIC first."""
+        fits = self.comparison.fits
+        return sorted(fits, key=lambda name: score(fits[name]).bic)
+
+    @property
+    def data(self) -> int:
+        """The number of measurements, without what is known of the fitted numbers."""
+        objective = next(iter(self.comparison.fits.values())).objective
+        return objective.size - len(objective.priors)
+
     def __getitem__(self, name: str) -> Fit:
         """The fit of one model."""
         return self.comparison[name]
 
     def ratios(self, name: str) -> list[Residual]:
-        """Return the residuals of the ten values of Table II, without those of the delays."""
+        """Return the residuals of the values of Table II, without those of the delays."""
         return [one for one in self[name].residuals if one.name in inputs.RATIOS]
 
     def of_ratios(self, name: str) -> float:
-        """Return chi squared of the ten values of Table II alone."""
+        """Return chi squared of the values of Table II alone."""
         return sum(one.pull**2 for one in self.ratios(name))
 
     def worst(self, name: str) -> list[Residual]:
@@ -47,7 +58,7 @@ class FittedModels:
         return sorted(missed, key=lambda one: -abs(one.pull))
 
     def within(self, name: str) -> int:
-        """Return how many of the ten values lie within the printed error of 0.02."""
+        """Return how many of these values lie within the printed error of 0.02."""
         return sum(abs(one.pull) <= 1.0 for one in self.ratios(name))
 
     def pairs(self, name: str) -> dict[str, dict[str, float]]:
@@ -84,12 +95,22 @@ class FittedModels:
         return {**rigid_ones, **{name: one.title for name, one in THEORIES.items()}}
 
 
-def fit_models(progress: Callable[[str], None] = lambda _: None) -> FittedModels:
-    """Fit each model of the catalogue to all five pairs of superballs together."""
-    models = {name: make_rigid_model(*numbers) for name, numbers in NAMES.items()}
-    models |= {name: theory.model() for name, theory in THEORIES.items()}
-    fits: dict[str, Fit] = {}
-    for name, model in models.items():
-        progress(f"study: model '{name}'")
-        fits[name] = fit_model(model, inputs.MEASURED)
-    return FittedModels(Comparison(fits, {}))
+class Score(NamedTuple):
+    """Goodness of a fit; `probability` is that of so large a chi squared if the model is right.
+
+    A number that is known with an error counts as a datum and a parameter in the degrees of
+    freedom, and as neither in BIC.
+    """
+
+    chi_squared: float
+    degrees_of_freedom: int
+    probability: float
+    bic: float
+
+
+def score(found: Fit) -> Score:
+    """Return the goodness of a fit."""
+    known = len(found.objective.priors)
+    free, data = found.free - known, found.objective.size - known
+    bic = found.chi_squared + free * math.log(data)
+    return Score(found.chi_squared, found.degrees_of_freedom, found.probability, bic)

@@ -1,5 +1,6 @@
 """The study's figures of the energy bound and of measurements that discriminate between models."""
 
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -37,6 +38,10 @@ def draw_energy(rows: list[EnergyBound]) -> Picture:
             color=FLOOR,
             label=_first(k, "at most: their roots"),
         )
+        below = one.printed - one.printed_error
+        ax.bar(k, 2.0 * one.printed_error, 0.7, below, color=UPPER, alpha=0.2, lw=0)
+        tall = math.hypot(one.error, one.height_error)
+        ax.errorbar(k, one.measured, tall, fmt="none", ecolor=GREY, capsize=2, lw=1.0)
         ax.errorbar(
             k, one.measured, one.error, fmt="o", color=BLACK, capsize=3, label=_first(k, "measured")
         )
@@ -48,8 +53,8 @@ def draw_energy(rows: list[EnergyBound]) -> Picture:
         "study-energy",
         "Energy that is left, and the most that can be left",
         "Lines: what remains if only the floor takes energy, with Table I's COR as restitutions "
-        "(solid) or as ratios of heights (dashed). With a light ball on top more is left than "
-        "0.78 allows, whatever happens between the balls.",
+        "(solid, ± 0.02) or as ratios of heights (dashed). Black error bars are those of the "
+        "ratios, grey ones contain ± 1 cm of the drop height.",
         (),
         (),
         figure,

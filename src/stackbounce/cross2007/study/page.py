@@ -7,8 +7,10 @@ from typing import Any
 
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.study import inputs
-from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED, CHOSEN, MISPRINT
-from stackbounce.cross2007.study.comparison import FittedModels
+from stackbounce.cross2007.study.catalogue import CHOSEN
+from stackbounce.cross2007.study.choices import ALL_EARLY, ALL_LATE, BASE, LATE
+from stackbounce.cross2007.study.claims import EXCLUDED, FITS
+from stackbounce.cross2007.study.cross_validation import HeldOut
 from stackbounce.cross2007.study.figures import (
     draw_comparison,
     draw_delays,
@@ -16,8 +18,8 @@ from stackbounce.cross2007.study.figures import (
     name_pair,
 )
 from stackbounce.cross2007.study.figures_predictions import draw_decisive, draw_energy
-from stackbounce.cross2007.study.readings import LAWS, Reading
-from stackbounce.cross2007.study.results import Study, run_study
+from stackbounce.cross2007.study.readings import LAWS, READINGS, penalty
+from stackbounce.cross2007.study.results import BOTH, Study, run_study
 from stackbounce.cross2007.style import Picture, render, use_style
 from stackbounce.fitting import Residual
 from stackbounce.version import __version__
@@ -25,15 +27,19 @@ from stackbounce.version import __version__
 __all__ = ["draw_pictures", "make_files", "render_page"]
 
 
-def make_files(progress: Callable[[str], None] = lambda _: None) -> dict[str, bytes]:
+def make_files(
+    progress: Callable[[str], None] = lambda _: None, workers: int = 1
+) -> dict[str, bytes]:
     """Return ``study.html``, ``study.json`` and the study's figures as bytes, by their names.
 
     Parameters
     ----------
     progress : callable, optional
         Receives a line of text for each step.
+    workers : int, optional
+        Processes that share the fits; the files do not depend on it.
     """
-    done = run_study(progress)
+    done = run_study(progress, workers)
     found: dict[str, bytes] = {}
     drawn: dict[str, tuple[Picture, str]] = {}
     for picture in draw_pictures(done):
@@ -50,7 +56,7 @@ def draw_pictures(done: Study) -> list[Picture]:
     """Return the study's figures, in the order of the page."""
     with use_style():
         return [
-            draw_comparison(done.compared),
+            draw_comparison(done.fits),
             draw_misfits(done.compared),
             draw_delays(done.compared),
             draw_energy(done.kept),
@@ -62,42 +68,68 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
     """Return the page as HTML."""
     pages = make_environment()
     pages.filters["number"] = _number
+    pages.filters["chance"] = _chance
     pages.filters["misses"] = _misses
     pages.filters["named"] = name_pair
     pages.filters["fitted"] = _fitted
-    own = done.compared
+    own, cells = done.compared, done.fits.cells
     return pages.get_template("study.html.j2").render(
         study=done,
         figures=drawn,
+        base=BASE.name,
+        late=LATE.name,
+        cells=cells,
+        leaders=done.fits.leaders,
+        likeliest={
+            one.name: max(row[one.name].score.probability for row in cells.values()) for one in BOTH
+        },
+        fitting={
+            choice: sum(row[choice].score.probability >= FITS for row in cells.values())
+            for choice in done.fits.columns
+        },
+        early_all=ALL_EARLY.name,
+        late_all=ALL_LATE.name,
         models={row["name"]: row for row in done.rows},
         pairs={name: own.pairs(name) for name in CHOSEN},
-        biggest={name: _biggest(own, name) for name in ("S", "S, six")},
-        firm=_firm(own),
         measured={pair: inputs.read_ratios(pair) for pair in inputs.PAIRS},
-        balls={"printed": AS_PRINTED, "heights": AS_HEIGHTS},
+        balls=READINGS,
+        tried={
+            choice: {(one.reading, one.law): one.fit.chi_squared for one in tried}
+            for choice, tried in done.readings.items()
+        },
+        penalty=penalty,
+        total=_total,
+        expected=lambda rows: sum(one.expected for one in rows),
+        best_first=lambda rows: sorted(rows, key=lambda name: _total(rows[name])),
+        correction=own["S, six"].aicc - own["S, six"].chi_squared - 2.0 * own["S, six"].free,
+        fits=FITS,
+        excluded=EXCLUDED,
         said={one.what: one for one in done.predictions},
         laws=list(LAWS),
-        heights=_reading(done, AS_HEIGHTS),
-        misprint=_reading(done, MISPRINT),
         chosen=CHOSEN,
         version=__version__,
     )
 
 
-def _reading(done: Study, known: dict[str, float]) -> Reading:
-    """Return the fits of one reading of Table I."""
-    return next(one for one in done.readings if one.restitutions == known)
+def _total(rows: list[HeldOut]) -> float:
+    """Return the sum of the scores of the pairs that were left out."""
+    return sum(one.score for one in rows)
 
 
-def _firm(compared: FittedModels) -> tuple[float, float]:
-    """Return the range of B1's fitted restitution over the laws with loss in every contact."""
-    found = [compared.shared(name)["e_B1"] for name in ("S, fitted", "V", "H", "L", "L, linear")]
-    return min(found), max(found)
+_LEAST = 1e-4  # the smallest probability that is printed
 
 
-def _biggest(compared: FittedModels, name: str) -> Residual:
-    """Return the residual of Table II with the largest pull."""
-    return max(compared.ratios(name), key=lambda one: abs(one.pull))
+def _chance(value: float) -> str:
+    """Format a probability.
+
+    Examples
+    --------
+    >>> _chance(0.01234), _chance(0.00052), _chance(1e-9)
+    ('0.012', '0.0005', '< 10⁻⁴')
+    """
+    if value < _LEAST:
+        return "< 10⁻⁴"
+    return f"{value:.4f}" if value < 1e-3 else f"{value:.3f}"
 
 
 def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:

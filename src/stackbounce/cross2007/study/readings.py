@@ -1,16 +1,17 @@
 """Three readings of Table I's restitutions with every law; only the gaps are fitted."""
 
-from collections.abc import Callable
+import math
+from collections.abc import Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED, MISPRINT
 from stackbounce.cross2007.study.searches import fit_model
 from stackbounce.cross2007.study.theories import SHARED, Theory
+from stackbounce.fitting import Fit
 from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
 
-__all__ = ["LAWS", "READINGS", "Reading", "fit_readings"]
+__all__ = ["LAWS", "READINGS", "Combination", "fit_combinations", "penalty"]
 
 READINGS = {
     "as printed": AS_PRINTED,
@@ -30,22 +31,35 @@ LAWS: dict[str, Theory] = {
 """The laws, with the loss of both balls in every contact."""
 
 
-class Reading(NamedTuple):
-    """Chi squared of ten values and five delays with each law, by its name."""
+class Combination(NamedTuple):
+    """A law with a reading of Table I, and the fit of its gaps."""
 
-    name: str
-    restitutions: dict[str, float]
-    chi_squared: dict[str, float]
+    reading: str
+    law: str
+    fit: Fit
+
+    def of_pair(self, pair: str) -> float:
+        """Return chi squared of one pair."""
+        return sum(one.pull**2 for one in self.fit.residuals if one.drop == pair)
 
 
-def fit_readings(progress: Callable[[str], None] = lambda _: None) -> list[Reading]:
+def fit_combinations(data: Mapping[str, Any]) -> list[Combination]:
     """Fit the gaps for each reading with each law."""
-    rows = []
-    for name, known in READINGS.items():
-        progress(f"study: Table I's restitutions {name}")
-        found = {
-            law: fit_model(replace(theory, known=known).model(), inputs.MEASURED).chi_squared
-            for law, theory in LAWS.items()
-        }
-        rows.append(Reading(name, known, found))
-    return rows
+    return [
+        Combination(reading, law, fit_model(replace(theory, known=known).model(), data))
+        for reading, known in READINGS.items()
+        for law, theory in LAWS.items()
+    ]
+
+
+def penalty(tried: int) -> float:
+    """Return what the choice of one among several equally likely models costs in chi squared.
+
+    It is twice the logarithm of their number: the prior probability of each is one over it.
+
+    Examples
+    --------
+    >>> round(penalty(15), 1)
+    5.4
+    """
+    return 2.0 * math.log(tried)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.single_ball import Numbers, calibrate_numbers, loss_unit
-from stackbounce.fitting import FitProblem, Model
+from stackbounce.fitting import FitProblem, Model, Range
 from stackbounce.model import Drop, Rigid
 
 __all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "make_rigid_model"]
@@ -30,6 +30,10 @@ _BOUNDS = {
     "between": (0.0, 4.0),
     "stiffer": (0.4, 3.0),
     "exponent": (1.0, 2.0),
+    "longer_B1": (-5e-4, 5e-4),
+    "longer_B2": (-5e-4, 5e-4),
+    "longer_B3": (-5e-4, 5e-4),
+    "height": (0.16, 0.24),
 }
 _WIDEST = 0.03  # m: of the gaps that are searched
 _GAP = 4e-3  # m: where a search begins
@@ -63,6 +67,12 @@ class Theory:
         B1's mass in kg, and the drop height of the pairs in m; single balls fall from 20 cm.
     longer : mapping of str to float
         Time in s that is added to the contact time of a ball, by its name.
+    priors : mapping of str to (float, float)
+        Numbers that are known with an error, and fitted with it: restitutions as above;
+        ``longer_B1``, ``longer_B2`` and ``longer_B3``, times in s that are added to contact times;
+        ``height``, the drop height of the pairs in m.
+    gravity : float
+        In m/s**2, during the impact.
 
     Examples
     --------
@@ -83,20 +93,29 @@ class Theory:
     heavy: float = inputs.HEAVY
     height: float = inputs.HEIGHT
     longer: Mapping[str, float] = field(default_factory=dict)
+    priors: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    gravity: float = 0.0
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The numbers that a fit varies, besides the gaps."""
+        return *self.vary, *self.priors
 
     def model(self, pairs: tuple[str, ...] = tuple(inputs.PAIRS)) -> FitProblem:
         """Return the model for `stackbounce.fitting`: drops, varied numbers and ties."""
         vary: dict[str, Any] = {name: _BOUNDS[name] for name in self.vary}
+        vary |= _known_with_errors(self.priors)
         vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in pairs}
-        middle = {name: 0.5 * sum(_BOUNDS[name]) for name in self.vary}
+        middle = {name: 0.5 * sum(_BOUNDS[name]) for name in self.names}
         drops = {key: self.drop(key, _GAP, middle) for key in pairs}
-        return Model(drops, vary, self._ties(pairs) if self.vary else None)
+        return Model(drops, vary, self._ties(pairs) if self.names else None)
 
     def drop(self, key: str, gap: float = 0.0, varied: Mapping[str, float] | None = None) -> Drop:
         """Return one pair with a gap in m and values of the varied numbers."""
         values = self._values(varied or {})
         contacts = [self._law(values, one) for one in self.contacts(values)[key]]
-        return Drop(inputs.make_balls(key, self.heavy), contacts, gaps=[gap], height=self.height)
+        balls = inputs.make_balls(key, self.heavy)
+        return Drop(balls, contacts, gaps=[gap], height=self.height, gravity=self.gravity)
 
     def contacts(self, values: Mapping[str, Any]) -> dict[str, tuple[Numbers, Numbers]]:
         """Return the numbers of each pair's contacts: the floor's, and that of the balls."""
@@ -109,7 +128,8 @@ class Theory:
     def alone(self, ball: str, values: Mapping[str, Any]) -> Numbers:
         """Return the numbers of a ball's contact with the floor."""
         mass, time = inputs.read_solo(ball, self.heavy)
-        own = inputs.Solo(mass, time + self.longer.get(ball, 0.0))
+        longer = self.longer.get(ball, 0.0) + values[f"longer_{ball}"]
+        own = inputs.Solo(mass, time + longer)
         p = values["exponent"]
         found = calibrate_numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
         if loss_unit(self.law) == "s/m":
@@ -157,8 +177,9 @@ class Theory:
     def _values(self, varied: Mapping[str, Any]) -> dict[str, Any]:
         """Return all numbers by name."""
         usual = {"e_B1": 1.0, "e_B2": 1.0, "loss": 1.0, "between": 1.0, "stiffer": 1.0}
+        usual |= {f"longer_{ball}": 0.0 for ball in inputs.PRINTED}
         found: dict[str, Any] = {**usual, "exponent": self.exponent, **self.known}
-        found |= {name: varied[name] for name in self.vary}
+        found |= {name: varied[name] for name in self.names}
         return {"e_B3": found["e_B2"], **found}
 
     def _ties(self, pairs: tuple[str, ...]) -> dict[str, Any]:
@@ -166,7 +187,7 @@ class Theory:
         kept: dict[bytes, dict[str, tuple[Numbers, Numbers]]] = {}
 
         def contacts(varied: Mapping[str, Array]) -> dict[str, tuple[Numbers, Numbers]]:
-            own = b"".join(np.ascontiguousarray(varied[name]).tobytes() for name in self.vary)
+            own = b"".join(np.ascontiguousarray(varied[name]).tobytes() for name in self.names)
             if own not in kept:
                 kept.clear()
                 kept[own] = self.contacts(self._values(varied))
@@ -185,15 +206,33 @@ class Theory:
         return ties
 
 
-def make_rigid_model(*names: str) -> FitProblem:
-    """Return separate collisions: with one restitution, ``e``, or ``e_floor`` and ``e_between``."""
+def make_rigid_model(
+    *names: str,
+    pairs: tuple[str, ...] = tuple(inputs.PAIRS),
+    priors: Mapping[str, tuple[float, float]] | None = None,
+    gravity: float = 0.0,
+) -> FitProblem:
+    """Return separate collisions: with one restitution, ``e``, or ``e_floor`` and ``e_between``.
+
+    Of `priors`, as those of a `Theory`, only the drop height matters.
+    """
     drops = {
         key: Drop(
-            inputs.make_balls(key), [Rigid(0.9), Rigid(0.9)], gaps=[_GAP], height=inputs.HEIGHT
+            inputs.make_balls(key),
+            [Rigid(0.9), Rigid(0.9)],
+            gaps=[_GAP],
+            height=inputs.HEIGHT,
+            gravity=gravity,
         )
-        for key in inputs.PAIRS
+        for key in pairs
     }
     vary: dict[str, Any] = dict.fromkeys(names, _BOUNDS["e"])
+    vary |= _known_with_errors({k: one for k, one in (priors or {}).items() if k == "height"})
     vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in drops}
     ends = {"contacts.0.restitution": names[0], "contacts.1.restitution": names[-1]}
     return Model(drops, vary, ends)
+
+
+def _known_with_errors(priors: Mapping[str, tuple[float, float]]) -> dict[str, Range]:
+    """Return the ranges of numbers that are fitted with what is known of them."""
+    return {name: Range(*_BOUNDS[name], prior=prior) for name, prior in priors.items()}
