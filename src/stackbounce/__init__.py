@@ -19,6 +19,7 @@ if TYPE_CHECKING:
         PowerLaw,
         Rigid,
         Spring,
+        StandardLinearSolid,
         Viscoelastic,
         series,
     )
@@ -43,6 +44,7 @@ __all__ = [
     "Result",
     "Rigid",
     "Spring",
+    "StandardLinearSolid",
     "StackbounceError",
     "Status",
     "Viscoelastic",

@@ -13,6 +13,7 @@ from stackbounce.model.laws.spring import Spring
 from stackbounce.model.laws.hertz import Hertz
 from stackbounce.model.laws.power_law import PowerLaw
 from stackbounce.model.laws.dashpot import Dashpot
+from stackbounce.model.laws.standard_linear_solid import StandardLinearSolid
 from stackbounce.model.laws.viscoelastic import Viscoelastic
 from stackbounce.model.laws.hunt_crossley import HuntCrossley
 from stackbounce.model.laws.hysteretic import Hysteretic
@@ -33,6 +34,7 @@ __all__ = [
     "PowerLaw",
     "Rigid",
     "Spring",
+    "StandardLinearSolid",
     "Viscoelastic",
     "contact_numbers",
     "law_named",
