@@ -53,7 +53,8 @@ class Drops(NamedTuple):
     kind: np.ndarray  # the form of its force, by `engine.codes`
     stiffness: np.ndarray
     exponent: np.ndarray
-    extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution, relaxation strength
+    extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution,
+    # relaxation strength
     second: np.ndarray  # relaxation time
     gap: np.ndarray  # below each ball; the lowest one's is 0
     velocity: np.ndarray

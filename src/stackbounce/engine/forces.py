@@ -31,9 +31,10 @@ which both are not, when the kernels are compiled. With a creep, m > 0, the gain
 
 A contact that creeps touches and opens at another compression than 0, that of its *surface*: where
 its force is 0, c = m u/b. While it is open its surface recovers freely, at the rate of `recovery`,
-and so does its creep: it begins the next interval with what is left. A new form that is such a product needs a code
-(`codes`) and its numbers in `take_law`; any other one also a force, an energy, a static
-compression, and the terms of its power series (`find_terms`).
+and so does its creep: it begins the next interval with what is left.
+
+A new form that is such a product needs a code (`codes`) and its numbers in `take_law`; any other
+one also a force, an energy, a static compression, and the terms of its power series (`find_terms`).
 """
 
 import math
@@ -60,9 +61,7 @@ _NEWTON = 8  # steps from at most twice the force; the last ones change no bit
 
 
 @kernel
-def take_law(
-    stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: float
-) -> None:
+def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: float) -> None:
     """Set the numbers of contact i's law; a law without loss becomes a power law."""
     if kind == ABSENT:
         stack.law[i] = ABSENT
@@ -326,7 +325,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
     With x = t^(1/root), a series of terms a_k x^k is the rate of one of terms root a_k/(k + root)
     x^(k + root). Of each power of a compression c, all terms are computed that c is known to. This
     is one function, which takes each array from the stack once: several functions took twice as
-    long. Only if ``rare`` is 1 may a gain have a term in c^2 or a creep: without the loop is faster.
+    long. Only if ``rare`` is 1 may a gain have a term in c^2 or a creep: else the loop is faster.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
     powers, gains, needed = stack.power_series, stack.gain_series, stack.power

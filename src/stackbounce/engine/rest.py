@@ -7,10 +7,12 @@ contact i carries the weight W_i of all balls above it:
 
 a sum of terms none of which is negative, and which no law increases. Opening contact i takes
 W_i s_i - U_i(s_i); with less than that for every contact none can open again, and the stack is
-bound. A contact that creeps has the energy of its relaxing spring, too, and opens before it has come
-back to c = 0: to open it at once takes 1/(1 + z) of that energy. A vibration about the static state remains. If it is damped, it is followed until its speeds
-are 1e-9 of the reference speed, or as small as their error. If it is undamped, it would never end:
-the stack is set to its static state at once.
+bound. A contact that creeps has the energy of its relaxing spring, too, and opens before it has
+come back to c = 0: to open it at once takes 1/(1 + z) of that energy.
+
+A vibration about the static state remains. If it is damped, it is followed until its speeds are
+1e-9 of the reference speed, or as small as their error. If it is undamped, it would never end: the
+stack is set to its static state at once.
 """
 
 import math

@@ -3,7 +3,8 @@
 Each law is a frozen dataclass in a file of its own, with all its formulas. A force never pulls:
 where the formula is negative, the force is 0. The formula is evaluated further, so that the force
 may become positive again. A contact ends when its force is zero for good. While the compression c
-is above 0, ``k c**(p + 1)/(p + 1)`` counts as stored energy.
+is above 0, ``k c**(p + 1)/(p + 1)`` counts as stored energy. `StandardLinearSolid` alone has a
+state besides: a contact ends when its force is zero, with a surface that recovers.
 """
 
 # The laws are imported in the order in which people are shown them: each registers itself.

@@ -326,9 +326,7 @@ def _quantities(kind: type[ContactLaw]) -> Mapping[str, Quantity]:
     return {name: one for name, one in found.items() if isinstance(one, Quantity)}
 
 
-def contact_numbers(
-    law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING
-) -> EngineNumbers:
+def contact_numbers(law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING) -> EngineNumbers:
     """Return a contact as the engine takes it, see `ContactLaw.engine_numbers`; None is no floor.
 
     Examples

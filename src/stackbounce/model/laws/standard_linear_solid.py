@@ -11,7 +11,7 @@ With ``z = 1/(1 + Δ)``, ``g = y - σ`` and ``N = g**2 + ν**2`` the force is pr
 
 times ``exp(-σ t)``. It begins at 0, rises, and is back at 0 before ``A cos(ν t) + B sin(ν t)/ν``
 is. Three real exponents, ``ν**2 < 0``, are possible for ``Δ > 8`` only; the force is back at zero
-once as well, so that every ball leaves. All of this neither depends on the speed.
+once as well, so that every ball leaves. Nothing here depends on the speed.
 
 Source: C. Zener, Elasticity and Anelasticity of Metals (1948), for the solid; the collision is this
 package's own.
@@ -78,7 +78,7 @@ class StandardLinearSolid(ContactLaw):
     >>> law
     StandardLinearSolid(stiffness=22500.0, relaxation_strength=0.5, relaxation_time=0.001)
     >>> round(law.restitution_at(mass=0.057, speed=3.0), 4)
-    0.8073
+    0.801
     """
 
     says = "A spring in parallel with a spring and a dashpot in series (Zener): its force relaxes."
@@ -260,8 +260,8 @@ def _strength(restitution: float, share: Callable[[float], float]) -> float:
         high *= 2.0
         if high > _STRONGEST:
             raise InvalidValue(
-                f"restitution must be larger for relaxation_time {share(0.0):.3g} times "
-                f"contact_time, got {restitution:g}: no relaxation strength up to "
+                f"restitution must be one that a relaxation_time of {share(high):.2g} contact "
+                f"times allows, got {restitution:g}: no relaxation strength up to "
                 f"{_STRONGEST:g} loses so much"
             )
     return root(excess, low, high)
