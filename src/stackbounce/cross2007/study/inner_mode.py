@@ -44,10 +44,10 @@ class InnerMode(NamedTuple):
     """A pair of elastic balls with an inner vibration, beside balls without.
 
     `first` and `second` are e1 and e2 of the centres of mass, and `rigid_first` and `rigid_second`
-    are those of balls without an inner vibration. `kept` is the share of the energy in the motion of the
-    centres, and `left` that in the vibrations: nothing is lost. `alone` is the restitution of the
-    lower ball alone, and `bound` the share of the energy that the pair retains at most if what a
-    ball loses alone is lost for good.
+    are those of balls without an inner vibration. `kept` is the share of the energy in the motion
+    of the centres, and `left` that in the vibrations: nothing is lost. `alone` is the restitution
+    of the lower ball alone, and `bound` the share of the energy that the pair retains at most if
+    what a ball loses alone is lost for good.
     """
 
     pair: str
@@ -150,7 +150,8 @@ def collide_pair(pair: str, ratio: float, share: float) -> InnerMode:
     masses = [ball.mass for ball in balls]
     bound = (masses[0] * alone**2 + masses[1]) / sum(masses)
     own = float(rigid[0]), float(rigid[1])
-    return InnerMode(pair, ratio, share, *speeds, *own, kept, left, alone, bound)
+    e1, e2 = speeds
+    return InnerMode(pair, ratio, share, e1, e2, *own, kept, left, alone, bound)
 
 
 def compare_inner_modes(
