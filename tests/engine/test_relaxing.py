@@ -272,3 +272,17 @@ def test_a_stack_with_other_laws_by_limits():
     assert ratios(Solid(2e4, 0.5, 1e-3), rtol=1e-8) == pytest.approx(exact, abs=1e-7)
     assert ratios(Solid(2e4, 0.5, 1e3)) == pytest.approx(ratios(sb.Spring(3e4)), abs=1e-5)
     assert ratios(Solid(2e4, 0.5, 1e-9)) == pytest.approx(ratios(sb.Spring(2e4)), abs=1e-5)
+
+
+@pytest.mark.parametrize("strength", [1e-300, 1e-100, 1e-30, 1e-8])
+def test_a_faint_relaxation_is_followed_too(strength):
+    """Steps must be short against its time, though no velocity shows it."""
+    balls = [sb.Ball(1.0), sb.Ball(0.4)]
+
+    def run(law):
+        drop = sb.Drop(balls, [law, law], [0.01], impact_speed=1.0, gravity=9.81)
+        return sb.simulate(drop, until=12.0)
+
+    found, spring = run(Solid(1.0, strength, 1e-3)), run(sb.Spring(1.0))
+    assert found.rebound_speeds == pytest.approx(spring.rebound_speeds, rel=1e-8)
+    assert found.collisions.tolist() == spring.collisions.tolist()

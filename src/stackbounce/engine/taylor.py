@@ -6,10 +6,10 @@ rates, accelerations from forces, velocities and compressions from accelerations
 begins at a speed and p is a multiple of 1/2, c^p has a series in the square root of time instead,
 and so has the whole motion up to the next step. A step is the time for which the last two terms of
 every velocity (five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14,
-99, 2005). It is also limited so that no power grows beyond what these terms represent, and no
-compression falls by much more than itself, or rises by more than the last term of its power allows.
-If all contacts are springs and dashpots the series is that of the matrix exponential, whatever its
-eigenvalues; the tolerance is then round-off, whatever the user asks for.
+99, 2005), and those of every creep. It is also limited so that no power grows beyond what these
+terms represent, and no compression falls by much more than itself, or rises by more than the last
+term of its power allows. If all contacts are springs and dashpots the series is that of the matrix
+exponential, whatever its eigenvalues; the tolerance is then round-off, whatever the user asks for.
 """
 
 import math
@@ -17,6 +17,7 @@ import math
 from stackbounce.engine.codes import POWER, PRODUCT
 from stackbounce.engine.elementary import near_root
 from stackbounce.engine.forces import (
+    creeps,
     find_terms,
     force,
     has_rare_terms,
@@ -86,6 +87,10 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         size = 0.0
         for b in range(bottom, high):
             size = max(size, abs(stack.velocity_series[b][k]))
+        for i in range(low, high):
+            if creeps(stack, i):  # as a speed, by the contact's own rate
+                own_rate = stack.number[SPEED] / stack.scale[i]
+                size = max(size, abs(stack.creep_series[i][k]) * own_rate)
         if size * x > before:  # otherwise this term is as small as the last one
             x = min(x, near_root(allowed / size, k))
         before = size
