@@ -29,6 +29,7 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
         stiffness=np.ascontiguousarray(drawn.stiffnesses),
         exponent=np.ones(table),
         law_parameter=np.zeros(table),
+        second_parameter=np.zeros(table),
         gap=np.column_stack([np.zeros(count), drawn.gaps]),
         velocity=np.full(table, -1.0),
         gravity=np.zeros(count),

@@ -89,7 +89,7 @@ def _bits(value: float) -> int:
 def random_image(batch: int, count: int) -> Image:
     """Return the memory of random drops, and the calls that run them."""
     drawn, rigid = draw.drops_of(1, batch, count), draw.is_rigid(batch)
-    names = ("mass", "kind", "stiffness", "exponent", "extra", "gap", "velocity", "gravity")
+    names = "mass kind stiffness exponent extra second gap velocity gravity".split()
     engine, balls = RIGID if rigid else FINITE, drawn.mass.shape[1]
     image, room = Image(), memory(engine, balls, compiled=True)
     stack, space, _ = (image.record(table.record) for table in room.arguments)
@@ -108,7 +108,7 @@ def springs_image(count: int) -> Image:
     mass, stiffness = (10.0 ** random.uniform(-1.5, 1.5, (count, 2)) for _ in range(2))
     gap = np.column_stack([np.zeros(count), random.integers(2, size=count) * random.random(count)])
     one, kind = np.ones((count, 2)), np.full((count, 2), codes.POWER)
-    numbers = Drops(mass, kind, stiffness, one, 0.0 * one, gap, -one, np.zeros(count))
+    numbers = Drops(mass, kind, stiffness, one, 0.0 * one, 0.0 * one, gap, -one, np.zeros(count))
     image = Image()
     drops, out = image.record(numbers), image.record(_outcomes(count, 2))
     space = image.record(spring_workspace(compiled=True))

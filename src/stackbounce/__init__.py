@@ -21,6 +21,7 @@ if TYPE_CHECKING:
         PowerLaw,
         Rigid,
         Spring,
+        StandardLinearSolid,
         Viscoelastic,
         series,
     )
@@ -46,6 +47,7 @@ __all__ = [
     "Rigid",
     "Spring",
     "StackbounceError",
+    "StandardLinearSolid",
     "Status",
     "Viscoelastic",
     "__version__",

@@ -20,7 +20,7 @@ from stackbounce.model.collision import elastic
 from stackbounce.model.laws import dashpot, hunt_crossley, viscoelastic
 
 MEASURED = {"mass": 0.0567, "contact_time": 5e-3, "restitution": 0.75, "impact_speed": 3.0}
-LOSSY = [sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley, sb.Hysteretic]
+LOSSY = [sb.Dashpot, sb.StandardLinearSolid, sb.Viscoelastic, sb.HuntCrossley, sb.Hysteretic]
 ELASTIC = [sb.Spring, sb.Hertz, sb.PowerLaw]
 
 masses = st.floats(1e-6, 1e6)

@@ -32,7 +32,12 @@ def laws(draw, kind):
         return draw(st.sampled_from([sb.Hertz(k), sb.PowerLaw(k, exponent), sb.PowerLaw(k, 2.5)]))
     if kind == "damped":
         loss = draw(powers(-3, 0.7))
-        damped = [sb.Dashpot(k, loss), sb.Viscoelastic(k, loss), sb.HuntCrossley(k, exponent, loss)]
+        damped = [
+            sb.Dashpot(k, loss),
+            sb.Viscoelastic(k, loss),
+            sb.HuntCrossley(k, exponent, loss),
+            sb.StandardLinearSolid(k, loss, draw(powers(-1.5, 1.5))),
+        ]
         return draw(st.sampled_from(damped))
     return sb.Hysteretic(k, exponent=exponent, restitution=draw(st.floats(0.4, 1.0)))
 
@@ -54,7 +59,7 @@ def drops(draw, kinds=("spring",), largest=4):
 EVERY = ("spring", "mixed", "hysteretic", "power", "damped", "rigid")
 FINITE = EVERY[:-1]
 LOSSLESS = (sb.Spring, sb.Hertz, sb.PowerLaw)
-DAMPED = (sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley)
+DAMPED = (sb.Dashpot, sb.Viscoelastic, sb.HuntCrossley, sb.StandardLinearSolid)
 
 
 def scaled(drop, *, mass=1.0, stiffness=1.0, speed=1.0, gap=1.0):

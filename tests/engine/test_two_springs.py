@@ -25,6 +25,7 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
         stiffness=np.array(stiffness, order="C"),
         exponent=np.ones(table),
         law_parameter=np.zeros(table),
+        second_parameter=np.zeros(table),
         gap=np.column_stack([np.zeros(n), gap]),
         velocity=-np.column_stack([speed, speed]),
         gravity=np.zeros(n),

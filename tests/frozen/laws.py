@@ -14,6 +14,10 @@ LAWS: dict[str, tuple[Any, Any]] = {  # of the floor, and between two balls of 0
     "Hertz": (sb.Hertz(1e6), sb.Hertz(1e6)),
     "PowerLaw": (sb.PowerLaw(1e5, 1.3), sb.PowerLaw(1e6, 2.0)),
     "Dashpot": (sb.Dashpot(1e4, 5.0), sb.Dashpot(1e4, 80.0)),
+    "StandardLinearSolid": (
+        sb.StandardLinearSolid(1e4, 0.5, 2e-3),
+        sb.StandardLinearSolid(1e4, 4.0, 1e-3),
+    ),
     "Viscoelastic": (sb.Viscoelastic(1e6, 1e-4), sb.Viscoelastic(1e6, 1e-3)),
     "HuntCrossley": (sb.HuntCrossley(1e6, 1.5, 0.2), sb.HuntCrossley(1e4, 1.0, 2.0)),
     "Hysteretic": (

@@ -11,6 +11,7 @@ from fuzz.drive import (
     HYSTERETIC,
     LOSSY,
     NONE,
+    RELAXING,
     RIGID,
     SPRING,
     VISCOELASTIC,
@@ -23,6 +24,7 @@ RIGID_EVERY = 3  # one batch in so many is of rigid stacks
 STOPS = 3  # times in between at which some of the drops are looked at
 EVENTS = (300, 10_000)  # limits, usual and rare
 RARE = 0.001
+RELAXED = 0.1  # contacts whose force relaxes
 PULLED = 0.1  # with gravity
 STOPPED = (0.04, 0.5)  # run until a given time, without gravity and with it
 IN_PARTS = 0.05  # run once more, with stops in between
@@ -38,6 +40,7 @@ KINDS = (  # of the laws by their numbers in `drive`
     codes.HYSTERETIC,
     codes.LOSSY,
     codes.RIGID,
+    codes.RELAXING,
 )
 TOLERANCE_ODDS = (0.6, 0.1, 0.15, 0.1, 0.03, 0.02)
 
@@ -50,7 +53,9 @@ class Drops(NamedTuple):
     kind: np.ndarray  # the form of its force, by `engine.codes`
     stiffness: np.ndarray
     exponent: np.ndarray
-    extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution
+    extra: np.ndarray  # damping, dissipative time, dissipation, unloading exponent, restitution,
+    # relaxation strength
+    second: np.ndarray  # relaxation time
     gap: np.ndarray  # below each ball; the lowest one's is 0
     velocity: np.ndarray
     gravity: np.ndarray
@@ -97,6 +102,12 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
     stops = np.sort(random.random((count, STOPS)), axis=1)
     stops[random.random(count) >= IN_PARTS] = 0.0
     choice = random.choice(len(TOLERANCES), count, p=TOLERANCE_ODDS)
+    gap = _gaps(random, shape, np.where(law == NONE, slowest[:, None], length))
+    limit = np.where(random.random(count) < RARE, EVENTS[1], EVENTS[0])
+    relaxing = (random.random(shape) < RELAXED) & (law != NONE) & (not rigid)
+    law, exponent = np.where(relaxing, RELAXING, law), np.where(relaxing, 1.0, exponent)
+    extra = np.where(relaxing, _decades(random, shape, -3.0, 2.0), extra)
+    second = np.where(relaxing, length / speed * _decades(random, shape, -2.5, 2.5), 0.0)
     drops = Drops(
         mass=mass,
         law=law,
@@ -104,12 +115,13 @@ def drops_of(seed: int, batch: int, count: int = BATCH) -> Drops:
         stiffness=linear * length ** (1.0 - exponent),
         exponent=exponent,
         extra=extra,
-        gap=_gaps(random, shape, np.where(law == NONE, slowest[:, None], length)),
+        second=second,
+        gap=gap,
         velocity=velocity,
         gravity=gravity,
         until=until,
         rtol=np.array(TOLERANCES)[choice],
-        limit=np.where(random.random(count) < RARE, EVENTS[1], EVENTS[0]),
+        limit=limit,
         stops=stops,
     )
     return Drops(*map(np.ascontiguousarray, drops))  # one type of array, compiled once

@@ -7,9 +7,9 @@ from stackbounce.engine import codes
 from stackbounce.engine.batch import clear_arrays
 from stackbounce.engine.codes import EPSILON, FINISHED, LOG_COLUMNS, RUNNING, TIME_REACHED
 from stackbounce.engine.flight import compression_after
-from stackbounce.engine.forces import stored_energy
+from stackbounce.engine.forces import held_energy
 from stackbounce.engine.kernels import kernel
-from stackbounce.engine.motion import compression_at, velocity_at
+from stackbounce.engine.motion import compression_at, creep_at, velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts
@@ -25,7 +25,7 @@ from stackbounce.engine.slots import (
 
 # laws of random drops
 NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY = range(7)
-HYSTERETIC, LOSSY, RIGID = range(7, 10)
+HYSTERETIC, LOSSY, RIGID, RELAXING = range(7, 11)
 
 # what can be wrong with a run, as bits
 BAD_NUMBER, GAINS_ENERGY, LOSES_MOMENTUM, OUT_OF_TURN, OUT_OF_ORDER = 1, 2, 4, 8, 16
@@ -59,6 +59,7 @@ def load(stack: Any, drops: Any, row: int) -> float:
         drops.stiffness[row],
         drops.exponent[row],
         drops.extra[row],
+        drops.second[row],
         drops.gap[row],
         drops.velocity[row],
         drops.gravity[row],
@@ -198,7 +199,9 @@ def energy_at(stack: Any, time: float) -> Any:
         position -= compression
         kinetic = 0.5 * stack.mass[b] * velocity * velocity
         height = stack.mass[b] * stack.number[GRAVITY] * position
-        stored = stored_energy(stack, b, compression) if stack.law[b] != codes.ABSENT else 0.0
+        stored = 0.0
+        if stack.law[b] != codes.ABSENT:
+            stored = held_energy(stack, b, compression, creep_at(stack, b, time))
         total += kinetic + height + stored
         terms += kinetic + abs(height) + stored
     return total, terms
@@ -246,6 +249,7 @@ def run_rigid(
         drops.stiffness[row],
         drops.exponent[row],
         drops.extra[row],
+        drops.second[row],
         drops.gap[row],
         drops.velocity[row],
         drops.gravity[row],

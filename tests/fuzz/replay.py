@@ -16,6 +16,7 @@ NAMES = (
     "Hysteretic",
     "Hysteretic lossy",
     "Rigid",
+    "StandardLinearSolid",
 )
 
 
@@ -42,6 +43,8 @@ def law_of(drops: Drops, row: int, i: int) -> sb.model.ContactLaw | None:
             return sb.Hysteretic(k, exponent=p, unloading_exponent=extra)
         case 8:
             return sb.Hysteretic(k, exponent=p, unloading_exponent=extra, reloading="lossy")
+        case 10:
+            return sb.StandardLinearSolid(k, extra, float(drops.second[row, i]))
         case _:
             return sb.Rigid(extra)
 

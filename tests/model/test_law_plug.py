@@ -209,14 +209,14 @@ def test_a_form_with_a_squared_and_a_rate_term_is_refused(monkeypatch):
     usual = forces.take_law
 
     def take(stack, i, kind, *numbers):
-        usual(stack, i, codes.HARDENING if kind == 10 else kind, *numbers)
-        if kind == 10:
+        usual(stack, i, codes.HARDENING if kind == 99 else kind, *numbers)
+        if kind == 99:
             stack.gain_rate[i] = 0.1
 
-    forces.check_form(10)
+    forces.check_form(99)
     monkeypatch.setattr(forces, "take_law", take)
     with pytest.raises(ValueError, match=re.escape("a gain has a term in c^2 or one in c'")):
-        forces.check_form(10)
+        forces.check_form(99)
 
 
 def test_a_law_of_an_unknown_form_is_refused():

@@ -32,6 +32,7 @@ EXAMPLES = [
     sb.Hertz(2.0),
     sb.PowerLaw(2.0, 1.3),
     sb.Dashpot(2.0, 0.3),
+    sb.StandardLinearSolid(2.0, 0.5, 0.3),
     sb.Viscoelastic(2.0, 0.3),
     sb.HuntCrossley(2.0, 1.5, 0.3),
     sb.Hysteretic(2.0, restitution=0.5),
@@ -71,8 +72,8 @@ def test_stiffness_is_positive_and_finite(law, value):
     ("law", "field", "unit"),
     [
         (EXAMPLES[4], "damping", "N s/m"),
-        (EXAMPLES[5], "dissipative_time", "seconds"),
-        (EXAMPLES[6], "dissipation", "s/m"),
+        (EXAMPLES[6], "dissipative_time", "seconds"),
+        (EXAMPLES[7], "dissipation", "s/m"),
     ],
 )
 def test_losses_are_not_negative(law, field, unit):
@@ -82,7 +83,19 @@ def test_losses_are_not_negative(law, field, unit):
     assert getattr(dataclasses.replace(law, **{field: 0}), field) == 0.0
 
 
-@pytest.mark.parametrize("law", [EXAMPLES[3], EXAMPLES[6]])
+def test_a_relaxation_has_a_strength_and_a_time():
+    law = EXAMPLES[5]
+    assert dataclasses.replace(law, relaxation_strength=0).relaxation_strength == 0.0
+    for value in (-1e-300, math.nan, math.inf):
+        change = {"relaxation_strength": value}
+        got = message(errors.InvalidValue, dataclasses.replace, law, **change)
+        assert got == f"relaxation_strength must be a number, 0 or above, got {value}"
+    for value in (0.0, -1.0, math.inf):
+        got = message(errors.InvalidValue, dataclasses.replace, law, relaxation_time=value)
+        assert got == f"relaxation_time must be a positive number of seconds, got {value}"
+
+
+@pytest.mark.parametrize("law", [EXAMPLES[3], EXAMPLES[7]])
 def test_exponents_lie_from_1_to_the_steepest(law):
     for value in (0.99, 1.1e6, math.nan):
         got = message(errors.InvalidValue, dataclasses.replace, law, exponent=value)
@@ -91,7 +104,8 @@ def test_exponents_lie_from_1_to_the_steepest(law):
 
 
 def test_fixed_exponents_can_be_read_and_not_set():
-    fixed = {sb.Spring: 1.0, sb.Dashpot: 1.0, sb.Hertz: 1.5, sb.Viscoelastic: 1.5}
+    fixed = dict.fromkeys([sb.Spring, sb.Dashpot, sb.StandardLinearSolid], 1.0)
+    fixed |= {sb.Hertz: 1.5, sb.Viscoelastic: 1.5}
     for law in EXAMPLES:
         if type(law) in fixed:
             assert law.exponent == fixed[type(law)]
@@ -187,7 +201,7 @@ def force(law, c, rate):
 def partners(draw):
     """Draw two laws of one class whose series is of that class."""
     k1, k2, p, loss = draw(positive), draw(positive), draw(exponents), draw(st.floats(0.0, 10.0))
-    kind = draw(st.sampled_from(EXAMPLES[1:7]))
+    kind = draw(st.sampled_from(EXAMPLES[1:8]))
     match kind:
         case sb.Spring() | sb.Hertz():
             return type(kind)(k1), type(kind)(k2)
@@ -195,6 +209,8 @@ def partners(draw):
             return sb.PowerLaw(k1, p), sb.PowerLaw(k2, p)
         case sb.Dashpot():
             return sb.Dashpot(k1, k1 * loss), sb.Dashpot(k2, k2 * loss)
+        case sb.StandardLinearSolid():  # of which `force` knows the lasting spring
+            return tuple(sb.StandardLinearSolid(k, loss, 0.5) for k in (k1, k2))
         case sb.Viscoelastic():
             return sb.Viscoelastic(k1, loss), sb.Viscoelastic(k2, loss)
         case sb.HuntCrossley():
@@ -258,6 +274,14 @@ def test_series_of_hysteretic_contacts():
         (
             sb.Dashpot(1, 1), sb.Dashpot(2, 1),
             "must have the same damping/stiffness, got 1.0 and 0.5",
+        ),
+        (
+            sb.StandardLinearSolid(1, 1, 1), sb.StandardLinearSolid(1, 2, 1),
+            "must have the same relaxation_strength, got 1.0 and 2.0",
+        ),
+        (
+            sb.StandardLinearSolid(1, 1, 1), sb.StandardLinearSolid(2, 1, 3),
+            "must have the same relaxation_time, got 1.0 and 3.0",
         ),
         (
             sb.Viscoelastic(1, 1), sb.Viscoelastic(1, 0),

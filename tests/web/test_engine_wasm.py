@@ -50,7 +50,7 @@ def job(kind, drops, rigid, options, times=()):
 
 def numbers_of(drops, rows):
     """Return some random drops as the engine takes them."""
-    names = "mass kind stiffness exponent extra gap velocity gravity".split()
+    names = "mass kind stiffness exponent extra second gap velocity gravity".split()
     return Drops._make(np.ascontiguousarray(getattr(drops, name)[rows]) for name in names)
 
 
@@ -141,7 +141,7 @@ def two_springs(count):
     gap = np.column_stack([np.zeros(count), reach * np.sqrt(mass[:, 0] / stiffness[:, 0])])
     one, nothing = np.ones((count, 2)), np.zeros((count, 2))
     kind = np.full((count, 2), codes.POWER)
-    return Drops(mass, kind, stiffness, one, nothing, gap, -one, np.zeros(count))
+    return Drops(mass, kind, stiffness, one, nothing, nothing, gap, -one, np.zeros(count))
 
 
 @pytest.mark.parametrize("count", [1, 300, pytest.param(10_800, marks=pytest.mark.slow)])
@@ -168,7 +168,7 @@ def test_a_log_longer_than_its_room(tmp_path):
     """A ball on a spring bounces for ever, if it is watched so long."""
     one = np.ones((1, 1))
     kind = np.full((1, 1), codes.POWER)
-    drop = Drops(one, kind, 1e3 * one, one, 0.0 * one, 0.0 * one, -one, np.full(1, 9.8))
+    drop = Drops(one, kind, 1e3 * one, one, *[0.0 * one] * 3, -one, np.full(1, 9.8))
     options = Options(1e4, 1e-9, 3000)
     answer, _ = simulated(drop, False, options)
     assert answer[0] == codes.EVENT_LIMIT

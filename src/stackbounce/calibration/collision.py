@@ -22,7 +22,8 @@ def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None =
         Any contact law.
     mass : float or (float, float), optional
         The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
-        ``m1 m2/(m1 + m2)``); needed for `Dashpot` and `Viscoelastic`.
+        ``m1 m2/(m1 + m2)``); needed for `Dashpot`,
+        `StandardLinearSolid` and `Viscoelastic`.
     speed : float, optional
         The speed in m/s at which the two meet; needed for `Viscoelastic` and `HuntCrossley`.
 
@@ -45,6 +46,8 @@ def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None =
     ``e = exp(-2 ζ acos(ζ)/sqrt(1 - ζ**2))`` (T. Schwager and T. Pöschel, Granular Matter 9, 465,
     2007). `HuntCrossley`, with ``d = χ v``: ``d (1 + e) = ln((1 + d)/(1 - d e))``. `Viscoelastic`:
     a function of ``1.5 A (k/m)**0.4 v**0.2`` alone, computed by a simulation.
+    `StandardLinearSolid`: a function of its relaxation strength and ``τ sqrt(k/m)``, in closed form
+    but for the time of release.
 
     Examples
     --------
@@ -68,8 +71,8 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
         The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
         ``m1 m2/(m1 + m2)``); not needed for `Rigid`.
     speed : float, optional
-        The relative speed in m/s at the touch. Not needed for `Rigid`, `Spring` and `Dashpot`, nor
-        for `PowerLaw` and `Hysteretic` with the exponent 1.
+        The relative speed in m/s at the touch. Not needed for `Rigid`, `Spring`, `Dashpot` and
+        `StandardLinearSolid`, nor for `PowerLaw` and `Hysteretic` with the exponent 1.
 
     Returns
     -------
@@ -90,7 +93,8 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
     ``C/v 2 sqrt(π) Γ(1 + 1/(p+1))/Γ(1/2 + 1/(p+1))``. For `Hysteretic`, loading takes half of that
     time; unloading takes half of the same expression for the unloading curve at the speed e v. For
     `Dashpot` it is ``sqrt(m/k) 2 acos(ζ)/sqrt(1 - ζ**2)``, see `restitution`. For `HuntCrossley` it
-    is computed by numerical integration, for `Viscoelastic` by a simulation.
+    is computed by numerical integration, for `Viscoelastic` by a simulation, for
+    `StandardLinearSolid` as the zero of a force in closed form.
 
     Examples
     --------

@@ -19,6 +19,7 @@ def calibrate(
     restitution: float | None = None,
     impact_speed: float | None = None,
     exponent: float | None = None,
+    relaxation_time: float | None = None,
 ) -> _Law:
     """Return the contact law of a class that has a measured contact time and restitution.
 
@@ -38,6 +39,9 @@ def calibrate(
     exponent : float, optional
         p of the law, where the class leaves it open: needed for `PowerLaw`; by default 1.5 for
         `HuntCrossley` and 1 for `Hysteretic`.
+    relaxation_time : float, optional
+        τ of a `StandardLinearSolid` in s, above 0, if it is known, as from the decay of the force
+        at a constant compression.
 
     Returns
     -------
@@ -55,10 +59,16 @@ def calibrate(
     Notes
     -----
     `Rigid` needs `restitution` only. All other laws need `mass` and `contact_time`. The lossy laws
-    (`Dashpot`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`) need `restitution` as well.
+    (`Dashpot`, `StandardLinearSolid`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`) need
+    `restitution` as well.
     `Viscoelastic`, `HuntCrossley` and any exponent other than 1 need `impact_speed` as well.
     Arguments that are not needed may be given, so that one measurement serves several classes. The
     contact time of a `Rigid` contact is 0, whatever is given.
+
+    A `StandardLinearSolid` has one number more than these two tell. Unless `relaxation_time` is
+    given, it is that at which a vibration with a half period of the contact time T loses most,
+    ``T/(π sqrt(1 + Δ))``: nearly the weakest relaxation that explains the loss, and a restitution
+    that depends little on the mass.
 
     Examples
     --------
@@ -76,6 +86,8 @@ def calibrate(
         )
     kind: type[_Law] = law_class
     given = _checked(kind, mass, contact_time, restitution, impact_speed, exponent)
+    if relaxation_time is not None:
+        given["relaxation_time"] = positive("relaxation_time", relaxation_time, "seconds")
     if not kind.loss and given.get("restitution", 1.0) != 1.0:
         raise InvalidValue(
             f"restitution must be 1 or left out for {kind.__name__}, which gives back all "

@@ -15,12 +15,13 @@ ABSENT = 0  # no floor
 POWER = 1  # a power of the compression, loading and unloading alike
 HYSTERETIC = 2  # another power when unloading
 LOSSY = 3  # the same, with another one after each reloading
-PRODUCT = 4  # in the stack only: all forms from DASHPOT to HARDENING but RIGID
+PRODUCT = 4  # in the stack only: all forms from DASHPOT on but RIGID
 DASHPOT = 5
 VISCOELASTIC = 6
 HUNT_CROSSLEY = 7
 RIGID = 8
 HARDENING = 9
+RELAXING = 10
 FORMS = {
     "ABSENT": ABSENT,
     "POWER": POWER,
@@ -30,6 +31,7 @@ FORMS = {
     "VISCOELASTIC": VISCOELASTIC,
     "HUNT_CROSSLEY": HUNT_CROSSLEY,
     "HARDENING": HARDENING,
+    "RELAXING": RELAXING,
     "RIGID": RIGID,
 }
 """Those that a law can have, by the names that it gives as its `form`."""

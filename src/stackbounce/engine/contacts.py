@@ -126,7 +126,7 @@ def _linearise_if_slow(stack: Stack, i: int) -> None:
     rate = stack.velocity[i]
     if i > 0:
         rate -= stack.velocity[i - 1]
-    work = force(stack, i, compression, -rate) * compression
+    work = force(stack, i, compression, -rate, 0.0) * compression
     budget = linearised_impulse_limit(stack, i)
     if (
         work <= rate * budget
@@ -151,7 +151,7 @@ def _energy_to_return(stack: Stack, i: int, compression: float) -> float:
     kept = (stack.exponent[i] + 1.0) / (stack.unloading[i] + 1.0)
     held = stack.dip_energy[i]
     energy = held + kept * (stored_energy(stack, i, compression) - held)
-    least = force(stack, i, compression, 0.0) * compression / (_steepest(stack, i) + 1.0)
+    least = force(stack, i, compression, 0.0, 0.0) * compression / (_steepest(stack, i) + 1.0)
     return max(energy, least)
 
 
@@ -170,7 +170,7 @@ def _steepen(stack: Stack, i: int, compression: float) -> None:
 
     See `_energy_to_return`.
     """
-    pressing = force(stack, i, compression, 0.0)
+    pressing = force(stack, i, compression, 0.0, 0.0)
     exponent = stack.exponent[i]
     steeper = pressing * compression / _energy_to_return(stack, i, compression) - 1.0
     if steeper <= stack.curve_exponent[i] * _STEEPER:
@@ -183,9 +183,8 @@ def _steepen(stack: Stack, i: int, compression: float) -> None:
 
 
 @kernel
-def record_peak(stack: Stack, i: int, compression: float, rate: float, time: float) -> None:
+def record_peak(stack: Stack, i: int, compression: float, pressing: float, time: float) -> None:
     """Update the largest force of the present interval, its time, and the largest compression."""
-    pressing = force(stack, i, compression, rate)
     if pressing > stack.peak_force[i]:
         stack.peak_force[i] = pressing
         stack.peak_time[i] = time
@@ -221,7 +220,7 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
     if kind == PEAK:
         stack.phase[i] = RELEASING
         if stack.top[i] == math.inf:
-            pressing = force(stack, i, compression, 0.0)
+            pressing = force(stack, i, compression, 0.0, 0.0)
             exponent = stack.unloading[i]
             if stack.base[i] > 0.0:
                 held = loaded_energy(stack, i, compression)

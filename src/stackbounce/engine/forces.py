@@ -1,7 +1,8 @@
 """The forms of a contact's force: all that the engine knows of them but their codes (`codes`).
 
-A contact is told by the code of its form and three numbers: the stiffness k, the exponent p, and z,
-the law parameter. The force depends on the compression c > 0 and its rate c'.
+A contact is told by the code of its form and four numbers: the stiffness k, the exponent p, and the
+law parameters z and w. The force depends on the compression c > 0, its rate c', and the *creep* u,
+a compression that follows c with a delay.
 
 ============= =========================================================== ========================
 form          force                                                       z
@@ -15,18 +16,25 @@ DASHPOT       max(0, k c + z c')                                          dampin
 VISCOELASTIC  max(0, k (c^1.5 + 3/2 z c^0.5 c'))                          dissipative time
 HUNT_CROSSLEY max(0, k c^p (1 + z c'))                                    dissipation
 HARDENING     k c^p (1 + (c/z)^2)                                         length
+RELAXING      max(0, k (c + z (c - u))), u' = (c - u)/w                   relaxation strength;
+                                                                          w: relaxation time
 RIGID         an instantaneous collision                                  restitution
 ============= =========================================================== ========================
 
-Those from DASHPOT to HARDENING are one form in the stack, a PRODUCT of a power and a *gain*:
+Those from DASHPOT to RELAXING are one form in the stack, a PRODUCT of a power and a *gain*:
 
-    F = max(0, k c^q g),    g = a + b c + s c^2 + d c'
+    F = max(0, k c^q g),    g = a + b c + s c^2 + d c' - m u
 
 Its leading elastic term is k c^p: either a is 1, b is 0 and p = q, or a is 0, b is 1 and p = q + 1.
 Only a linear spring with a dashpot has q = 0. Either s or d is 0; `check_form` refuses a form for
-which both are not, when the kernels are compiled. A new form that is such a product needs a code
-(`codes`) and its numbers in `take_law`; any other one also a force, an energy, a static
-compression, and the terms of its power series (`find_terms`).
+which both are not, when the kernels are compiled. With a creep, m > 0, the gain is b c - m u.
+
+A contact that creeps touches and opens at another compression than 0, that of its *surface*: where
+its force is 0, c = m u/b. While it is open its surface recovers freely, at the rate of `recovery`,
+and so does its creep: it begins the next interval with what is left.
+
+A new form that is such a product needs a code (`codes`) and its numbers in `take_law`; any other
+one also a force, an energy, a static compression, and the terms of its power series (`find_terms`).
 """
 
 import math
@@ -41,6 +49,7 @@ from stackbounce.engine.codes import (
     OPEN,
     POWER,
     PRODUCT,
+    RELAXING,
     VISCOELASTIC,
 )
 from stackbounce.engine.elementary import power
@@ -52,7 +61,7 @@ _NEWTON = 8  # steps from at most twice the force; the last ones change no bit
 
 
 @kernel
-def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float) -> None:
+def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: float) -> None:
     """Set the numbers of contact i's law; a law without loss becomes a power law."""
     if kind == ABSENT:
         stack.law[i] = ABSENT
@@ -79,6 +88,11 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float) -> N
         elif kind == HUNT_CROSSLEY:  # k c^p (1 + z c')
             stack.gain_constant[i] = 1.0
             stack.gain_rate[i] = z
+        elif kind == RELAXING:  # k ((1 + z) c - z u)
+            stack.factor_exponent[i] = 0.0
+            stack.gain_slope[i] = 1.0 + z
+            stack.gain_creep[i] = z
+            stack.creep_rate[i] = 1.0 / w
         else:  # k c^p (1 + c^2/z^2)
             stack.gain_constant[i] = 1.0
             stack.gain_square[i] = 1.0 / (z * z)
@@ -90,7 +104,7 @@ def check_form(kind: int) -> None:
     `next_event` looks for the zero of a gain that depends on c', and takes it to have no c^2.
     """
     stack = new_stack(1)
-    take_law(stack, 0, kind, 1.0, 1.5, 0.5)  # any numbers
+    take_law(stack, 0, kind, 1.0, 1.5, 0.5, 0.5)  # any numbers
     if stack.gain_square[0] != 0.0 and stack.gain_rate[0] != 0.0:
         raise ValueError("a gain has a term in c^2 or one in c', not both")
 
@@ -112,9 +126,39 @@ def is_linear(stack: Stack, i: int) -> bool:
 
 
 @kernel
+def creeps(stack: Stack, i: int) -> bool:
+    """Tell whether the force of contact i depends on a creep."""
+    return stack.gain_creep[i] > 0.0
+
+
+@kernel
+def surface(stack: Stack, i: int, creep: float) -> float:
+    """Return the compression at which the force of contact i is 0, given its creep."""
+    return stack.gain_creep[i] * creep / stack.gain_slope[i] if creep > 0.0 else 0.0
+
+
+@kernel
+def recovery(stack: Stack, i: int) -> float:
+    """Return the rate at which the creep of open contact i, and its surface, go back to 0.
+
+    Without a force c = m u/b, so that u' = -(1 - m/b) u/w, where b - m = 1.
+    """
+    return stack.creep_rate[i] / stack.gain_slope[i]
+
+
+@kernel
+def arm_energy(stack: Stack, i: int, compression: float, creep: float) -> float:
+    """Return the energy in the relaxing spring of contact i, whose compression is c - u."""
+    stretch = compression - creep
+    return 0.5 * stack.stiffness[i] * stack.gain_creep[i] * stretch * stretch
+
+
+@kernel
 def typical_compression(stack: Stack, i: int, speed: float) -> float:
     """Return the compression at which contact i alone would hold the energy m v^2/2."""
     mass, k = stack.mass[i], stack.stiffness[i]
+    if creeps(stack, i):
+        k *= stack.gain_slope[i]  # before it relaxes
     if i > 0:
         mass = stack.mass[i - 1] * mass / (stack.mass[i - 1] + mass)
     length = _length_of_energy(mass, speed, k, stack.exponent[i])
@@ -140,8 +184,8 @@ def raised(x: float, p: float) -> float:
 
 
 @kernel
-def force(stack: Stack, i: int, compression: float, rate: float) -> float:
-    """Return the force of contact i on the curve that it follows."""
+def force(stack: Stack, i: int, compression: float, rate: float, creep: float) -> float:
+    """Return the force of contact i on the curve that it follows; no creep is 0."""
     if stack.phase[i] < COMPRESSING:
         return 0.0
     exponent = stack.curve_exponent[i]
@@ -153,13 +197,17 @@ def force(stack: Stack, i: int, compression: float, rate: float) -> float:
     if stack.law[i] == PRODUCT:
         slope = stack.gain_slope[i] + stack.gain_square[i] * compression
         gain = stack.gain_constant[i] + slope * compression
-        return pressing * max(0.0, gain + stack.gain_rate[i] * rate)
+        gain += stack.gain_rate[i] * rate
+        return pressing * max(0.0, gain - stack.gain_creep[i] * creep)
     return pressing
 
 
 @kernel
 def stored_energy(stack: Stack, i: int, compression: float) -> float:
-    """Return the energy that contact i would give back if its unloading were not damped."""
+    """Return the energy that contact i would give back if its unloading were not damped.
+
+    Of one that creeps this is the part of the lasting spring only, see `held_energy`.
+    """
     if stack.phase[i] == OPEN:
         return 0.0
     if stack.law[i] == PRODUCT:
@@ -169,7 +217,16 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
     exponent = stack.curve_exponent[i]
     if stack.law[i] == HYSTERETIC and stack.top[i] == math.inf:
         exponent = stack.unloading[i]
-    return force(stack, i, compression, 0.0) * compression / (exponent + 1.0)
+    return force(stack, i, compression, 0.0, 0.0) * compression / (exponent + 1.0)
+
+
+@kernel
+def held_energy(stack: Stack, i: int, compression: float, creep: float) -> float:
+    """Return all energy of contact i: if open, that of its surface while it recovers."""
+    if not creeps(stack, i):
+        return stored_energy(stack, i, compression)
+    held = surface(stack, i, creep) if stack.phase[i] == OPEN else compression
+    return _elastic_work(stack, i, held) + arm_energy(stack, i, held, creep)
 
 
 @kernel
@@ -230,8 +287,11 @@ def static_compression(stack: Stack, i: int, weight: float) -> float:
 
 @kernel
 def is_damped(stack: Stack, i: int) -> bool:
-    """Tell whether the force of contact i depends on the rate, so that it may be clipped."""
-    return stack.gain_rate[i] > 0.0
+    """Tell whether the force of contact i depends on the rate, or on a creep.
+
+    Its formula may then give a pulling force while c > 0.
+    """
+    return stack.gain_rate[i] > 0.0 or stack.gain_creep[i] > 0.0
 
 
 @kernel
@@ -250,22 +310,22 @@ def power_needed(stack: Stack, i: int) -> float:
 
 
 @kernel
-def has_squares(stack: Stack, low: int, high: int) -> bool:
-    """Tell whether the gain of one of the contacts low..high-1 has a term in c^2."""
+def has_rare_terms(stack: Stack, low: int, high: int) -> bool:
+    """Tell whether the gain of one of the contacts low..high-1 has a term in c^2 or a creep."""
     largest = 0.0
     for i in range(low, high):
-        largest = max(largest, stack.gain_square[i])
+        largest = max(largest, stack.gain_square[i], stack.gain_creep[i])
     return largest > 0.0
 
 
 @kernel
-def find_terms(stack: Stack, low: int, high: int, order: int, root: int, squares: int) -> None:
+def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: int) -> None:
     """Compute the series of a cluster, whose first terms are known, up to an order.
 
     With x = t^(1/root), a series of terms a_k x^k is the rate of one of terms root a_k/(k + root)
     x^(k + root). Of each power of a compression c, all terms are computed that c is known to. This
     is one function, which takes each array from the stack once: several functions took twice as
-    long. Only if ``squares`` is 1 may a gain have a term in c^2: without it the loop is faster.
+    long. Only if ``rare`` is 1 may a gain have a term in c^2 or a creep: else the loop is faster.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
     powers, gains, needed = stack.power_series, stack.gain_series, stack.power
@@ -273,6 +333,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, squares
     slope, exponent = stack.rate, stack.curve_exponent
     gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
     gain_square, gain_rate, mass = stack.gain_square, stack.gain_rate, stack.mass
+    creep_all, gain_creep, creep_rate = stack.creep_series, stack.gain_creep, stack.creep_rate
     for k in range(order + 1):
         n = k + root
         share = root / n
@@ -302,11 +363,13 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, squares
                 gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
                 if k == 0:
                     gain[0] += gain_constant[i]
-                if squares == 1:
+                if rare == 1:
                     total = 0.0
                     for j in range(k + 1):
                         total += c[j] * c[k - j]
-                    gain[k] += gain_square[i] * total
+                    creep = creep_all[i]
+                    creep[n] = share * creep_rate[i] * (c[k] - creep[k])
+                    gain[k] += gain_square[i] * total - gain_creep[i] * creep[k]
                 if exponent[i] == 0.0:
                     force = curve_force[i] * gain[k]
                 elif p > exponent[i]:  # see `power_needed`

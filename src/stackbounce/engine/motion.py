@@ -4,8 +4,9 @@ import math
 
 from stackbounce.engine.codes import COMPRESSING, EPSILON
 from stackbounce.engine.contacts import correct_curve
+from stackbounce.engine.elementary import exp
 from stackbounce.engine.event_queue import schedule
-from stackbounce.engine.forces import is_linear, power_needed
+from stackbounce.engine.forces import creeps, is_linear, power_needed, recovery, surface
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.modes import (
     find_modes,
@@ -25,6 +26,8 @@ from stackbounce.engine.taylor import (
 
 _KNOWN = 100.0  # times the tolerance of a step: the error after many steps
 _ENTERS = 1e-6  # of the reference speed: contacts that begin faster need no chord
+_SURFACE_TERMS = 10  # as many as of a spring's compression, see `add_ball_series`
+_LEAST_REST = 1e-290  # a bound that is not 0, as the search for events needs one
 _SLOWEST = 1e-9  # of the reference speed: the largest error that the tolerance implies
 
 
@@ -153,6 +156,57 @@ def rate_at(stack: Stack, i: int, time: float) -> float:
 
 
 @kernel
+def creep_at(stack: Stack, i: int, time: float) -> float:
+    """Return the creep of contact i at a time: it follows the compression, or recovers freely."""
+    if stack.phase[i] < COMPRESSING:
+        if stack.creep[i] == 0.0:
+            return 0.0
+        return stack.creep[i] * exp(-recovery(stack, i) * (time - stack.creep_time[i]))
+    if not creeps(stack, i):
+        return 0.0
+    first = stack.first[i]
+    x = series_time(stack, first, time - stack.anchor[first])
+    return evaluate(stack.creep_series[i], stack.order[first] + stack.root[first], x)
+
+
+@kernel
+def overlap_at(stack: Stack, i: int, time: float) -> float:
+    """Return the compression of contact i beyond its surface: 0 where it touches or opens."""
+    return compression_at(stack, i, time) - surface(stack, i, creep_at(stack, i, time))
+
+
+@kernel
+def overlap_rate_at(stack: Stack, i: int, time: float) -> float:
+    """Return the rate of the overlap of contact i."""
+    rate = rate_at(stack, i, time)
+    if not creeps(stack, i):
+        return rate
+    creep = creep_at(stack, i, time)
+    reached = surface(stack, i, creep)
+    if stack.phase[i] >= COMPRESSING:
+        reached = compression_at(stack, i, time)
+    growth = stack.creep_rate[i] * (reached - creep)
+    return rate - stack.gain_creep[i] * growth / stack.gain_slope[i]
+
+
+@kernel
+def subtract_surface(
+    stack: Stack, i: int, time: float, root: int, out: Floats
+) -> tuple[int, int, float]:
+    """Subtract the power series of open contact i's surface, about ``time``, from ``out``.
+
+    It recovers exponentially. Returns the order of the series, the order of its remainder, and a
+    bound on the remainder; all terms alternate, so that the next one is that bound.
+    """
+    term = surface(stack, i, creep_at(stack, i, time))
+    rate = recovery(stack, i)
+    for k in range(_SURFACE_TERMS):
+        out[root * k] -= term
+        term *= -rate / (k + 1)
+    return root * (_SURFACE_TERMS - 1), root * _SURFACE_TERMS, max(abs(term), _LEAST_REST)
+
+
+@kernel
 def add_ball_series(
     stack: Stack, b: int, sign: float, time: float, root: int, out: Floats
 ) -> tuple[int, float, float]:
@@ -277,6 +331,8 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
             stack.compression[i] = evaluate(c, order + stack.root[first], x)
         else:
             stack.compression[i] = closed_compression(stack, i, s)
+        if creeps(stack, i):
+            stack.creep[i] = creep_at(stack, i, time)
     stack.anchor[first] = time
 
 

@@ -3,14 +3,16 @@
 =========== ============================ =====================================================
 phase       ends when                    event and next phase
 =========== ============================ =====================================================
-open        c rises through 0            TOUCH: compressing along the loading curve
+open        c rises through 0, or        TOUCH: compressing along the loading curve
+..          through the surface          (if the contact creeps)
 compressing the rate falls through 0     PEAK: releasing; a hysteretic contact on its loading
                                          curve takes the unloading curve from here
 ..          c of a lossy contact rises   RELOADED: back on the loading curve
             through its old peak
 releasing   c rises through its old peak RELOADED: compressing, on the loading curve
 ..          c falls through 0            RELEASE: open
-..          the rate of a lossy contact  DIP: compressing
+any above   the gain falls through 0     CLIPPED: unloaded; of a contact that creeps RELEASE: open
+releasing   the rate of a lossy contact  DIP: compressing
             rises through 0
 unloaded    the gain rises through 0     RESUMED: compressing
 ..          c falls through 0            RELEASE: open since the force was clipped
@@ -49,7 +51,7 @@ from stackbounce.engine.codes import (
 from stackbounce.engine.contacts import linearised_impulse_limit
 from stackbounce.engine.elementary import exponent_of, times_power_of_two
 from stackbounce.engine.event_queue import schedule
-from stackbounce.engine.forces import is_damped
+from stackbounce.engine.forces import creeps, is_damped
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.motion import (
     align_anchors,
@@ -57,6 +59,7 @@ from stackbounce.engine.motion import (
     contact_impulse,
     root_at,
     series_time,
+    subtract_surface,
 )
 from stackbounce.engine.series import lower_bound, parabola_root, safe_step, shift, time_to_level
 from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
@@ -87,6 +90,11 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
     if not math.isfinite(tail + noise + rate_noise + a[0] + a[1] + a[order]):
         schedule(stack.due, stack.heap, stack.place, i, -math.inf)
         return
+    straight = order <= 2 and a[2] == 0.0
+    if phase == OPEN and stack.creep[i] > 0.0:
+        noise += 8.0 * EPSILON * abs(a[0])
+        last, power, rest = subtract_surface(stack, i, time, root, a)
+        order, tail = max(order, last), tail + rest
     # round-off of the solution, of the time, and at least that of a typical compression
     tick = 4.0 * EPSILON * time
     rate, second = abs(a[root]), abs(2.0 * a[2 * root])
@@ -105,7 +113,7 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
             rate_band += _LOOSE * stack.number[TOLERANCE] * stack.number[SPEED]
         if a[0] < -band or a[root] < -rate_band:
             stack.touching[i] = math.nan
-        if not _never_meets(stack, i, a, order):
+        if not (straight and _never_meets(stack, i, a)):
             kind = TOUCH
             if root == 2 and _is_pressed_together(stack, i, a, order):
                 wait, reached = 0.0, True
@@ -125,9 +133,13 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
         noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
         speed = stack.speed[i] + rate
         rate_noise = max(rate_noise, 16.0 * EPSILON * speed) + tick * second
-        wait, reached = _gain_wait(stack, i, order, power, tail, noise, rate_noise, root, horizon)
+        wait, reached = _gain_wait(
+            stack, i, time, order, power, tail, noise, rate_noise, root, horizon
+        )
         kind = RESUMED if phase == UNLOADED else CLIPPED
-    if plain or phase == RELEASING:
+    if creeps(stack, i):
+        kind = RELEASE
+    elif plain or phase == RELEASING:
         left = min(wait, horizon)
         other, there = _safe_wait(stack, a, order, power, tail, 0.0, 1.0, 0.0, band, left)
         if other < left or (there and other <= left < horizon):
@@ -241,6 +253,7 @@ def _linearised_wait(
 def _gain_wait(
     stack: Stack,
     i: int,
+    time: float,
     order: int,
     power: int,
     tail: float,
@@ -257,6 +270,11 @@ def _gain_wait(
     for k in range(order - root + 1):
         gain[k] += rate * (k + root) * a[k + root] / root
     gain[0] += stack.gain_constant[i]
+    if creeps(stack, i):
+        since = time - stack.anchor[stack.first[i]]
+        shift(stack.creep_series[i], order, since, stack.scratch)
+        for k in range(order + 1):
+            gain[k] -= stack.gain_creep[i] * stack.scratch[k]
     noise = max(noise, EPSILON * EPSILON * stack.scale[i])
     rate_noise = max(rate_noise, EPSILON * EPSILON * stack.number[SPEED])
     clear = slope * noise + rate * rate_noise + 4.0 * EPSILON * stack.gain_constant[i]
@@ -314,13 +332,11 @@ def _is_pressed_together(stack: Stack, i: int, a: Floats, order: int) -> bool:
 
 
 @kernel
-def _never_meets(stack: Stack, i: int, a: Floats, order: int) -> bool:
+def _never_meets(stack: Stack, i: int, a: Floats) -> bool:
     """Return whether two balls in flight without relative acceleration do not approach each other.
 
-    The lower one may be the floor.
+    The lower one may be the floor. A surface that recovers does so ever more slowly.
     """
-    if order > 2 or a[2] != 0.0:
-        return False
     noise = stack.velocity_noise[i]
     if i > 0:
         noise += stack.velocity_noise[i - 1]

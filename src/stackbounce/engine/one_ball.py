@@ -15,14 +15,14 @@ _ROWS = 64  # of the log
 
 
 def bounce(
-    numbers: tuple[int, float, float, float], mass: float, speed: float
+    numbers: tuple[int, float, float, float, float], mass: float, speed: float
 ) -> tuple[float, float]:
     """Return the restitution and the contact time in s of a ball on a floor, without gravity.
 
     Parameters
     ----------
     numbers : tuple
-        A contact as in `prepare`: form of the force, stiffness, exponent and law parameter.
+        A contact as in `prepare`: form of the force, stiffness, exponent and two law parameters.
     mass, speed : float
         In kg and m/s.
 
@@ -33,16 +33,15 @@ def bounce(
 
     Examples
     --------
-    >>> e, time = bounce((codes.POWER, 100.0, 1.0, 0.0), 1.0, 2.0)
+    >>> e, time = bounce((codes.POWER, 100.0, 1.0, 0.0, 0.0), 1.0, 2.0)
     >>> round(e, 9), round(time / math.pi, 9)
     (1.0, 0.1)
     """
-    form, k, p, law_parameter = numbers
+    form, k, p, z, w = numbers
     stack = new_stack(1)
     log = [0.0] * (_ROWS * codes.LOG_COLUMNS)
-    unit = prepare(
-        stack, [mass], [form], [k], [p], [law_parameter], [0.0], [-speed], 0.0, _TOLERANCE
-    )
+    contact = [form], [k], [p], [z], [w]
+    unit = prepare(stack, [mass], *contact, [0.0], [-speed], 0.0, _TOLERANCE)
     begin_contacts(stack)
     status = advance_contacts(stack, math.inf, _EVENTS, log, new_samples([], 1))
     if status != codes.FINISHED:

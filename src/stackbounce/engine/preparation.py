@@ -1,7 +1,7 @@
 """Fill a stack with the parameters of a drop, at t = 0.
 
-A contact is given by the four numbers that `forces` explains: the form of its force, the stiffness,
-the exponent and the law parameter.
+A contact is given by the five numbers that `forces` explains: the form of its force, the stiffness,
+the exponent and two law parameters.
 """
 
 import math
@@ -44,6 +44,7 @@ def prepare(
     stiffness: Floats,
     exponent: Floats,
     law_parameter: Floats,
+    second_parameter: Floats,
     gap: Floats,
     velocity: Floats,
     gravity: float,
@@ -60,7 +61,8 @@ def prepare(
         speed = max(speed, abs(velocity[i]))
     for i in range(size):
         stack.mass[i] = mass[i]
-        take_law(stack, i, kind[i], stiffness[i], exponent[i], law_parameter[i])
+        z, w = law_parameter[i], second_parameter[i]
+        take_law(stack, i, kind[i], stiffness[i], exponent[i], z, w)
         stack.scale[i] = typical_compression(stack, i, speed)
         if stack.law[i] != codes.ABSENT:
             shortest = min(shortest, stack.scale[i] / speed)
@@ -74,6 +76,7 @@ def prepare(
     for i in range(size):
         stack.stiffness[i] *= unit * unit
         stack.gain_rate[i] /= unit
+        stack.creep_rate[i] *= unit
         stack.velocity[i] = velocity[i] * unit
         stack.compression[i] = -gap[i]
     tolerance = max(_STEP * rtol, _ROUND_OFF)
@@ -94,6 +97,7 @@ def prepare_rigid(
     stiffness: Floats,  # noqa: ARG001 - no number of a rigid contact
     exponent: Floats,  # noqa: ARG001
     restitution: Floats,
+    second_parameter: Floats,  # noqa: ARG001
     gap: Floats,
     velocity: Floats,
     gravity: float,

@@ -23,6 +23,7 @@ class Drops(NamedTuple):
     stiffness: FloatTable
     exponent: FloatTable
     law_parameter: FloatTable
+    second_parameter: FloatTable
     gap: FloatTable  # below each ball; the lowest one's is 0
     velocity: FloatTable
     gravity: FloatColumn

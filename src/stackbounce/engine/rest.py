@@ -7,15 +7,18 @@ contact i carries the weight W_i of all balls above it:
 
 a sum of terms none of which is negative, and which no law increases. Opening contact i takes
 W_i s_i - U_i(s_i); with less than that for every contact none can open again, and the stack is
-bound. A vibration about the static state remains. If it is damped, it is followed until its speeds
-are 1e-9 of the reference speed, or as small as their error. If it is undamped, it would never end:
-the stack is set to its static state at once.
+bound. A contact that creeps has the energy of its relaxing spring, too, and opens before it has
+come back to c = 0: to open it at once takes 1/(1 + z) of that energy.
+
+A vibration about the static state remains. If it is damped, it is followed until its speeds are
+1e-9 of the reference speed, or as small as their error. If it is undamped, it would never end: the
+stack is set to its static state at once.
 """
 
 import math
 
 from stackbounce.engine.codes import COMPRESSING, POWER, PRODUCT
-from stackbounce.engine.forces import is_damped, potential, static_compression
+from stackbounce.engine.forces import arm_energy, creeps, is_damped, potential, static_compression
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
 from stackbounce.engine.stack import TERMS, Stack
@@ -47,7 +50,9 @@ def is_bound(stack: Stack) -> bool:
         at_rest = potential(stack, i, rest)
         c = stack.compression[i]
         excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
-        barrier = min(barrier, weight * rest - at_rest)
+        excess += arm_energy(stack, i, c, stack.creep[i])
+        opening = weight * rest - at_rest
+        barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
         damped = damped or is_damped(stack, i)
         if stack.law[i] not in (POWER, PRODUCT):
             if stack.top[i] == math.inf:
@@ -66,9 +71,12 @@ def set_static_state(stack: Stack) -> None:
         weight += stack.mass[i] * stack.number[GRAVITY]
         stack.compression[i] = static_compression(stack, i, weight)
         stack.velocity[i] = 0.0
+        stack.creep[i] = stack.compression[i] if creeps(stack, i) else 0.0
         for k in range(TERMS):
             stack.compression_series[i][k] = 0.0
             stack.velocity_series[i][k] = 0.0
             stack.force_series[i][k] = 0.0
+            stack.creep_series[i][k] = 0.0
         stack.compression_series[i][0] = stack.compression[i]
+        stack.creep_series[i][0] = stack.creep[i]
         stack.force_series[i][0] = weight

@@ -47,15 +47,18 @@ from stackbounce.engine.contacts import (
     reduced_mass,
 )
 from stackbounce.engine.event_queue import clear_queue, schedule
-from stackbounce.engine.forces import force, stored_energy
+from stackbounce.engine.forces import arm_energy, force, held_energy, stored_energy, surface
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.motion import (
     advance_cluster,
     allows_root_series,
     compression_at,
     contact_impulse,
+    creep_at,
     form_clusters,
     is_free,
+    overlap_at,
+    overlap_rate_at,
     rate_at,
     root_at,
     series_time,
@@ -160,7 +163,7 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
     stack.counter[CHECKS] = 0
     compression = compression_at(stack, i, time)
     if kind == PEAK:
-        record_peak(stack, i, compression, 0.0, time)
+        record_peak(stack, i, compression, force(stack, i, compression, 0.0, 0.0), time)
     if kind not in (TOUCH, RELEASE) and not changes_curve(stack, i, kind):
         change_phase(stack, i, kind, compression)
         _reschedule(stack, i, time)
@@ -175,20 +178,24 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
     logical = time
     if kind in (TOUCH, RELEASE):
         logical = _zero_crossing(stack, i, time)
+    overlap = compression - surface(stack, i, creep_at(stack, i, time))
     if kind == TOUCH and allows_root_series(stack) and logical >= stack.anchor[stack.first[i]]:
-        time, compression = logical, 0.0 if logical < time else compression
+        time, overlap = logical, 0.0 if logical < time else overlap
     advance_cluster(stack, i, time)
     if i > 0 and stack.first[i - 1] != stack.first[i]:
         advance_cluster(stack, i - 1, time)
     if kind == TOUCH:
+        stack.creep[i] = creep_at(stack, i, time)
         close_contact(stack, i, logical)
         logical = stack.start[i]
-        stack.compression[i] = _first_compression(stack, i, compression, time)
+        overlap = _first_overlap(stack, i, overlap, time)
+        stack.compression[i] = surface(stack, i, stack.creep[i]) + overlap
     elif kind == RELEASE:
         stack.phase[i] = OPEN
         stack.released[i] = logical
         stack.counter[CLOSED] -= 1
-        stack.compression[i] = min(stack.compression[i], 0.0)
+        stack.compression[i] = min(stack.compression[i], surface(stack, i, stack.creep[i]))
+        stack.creep_time[i] = time
     elif kind == CLIPPED:
         clip(stack, i, time)
     else:
@@ -236,10 +243,10 @@ def _is_unresolved(stack: Stack, i: int, time: float) -> bool:
 
 
 @kernel
-def _first_compression(stack: Stack, i: int, compression: float, time: float) -> float:
-    """Return the initial compression of contact i, anchored now: a rounding error, or 0.
+def _first_overlap(stack: Stack, i: int, overlap: float, time: float) -> float:
+    """Return the initial overlap of contact i, anchored now: a rounding error, or 0.
 
-    It is 0 if the overlap exceeds the error of the motion, because an approach was missed within
+    It is 0 if it exceeds the error of the motion, because an approach was missed within
     the error of the speeds. It is also 0 if the balls touch so slowly that the compression would
     store more energy than their approach has.
     """
@@ -249,9 +256,10 @@ def _first_compression(stack: Stack, i: int, compression: float, time: float) ->
     known = max(100.0 * stack.number[TOLERANCE], 1e-12) * stack.scale[i]
     known += 64.0 * EPSILON * time * abs(rate)
     brought = 0.5 * reduced_mass(stack, i) * rate * rate
-    if compression > known or stored_energy(stack, i, compression) > _NOTICED * brought:
+    stored = stored_energy(stack, i, overlap) + arm_energy(stack, i, overlap, 0.0)
+    if overlap > known or stored > _NOTICED * brought:
         return 0.0
-    return max(compression, 0.0)
+    return max(overlap, 0.0)
 
 
 @kernel
@@ -269,7 +277,7 @@ def _track_touching(stack: Stack, i: int, time: float) -> None:
 
 @kernel
 def _zero_crossing(stack: Stack, i: int, time: float) -> float:
-    """Return when the compression of contact i was zero, shortly before ``time``."""
+    """Return when the overlap of contact i was zero, shortly before ``time``."""
     earliest = stack.clock[LAST_EVENT]
     if root_at(stack, i) == 2:  # the series has no root before its anchor
         earliest = max(earliest, stack.anchor[stack.first[i]])
@@ -277,11 +285,11 @@ def _zero_crossing(stack: Stack, i: int, time: float) -> float:
             earliest = max(earliest, stack.anchor[stack.first[i - 1]])
     crossing = time
     for _ in range(_NEWTON):
-        compression = compression_at(stack, i, crossing)
-        rate = rate_at(stack, i, crossing)
-        if compression * rate <= 0.0:
+        overlap = overlap_at(stack, i, crossing)
+        rate = overlap_rate_at(stack, i, crossing)
+        if overlap * rate <= 0.0:
             break
-        crossing -= compression / rate
+        crossing -= overlap / rate
         if crossing < earliest:
             return earliest
     return crossing
@@ -336,7 +344,8 @@ def log_unfinished(stack: Stack, time: float, log: Floats) -> None:
             continue
         if stack.phase[i] >= COMPRESSING:
             compression = compression_at(stack, i, time)
-            record_peak(stack, i, compression, rate_at(stack, i, time), time)
+            rate, creep = rate_at(stack, i, time), creep_at(stack, i, time)
+            record_peak(stack, i, compression, force(stack, i, compression, rate, creep), time)
             since = time - stack.anchor[stack.first[i]]
             if stack.modal[stack.first[i]] == 0:
                 record_series_peaks(stack, i, i + 1, series_time(stack, stack.first[i], since))
@@ -375,7 +384,7 @@ def _approaches(stack: Stack, i: int) -> bool:
     noise = stack.velocity_noise[i]
     if i > 0:
         noise += stack.velocity_noise[i - 1]
-    return rate_at(stack, i, stack.clock[LAST_EVENT]) > noise
+    return overlap_rate_at(stack, i, stack.clock[LAST_EVENT]) > noise
 
 
 @kernel
@@ -397,6 +406,7 @@ def _record_samples(stack: Stack, samples: Samples, time: float) -> None:
             samples.compression[at + i] = compression
             rate = samples.velocity[at + i - 1] if i > 0 else 0.0
             rate -= samples.velocity[at + i]
-            samples.force[at + i] = force(stack, i, compression, rate)
-            samples.stored[at + i] = stored_energy(stack, i, compression)
+            creep = creep_at(stack, i, now)
+            samples.force[at + i] = force(stack, i, compression, rate, creep)
+            samples.stored[at + i] = held_energy(stack, i, compression, creep)
         stack.counter[NEXT_SAMPLE] += 1

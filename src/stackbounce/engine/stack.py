@@ -28,11 +28,13 @@ class Stack(NamedTuple):
     stiffness: Floats
     exponent: Floats
     unloading: Floats  # exponent of the unloading curve
-    factor_exponent: Floats  # q of a product k c^q (a + b c + s c^2 + d c'), see `forces`
+    factor_exponent: Floats  # q of a product k c^q (a + b c + s c^2 + d c' - m u), see `forces`
     gain_constant: Floats  # a of that gain
     gain_slope: Floats  # b
     gain_square: Floats  # s
     gain_rate: Floats  # d
+    gain_creep: Floats  # m
+    creep_rate: Floats  # 1/w, at which u follows c
     scale: Floats  # a typical compression of the contact
     number: Floats  # see `slots`
     setting: Integers
@@ -41,6 +43,8 @@ class Stack(NamedTuple):
     velocity_noise: Floats  # bound on the accumulated round-off of the velocity
     compression: Floats
     phase: Integers
+    creep: Floats  # u at the cluster's anchor; of an open contact at creep_time
+    creep_time: Floats
     curve_force: Floats  # present force curve: curve_force (c/curve_unit)^curve_exponent
     curve_unit: Floats
     curve_exponent: Floats
@@ -91,6 +95,7 @@ class Stack(NamedTuple):
     velocity_series: Rows
     power_series: Rows  # of (c/curve_unit)^power
     gain_series: Rows
+    creep_series: Rows
     power: Floats  # of the power series; 0 if none is needed
     # scratch space and counters
     scratch: Floats

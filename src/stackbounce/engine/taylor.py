@@ -6,10 +6,10 @@ rates, accelerations from forces, velocities and compressions from accelerations
 begins at a speed and p is a multiple of 1/2, c^p has a series in the square root of time instead,
 and so has the whole motion up to the next step. A step is the time for which the last two terms of
 every velocity (five, in the root of time) stay below the tolerance (Jorba and Zou, Exp. Math. 14,
-99, 2005). It is also limited so that no power grows beyond what these terms represent, and no
-compression falls by much more than itself, or rises by more than the last term of its power allows.
-If all contacts are springs and dashpots the series is that of the matrix exponential, whatever its
-eigenvalues; the tolerance is then round-off, whatever the user asks for.
+99, 2005), and those of every creep. It is also limited so that no power grows beyond what these
+terms represent, and no compression falls by much more than itself, or rises by more than the last
+term of its power allows. If all contacts are springs and dashpots the series is that of the matrix
+exponential, whatever its eigenvalues; the tolerance is then round-off, whatever the user asks for.
 """
 
 import math
@@ -17,13 +17,14 @@ import math
 from stackbounce.engine.codes import POWER, PRODUCT
 from stackbounce.engine.elementary import near_root
 from stackbounce.engine.forces import (
+    creeps,
     find_terms,
     force,
-    has_squares,
+    has_rare_terms,
+    held_energy,
     is_linear,
     power_needed,
     raised,
-    stored_energy,
 )
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.series import ORDER, ROOT_ORDER, evaluate
@@ -49,6 +50,8 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
     for i in range(low, high):
         stack.compression_series[i][0] = stack.compression[i]
         stack.compression_series[i][1] = 0.0  # remains 0 in a series in the root of time
+        stack.creep_series[i][0] = stack.creep[i]
+        stack.creep_series[i][1] = 0.0  # the same
         stack.power[i] = power_needed(stack, i) if stack.linearised[i] == 0 else 0.0
         ratio = stack.compression[i] / stack.curve_unit[i]
         begin = ratio > 0.0 and stack.power[i] > 0.0
@@ -65,7 +68,7 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         stack.velocity_series[b][1] = 0.0
         stack.order[b] = order
         stack.speed[b] = speed
-    if has_squares(stack, low, high):
+    if has_rare_terms(stack, low, high):
         find_terms(stack, low, high, order, root, 1)
     elif root == 1 and low == 0 and high == 2:
         find_terms(stack, 0, 2, order, 1, 0)  # as below, but compiled for constants
@@ -84,6 +87,10 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         size = 0.0
         for b in range(bottom, high):
             size = max(size, abs(stack.velocity_series[b][k]))
+        for i in range(low, high):
+            if creeps(stack, i):  # as a speed, by the contact's own rate
+                own_rate = stack.number[SPEED] / stack.scale[i]
+                size = max(size, abs(stack.creep_series[i][k]) * own_rate)
         if size * x > before:  # otherwise this term is as small as the last one
             x = min(x, near_root(allowed / size, k))
         before = size
@@ -137,7 +144,7 @@ def _own_speed(stack: Stack, low: int, high: int) -> float:
     for b in range(max(low - 1, 0), high):
         mass += stack.mass[b]
     for i in range(low, high):
-        stored += stored_energy(stack, i, stack.compression[i])
+        stored += held_energy(stack, i, stack.compression[i], stack.creep[i])
     return max(_fastest(stack, low, high), math.sqrt(2.0 * stored / mass))
 
 
@@ -163,7 +170,7 @@ def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
         if stack.law[i] == PRODUCT:
             pressing, at = _largest_value(stack.force_series[i], order, s)
         elif crest > stack.peak_compression[i]:
-            pressing = force(stack, i, crest, 0.0)
+            pressing = force(stack, i, crest, 0.0, 0.0)
         if pressing > stack.peak_force[i]:
             stack.peak_force[i] = pressing
             stack.peak_time[i] = stack.anchor[first] + (at if root == 1 else at * at)

@@ -53,9 +53,9 @@ def fill(drops: Drops, drop: Drop, rows: Rows) -> None:
         elif number.part == "contacts":
             laws.setdefault(number.index, {})[number.field] = values
     for i, varied in laws.items():
-        _, stiffness, exponent, law_parameter = contact_numbers(drop.contacts[i], varied)
+        _, stiffness, exponent, first, second = contact_numbers(drop.contacts[i], varied)
         drops.stiffness[..., i], drops.exponent[..., i] = stiffness, exponent
-        drops.law_parameter[..., i] = law_parameter
+        drops.law_parameter[..., i], drops.second_parameter[..., i] = first, second
     if drop.height is not None:
         height = next((v for n, v in rows.items() if n.field == "height"), drop.height)
         pull = np.where(drops.gravity > 0.0, drops.gravity, STANDARD_GRAVITY)

@@ -120,7 +120,7 @@ def suits_two_springs(drop: Drop, numbers: "Iterable[Number]", options: Options)
     ``numbers`` are the parameters that differ between the drops. Their values are not considered,
     because the result of a drop must not depend on the other drops of the batch.
     """
-    linear = all(contact_numbers(law)[::2] == (POWER, 1.0) for law in drop.contacts)
+    linear = all(contact_numbers(law)[0:3:2] == (POWER, 1.0) for law in drop.contacts)
     together = len(set(drop.start_velocities)) == 1 and drop.start_velocities[0] < 0.0
     free = any(n.part == "velocities" or n.field in ("exponent", "gravity") for n in numbers)
     whole = options.until == math.inf and options.event_limit >= TWO_SPRINGS_EVENTS

@@ -3,7 +3,8 @@
 Each law is a frozen dataclass in a file of its own, with all its formulas. A force never pulls:
 where the formula is negative, the force is 0. The formula is evaluated further, so that the force
 may become positive again. A contact ends when its force is zero for good. While the compression c
-is above 0, ``k c**(p + 1)/(p + 1)`` counts as stored energy.
+is above 0, ``k c**(p + 1)/(p + 1)`` counts as stored energy. `StandardLinearSolid` alone has a
+state besides: a contact ends when its force is zero, with a surface that recovers.
 """
 
 # The laws are imported in the order in which people are shown them: each registers itself.
@@ -13,6 +14,7 @@ from stackbounce.model.laws.spring import Spring
 from stackbounce.model.laws.hertz import Hertz
 from stackbounce.model.laws.power_law import PowerLaw
 from stackbounce.model.laws.dashpot import Dashpot
+from stackbounce.model.laws.standard_linear_solid import StandardLinearSolid
 from stackbounce.model.laws.viscoelastic import Viscoelastic
 from stackbounce.model.laws.hunt_crossley import HuntCrossley
 from stackbounce.model.laws.hysteretic import Hysteretic
@@ -33,6 +35,7 @@ __all__ = [
     "PowerLaw",
     "Rigid",
     "Spring",
+    "StandardLinearSolid",
     "Viscoelastic",
     "contact_numbers",
     "law_named",

@@ -12,6 +12,7 @@ from stackbounce.model.laws.law import (
     EXPONENT,
     STEEPEST,
     ContactLaw,
+    EngineNumbers,
     Flank,
     Flanks,
     Given,
@@ -151,7 +152,7 @@ class Hysteretic(ContactLaw):
         shape = [] if self.exponent == 1.0 else ["exponent"]
         return ["stiffness", *shape, "restitution"]
 
-    def engine_numbers(self, varied: Mapping[str, Any] = {}) -> tuple[int, Any, Any, Any]:
+    def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers, with n from e where e is what is known of the loss."""
         form = FORMS["LOSSY" if self.reloading == "lossy" else self.form]
         k, p = (varied.get(name, getattr(self, name)) for name in ("stiffness", "exponent"))
@@ -162,7 +163,7 @@ class Hysteretic(ContactLaw):
 
             e = varied.get("restitution", self.restitution)
             n = np.maximum(p, (p + 1.0) / e / e - 1.0)
-        return form, k, p, n
+        return form, k, p, n, 0.0
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution, which is the same for all collisions."""

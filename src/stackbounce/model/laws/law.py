@@ -24,6 +24,7 @@ __all__ = [
     "EXPONENT",
     "STEEPEST",
     "ContactLaw",
+    "EngineNumbers",
     "Flank",
     "Flanks",
     "Given",
@@ -37,6 +38,9 @@ STEEPEST = 1e6
 
 Given: TypeAlias = Mapping[str, float]
 """The measured quantities of a collision, by the names of the arguments of `calibrate`."""
+
+EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
+"""A contact as the engine takes it, see `stackbounce.engine.forces`."""
 
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
@@ -106,6 +110,8 @@ class ContactLaw:
     """The name of the form of the force, see `stackbounce.engine.forces`."""
     law_parameter: ClassVar[str] = ""
     """The field that the engine takes as the law parameter, such as the damping."""
+    second_parameter: ClassVar[str] = ""
+    """The field that it takes as a second one, such as a relaxation time."""
     rigid: ClassVar[bool] = False
     """Whether collisions are instantaneous."""
     exact: ClassVar[bool] = False
@@ -197,8 +203,10 @@ class ContactLaw:
 
     # what the engine is given
 
-    def engine_numbers(self, varied: Mapping[str, Any] = _NOTHING) -> tuple[int, Any, Any, Any]:
-        """Return the engine's description of a contact: form, stiffness, exponent, law parameter.
+    def engine_numbers(self, varied: Mapping[str, Any] = _NOTHING) -> EngineNumbers:
+        """Return the engine's description of a contact.
+
+        That is the form of its force, the stiffness, the exponent and two law parameters.
 
         Parameters
         ----------
@@ -207,12 +215,14 @@ class ContactLaw:
         """
         stiffness = getattr(self, "stiffness", 1.0)
         exponent = getattr(self, "exponent", 1.0)
-        parameter = getattr(self, self.law_parameter) if self.law_parameter else 0.0
+        first = getattr(self, self.law_parameter) if self.law_parameter else 0.0
+        second = getattr(self, self.second_parameter) if self.second_parameter else 0.0
         if varied:
             stiffness = varied.get("stiffness", stiffness)
             exponent = varied.get("exponent", exponent)
-            parameter = varied.get(self.law_parameter, parameter)
-        return codes.FORMS[self.form], stiffness, exponent, parameter
+            first = varied.get(self.law_parameter, first)
+            second = varied.get(self.second_parameter, second)
+        return codes.FORMS[self.form], stiffness, exponent, first, second
 
     # one collision
 
@@ -316,15 +326,13 @@ def _quantities(kind: type[ContactLaw]) -> Mapping[str, Quantity]:
     return {name: one for name, one in found.items() if isinstance(one, Quantity)}
 
 
-def contact_numbers(
-    law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING
-) -> tuple[int, Any, Any, Any]:
+def contact_numbers(law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING) -> EngineNumbers:
     """Return a contact as the engine takes it, see `ContactLaw.engine_numbers`; None is no floor.
 
     Examples
     --------
     >>> from stackbounce.model import Hertz
     >>> contact_numbers(Hertz(2e9)), contact_numbers(None)
-    ((1, 2000000000.0, 1.5, 0.0), (0, 1.0, 1.0, 0.0))
+    ((1, 2000000000.0, 1.5, 0.0, 0.0), (0, 1.0, 1.0, 0.0, 0.0))
     """
-    return (codes.ABSENT, 1.0, 1.0, 0.0) if law is None else law.engine_numbers(varied)
+    return (codes.ABSENT, 1.0, 1.0, 0.0, 0.0) if law is None else law.engine_numbers(varied)

@@ -38,11 +38,11 @@ def series(law_a: _Law, law_b: _Law) -> _Law:
     Notes
     -----
     Without a mass in between, ``F1(c1) = F2(c2)`` and ``c = c1 + c2``. The law of both is of the
-    same class if, and only if, ``c1 = f c`` at all times, with
-    ``f = k1**(-1/p) / (k1**(-1/p) + k2**(-1/p))``. This holds for springs and power laws; for
-    `Dashpot` if b/k is the same; for `Viscoelastic` if A is the same (its force is ``k (s + A ṡ)``
-    with ``s = c**1.5``); for `HuntCrossley` if ``χ1 f = χ2 (1 - f)``, which then is the χ of both
-    in series; for `Hysteretic` if `restitution` and `reloading` are the same.
+    same class if, and only if, ``c1 = f c`` at all times, with ``f = k1**(-1/p) / (k1**(-1/p) +
+    k2**(-1/p))``. This holds for springs and power laws; for `Dashpot` if b/k is the same; for
+    `StandardLinearSolid` if Δ and τ are the same; for `Viscoelastic` if A is the same (its force is
+    ``k (s + A ṡ)`` with ``s = c**1.5``); for `HuntCrossley` if ``χ1 f = χ2 (1 - f)``, which then is
+    the χ of both in series; for `Hysteretic` if `restitution` and `reloading` are the same.
 
     Springs: R. Cross, Am. J. Phys. 75, 1009 (2007), section V.
 
