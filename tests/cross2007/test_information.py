@@ -146,4 +146,6 @@ def test_measurements_are_ranked(made_up):
     assert len(told) == len(NAMES)
     assert found.model == pytest.approx(1.0, abs=0.01)
     assert max(bits) < 1.0 + 0.05
+    assert found.in_minutes in found.gains
+    assert "alone" in found.in_minutes.what
     assert set(found.as_dict()) == {"model", "reading", "gains"}

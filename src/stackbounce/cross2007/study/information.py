@@ -60,6 +60,11 @@ class Information(NamedTuple):
     reading: float
     gains: list[Gain]
 
+    @property
+    def in_minutes(self) -> Gain:
+        """The best of the measurements that take minutes."""
+        return next(one for one in self.gains if one.cost.startswith("minutes"))
+
     def as_dict(self) -> dict[str, Any]:
         """Return all numbers as plain values, for JSON."""
         return {**self._asdict(), "gains": [one._asdict() for one in self.gains]}

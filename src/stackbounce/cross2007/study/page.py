@@ -15,6 +15,7 @@ from stackbounce.cross2007.study.figures import (
     draw_misfits,
     name_pair,
 )
+from stackbounce.cross2007.study.figures_hierarchy import draw_information, draw_probabilities
 from stackbounce.cross2007.study.figures_predictions import draw_decisive, draw_energy
 from stackbounce.cross2007.study.readings import LAWS, Reading
 from stackbounce.cross2007.study.results import Study, run_study
@@ -55,6 +56,8 @@ def draw_pictures(done: Study) -> list[Picture]:
             draw_delays(done.compared),
             draw_energy(done.kept),
             draw_decisive(done.compared),
+            draw_probabilities(done.weighed),
+            draw_information(done.expected),
         ]
 
 

@@ -9,6 +9,8 @@ from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.basketball import Stack, fit_stacks
 from stackbounce.cross2007.study.comparison import FittedModels, fit_models
 from stackbounce.cross2007.study.energy import EnergyBound, bound_energy
+from stackbounce.cross2007.study.hierarchy import Hierarchy, weigh_models
+from stackbounce.cross2007.study.information import Information, rank_measurements
 from stackbounce.cross2007.study.predictions import Prediction, predict
 from stackbounce.cross2007.study.readings import Reading, fit_readings
 from stackbounce.cross2007.study.records import Fact, compare_records
@@ -53,6 +55,8 @@ class Study:
     predictions: list[Prediction]
     stacks: list[Stack]
     refits: list[Refit]
+    weighed: Hierarchy
+    expected: Information
 
     @functools.cached_property
     def rows(self) -> list[dict[str, Any]]:
@@ -101,6 +105,8 @@ class Study:
                 {**one._asdict(), "numbers": [number._asdict() for number in one.numbers]}
                 for one in self.refits
             ],
+            "hierarchy": self.weighed.as_dict(),
+            "information": self.expected.as_dict(),
         }
 
 
@@ -121,6 +127,8 @@ def run_study(progress: Callable[[str], None] = lambda _: None) -> Study:
     held = {name: hold_out(own, name) for name in _HELD}
     progress("study: force records and measurements that would decide")
     shown, said = compare_records(own), predict(own)
+    weighed = weigh_models(progress)
+    expected = rank_measurements(weighed, progress)
     progress("study: the basketball, and section V's fits")
     return Study(
         own,
@@ -136,4 +144,6 @@ def run_study(progress: Callable[[str], None] = lambda _: None) -> Study:
         said,
         fit_stacks(),
         refit_section_v(),
+        weighed,
+        expected,
     )
