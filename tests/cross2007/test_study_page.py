@@ -1,5 +1,6 @@
 """The study's page: complete, self-contained, linked, whatever numbers came out."""
 
+import functools
 import json
 import struct
 from dataclasses import replace
@@ -18,15 +19,19 @@ from stackbounce.cross2007.study import (
     results,
     sensitivity,
 )
+from stackbounce.cross2007.study.bounce_likelihood import Size
 from stackbounce.cross2007.study.catalogue import NAMES, THEORIES
 from stackbounce.cross2007.study.choices import BASE, CHOICES
+from stackbounce.cross2007.study.hierarchy import weigh_models
+from stackbounce.cross2007.study.information import rank_measurements
 from stackbounce.cross2007.study.observed import observe
 from stackbounce.fitting import Fit
 from stackbounce.fitting.least_squares import Minimum
 
 pytestmark = pytest.mark.slow
 
-FIGURES = ["comparison", "misfits", "delays", "energy", "decisive"]
+FIGURES = ["comparison", "misfits", "delays", "energy", "decisive", "probabilities", "information"]
+COARSE = Size(step=0.4e-3, lower=2, upper=2, between=2, stiffness=2, separate=3, sets=2, each=64)
 
 
 def looked_at(model, data, *_, **__):
@@ -55,6 +60,8 @@ def folder(tmp_path_factory, told):
         for module in (sensitivity, cross_validation):
             patch.setattr(module, "refit", looked_at)
         patch.setattr(results, "refit_section_v", list)
+        patch.setattr(results, "weigh_models", functools.partial(weigh_models, size=COARSE))
+        patch.setattr(results, "rank_measurements", functools.partial(rank_measurements, each=16))
         patch.setattr(paper, "FIGURES", {"6": paper.FIGURES["6"]})
         patch.setattr(paper, "SECTIONS", paper.SECTIONS[:1])
         cross2007.write(out, told.append, study=True)
@@ -130,6 +137,16 @@ def test_every_choice_is_there(page, folder):
     for choice in CHOICES:
         assert choice.name in text
         assert all(choice.name in row for row in done["choices"]["cells"].values())
+
+
+def test_probabilities_and_measurements_are_there(page, folder):
+    text = " ".join("".join(page.text).split())
+    done = json.loads((folder / "study.json").read_text(encoding="utf-8"))
+    assert sum(done["hierarchy"]["probabilities"].values()) == pytest.approx(1.0)
+    assert done["hierarchy"]["undecided"] in text
+    for one in done["information"]["gains"]:
+        assert one["what"] in text
+        assert one["cost"] in text
 
 
 def test_it_says_what_it_is_doing(told):

@@ -17,6 +17,7 @@ from stackbounce.cross2007.study.figures import (
     draw_misfits,
     name_pair,
 )
+from stackbounce.cross2007.study.figures_hierarchy import draw_information, draw_probabilities
 from stackbounce.cross2007.study.figures_predictions import draw_decisive, draw_energy
 from stackbounce.cross2007.study.readings import LAWS, READINGS, penalty
 from stackbounce.cross2007.study.results import BOTH, Study, run_study
@@ -61,6 +62,8 @@ def draw_pictures(done: Study) -> list[Picture]:
             draw_delays(done.compared),
             draw_energy(done.kept),
             draw_decisive(done.compared),
+            draw_probabilities(done.weighed),
+            draw_information(done.expected),
         ]
 
 

@@ -17,6 +17,8 @@ from stackbounce.cross2007.study.cross_validation import (
     cross_validate_selection,
 )
 from stackbounce.cross2007.study.energy import EnergyBound, bound_energy
+from stackbounce.cross2007.study.hierarchy import Hierarchy, weigh_models
+from stackbounce.cross2007.study.information import Information, rank_measurements
 from stackbounce.cross2007.study.predictions import Prediction, predict
 from stackbounce.cross2007.study.readings import Combination, fit_combinations
 from stackbounce.cross2007.study.records import Fact, compare_records
@@ -55,6 +57,8 @@ class Study:
     predictions: list[Prediction]
     stacks: list[Stack]
     refits: list[Refit]
+    weighed: Hierarchy
+    expected: Information
 
     @property
     def compared(self) -> FittedModels:
@@ -119,6 +123,8 @@ class Study:
                 {**one._asdict(), "numbers": [number._asdict() for number in one.numbers]}
                 for one in self.refits
             ],
+            "hierarchy": self.weighed.as_dict(),
+            "information": self.expected.as_dict(),
         }
 
 
@@ -141,6 +147,8 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
     held = cross_validate(fits, progress)
     progress("study: force records and measurements that would decide")
     shown, said = compare_records(fits[BASE]), predict(fits[BASE])
+    weighed = weigh_models(progress)
+    expected = rank_measurements(weighed, progress)
     progress("study: the basketball, and section V's fits")
     return Study(
         fits,
@@ -154,4 +162,6 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
         said,
         fit_stacks(),
         refit_section_v(),
+        weighed,
+        expected,
     )
