@@ -17,18 +17,20 @@ from stackbounce.run.result import Result
 from stackbounce.version import __version__
 from stackbounce.web.limits import LIMITS
 
-__all__ = ["play_drop", "run_drop"]
+__all__ = ["RTOL", "play_drop", "run_drop"]
 
 _Times = NDArray[np.float64]
 
 _INTERVALS = 60  # most contact intervals that get frames of their own
-_RTOL = 1e-10
+RTOL = 1e-10
+"""The tolerance of nonlinear contacts, which a picture does not show."""
+
 _DIGITS = 9  # of a frame's largest number
 
 
 def run_drop(drop: Drop, until: float | None) -> Result:
     """Return the result of a drop within the limits of a request."""
-    return simulate(drop, until=until, rtol=_RTOL, event_limit=LIMITS.events)
+    return simulate(drop, until=until, rtol=RTOL, event_limit=LIMITS.events)
 
 
 def play_drop(drop: Drop, until: float | None, frames: int) -> str:

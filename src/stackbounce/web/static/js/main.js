@@ -28,9 +28,10 @@ mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals"), live: place("live") }, store);
 mountShare(place("share"), store, api);
+const loadMap = () => import("./map.js");
 mountTabs(store, {
-  map: (section) => open("./map.js", section),
-  measure: (section) => open("./measure.js", section),
+  map: (section) => open(loadMap, section),
+  measure: (section) => open(() => import("./measure.js"), section),
 });
 place("skip").addEventListener("click", (event) => {
   event.preventDefault(); // the fragment holds the state
@@ -38,20 +39,26 @@ place("skip").addEventListener("click", (event) => {
 });
 store.subscribe(({ view }) => view !== "play" && clock.pause());
 followResults();
+const end = store.subscribe(({ result }) => {
+  if (!result) return;
+  end();
+  api.prepare();
+  loadMap();
+});
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();
 loadCatalogue();
 
 /** Build a view from its own module when it is first opened. */
-async function open(module, section) {
+async function open(load, section) {
   try {
-    await (await import(module)).mount(section, store, api);
+    await (await load()).mount(section, store, api);
   } catch (error) {
     section.append(h("p", { class: "field-error", role: "alert", text: `This view could not be opened: ${error.message}` }));
   }
 }
 
-/** The controls need the catalogue; until the server gives it there is none. */
+/** The controls need the catalogue; until it is loaded there are none. */
 async function loadCatalogue() {
   try {
     mountControls(place("controls"), store, api, await api.catalogue());

@@ -1,36 +1,23 @@
-/** Requests the result of the drop after each change: one request at a time, and only the newest drop counts. */
-
-const REST = 30; // ms without a change
+/** Computes the result of the drop after each change: only the newest drop counts. */
 
 /** Keep `result`, `busy` and `error` of the store in step with `drop` and `until`; `again()` asks anew. */
 export function run(store, api) {
-  let timer = 0;
-  let asking = false;
-  let stale = false;
+  let newest = 0;
   let adopted = null; // a drop that came with its result
 
-  const start = async () => {
-    if (asking) {
-      stale = true;
-      return;
-    }
-    asking = true;
-    stale = false;
+  const again = async () => {
+    newest += 1;
+    const mine = newest;
+    if (!store.get().busy) store.set({ busy: true });
     const { drop, until } = store.get();
     const patch = await answer(api, drop, until);
-    asking = false;
+    if (!patch) return;
+    if (mine !== newest) delete patch.error; // an error of an older state is not reported
     if (patch.result && store.get().drop === drop && hasTexts(drop)) {
       adopted = patch.result.drop;
       patch.drop = adopted;
     }
-    if (stale) delete patch.error; // an error of an older state is not reported
-    store.set({ ...patch, busy: stale });
-    if (stale) start();
-  };
-  const again = () => {
-    store.set({ busy: true });
-    clearTimeout(timer);
-    timer = setTimeout(start, REST);
+    store.set({ ...patch, busy: mine !== newest });
   };
   store.subscribe((state, before) => {
     const other = state.drop !== before.drop && state.drop !== adopted;
@@ -40,10 +27,12 @@ export function run(store, api) {
   return { again };
 }
 
+/** Return what a drop's result changes in the state; null where a newer drop took its place. */
 async function answer(api, drop, until) {
   try {
-    return { result: await api.simulate(drop, until), error: null };
+    return { result: await api.play(drop, until), error: null };
   } catch (error) {
+    if (error.replaced) return null;
     return { error: { detail: error.message, offline: Boolean(error.offline) } };
   }
 }
