@@ -10,6 +10,12 @@ from stackbounce.web import LIMITS
 pytestmark = pytest.mark.slow
 
 
+@pytest.fixture
+def address(address_of_server):
+    """Open the page of the server only: the one file does not measure."""
+    return address_of_server
+
+
 def opened(visit):
     page = visit.open("#view=measure")
     page.locator(".fit-vary input").first.wait_for()

@@ -29,7 +29,6 @@ def test_the_first_view(visit):
     assert (
         "1.803" in page.locator("#numbers").inner_text()
     )  # the paper's fit: 5.8/3.53 = 1.64 measured
-    assert len(visit.requests) > 10
     assert not visit.foreign()
     at(visit, 0.0135)
     visit.picture("first-view-laptop")
@@ -344,8 +343,9 @@ def test_a_screen_reader_is_told(visit):
 
 def test_a_server_that_is_gone_is_not_missed(visit):
     page = visit.open()
-    page.wait_for_load_state("networkidle")
-    page.route("**/*", lambda route: route.abort())
+    page.wait_for_function("() => window.stackbounce.whole")
+    page.evaluate("() => window.stackbounce.whole.then(() => null)")
+    page.route("http://**/*", lambda route: route.abort())
     before = len(visit.requests)
     page.locator('[data-path="gaps.0"]').fill("3 mm")
     page.keyboard.press("Enter")
@@ -359,6 +359,8 @@ def test_a_server_that_is_gone_is_not_missed(visit):
 
 
 def test_an_engine_that_cannot_be_loaded_is_told_and_tried_again(visit):
+    if visit.address.startswith("file:"):
+        pytest.skip("the one file holds its engine")
     page = visit.page
     page.route("**/made/engine.wasm", lambda route: route.abort())
     page.goto(visit.address)

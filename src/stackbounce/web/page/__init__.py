@@ -7,5 +7,7 @@ units       all units that the package reads, with their factors
 laws        the formulas of the contact laws, as JavaScript
 bounds      the numbers that a check lets through
 translation Python to JavaScript, for these formulas
+one_file    the whole explorer as one HTML file
+bundle      ES modules to one classic script
 =========== ================================================================
 """

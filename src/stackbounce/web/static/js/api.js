@@ -2,9 +2,7 @@
 
 import { Client } from "./engine/client.js";
 import { pictureOf } from "./export_picture.js";
-import { hasServer, loadParts, startWorker } from "./home/served.js";
-
-export { hasServer };
+import { loadParts, startWorker } from "./home/served.js";
 
 let loaded = null;
 

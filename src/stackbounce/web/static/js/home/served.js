@@ -2,6 +2,9 @@
 
 export const hasServer = true;
 
+/** Load the view that measures and fits. */
+export const loadMeasure = () => import("../measure.js");
+
 /** Return a worker that runs engine/worker.js. */
 export function startWorker() {
   return new Worker(new URL("../engine/worker.js", import.meta.url), { type: "module" });
