@@ -27,7 +27,7 @@ export async function catalogue() {
 }
 
 /** Return the result of the drop that is to be shown; one that is still computed makes room for it. */
-export const play = (drop, until = null, frames = 1500) =>
+export const play = (drop, until, frames) =>
   player.ask("simulate", [drop, until, frames], { newest: true });
 export const simulate = (drop, until = null, frames = 1500) => desk.ask("simulate", [drop, until, frames]);
 export const stack = (balls, height) => desk.ask("stack", [balls, height]);

@@ -100,10 +100,11 @@ export function spaced(from, to, count) {
 export function sampleWithApproach(result, times) {
   const { drop } = result;
   const found = result.sample(times.map((time) => Math.max(time, 0)));
+  const { start } = drop;
   times.forEach((time, row) => {
     if (time >= 0) return;
     let below = 0;
-    drop.start.forEach((velocity, ball) => {
+    start.forEach((velocity, ball) => {
       const fallen = velocity * time - 0.5 * drop.gravity * time * time;
       found.position[ball][row] += fallen;
       found.velocity[ball][row] -= drop.gravity * time;
@@ -125,13 +126,19 @@ export function sampleWithEnergy(result, times) {
   const { balls, gravity } = result.drop;
   const found = sampleWithApproach(result, times);
   const kinetic = balls.map(({ mass }, i) => found.velocity[i].map((speed) => 0.5 * mass * speed * speed));
-  const over = (value) => times.map((_, row) => balls.reduce((sum, ball, i) => sum + value(ball, i, row), 0));
-  const potential = over(({ mass }, i, row) => mass * gravity * found.position[i][row]);
-  const moving = over((_, i, row) => kinetic[i][row]);
-  const held = over((_, i, row) => found.stored[i][row]);
-  const total = times.map((_, row) => moving[row] + potential[row] + held[row]);
+  const moving = summed(kinetic);
+  const potential = summed(balls.map(({ mass }, i) => found.position[i].map((height) => mass * gravity * height)));
+  const held = summed(found.stored);
+  const total = summed([moving, potential, held]);
   const stored = held.map((energy) => Math.max(energy, 0));
   return { ...found, energy: { kinetic, stored, potential, total } };
+}
+
+/** Return the sums of lists, place by place. */
+function summed(lists) {
+  const sums = [...lists[0]];
+  for (const list of lists.slice(1)) for (let i = 0; i < sums.length; i += 1) sums[i] += list[i];
+  return sums;
 }
 
 /** Return the separate collisions of a drop at the same times, or why there are none. */

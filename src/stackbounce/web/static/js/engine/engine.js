@@ -242,7 +242,10 @@ class Room {
       this.f64.set(values, at);
       return;
     }
-    for (let k = 0; k < length; k += 1) this.i64[at + k] = BigInt(values[k]);
+    for (let k = 0; k < length; k += 1) {
+      this.i32[2 * (at + k)] = values[k];
+      this.i32[2 * (at + k) + 1] = values[k] < 0 ? -1 : 0;
+    }
   }
 }
 

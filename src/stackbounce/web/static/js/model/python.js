@@ -71,9 +71,9 @@ export function contains(within, value) {
   return Array.isArray(within) ? within.includes(value) : Object.hasOwn(within, value);
 }
 
-export function range(...ends) {
+export function* range(...ends) {
   const [from, to] = ends.length > 1 ? ends : [0, ends[0]];
-  return Array.from({ length: Math.max(to - from, 0) }, (_, i) => from + i);
+  for (let i = from; i < to; i += 1) yield i;
 }
 
 const KEPT = 256; // results of a function
@@ -113,7 +113,7 @@ export const math = {
   isfinite: Number.isFinite,
   atan: Math.atan,
   copysign: (size, sign) => (sign < 0 || Object.is(sign, -0) ? -Math.abs(size) : Math.abs(size)),
-  factorial: (n) => range(2, n + 1).reduce((product, factor) => product * factor, 1),
+  factorial: (n) => [...range(2, n + 1)].reduce((product, factor) => product * factor, 1),
   gamma,
   fsum,
 };

@@ -90,8 +90,7 @@ export class Result {
   sample(times) {
     const { samples } = this.again(times);
     const balls = this.drop.balls.length;
-    const table = (name) =>
-      Array.from({ length: balls }, (_, i) => Array.from(times, (_, row) => samples[name][row * balls + i]));
+    const table = (name) => this.drop.balls.map((_, i) => times.map((_, row) => samples[name][row * balls + i]));
     return Object.fromEntries(["position", "velocity", "compression", "force", "stored"].map((name) => [name, table(name)]));
   }
 }
