@@ -26,7 +26,7 @@ DEV := $(VENV)/dev.stamp
 BUILD_NEEDS := import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["build-system"]["requires"], sep="\n")
 
 .DEFAULT_GOAL := help
-.PHONY: help venv kernels paper app test lowest coverage bench check lint types imports docs format fuzz attack frozen constraints clean \
+.PHONY: help venv kernels paper app explorer test lowest coverage bench check lint types imports docs format fuzz attack frozen constraints clean \
 	distclean
 
 help:  ## list the targets
@@ -39,6 +39,10 @@ paper: kernels  ## recompute the paper: figures, tables and audit, in build/pape
 
 app: kernels  ## open the explorer in the browser
 	@$(BIN)/stackbounce app
+
+explorer: kernels  ## write the explorer as one HTML file, build/explorer.html
+	@mkdir -p build
+	@$(BIN)/stackbounce app --export build/explorer.html
 
 test: $(DEV) kernels  ## run the fast tests of every kind, in under four minutes on two cores
 	@$(PYTEST) -m 'not slow' --hypothesis-profile=quick

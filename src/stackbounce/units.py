@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 __all__ = [
     "Unit",
     "count_written",
+    "examples",
     "factor",
     "handy",
     "in_si",
@@ -248,6 +249,17 @@ def _registry() -> "pint.UnitRegistry[float]":
     import pint
 
     return pint.UnitRegistry()
+
+
+def examples() -> dict[str, tuple[str, str]]:
+    """Return what a quantity of a unit is called in messages, and an example of it, by unit.
+
+    Examples
+    --------
+    >>> examples()["kg"]
+    ('a mass', '150 g')
+    """
+    return dict(_KINDS)
 
 
 def handy(most: float, unit: str) -> tuple[str, float]:

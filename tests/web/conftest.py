@@ -14,7 +14,7 @@ DROP = {
 
 
 @pytest.fixture(scope="session")
-def address():
+def address_of_server():
     """Serve the explorer at a free port; yield its address."""
     command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0"]
     with subprocess.Popen(
@@ -27,9 +27,15 @@ def address():
 
 
 @pytest.fixture(scope="session")
-def server(address):
+def address(address_of_server):
+    """Return the address of the server."""
+    return address_of_server
+
+
+@pytest.fixture(scope="session")
+def server(address_of_server):
     """Return a client of the server."""
-    with httpx.Client(base_url=address, timeout=120.0) as client:
+    with httpx.Client(base_url=address_of_server, timeout=120.0) as client:
         yield client
 
 

@@ -23,7 +23,7 @@ SAMPLED = 4  # one drop in so many is looked at on its way
 LIMIT = 300
 SIMULATE, SWEEP, SPRINGS = 0, 1, 2
 RUN = Path(__file__).with_name("run_engine.mjs")
-ENGINE = files("stackbounce.web").joinpath("static/js/engine.js")
+ENGINE = files("stackbounce.web").joinpath("static/js/engine/engine.js")
 
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="node is not installed")
 

@@ -7,6 +7,7 @@ import re
 import struct
 import xml.etree.ElementTree as ET
 from importlib.resources import files
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -210,7 +211,7 @@ def test_the_page_names_no_law_or_its_loss():
     words -= {"restitution"}  # is also a measured quantity
     named = {
         (script.name, word)
-        for script in scripts.iterdir()
+        for script in Path(str(scripts)).rglob("*.js")
         if script.name not in ("store.js", "examples.js")
         for word in re.findall(r"\w+", script.read_text(encoding="utf-8"))
         if word in words

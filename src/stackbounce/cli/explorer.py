@@ -1,6 +1,7 @@
 """The command ``stackbounce app``: the explorer in the browser."""
 
 import os
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -10,7 +11,7 @@ from stackbounce.cli.output import json_text
 
 __all__ = ["EPILOG", "run"]
 
-EPILOG = "For a class: stackbounce app --host 0.0.0.0"
+EPILOG = "For a class: stackbounce app --host 0.0.0.0, or --export explorer.html, a file to mail"
 
 
 def run(
@@ -41,9 +42,20 @@ def run(
             show_default=False,
         ),
     ] = None,
+    export: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Write the explorer as one HTML file, which needs no server and no network.",
+            show_default=False,
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Open the explorer in the browser: the bounce in slow motion."""
+    if export is not None:
+        _export(export, as_json)
+        return
     import dataclasses
 
     from stackbounce.errors import whole
@@ -59,3 +71,16 @@ def run(
     count = by_default if workers is None else whole("--workers", workers, 1, 64)
     limits = dataclasses.replace(LIMITS, workers=count)
     serve(host, port, limits, browser=browser, tell=tell)
+
+
+def _export(path: Path, as_json: bool) -> None:
+    """Write the explorer as one file, and tell its size."""
+    from stackbounce.files import check_place, write_file
+    from stackbounce.version import __version__
+    from stackbounce.web.page.one_file import one_file
+
+    check_place(path)
+    content = one_file().encode()
+    write_file(path, content)
+    told = json_text({"stackbounce": __version__, "file": str(path), "bytes": len(content)})
+    typer.echo(told if as_json else f"{path}: the explorer, {len(content) / 1e3:.0f} kB")

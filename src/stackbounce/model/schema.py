@@ -111,12 +111,12 @@ def _value(kind: type, key: str, value: object, path: str, exponent: float = 1.0
     unit = _units(kind)[key]
     if unit is None:
         return value
-    if isinstance(value, list | tuple):
-        return [_quantity(one, unit, f"{_join(path, key)}.{i}") for i, one in enumerate(value)]
     if "exponent" in unit.symbol:
         _raised(between, f"{path}.exponent", exponent, 1.0, STEEPEST)
         power = "" if exponent == 1.0 else f"**{exponent!r}"
-        return _quantity(value, Unit(unit.symbol.replace("**exponent", power)), _join(path, key))
+        unit = Unit(unit.symbol.replace("**exponent", power))
+    if isinstance(value, list | tuple):
+        return [_quantity(one, unit, f"{_join(path, key)}.{i}") for i, one in enumerate(value)]
     return _quantity(value, unit, _join(path, key))
 
 

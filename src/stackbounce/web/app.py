@@ -12,7 +12,7 @@ from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
-from fastapi import FastAPI, File, Form, Request, UploadFile
+from fastapi import FastAPI, File, Form, HTTPException, Request, UploadFile
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import FileResponse, JSONResponse, Response
 from fastapi.staticfiles import StaticFiles
@@ -24,6 +24,7 @@ from stackbounce.web import schema
 from stackbounce.web.answers import catalogue, exports, maps, play, predictions, records
 from stackbounce.web.guard import Guard
 from stackbounce.web.limits import LIMITS, Limits
+from stackbounce.web.page.parts import KINDS, made_file
 from stackbounce.web.paper_pages import Papers
 from stackbounce.web.shares import AGAIN_SECONDS, Busy, client_of
 from stackbounce.web.worker_pool import Workers
@@ -280,6 +281,12 @@ def _add_pages(app: FastAPI) -> None:
     @app.get("/favicon.ico", include_in_schema=False)
     async def icon() -> Response:
         return FileResponse(_STATIC / "icon.svg")
+
+    @app.get("/made/{name}", include_in_schema=False)
+    def made(name: str) -> Response:
+        if name not in KINDS:
+            raise HTTPException(404)
+        return Response(made_file(name), media_type=KINDS[name])
 
     app.mount("/", StaticFiles(directory=_STATIC, html=True), name="static")
 

@@ -2,6 +2,8 @@
 
 import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -28,6 +30,24 @@ def browser():
         started = playwright.chromium.launch(executable_path=path)
         yield started
         started.close()
+
+
+@pytest.fixture(scope="session")
+def one_file(tmp_path_factory):
+    """Write the explorer as one file; return its path."""
+    path = tmp_path_factory.mktemp("one file") / "explorer ä.html"
+    command = [sys.executable, "-m", "stackbounce", "app", "--export", path]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith(f"{path}: the explorer, ")
+    return path
+
+
+@pytest.fixture(params=["served", "one file"])
+def address(request):
+    """Return the address of the page in both of its forms, one after the other."""
+    if request.param == "served":
+        return request.getfixturevalue("address_of_server")
+    return request.getfixturevalue("one_file").as_uri()
 
 
 class Visit:

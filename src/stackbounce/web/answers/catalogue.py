@@ -12,10 +12,25 @@ from stackbounce.model.catalogue import BALLS, stack
 from stackbounce.version import __version__
 from stackbounce.web.limits import Limits
 
-__all__ = ["calibrate_law", "convert_law", "list_choices", "stack_balls"]
+__all__ = [
+    "DEFAULT_CONTACT",
+    "DEFAULT_CONTACT_TIME",
+    "DEFAULT_EXPONENT",
+    "calibrate_law",
+    "convert_law",
+    "list_choices",
+    "stack_balls",
+]
 
-_DEFAULT_CONTACT_TIME = 5e-3  # s, a tennis ball's, as a rigid contact has none of its own
-_DEFAULT_CONTACT = Rigid(0.8)  # in place of no floor
+DEFAULT_CONTACT_TIME = 5e-3
+"""In s, a tennis ball's, where a rigid contact has none of its own."""
+
+DEFAULT_CONTACT = Rigid(0.8)
+"""In place of no floor."""
+
+DEFAULT_EXPONENT = 1.5
+"""Of a law with a free exponent, in place of a law without one."""
+
 _LOSSY = Hysteretic  # the paper's own way to lose energy
 
 
@@ -95,10 +110,10 @@ def convert_law(
 
     No contact has the restitution 0.8 and the contact time of a rigid one, 5 ms.
     """
-    contact = contact or _DEFAULT_CONTACT
+    contact = contact or DEFAULT_CONTACT
     at = {"mass": mass, "speed": impact_speed}
     if contact_time is None:
-        contact_time = calibration.contact_time(contact, **at) or _DEFAULT_CONTACT_TIME
+        contact_time = calibration.contact_time(contact, **at) or DEFAULT_CONTACT_TIME
     law = law_named(to)
     given = {"contact_time": contact_time, "impact_speed": impact_speed, "mass": mass}
     if law.loss:
@@ -106,7 +121,7 @@ def convert_law(
             restitution = calibration.restitution(contact, **at)
         given["restitution"] = restitution
     if law.default_exponent() is None and not law.rigid:
-        given["exponent"] = getattr(contact, "exponent", 1.5)
+        given["exponent"] = getattr(contact, "exponent", DEFAULT_EXPONENT)
     return _write_contact(calibration.calibrate(law, **given))
 
 

@@ -20,10 +20,12 @@ if TYPE_CHECKING:
 
     from stackbounce.web.schema import Axis
 
-__all__ = ["list_paths", "map_drop"]
+__all__ = ["ENERGY", "OUTCOMES", "RATIOS", "RTOL", "list_paths", "map_drop"]
 
-_RTOL = 1e-8  # far finer than the colours of a map
-_RATIOS = {  # of the lowest two: the number that is set, the one it refers to, the label
+RTOL = 1e-8
+"""The tolerance of nonlinear contacts, far finer than the colours of a map."""
+
+RATIOS = {
     "mass_ratio": ("balls.0.mass", "balls.1.mass", "mass ratio m₁/m₂, lower over upper"),
     "stiffness_ratio": (
         "contacts.0.stiffness",
@@ -31,12 +33,17 @@ _RATIOS = {  # of the lowest two: the number that is set, the one it refers to, 
         "stiffness ratio k₁/k₂, floor over ball-ball",
     ),
 }
-_OUTCOMES = {
+"""Ratios of the lowest two: the number that is set, the one it refers to, the label."""
+
+OUTCOMES = {
     "rebound_ratio": ("rebound speed of {ball} over v₀", ""),
     "rebound_height": ("rebound height of {ball}", "m"),
     "collisions": ("collisions of {contact}", ""),
 }
-_ENERGY = ("kinetic energy retained", "")
+"""Labels and units of what a map can show, by name."""
+
+ENERGY = ("kinetic energy retained", "")
+"""Those of the retained energy."""
 
 
 def _spread(side: "Axis") -> NDArray[np.float64]:
@@ -92,7 +99,7 @@ def map_drop(drop: Drop, x: "Axis", y: "Axis", show: str) -> str:
                 f"{shown(line.path)} is not a parameter of this drop; {nearest(line.path, known)}"
             )
     label, unit = _name_outcome(drop, show)
-    data = sweep(drop, _vary(drop, x, y), rtol=_RTOL, event_limit=LIMITS.events)
+    data = sweep(drop, _vary(drop, x, y), rtol=RTOL, event_limit=LIMITS.events)
     data = data.transpose("y", "x", ...)
     done = data.status.values <= Status.COLLAPSED  # the other runs did not end
     values = np.where(done, _select_outcome(data, show, drop), np.nan)
@@ -118,7 +125,7 @@ def list_paths(drop: Drop) -> str:
         for path, label, unit, value in _list_numbers(drop)
     ]
     shows = ["energy_retained"]
-    for name in _OUTCOMES:
+    for name in OUTCOMES:
         shows += [f"{name}.{i}" for i in range(len(drop.balls))]
     if drop.contacts[0] is None:
         shows.remove("collisions.0")
@@ -130,7 +137,7 @@ def _list_numbers(drop: Drop) -> list[tuple[str, str, str, float]]:
     """List path, label, unit and present value of each number that a map can vary."""
     found = []
     numbers = numbers_of(drop)
-    for name, (follows, other, label) in _RATIOS.items():
+    for name, (follows, other, label) in RATIOS.items():
         if all(path in numbers for path in (follows, other)):
             units = {numbers[path].unit for path in (follows, other)}
             if len(units) == 1:
@@ -177,13 +184,13 @@ def _name_contact(drop: Drop, index: int) -> str:
 def _name_outcome(drop: Drop, show: str) -> tuple[str, str]:
     """Return label and unit of what a map shows."""
     if show == "energy_retained":
-        return _ENERGY
+        return ENERGY
     name, _, index = show.partition(".")
     count = len(drop.balls)
-    if name not in _OUTCOMES or index not in {str(i) for i in range(count)}:
-        known = ["energy_retained", *(f"{name}.{i}" for name in _OUTCOMES for i in range(count))]
+    if name not in OUTCOMES or index not in {str(i) for i in range(count)}:
+        known = ["energy_retained", *(f"{name}.{i}" for name in OUTCOMES for i in range(count))]
         raise InvalidValue(f"{shown(show)} is no outcome; {nearest(show, known)}")
-    words, unit = _OUTCOMES[name]
+    words, unit = OUTCOMES[name]
     i = int(index)
     return words.format(ball=_name_ball(drop, i), contact=_name_contact(drop, i)), unit
 
@@ -195,7 +202,7 @@ def _vary(drop: Drop, x: "Axis", y: "Axis") -> dict[str, "xr.DataArray"]:
     arrays = {
         line.path: xr.DataArray(_spread(line), dims=name) for name, line in (("x", x), ("y", y))
     }
-    for name, (follows, other, _) in _RATIOS.items():
+    for name, (follows, other, _) in RATIOS.items():
         if name in arrays:
             if follows in arrays:
                 raise InvalidValue(f"x and y must be independent, got {name} and {follows}")

@@ -20,7 +20,7 @@ from stackbounce.web.limits import LIMITS
 __all__ = ["RTOL", "choose_times", "play_drop", "run_drop"]
 
 RTOL = 1e-10
-"""Relative error of the runs for the page."""
+"""The tolerance of nonlinear contacts, which a picture does not show."""
 
 _Times = NDArray[np.float64]
 

@@ -1,4 +1,48 @@
-/** Requests to the server: each returns its answer or throws an Error with a one-line message. */
+/** What the page asks: its own engine for drops and maps, a server for measurements and fits. */
+
+import { Client } from "./engine/client.js";
+import { pictureOf } from "./export_picture.js";
+import { loadParts, startWorker } from "./home/served.js";
+
+let loaded = null;
+
+/** Return what the page computes with; what could not be loaded is asked for again the next time. */
+function parts() {
+  loaded ??= loadParts().catch((error) => {
+    loaded = null;
+    throw Object.assign(error, { offline: true });
+  });
+  return loaded;
+}
+
+const player = new Client(startWorker, parts); // the drop that is shown
+const desk = new Client(startWorker, parts); // maps, and all else
+
+/** Start the second worker, so that nothing has to be loaded later on. */
+export const prepare = () => desk.prepare().catch(() => null); // it is tried again when it is asked
+
+/** Return the balls, laws, cases and limits. */
+export async function catalogue() {
+  return (await parts()).model;
+}
+
+/** Return the result of the drop that is to be shown; one that is still computed makes room for it. */
+export const play = (drop, until, frames) =>
+  player.ask("simulate", [drop, until, frames], { newest: true });
+export const simulate = (drop, until = null, frames = 1500) => desk.ask("simulate", [drop, until, frames]);
+export const stack = (balls, height) => desk.ask("stack", [balls, height]);
+export const law = (request) => desk.ask("law", [request]);
+export const like = (request) => desk.ask("like", [request]);
+export const mapPaths = (drop) => desk.ask("mapPaths", [drop]);
+
+/** Return the last one of some maps; `told` hears the others. A newer call ends it, with null. */
+export const maps = (requests, told) => desk.ask("maps", [requests], { told });
+
+/** Return a file (Blob) of a drop: csv, toml, python, svg or png. */
+export async function exportFile(kind, drop, until = null) {
+  if (kind === "svg" || kind === "png") return pictureOf(kind, await simulate(drop, until), until);
+  return new Blob([await desk.ask("exportText", [kind, drop, until])], { type: "text/plain; charset=utf-8" });
+}
 
 async function ask(path, options) {
   let response;
@@ -13,43 +57,17 @@ async function ask(path, options) {
     const busy = response.status >= 500 || response.status === 429;
     throw Object.assign(new Error(detail || `The server answered ${response.status}.`), { offline: busy });
   }
-  return response;
+  return response.json();
 }
 
-async function get(path) {
-  return (await ask(path)).json();
-}
+export const measureOptions = () => ask("api/measure/options");
+export const measure = (form) => ask("api/measure", { method: "POST", body: form });
+export const fit = (form) => ask("api/fit", { method: "POST", body: form });
 
-function post(path, body) {
-  return ask(path, {
+/** Return what follows of the errors of a drop's numbers. */
+export const predict = (drop, errors, until = null) =>
+  ask("api/predict", {
     method: "POST",
     headers: { "Content-Type": "application/json" },
-    body: JSON.stringify(body),
+    body: JSON.stringify({ drop, errors, until }),
   });
-}
-
-async function send(path, body) {
-  return (await post(path, body)).json();
-}
-
-async function upload(path, form) {
-  return (await ask(path, { method: "POST", body: form })).json();
-}
-
-export const catalogue = () => get("api/catalogue");
-export const simulate = (drop, until = null, frames = 1500) =>
-  send("api/simulate", { drop, until, frames });
-export const predict = (drop, errors, until = null) => send("api/predict", { drop, errors, until });
-export const stack = (balls, height) => send("api/stack", { balls, height });
-export const law = (request) => send("api/law", request);
-export const like = (request) => send("api/like", request);
-export const map = (request) => send("api/map", request);
-export const mapPaths = (drop) => send("api/map/paths", { drop });
-export const measureOptions = () => get("api/measure/options");
-export const measure = (form) => upload("api/measure", form);
-export const fit = (form) => upload("api/fit", form);
-
-/** Return a file (Blob) of a drop: csv, toml, python, svg or png. */
-export async function exportFile(kind, drop, until = null) {
-  return (await post(`api/export/${kind}`, { drop, until })).blob();
-}

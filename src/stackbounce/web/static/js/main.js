@@ -5,6 +5,7 @@ import * as api from "./api.js";
 import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
+import { hasServer, loadMeasure } from "./home/served.js";
 import { mountNumbers } from "./numbers.js";
 import { mountPlots } from "./plots.js";
 import { carryErrors } from "./prediction.js";
@@ -21,6 +22,7 @@ const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 const store = createStore(address.read(location.hash));
 const clock = new Clock(() => reduced.matches);
 window.stackbounce = { store, clock };
+if (typeof WebAssembly === "object" && typeof Worker === "function") place("old").remove();
 
 address.follow(store);
 const runner = run(store, api);
@@ -30,9 +32,10 @@ mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals"), live: place("live") }, store);
 mountShare(place("share"), store, api);
+const loadMap = () => import("./map.js");
 mountTabs(store, {
-  map: (section) => open("./map.js", section),
-  measure: (section) => open("./measure.js", section),
+  map: (section) => open(loadMap, section),
+  measure: (section) => (loadMeasure ? open(loadMeasure, section) : explain(section)),
 });
 place("skip").addEventListener("click", (event) => {
   event.preventDefault(); // the fragment holds the state
@@ -40,20 +43,43 @@ place("skip").addEventListener("click", (event) => {
 });
 store.subscribe(({ view }) => view !== "play" && clock.pause());
 followResults();
+const end = store.subscribe(({ result }) => {
+  if (!result) return;
+  end();
+  window.stackbounce.whole = Promise.all([api.prepare(), loadMap()]); // from here on nothing is loaded
+});
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();
 loadCatalogue();
 
 /** Build a view from its own module when it is first opened. */
-async function open(module, section) {
+async function open(load, section) {
   try {
-    await (await import(module)).mount(section, store, api);
+    await (await load()).mount(section, store, api);
   } catch (error) {
     section.append(h("p", { class: "field-error", role: "alert", text: `This view could not be opened: ${error.message}` }));
   }
 }
 
-/** The controls need the catalogue; until the server gives it there is none. */
+/** Say what cannot be done without stackbounce itself. */
+function explain(section) {
+  section.append(
+    h(
+      "div",
+      { class: "prose" },
+      h("h2", { text: "Measure and fit" }),
+      h("p", {
+        text:
+          "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation " +
+          "says, and start “stackbounce app”, which opens this page with both.",
+      }),
+    ),
+  );
+}
+
+for (const one of document.querySelectorAll("[data-home]")) one.hidden = (one.dataset.home === "server") !== hasServer;
+
+/** The controls need the catalogue; until it is loaded there are none. */
 async function loadCatalogue() {
   try {
     mountControls(place("controls"), store, api, await api.catalogue());

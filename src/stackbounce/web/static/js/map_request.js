@@ -1,16 +1,17 @@
-/** Requests a map: first a coarse one, then a fine one; a newer request replaces an older one. */
+/** Asks for a map, from coarse to fine; a newer question replaces an older one. */
 
 import { lawOf } from "./laws.js";
 import { firstSide, isSide } from "./map_axes.js";
 import { depends } from "./map_words.js";
 
 const COARSE = [24, 18];
-const FINE = [120, 90]; // springs are solved in closed form
-const SLOWER = [60, 45];
+const MEDIUM = [60, 45];
+const FINE = [120, 90]; // at once where two contacts are solved in closed form
 
-/** Return how many points the last map of a drop has along its sides; `laws` are the catalogue's. */
-export function fineness(drop, laws) {
-  return drop.contacts.every(({ law }) => lawOf(laws, law).exact) ? FINE : SLOWER;
+/** Return how many points the maps of a drop have along their sides, from coarse to fine; `laws` are the catalogue's. */
+function steps(drop, laws) {
+  const exact = drop.contacts.every(({ law }) => lawOf(laws, law).exact);
+  return exact && drop.balls.length <= 2 ? [FINE] : [COARSE, MEDIUM, FINE];
 }
 
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, {answer} or {problem}. */
@@ -26,12 +27,12 @@ export function mapper(api, tell) {
       const settings = complete(wanted, paths, shows, drop);
       tell({ settings, paths, shows });
       laws ??= (await api.catalogue()).laws;
-      for (const [across, up] of [COARSE, fineness(drop, laws)]) {
+      const requests = steps(drop, laws).map(([across, up]) => {
         const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
-        const answer = await api.map({ drop, x, y, show: settings.show });
-        if (mine !== newest) return;
-        tell({ answer });
-      }
+        return { drop, x, y, show: settings.show };
+      });
+      const answer = await api.maps(requests, (part) => mine === newest && tell({ answer: part }));
+      if (mine === newest && answer) tell({ answer });
     } catch (error) {
       if (mine === newest) tell({ problem: error.message });
     }

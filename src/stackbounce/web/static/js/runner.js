@@ -1,36 +1,37 @@
-/** Requests the result of the drop after each change: one request at a time, and only the newest drop counts. */
+/** Computes the result of the drop after each change: only the newest drop counts. */
 
-const REST = 30; // ms without a change
+const ALL = 1500; // frames of a result
+const FEW = 300; // frames while numbers change, where each frame of the screen counts
+const REST = 150; // ms without a change
 
 /** Keep `result`, `busy` and `error` of the store in step with `drop` and `until`; `again()` asks anew. */
 export function run(store, api) {
+  let newest = 0;
   let timer = 0;
-  let asking = false;
-  let stale = false;
+  let changed = -Infinity; // ms, when the last change was
   let adopted = null; // a drop that came with its result
 
-  const start = async () => {
-    if (asking) {
-      stale = true;
-      return;
-    }
-    asking = true;
-    stale = false;
+  const again = () => {
+    clearTimeout(timer);
+    const quick = performance.now() - changed < REST;
+    changed = performance.now();
+    if (quick) timer = setTimeout(() => ask(ALL), REST);
+    ask(quick ? FEW : ALL);
+  };
+  const ask = async (frames) => {
+    newest += 1;
+    const mine = newest;
+    if (!store.get().busy) store.set({ busy: true });
     const { drop, until } = store.get();
-    const patch = await answer(api, drop, until);
-    asking = false;
+    const patch = await answer(api, drop, until, frames);
+    if (!patch) return;
+    const last = mine === newest;
+    if (!last) delete patch.error; // an error of an older state is not reported
     if (patch.result && store.get().drop === drop && hasTexts(drop)) {
       adopted = patch.result.drop;
       patch.drop = adopted;
     }
-    if (stale) delete patch.error; // an error of an older state is not reported
-    store.set({ ...patch, busy: stale });
-    if (stale) start();
-  };
-  const again = () => {
-    store.set({ busy: true });
-    clearTimeout(timer);
-    timer = setTimeout(start, REST);
+    store.set({ ...patch, busy: !last || (frames === FEW && !patch.error) });
   };
   store.subscribe((state, before) => {
     const other = state.drop !== before.drop && state.drop !== adopted;
@@ -40,10 +41,12 @@ export function run(store, api) {
   return { again };
 }
 
-async function answer(api, drop, until) {
+/** Return what a drop's result changes in the state; null where a newer drop took its place. */
+async function answer(api, drop, until, frames) {
   try {
-    return { result: await api.simulate(drop, until), error: null };
+    return { result: await api.play(drop, until, frames), error: null };
   } catch (error) {
+    if (error.replaced) return null;
     return { error: { detail: error.message, offline: Boolean(error.offline) } };
   }
 }

@@ -11,16 +11,20 @@ const FILES = [
   ["python", "Python lines", "py"],
 ];
 
+const STATE_COPIED =
+  "The state is copied: whoever has this file puts it behind the file’s address, after “.html”, and sees the same.";
+
 /** Build the share menu into `root`. */
 export function mountShare(root, store, api) {
   const said = h("p", { class: "note", role: "status" });
+  const shared = location.protocol !== "file:"; // an address that others can open
   const copy = async () => {
-    const link = `${location.origin}${location.pathname}#${addressOf(store.get())}`;
+    const state = `#${addressOf(store.get())}`;
     try {
-      await navigator.clipboard.writeText(link);
-      write(said, "The link is copied: it opens this view again.");
+      await navigator.clipboard.writeText(shared ? location.href.split("#")[0] + state : state);
+      write(said, shared ? "The link is copied: it opens this view again." : STATE_COPIED);
     } catch {
-      location.hash = addressOf(store.get());
+      location.hash = state;
       write(said, "Copying is not allowed here; the address of this page is the link.");
     }
   };
@@ -37,7 +41,7 @@ export function mountShare(root, store, api) {
   const list = h(
     "div",
     { class: "share-list" },
-    button("Copy link", copy),
+    button(shared ? "Copy link" : "Copy state", copy),
     FILES.map(([kind, text, ending]) => button(text, () => save(kind, ending))),
     button("Print", () => print()),
     said,

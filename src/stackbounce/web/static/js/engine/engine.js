@@ -43,12 +43,13 @@ class Engine {
   }
 
   /**
-   * Run one drop: until a time in s, with a relative tolerance of 1e-14 to 1e-3, and at most so many events.
+   * Run one drop: until a time in s, with a relative tolerance of 1e-14 to 1e-3, and at most so many events. The
+   * log has the peaks of forces, unless `peaks` is false.
    *
    * Returns its status, the time of its end, the balls' velocities then, the log in rows of columns, 1 in `infinite`
    * where rigid balls have collided infinitely often, and samples at the given times, which ascend.
    */
-  simulate(drop, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, times = [] } = {}) {
+  simulate(drop, { rtol = 1e-12, until = Infinity, eventLimit = 1e6, times = [], peaks = true } = {}) {
     const { stages, after, statuses, counter, sizes } = this.layout;
     const balls = drop.mass.length;
     const { stack, space, one, none } = this.stack(drop.rigid, balls);
@@ -60,7 +61,7 @@ class Engine {
       const entry = drop.rigid ? "run_rigid_drop" : "run_drop";
       const parts = [];
       let status = statuses.RUNNING;
-      for (let stage = stages.BEGIN_WITH_PEAKS; status === statuses.RUNNING; stage = stages.CONTINUE) {
+      for (let stage = peaks ? stages.BEGIN_WITH_PEAKS : stages.BEGIN; status === statuses.RUNNING; stage = stages.CONTINUE) {
         status = this.call(entry, stack, space, one, samples, 0, stage, until, rtol, events(eventLimit));
         const rows = room.read(stack, "counter")[counter.LOG_ROWS];
         parts.push(room.floats(space, "log").slice(0, rows * sizes.log_columns));
@@ -241,7 +242,10 @@ class Room {
       this.f64.set(values, at);
       return;
     }
-    for (let k = 0; k < length; k += 1) this.i64[at + k] = BigInt(values[k]);
+    for (let k = 0; k < length; k += 1) {
+      this.i32[2 * (at + k)] = values[k];
+      this.i32[2 * (at + k) + 1] = values[k] < 0 ? -1 : 0;
+    }
   }
 }
 

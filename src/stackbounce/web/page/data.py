@@ -1,0 +1,68 @@
+"""What the page knows of the package, as JSON: `model.json`."""
+
+import functools
+import itertools
+import json
+from typing import Any
+
+from stackbounce.json_values import as_json
+from stackbounce.model import STANDARD_GRAVITY, STEEPEST
+from stackbounce.model.catalogue import BALLS, stack
+from stackbounce.run.result import Status
+from stackbounce.units import examples
+from stackbounce.web.answers import catalogue, maps, play
+from stackbounce.web.limits import LIMITS
+from stackbounce.web.page.units import list_units
+
+__all__ = ["model_json"]
+
+
+@functools.cache
+def model_json() -> str:
+    """Return the balls, laws, cases, limits, units and words that the page needs, as JSON.
+
+    Examples
+    --------
+    >>> sorted(json.loads(model_json()))[:4]
+    ['advice', 'balls', 'catalogue_law', 'energy']
+    """
+    known = json.loads(catalogue.list_choices(LIMITS))
+    return as_json(
+        known
+        | {
+            "advice": {status.name: status.advice for status in Status},
+            "catalogue_law": {"law": type(stack(["B1"]).contacts[0]).__name__},
+            "energy": maps.ENERGY,
+            "gravity": STANDARD_GRAVITY,
+            "kinds": examples(),
+            "map_rtol": maps.RTOL,
+            "outcomes": maps.OUTCOMES,
+            "ratios": {
+                name: {"sets": sets, "refers": refers, "label": label}
+                for name, (sets, refers, label) in maps.RATIOS.items()
+            },
+            "rtol": play.RTOL,
+            "stacks": _list_stacks(),
+            "steepest": STEEPEST,
+            "units": list_units(),
+            "usual": {
+                "contact_time": catalogue.DEFAULT_CONTACT_TIME,
+                "exponent": catalogue.DEFAULT_EXPONENT,
+                "restitution": catalogue.DEFAULT_CONTACT.restitution,
+            },
+        }
+    )
+
+
+def _list_stacks() -> dict[str, Any]:
+    """Return contacts and gaps of any two balls of the catalogue, and their gap further up."""
+    found = {}
+    for names in itertools.product([str(entry.ball.name) for entry in BALLS], repeat=2):
+        two, three = stack(names), stack([names[0], *names])
+        found[" ".join(names)] = {
+            "floor": (two.contacts[0].stiffness, two.contact_sources[0]),
+            "between": (two.contacts[1].stiffness, two.contact_sources[1]),
+            "gap": (two.gaps[0], two.gap_sources[0]),
+            "other_gap": (three.gaps[1], three.gap_sources[1]),
+        }
+    return found

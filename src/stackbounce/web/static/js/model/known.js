@@ -1,0 +1,7 @@
+/** What the package tells the page: balls, laws, cases, units, limits. Filled once, from made/model.json. */
+
+export const known = {};
+
+export function learn(data) {
+  Object.assign(known, data);
+}

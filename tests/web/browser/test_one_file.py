@@ -1,0 +1,89 @@
+"""The explorer as one file, opened from a disk in Chromium: it computes, and asks for nothing."""
+
+import pytest
+
+import stackbounce as sb
+
+pytestmark = pytest.mark.slow
+
+MOST = 1_500_000  # bytes
+
+
+@pytest.fixture
+def address(one_file):
+    """Open the file only, no server."""
+    return one_file.as_uri()
+
+
+def test_it_is_small(one_file):
+    assert one_file.stat().st_size < MOST
+
+
+def test_it_computes_and_asks_for_nothing(visit):
+    page = visit.open()
+    assert "1.803" in page.locator("#numbers").inner_text()
+    page.locator('[data-path="gaps.0"]').fill("2 mm")
+    page.keyboard.press("Enter")
+    page.wait_for_function("() => window.stackbounce.store.get().result.drop.gaps[0] === 0.002")
+    page.locator("[data-key=law-0]").select_option("Hysteretic")
+    page.wait_for_function(
+        "() => window.stackbounce.store.get().result.drop.contacts[0].law === 'Hysteretic'"
+    )
+    drop = sb.Drop.from_mapping(visit.state("drop"))
+    ratios = sb.simulate(drop, rtol=1e-10).rebound_ratios
+    assert visit.state("result.rebound_ratios") == pytest.approx(ratios, rel=1e-12)
+    asked = [url for url in visit.requests if not url.startswith("blob:null/")]
+    assert asked == [visit.address]
+
+
+def test_its_address_restores_the_state(visits):
+    first = visits()
+    page = first.open("#view=map")
+    page.locator("[data-key=map-x]").select_option("gaps.0")
+    page.wait_for_function("() => /map.x.path=gaps.0/.test(location.hash)")
+    second = visits()
+    second.open(page.evaluate("() => location.hash"))
+    assert second.page.locator("[data-key=map-x]").input_value() == "gaps.0"
+
+
+def test_its_policy_lets_nothing_out(visit):
+    page = visit.open()
+    policy = page.locator("meta[http-equiv]").get_attribute("content")
+    assert policy.startswith("default-src 'none'; script-src 'sha256-")
+    assert "unsafe-inline" not in policy
+    answer = page.evaluate("() => fetch('https://example.org/').catch((error) => error.name)")
+    assert answer == "TypeError"
+    page.evaluate(
+        """() => { const script = document.createElement('script');
+             script.textContent = 'window.hit = true'; document.body.append(script); }"""
+    )
+    assert page.evaluate("() => window.hit") is None
+    visit.complaints.clear()  # Chromium logs what the policy forbids, which is the point here
+
+
+def test_what_it_cannot_do_is_said(visit):
+    page = visit.open("#view=measure")
+    assert "stackbounce app" in page.locator("#measure").inner_text()
+    page.locator("#tab-paper").click()
+    assert "stackbounce paper" in page.locator("#paper").inner_text()
+    assert page.locator('a[href="paper/"]').is_hidden()
+
+
+def test_without_workers_it_says_what_it_needs(visit):
+    page = visit.page
+    page.add_init_script("window.Worker = class { constructor() { throw new Error('no'); } };")
+    page.goto(visit.address)
+    told = page.locator("#controls [role=alert]").filter(
+        has_text="does not let this page start a worker"
+    )
+    told.wait_for(state="visible")
+    visit.complaints.clear()
+
+
+def test_a_browser_without_webassembly_is_told_what_it_needs(visit):
+    page = visit.page
+    page.add_init_script("delete window.WebAssembly;")
+    page.goto(visit.address)
+    told = page.locator("#old")
+    told.wait_for(state="visible")
+    assert "needs a browser" in told.inner_text()

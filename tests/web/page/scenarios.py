@@ -1,0 +1,183 @@
+"""Random drops as a page has them: valid ones of all laws, ones with units, and broken ones."""
+
+import copy
+import decimal
+import random
+
+import numpy as np
+
+import stackbounce as sb
+from fuzz import draw, drive
+
+LAW_NAMES = {
+    drive.SPRING: "Spring",
+    drive.HERTZ: "Hertz",
+    drive.POWER: "PowerLaw",
+    drive.DASHPOT: "Dashpot",
+    drive.VISCOELASTIC: "Viscoelastic",
+    drive.HUNT_CROSSLEY: "HuntCrossley",
+    drive.HYSTERETIC: "Hysteretic",
+    drive.LOSSY: "Hysteretic",
+    drive.RIGID: "Rigid",
+    drive.RELAXING: "StandardLinearSolid",
+}
+PARAMETERS = {
+    "Dashpot": "damping",
+    "Viscoelastic": "dissipative_time",
+    "HuntCrossley": "dissipation",
+    "Hysteretic": "unloading_exponent",
+    "Rigid": "restitution",
+    "StandardLinearSolid": "relaxation_strength",
+}
+UNITS = {
+    "mass": ("kg", "g", "pounds", "oz", "milligrams", "m", "kilofurlongs", "kg/s*s", "μg", "%"),
+    "diameter": ("m", "mm", "inches", "ft", "cm", "angstrom", "s", "metres", "in", "m**1"),
+    "stiffness": ("N/m", "kN/m", "N/mm", "lbf/in", "kg/s^2", "kg / s / s", "J/m**2", "N", "N·m^-1"),
+    "impact_speed": ("m/s", "km/h", "mph", "knots", "cm per s", "meters per second", "metre/sec"),
+    "height": ("m", "cm", "yards", "km", "nm", "parsec", "square m", "m squared", "kg"),
+    "gravity": ("m/s^2", "m/s**2", "g", "cm/s/s", "Gal", "m s**-2", "ft/s^2", "m/s²", "dB"),
+    "gaps": ("mm", "um", "µm", "mil", "thou", "m", "nm", "px", "degC", "dam", "mm mm"),
+}
+NUMBERS = (0.0, -1.0, 1e-320, 1e308, 3, -0.003, 1e22, 12345678901234567890, 2.5e-7, True, 1e-5)
+TEXTS = ("", " ", "NaN", "inf", "1e999", "one", "1,5 m", "-", "5", " 5 ", "1e3", ".5 m", "5 m m")
+LUMPS = (None, [], {}, [1], [1.5, "2 mm"], {"a": 1}, "Spring", "a\tb'c", "\ud83c", "🎱", [None])
+
+
+def drawn(seed, batch, count):
+    """Return random drops of fuzz.draw as mappings, with what each is run with."""
+    drops = draw.drops_of(seed, batch, count)
+    for row in range(count):
+        contacts = [contact(drops, row, i) for i in range(drops.mass.shape[1])]
+        yield (
+            {
+                "balls": [{"mass": mass} for mass in drops.mass[row].tolist()],
+                "contacts": contacts,
+                "gaps": drops.gap[row, 1:].tolist(),
+                "velocities": drops.velocity[row].tolist(),
+                "gravity": float(drops.gravity[row]),
+            },
+            None if np.isinf(drops.until[row]) else float(drops.until[row]),
+        )
+
+
+def contact(drops, row, i):
+    """Return a random contact as a mapping."""
+    law = int(drops.law[row, i])
+    if law == drive.NONE:
+        return {"law": "none"}
+    made = {"law": LAW_NAMES[law], "stiffness": float(drops.stiffness[row, i])}
+    fields = sb.model.LAWS[made["law"]].quantities()
+    made["exponent"] = float(drops.exponent[row, i])
+    if made["law"] in PARAMETERS:
+        made[PARAMETERS[made["law"]]] = float(drops.extra[row, i])
+    if law == drive.RELAXING:
+        made["relaxation_time"] = float(drops.second[row, i])
+    if law == drive.LOSSY:
+        made["reloading"] = "lossy"
+    return {name: made[name] for name in made if name in (*fields, "law", "reloading")}
+
+
+def scenario(chance):
+    """Return a drop as somebody might give it, often with a mistake."""
+    balls = chance.choice((1, 1, 2, 2, 3, 5, 6, 7))
+    rigid = chance.random() < 0.2
+    drop = {
+        "balls": [ball(chance) for _ in range(balls)],
+        "contacts": [law(chance, rigid) for _ in range(balls)],
+    }
+    if chance.random() < 0.2:
+        drop["contacts"][0] = {"law": chance.choice(("none", "None", "NONE"))}
+    if chance.random() < 0.6:
+        drop["gaps"] = [number(chance, "gaps") for _ in range(balls - 1)]
+    if chance.random() < 0.5:
+        drop["gravity"] = number(chance, "gravity")
+    way = chance.choice(("impact_speed", "height", "velocities"))
+    drop[way] = number(chance, way)
+    if way == "velocities":
+        drop[way] = [number(chance, "impact_speed") for _ in range(balls)]
+    for _ in range(chance.choice((0, 0, 1, 1, 2))):
+        spoil(chance, drop)
+    return drop
+
+
+def ball(chance):
+    """Return a ball as somebody might give it."""
+    made = {"mass": number(chance, "mass")}
+    if chance.random() < 0.3:
+        made["diameter"] = number(chance, "diameter")
+    if chance.random() < 0.3:
+        made["name"] = chance.choice(("tennis", "", " ", "<b>", 'it\'s "a"', "Ball\n2", "ä\u200b"))
+    if chance.random() < 0.2:
+        made["poisson_ratio"] = chance.choice((0.3, -1, 0.5, 0.51, "0.3", "30 %"))
+    if chance.random() < 0.2:
+        made["young_modulus"] = chance.choice((2e11, "206 GPa", "1 atm", -1, "3 N/mm**2"))
+    return made
+
+
+def law(chance, rigid):
+    """Return a contact as somebody might give it."""
+    names = [name for name, one in sb.model.LAWS.items() if one.rigid == rigid]
+    name = chance.choice(names)
+    made = {"law": chance.choice((name, name.lower(), name.upper(), name))}
+    for field, one in sb.model.LAWS[name].quantities().items():
+        default, low, high = one.slider
+        made[field] = chance.choice((default, low, high, chance.uniform(low, high)))
+        if field == "stiffness" and chance.random() < 0.3:
+            made[field] = number(chance, field)
+    if {"restitution", "unloading_exponent"} <= set(made):
+        del made[chance.choice(("restitution", "unloading_exponent"))]
+        if chance.random() < 0.3:
+            made["reloading"] = chance.choice(("free", "lossy", "Lossy", "lost", 3))
+    return made
+
+
+def number(chance, of):
+    """Return a number, or a text with a unit."""
+    size = chance.choice((1.0, 1e-3, 20.0, 0.15, 2500.0, chance.uniform(0.0, 10.0)))
+    if chance.random() < 0.7 or of not in UNITS:
+        return size
+    written = chance.choice((repr(size), f"{size:g}", f"{size:.3e}", f"+{size}"))
+    return written + chance.choice((" ", "", "  ")) + chance.choice(UNITS[of])
+
+
+def spoil(chance, drop):
+    """Change one thing of a drop for the worse."""
+    places = list(parts(drop))
+    place, key = chance.choice(places)
+    worse = copy.deepcopy(chance.choice((*NUMBERS, *TEXTS, *LUMPS)))
+    way = chance.random()
+    if way < 0.15:
+        del place[key]
+    elif way < 0.3 and isinstance(place, dict):
+        place[chance.choice(("mas", "stifness", "Mass", "law", "exponent", "x y", "", "é"))] = worse
+    else:
+        place[key] = worse
+
+
+def parts(value):
+    """Yield each place of a drop, with its key there."""
+    for key, one in list(value.items() if isinstance(value, dict) else enumerate(value)):
+        yield value, key
+        if isinstance(one, dict | list):
+            yield from parts(one)
+
+
+def scenarios(seed, count):
+    """Return random drops, valid and broken, as a browser writes them."""
+    chance = random.Random(seed)
+    return [as_browser(scenario(chance)) for _ in range(count)]
+
+
+def as_browser(value):
+    """Return a value as JSON of a browser has it: 1.0 is 1, and whole numbers are floats."""
+    if isinstance(value, dict):
+        return {key: as_browser(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [as_browser(one) for one in value]
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return value
+    near = float(value)
+    if not near.is_integer() or abs(near) >= 1e21:
+        return near
+    digits = repr(near)  # the shortest that are enough, and then zeros
+    return int(decimal.Decimal(digits))
