@@ -60,6 +60,26 @@ def test_a_click_plays_the_drop_of_that_point(visit):
     assert visit.state("drop.contacts[0].stiffness") == pytest.approx(1e3 * 10.0**-0.25, rel=0.02)
 
 
+def test_the_point_can_be_dragged_and_its_drop_follows(visit):
+    page = opened(visit)
+    box = page.locator(".map-board").bounding_box()
+    begin, end = spot(page, 0.3, 0.3), spot(page, 0.5, 0.5)
+    page.mouse.move(box["x"] + begin["x"], box["y"] + begin["y"])
+    page.mouse.down()
+    page.mouse.move(box["x"] + end["x"], box["y"] + end["y"], steps=8)
+    page.mouse.up()
+    visit.ready()
+    assert visit.state("view") == "map"
+    found = visit.state("result")
+    masses = [ball["mass"] for ball in found["drop"]["balls"]]
+    stiffnesses = [one["stiffness"] for one in found["drop"]["contacts"]]
+    assert masses[0] / masses[1] == pytest.approx(10.0**0.5, rel=0.02)
+    expected = ratio(masses[0] / masses[1], stiffnesses[0] / stiffnesses[1])
+    assert found["rebound_ratios"][1] == pytest.approx(expected, rel=1e-9)
+    assert f"{expected:.3g} times" in page.locator(".map-told").inner_text()
+    visit.picture("map-dragged")
+
+
 def test_a_finger_looks_first_and_plays_by_the_button(visits):
     visit = visits(**PHONE)
     page = opened(visit)

@@ -227,6 +227,16 @@ def test_a_broken_link_shows_a_page_all_the_same(visit, fragment):
     assert page.evaluate("() => ({}).x === undefined && ({}).y === undefined")
 
 
+def test_what_a_newer_link_has_is_named_and_the_rest_is_kept(visit):
+    page = visit.open(
+        "#wind=3&balls.0.mass=0.1&contacts.0.law=Spring&contacts.0.stiffness=9&height=1"
+    )
+    assert visit.state("drop.contacts[0].stiffness") == 9
+    assert page.locator("#preset-says").inner_text() == (
+        "This page does not understand “wind” in the link, and left it out."
+    )
+
+
 def test_a_link_with_a_wrong_number_says_so_at_its_field(visit):
     page = visit.page
     page.goto(f"{visit.address}#balls.0.mass=NaN&contacts.0.law=Rigid&impact_speed=1")

@@ -5,8 +5,11 @@ import { FIRST } from "./store.js";
 
 const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height", "gravity"];
 const WORDS = new Set(["name", "law", "reloading", "path", "show", "x", "y"]);
+const VIEWS = ["play", "map", "measure", "paper"];
 const PART = /^[a-z]+(_[a-z]+)*$/;
 const MOST = 16; // more members than any list of a drop may have
+const NAMED = 3; // parts of a link that are named
+const LONGEST = 30; // letters of each
 
 /** Return a state as the text of a fragment: a drop by the paths of its numbers, as sweeps name them. */
 export function write(state) {
@@ -22,26 +25,36 @@ export function write(state) {
   return pairs.map(([key, value]) => `${key}=${escape(String(value))}`).join("&");
 }
 
-/** Return the patch of the state that a fragment describes; what it does not know it leaves alone. */
+/** Return the patch of the state that a fragment describes; what it does not know is named in `notice`. */
 export function read(fragment) {
   const patch = {};
   const drop = {};
   const map = {};
   const errors = {};
+  const unknown = [];
   for (const pair of fragment.replace(/^#/, "").split("&")) {
     const cut = pair.indexOf("=");
     if (cut < 1) continue;
     const key = decode(pair.slice(0, cut));
     const text = decode(pair.slice(cut + 1));
     const parts = key.split(".");
-    if (DROP.includes(parts[0])) insert(drop, parts, text);
-    else if (parts[0] === "error" && parts.length > 1) errors[parts.slice(1).join(".")] = number(text);
-    else if (parts[0] === "map") insert(map, parts.slice(1), text);
-    else readOne(patch, key, text);
+    const taken = DROP.includes(parts[0])
+      ? insert(drop, parts, text)
+      : parts[0] === "map"
+        ? insert(map, parts.slice(1), text)
+        : parts[0] === "error"
+          ? insertError(errors, parts.slice(1), text)
+          : readOne(patch, key, text);
+    if (!taken) unknown.push(key.slice(0, LONGEST));
   }
   if (isDrop(drop)) Object.assign(patch, { drop: complete(drop), errors });
   else if (Object.keys(drop).length) patch.notice = "The link holds no whole drop: this is what was here.";
   if (Object.keys(map).length) patch.map = map;
+  if (unknown.length) {
+    const more = unknown.length > NAMED ? ` and ${unknown.length - NAMED} more` : "";
+    const names = unknown.slice(0, NAMED).map((name) => `“${name}”`).join(", ");
+    patch.notice = [patch.notice, `This page does not understand ${names}${more} in the link, and left it out.`].filter(Boolean).join(" ");
+  }
   return patch;
 }
 
@@ -79,29 +92,44 @@ function flatten(path, value, pairs) {
   for (const [key, member] of Object.entries(value)) flatten(dot + key, member, pairs);
 }
 
+/** Put a text of the link at its place; tell whether there is such a place. */
 function insert(target, parts, text) {
   let place = target;
   for (const [depth, part] of parts.entries()) {
     const index = /^\d+$/.test(part) ? Number(part) : part;
     const fits = Array.isArray(place) ? index < MOST && index <= place.length : PART.test(part);
-    if (!fits) return;
+    if (!fits) return false;
     if (depth === parts.length - 1) {
       place[index] = WORDS.has(part) ? text : number(text);
-      return;
+      return true;
     }
-    if (typeof (place[index] ?? {}) !== "object") return;
+    if (typeof (place[index] ?? {}) !== "object") return false;
     place[index] ??= /^\d+$/.test(parts[depth + 1]) ? [] : {};
     place = place[index];
   }
+  return false;
 }
 
+/** Take the error of a number of the drop; tell whether its path is one. */
+function insertError(errors, parts, text) {
+  if (!parts.length || !parts.every((part) => PART.test(part) || /^\d+$/.test(part))) return false;
+  errors[parts.join(".")] = number(text);
+  return true;
+}
+
+/** Take one setting of the page; tell whether it is one. */
 function readOne(patch, key, text) {
   const value = number(text);
   const finite = typeof value === "number" && Number.isFinite(value);
-  if (key === "view" && ["play", "map", "measure", "paper"].includes(text)) patch.view = text;
-  if (key === "ghosts") patch.ghosts = text !== "0";
-  if (key === "t" && finite) patch.t = value;
-  if (["until", "slow", "magnify"].includes(key) && finite && value > 0) patch[key] = value;
+  const takes = {
+    view: () => VIEWS.includes(text) && [text],
+    ghosts: () => [text !== "0"],
+    t: () => finite && [value],
+  };
+  for (const name of ["until", "slow", "magnify"]) takes[name] = () => finite && value > 0 && [value];
+  const taken = Object.hasOwn(takes, key) && takes[key]();
+  if (taken) [patch[key]] = taken;
+  return Boolean(taken);
 }
 
 function number(text) {

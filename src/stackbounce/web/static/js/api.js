@@ -2,7 +2,7 @@
 
 import { Client } from "./engine/client.js";
 import { pictureOf } from "./export_picture.js";
-import { loadParts, startWorker } from "./home/served.js";
+import { hasServer, loadParts, startWorker } from "./home/served.js";
 
 let loaded = null;
 
@@ -65,9 +65,11 @@ export const measure = (form) => ask("api/measure", { method: "POST", body: form
 export const fit = (form) => ask("api/fit", { method: "POST", body: form });
 
 /** Return what follows of the errors of a drop's numbers. */
-export const predict = (drop, errors, until = null) =>
-  ask("api/predict", {
+export async function predict(drop, errors, until = null) {
+  if (!hasServer) throw new Error("To carry errors forward needs stackbounce itself: “stackbounce app” opens a page that does");
+  return ask("api/predict", {
     method: "POST",
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify({ drop, errors, until }),
   });
+}

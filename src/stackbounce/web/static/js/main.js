@@ -41,7 +41,7 @@ place("skip").addEventListener("click", (event) => {
   event.preventDefault(); // the fragment holds the state
   place("stage-box").focus();
 });
-store.subscribe(({ view }) => view !== "play" && clock.pause());
+store.subscribe((state, before) => state.view !== before.view && state.view !== "play" && clock.pause());
 followResults();
 const end = store.subscribe(({ result }) => {
   if (!result) return;
@@ -55,7 +55,7 @@ loadCatalogue();
 /** Build a view from its own module when it is first opened. */
 async function open(load, section) {
   try {
-    await (await load()).mount(section, store, api);
+    await (await load()).mount(section, store, api, clock);
   } catch (error) {
     section.append(h("p", { class: "field-error", role: "alert", text: `This view could not be opened: ${error.message}` }));
   }

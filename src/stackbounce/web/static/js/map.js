@@ -6,25 +6,30 @@ import { sideOf } from "./map_axes.js";
 import { drawMap, drawMarks, frameOf } from "./map_draw.js";
 import { mapForm } from "./map_form.js";
 import { mapper } from "./map_request.js";
-import { outcome, place, summary as inWords, withNumbers } from "./map_words.js";
+import { haveSameMap, numberIn, outcome, place, summary as inWords, withNumbers } from "./map_words.js";
 import { onRepaint, palette } from "./palette.js";
-import { capital } from "./words.js";
+import { mountStage } from "./stage.js";
+import { capital, shortly } from "./words.js";
 
 const REST = 40; // ms without a change
+const STILL = 4; // px that a mouse may move in a click
 const STEP = 1 / 60; // of a side, for one press of an arrow
 const KEYS =
   "Arrow keys move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there.";
 
 /** Build the view into `root`. */
-export function mount(root, store, api) {
+export function mount(root, store, api, clock) {
   const parts = build();
   const form = mapForm((map) => store.set({ map }));
-  root.replaceChildren(parts.figure, h("div", { class: "map-side" }, form.element, parts.summary));
+  const side = h("div", { class: "map-side" }, form.element, parts.stage, parts.told, parts.summary);
+  root.replaceChildren(parts.figure, side);
+  mountStage(parts.stage, store, clock);
   let chosen = null; // {settings, paths, shows}
   let answer = null;
   let pointed = null; // [x, y] as fractions of the sides
   let timer = 0;
   let asked = []; // the drop and the settings of the last request
+  let held = null; // where the mouse was pressed, and whether it has moved since
 
   const requests = mapper(api, (news) => {
     if (news.settings) {
@@ -70,13 +75,13 @@ export function mount(root, store, api) {
     const there = present();
     drawMarks(parts.marks, inside(there) ? there : null, pointed, palette());
     const where = inside(there) ? "The cross is the present drop." : "The present drop lies outside of this map.";
-    write(parts.readout, pointed ? told(pointed) : `${where} Choose a point to play its drop.`);
+    write(parts.readout, pointed ? told(pointed) : `${where} Drag to move it; choose a point to play its drop.`);
   };
   /** Return the place of the present drop, as fractions of the sides. */
   const present = () => {
     const { settings, paths } = answer;
     return [settings.x, settings.y].map((side) =>
-      sideOf(side).part(paths.find(({ path }) => path === side.path).value),
+      sideOf(side).part(numberIn(store.get().drop, side.path) ?? paths.find(({ path }) => path === side.path).value),
     );
   };
   /** Return the values and the nearest outcome at a place given as fractions of the sides. */
@@ -92,12 +97,15 @@ export function mount(root, store, api) {
     const { point, value } = at(spot);
     return `${capital(place(answer, point))}: ${outcome(answer, value)}.`;
   };
-  const play = () => {
-    if (!answer || !pointed) return;
+  /** Return the drop of the point that is pointed at. */
+  const chosenDrop = () => {
     const { point } = at(pointed);
     const { x, y } = answer.settings;
-    const drop = withNumbers(answer.drop, { [x.path]: point[0], [y.path]: point[1] });
-    store.set({ drop, view: "play", t: null });
+    return withNumbers(answer.drop, { [x.path]: point[0], [y.path]: point[1] });
+  };
+  const play = () => {
+    if (!answer || !pointed) return;
+    store.set({ drop: chosenDrop(), view: "play", t: null });
     parts.play.hidden = true;
     document.getElementById("tab-play")?.focus();
   };
@@ -113,15 +121,33 @@ export function mount(root, store, api) {
     pointed = inside(spot) ? spot : null;
     mark();
   };
-  parts.board.addEventListener("pointermove", follow);
-  parts.board.addEventListener("pointerdown", follow);
+  parts.board.addEventListener("pointermove", (event) => {
+    follow(event);
+    if (!held || !answer) return;
+    held.moved ||= Math.hypot(event.clientX - held.x, event.clientY - held.y) > STILL;
+    if (held.moved && pointed) store.set({ drop: chosenDrop() });
+  });
+  parts.board.addEventListener("pointerdown", (event) => {
+    follow(event);
+    held = null;
+    if (event.button !== 0 || event.pointerType === "touch") return; // a finger scrolls the page
+    held = { x: event.clientX, y: event.clientY, moved: false };
+    parts.board.setPointerCapture(event.pointerId);
+  });
   parts.board.addEventListener("pointerleave", (event) => {
     if (event.pointerType !== "mouse") return;
     pointed = null;
     if (answer) mark();
   });
   parts.board.addEventListener("click", (event) => {
+    const dragged = held?.moved;
+    held = null;
     follow(event);
+    if (dragged) {
+      clock.seek(clock.begin);
+      clock.play();
+      return;
+    }
     // A finger hides the point that it touches, so a touch only selects; the button plays.
     if (event.pointerType === "touch") parts.play.hidden = !pointed;
     else play();
@@ -142,7 +168,15 @@ export function mount(root, store, api) {
   parts.again.addEventListener("click", refresh);
   new ResizeObserver(draw).observe(parts.board);
   onRepaint(draw);
-  store.subscribe((state) => {
+  store.subscribe((state, before) => {
+    if (state.result !== before.result && state.result) write(parts.told, shortly(state.result, state.until));
+    if (answer && state.view === "map" && state.drop !== asked[0] && state.map === asked[1]) {
+      const { x, y } = answer.settings;
+      if (haveSameMap(state.drop, asked[0], [x.path, y.path])) {
+        asked[0] = state.drop;
+        mark();
+      }
+    }
     if (state.view === "map" && (state.drop !== asked[0] || state.map !== asked[1])) refresh();
     else if (state.view !== "map" && asked.length) refresh();
   });
@@ -183,5 +217,7 @@ function build() {
   const keys = h("p", { class: "quiet", id: "map-keys", text: KEYS });
   const box = h("div", { class: "map-box" }, board, h("div", { class: "map-over" }, message, again));
   const figure = h("section", { class: "map-figure", "aria-label": "Map" }, title, readout, play, box, keys, live);
-  return { figure, field, marks, board, title, readout, play, live, message, again, summary };
+  const stage = h("div", { class: "stage map-stage" });
+  const told = h("p", { class: "map-told" });
+  return { stage, told, figure, field, marks, board, title, readout, play, live, message, again, summary };
 }

@@ -1,6 +1,6 @@
 /** A map in words, and the drop that a point of it stands for. */
 
-import { gapsOf, withValue } from "./drops.js";
+import { complete, gapsOf, valueAt, withValue } from "./drops.js";
 import { clean, format, pretty, shownUnit } from "./units.js";
 import { count } from "./words.js";
 
@@ -64,6 +64,20 @@ export function withNumbers(drop, numbers) {
     next = withValue(next, set, clean(Number((value * reference).toPrecision(4))));
   }
   return next;
+}
+
+/** Return a number of a drop, or a ratio of two; undefined where the drop does not say it. */
+export function numberIn(drop, path) {
+  const [set, other] = RATIOS[path] ?? [path];
+  const whole = complete(drop);
+  const value = valueAt(whole, set);
+  return other ? value / valueAt(whole, other) : value;
+}
+
+/** Return whether two drops have the same map over two numbers: they differ in these alone. */
+export function haveSameMap(one, other, paths) {
+  const rest = (drop) => paths.reduce((left, path) => withValue(left, RATIOS[path]?.[0] ?? path, 0), complete(drop));
+  return JSON.stringify(rest(one)) === JSON.stringify(rest(other));
 }
 
 /** Return whether two numbers are the same, or one is set by the other. */

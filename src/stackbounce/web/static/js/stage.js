@@ -10,8 +10,12 @@ const FOOT = 30; // px below the floor line
 const HEAD = 26; // px above the highest ball
 const ARROW = 46; // px of the fastest ball's arrow
 
+let stages = 0;
+
 /** Draw the stage into `root` and keep it at the clock's time. */
 export function mountStage(root, store, clock) {
+  stages += 1;
+  const light = `light-${stages}`; // a gradient of a hidden stage would not be drawn
   const svg = s("svg", { class: "scene", role: "img" });
   const time = s("text", { class: "scene-time", x: 12, y: 22 });
   const scale = s("text", { class: "scene-note", x: 12, y: 42 });
@@ -19,7 +23,7 @@ export function mountStage(root, store, clock) {
   const ruler = s("g", { class: "ruler" });
   const ghosts = s("g", { class: "ghosts" });
   const balls = s("g", { class: "balls" });
-  svg.append(shading(), ruler, ground, balls, ghosts, time, scale);
+  svg.append(shading(light), ruler, ground, balls, ghosts, time, scale);
   root.append(svg);
   const nothing = h("p", { class: "stage-empty note", text: "Computing the first drop …" });
   root.append(nothing);
@@ -38,7 +42,7 @@ export function mountStage(root, store, clock) {
     drawGround(ground, result.drop, scene, width);
     drawRuler(ruler, scene, width);
     write(scale, note(scene));
-    balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, scene)));
+    balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, scene, light)));
     const separate = result.separate?.position ?? [];
     ghosts.replaceChildren(...separate.map((_, ball) => ghostBall(ball, view)));
     clock.touch();
@@ -77,7 +81,7 @@ function centre({ view, floor }, ball, position) {
   return (floor - view.rest[ball] - view.move * position).toFixed(2);
 }
 
-function ballGroup(drop, ball, { view }) {
+function ballGroup(drop, ball, { view }, light) {
   const group = s("g", { class: "ball", "data-ball": ball });
   group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
   const name = s("text", { class: "ball-name", "text-anchor": "end", text: shortened(ballName(drop, ball)) });
@@ -86,7 +90,7 @@ function ballGroup(drop, ball, { view }) {
   put(speed, "y", 4);
   group.append(
     s("path", { class: "ball-body" }),
-    s("path", { class: "ball-light", fill: "url(#light)" }),
+    s("path", { class: "ball-light", fill: `url(#${light})` }),
     s("path", { class: "ball-arrow" }),
     name,
     speed,
@@ -166,9 +170,9 @@ function spoken({ result, whole }, time, place) {
   return `The stack at ${moment(time, whole)}, from below: ${balls.join("; ")}.`;
 }
 
-function shading() {
+function shading(id) {
   const stop = (offset, opacity) =>
     s("stop", { offset, "stop-color": "#fff", "stop-opacity": opacity });
-  const light = s("radialGradient", { id: "light", cx: 0.36, cy: 0.3, r: 0.75 }, stop(0, 0.45), stop(0.6, 0.06), stop(1, 0));
+  const light = s("radialGradient", { id, cx: 0.36, cy: 0.3, r: 0.75 }, stop(0, 0.45), stop(0.6, 0.06), stop(1, 0));
   return s("defs", {}, light);
 }
