@@ -69,6 +69,13 @@ def test_what_it_cannot_do_is_said(visit):
     assert page.locator('a[href="paper/"]').is_hidden()
 
 
+def test_errors_of_numbers_need_a_server_and_it_says_so(visit):
+    page = visit.open()
+    page.locator("[data-path='balls.1.mass']").fill("57 ± 1 g")
+    page.locator("[data-path='balls.1.mass']").press("Enter")
+    page.locator("#numbers").get_by_text("“stackbounce app” opens a page that does").wait_for()
+
+
 def test_without_workers_it_says_what_it_needs(visit):
     page = visit.page
     page.add_init_script("window.Worker = class { constructor() { throw new Error('no'); } };")
