@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+import stackbounce as sb
+
 pytestmark = pytest.mark.slow
 
 
@@ -71,7 +73,9 @@ def test_bands_are_drawn_around_the_curves(visit):
     assert np.all(low <= np.array(middle) + 1e-5)
     assert np.all(high >= np.array(middle) - 1e-5)
     assert (high - low).max() > 5e-3
-    at(visit, 0.02)
+    page.evaluate(
+        "() => { const { clock } = window.stackbounce; clock.pause(); clock.seek(0.02); }"
+    )
     visit.picture("errors-laptop")
     painted = page.evaluate(
         """() => { const canvas = document.querySelector('.plot-canvas canvas');
