@@ -12,6 +12,7 @@ import { mountStage } from "./stage.js";
 import { capital, shortly } from "./words.js";
 
 const REST = 40; // ms without a change
+const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
 const STILL = 4; // px that a mouse may move in a click
 const STEP = 1 / 60; // of a side, for one press of an arrow
 const KEYS =
@@ -62,6 +63,7 @@ export function mount(root, store, api, clock) {
       requests.ask(drop, map);
     }, REST);
   };
+  const tell = ({ result, until }) => write(parts.told, result ? shortly(result, until) : "");
   const draw = () => {
     if (!answer || root.hidden) return;
     const whole = answer.show.startsWith("collisions");
@@ -75,7 +77,7 @@ export function mount(root, store, api, clock) {
     const there = present();
     drawMarks(parts.marks, inside(there) ? there : null, pointed, palette());
     const where = inside(there) ? "The cross is the present drop." : "The present drop lies outside of this map.";
-    write(parts.readout, pointed ? told(pointed) : `${where} Drag to move it; choose a point to play its drop.`);
+    write(parts.readout, pointed ? told(pointed) : `${where} ${hovers.matches ? "Drag to move it; choose" : "Choose"} a point to play its drop.`);
   };
   /** Return the place of the present drop, as fractions of the sides. */
   const present = () => {
@@ -169,7 +171,7 @@ export function mount(root, store, api, clock) {
   new ResizeObserver(draw).observe(parts.board);
   onRepaint(draw);
   store.subscribe((state, before) => {
-    if (state.result !== before.result && state.result) write(parts.told, shortly(state.result, state.until));
+    if (state.result !== before.result) tell(state);
     if (answer && state.view === "map" && state.drop !== asked[0] && state.map === asked[1]) {
       const { x, y } = answer.settings;
       if (haveSameMap(state.drop, asked[0], [x.path, y.path])) {
@@ -180,6 +182,7 @@ export function mount(root, store, api, clock) {
     if (state.view === "map" && (state.drop !== asked[0] || state.map !== asked[1])) refresh();
     else if (state.view !== "map" && asked.length) refresh();
   });
+  tell(store.get());
   refresh();
 }
 
