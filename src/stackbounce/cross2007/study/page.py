@@ -18,6 +18,7 @@ from stackbounce.cross2007.study.figures import (
     name_pair,
 )
 from stackbounce.cross2007.study.figures_predictions import draw_decisive, draw_energy
+from stackbounce.cross2007.study.inner_mode_ranges import RANGES
 from stackbounce.cross2007.study.readings import LAWS, READINGS, penalty
 from stackbounce.cross2007.study.results import BOTH, Study, run_study
 from stackbounce.cross2007.style import Picture, render, use_style
@@ -107,6 +108,7 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         said={one.what: one for one in done.predictions},
         laws=list(LAWS),
         chosen=CHOSEN,
+        mode_ranges=RANGES,
         version=__version__,
     )
 
@@ -169,6 +171,7 @@ _WORDS = {
     "between": "loss of two balls times",
     "stiffer": "stiffness of two balls times",
     "exponent": "exponent",
+    "relaxation": "relaxation time over contact time",
 }
 
 

@@ -17,6 +17,7 @@ from stackbounce.cross2007.study.cross_validation import (
     cross_validate_selection,
 )
 from stackbounce.cross2007.study.energy import EnergyBound, bound_energy
+from stackbounce.cross2007.study.inner_mode_ranges import InnerModes, study_inner_modes
 from stackbounce.cross2007.study.predictions import Prediction, predict
 from stackbounce.cross2007.study.readings import Combination, fit_combinations
 from stackbounce.cross2007.study.records import Fact, compare_records
@@ -55,6 +56,7 @@ class Study:
     predictions: list[Prediction]
     stacks: list[Stack]
     refits: list[Refit]
+    modes: InnerModes
 
     @property
     def compared(self) -> FittedModels:
@@ -101,6 +103,7 @@ class Study:
             "models": [{**row, "pairs": own.pairs(row["name"])} for row in self.rows],
             "choices": self.fits.as_dict(),
             "energy": [{**one._asdict(), "excesses": one.excesses} for one in self.kept],
+            "inner_modes": self.modes.as_dict(),
             "readings": {
                 choice: [
                     {"reading": one.reading, "law": one.law, "chi_squared": one.fit.chi_squared}
@@ -141,7 +144,7 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
     held = cross_validate(fits, progress)
     progress("study: force records and measurements that would decide")
     shown, said = compare_records(fits[BASE]), predict(fits[BASE])
-    progress("study: the basketball, and section V's fits")
+    progress("study: the basketball, section V's fits, and inner vibrations")
     return Study(
         fits,
         [bound_energy(pair) for pair in inputs.PAIRS],
@@ -154,4 +157,5 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
         said,
         fit_stacks(),
         refit_section_v(),
+        study_inner_modes(),
     )
