@@ -48,5 +48,9 @@ def test_a_vibration_that_explains_b1_can_exceed_the_bound_by_any_measured_amoun
         assert measured == pytest.approx(bound.measured - bound.printed)
         found = [one.excess for one in modes.alone if one.pair == pair]
         assert min(found) < measured < max(found)
+        lower, upper = inputs.read_ratios(pair)
+        for one in modes.alone:
+            if one.pair == pair:
+                assert max(abs(one.first - lower), abs(one.second - upper)) > inputs.ERROR
     assert modes.beyond == 6
     assert modes.as_dict()["alone"][0]["excess"] == modes.alone[0].excess

@@ -139,12 +139,12 @@ def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
 
     Examples
     --------
-    >>> _number(-1.26), _number(0.5, 2, sign=True), _number(float("nan"))
-    ('−1.3', '+0.50', '–')
+    >>> _number(-1.26), _number(0.5, 2, sign=True), _number(-0.01), _number(float("nan"))
+    ('−1.3', '+0.50', '0.0', '–')
     """
     if math.isnan(value):
         return "–"
-    return f"{value:{'+' if sign else ''}.{digits}f}".replace("-", "−")
+    return f"{value:{'+' if sign else ''}z.{digits}f}".replace("-", "−")
 
 
 def _misses(rows: list[Residual]) -> str:
