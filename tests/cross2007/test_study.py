@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 import stackbounce as sb
 from stackbounce.calibration import between
@@ -21,7 +22,7 @@ from stackbounce.cross2007.study.searches import fit_model, refit
 from stackbounce.cross2007.study.section_v import refit_section_v
 from stackbounce.cross2007.study.theories import Theory, make_rigid_model
 from stackbounce.fitting.comparison import Comparison
-from stackbounce.model import Drop, HuntCrossley, Hysteretic, Viscoelastic
+from stackbounce.model import Drop, HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
 
 PLAIN = ("Hertz", "A", "X", "S")  # nothing fitted but gaps
 FITTED = ("A, fitted", "S, fitted")
@@ -70,8 +71,81 @@ def test_laws_of_a_ball_alone_are_those_of_calibrate(law, exponents):
             np.testing.assert_allclose(found.loss, loss, rtol=1e-6, atol=1e-9)
 
 
+@pytest.mark.parametrize("times", [None, 0.2, np.geomspace(*single_ball.RELAXATION, 6)])
+def test_a_solid_that_relaxes_is_that_of_calibrate(times):
+    """By default, with one relaxation time, and with a table in the restitution and the time."""
+    ball = inputs.Solo(0.0248, 2.6e-3)
+    kept = np.array([0.55, 0.99, 0.7, 0.9, 0.8, 0.95])
+    found = single_ball.calibrate_numbers(StandardLinearSolid, ball, 1.7, kept, 1.0, times)
+    for k, e in enumerate(kept):
+        options = {}
+        if times is not None:
+            options = {"relaxation_time": float(np.broadcast_to(times, 6)[k] * ball.contact_time)}
+        own = sb.calibrate(
+            StandardLinearSolid,
+            mass=ball.mass,
+            contact_time=ball.contact_time,
+            restitution=e,
+            **options,
+        )
+        assert found.stiffness[k] == pytest.approx(own.stiffness, rel=1e-6)
+        assert found.loss[k] == pytest.approx(own.relaxation_strength, rel=1e-6)
+        time = np.broadcast_to(found.relaxation, 6)[k]
+        assert time == pytest.approx(own.relaxation_time, rel=1e-9)
+
+
+def meet_in_series(laws, mass, speed):
+    """Return the restitution of a mass on two solids that relax, one after the other, by steps."""
+    strength, time, slow = np.array(
+        [(law.relaxation_strength, law.relaxation_time, law.stiffness) for law in laws]
+    ).T
+    at_once = 1.0 / np.sum(1.0 / (slow * (1.0 + strength)))
+
+    def force(state):
+        return at_once * (state[0] - np.sum(strength * state[2:] / (1.0 + strength)))
+
+    def slopes(_, state):
+        f = force(state)
+        compressed = (f / slow + strength * state[2:]) / (1.0 + strength)
+        return [state[1], -f / mass, *((compressed - state[2:]) / time)]
+
+    def leaves(t, state):
+        return force(state) if t > 1e-6 else 1.0
+
+    leaves.terminal = True
+    found = solve_ivp(
+        slopes, (0.0, 0.1), [0.0, speed, 0.0, 0.0], events=leaves, rtol=1e-9, atol=1e-13
+    )
+    return -found.y[1, -1] / speed
+
+
+@pytest.mark.parametrize("relaxation", [None, 0.05, 0.4])
+def test_two_solids_that_relax_in_series(relaxation):
+    """Their contact stands for four elements in series: exact for equal balls only."""
+    known = {"e_B1": 0.8, "e_B2": 0.9, "relaxation": relaxation}
+    theory = Theory("", StandardLinearSolid, "shared", known, exponent=1.0)
+    single = {name: theory.drop(f"{name}_on_B1").contacts[0] for name in ("B2", "B3")}
+    alone = {name: theory.drop(f"B1_on_{name}").contacts[0] for name in ("B1", "B2", "B3")}
+    assert single["B2"] == single["B3"] == alone["B1"]
+    for key, error in (("B1_on_B1", 1e-6), ("B2_on_B1", 0.006), ("B3_on_B1", 0.0105)):
+        lower, upper = (ball.mass for ball in inputs.make_balls(key))
+        laws = [alone[name] for name in inputs.PAIRS[key]]
+        mass = lower * upper / (lower + upper)
+        exact = meet_in_series(laws, mass, 2.0)
+        assert sb.restitution(theory.drop(key).contacts[1], mass) == pytest.approx(exact, abs=error)
+
+
+def test_equal_solids_are_as_in_series():
+    theory = Theory("", StandardLinearSolid, "shared", {"e_B1": 0.8}, exponent=1.0)
+    floor, both = theory.drop("B1_on_B1").contacts
+    expected = sb.series(floor, floor)
+    assert both.stiffness == pytest.approx(expected.stiffness, rel=1e-9)
+    assert both.relaxation_strength == pytest.approx(expected.relaxation_strength, rel=1e-9)
+    assert both.relaxation_time == pytest.approx(expected.relaxation_time, rel=1e-9)
+
+
 def test_no_loss_is_exactly_none():
-    for law, none in ((HuntCrossley, 0.0), (Hysteretic, 1.0)):
+    for law, none in ((HuntCrossley, 0.0), (Hysteretic, 1.0), (StandardLinearSolid, 0.0)):
         found = single_ball.calibrate_numbers(law, inputs.Solo(0.1, 4e-3), 2.0, 1.0, 1.5)
         assert abs(float(found.loss) - none) < 1e-11
         assert law is not Hysteretic or float(found.loss) <= 1.0
@@ -99,16 +173,26 @@ def test_equal_balls_lose_on_each_other_as_on_the_floor():
     assert (upper - lower) / 2.0 == pytest.approx(expected, rel=1e-6)
 
 
-def test_ties_give_the_drops_that_a_theory_makes():
-    theory = THEORIES["S, fitted"]
+@pytest.mark.parametrize(
+    ("model_name", "names", "rel"),
+    [
+        ("S, fitted", ("stiffness", "dissipation"), 1e-9),
+        ("Z, time", ("stiffness", "relaxation_strength", "relaxation_time"), 1e-7),
+    ],
+)
+def test_ties_give_the_drops_that_a_theory_makes(model_name, names, rel):
+    """One restitution and one time have a table of their own, interpolated otherwise."""
+    theory = THEORIES[model_name]
     model = theory.model()
     values = {"e_B1": np.array([0.8, 0.9]), "e_B2": np.array([0.93, 0.96])}
+    if model_name == "Z, time":
+        values["relaxation"] = np.array([0.1, 0.3])
     for k in range(2):
         made = theory.drop("B1_on_B3", 0.0, {name: one[k] for name, one in values.items()})
         for i, law in enumerate(made.contacts):
-            for name in ("stiffness", "dissipation"):
+            for name in names:
                 found = model.tie[f"B1_on_B3.contacts.{i}.{name}"](values)
-                assert np.broadcast_to(found, 2)[k] == pytest.approx(getattr(law, name), rel=1e-9)
+                assert np.broadcast_to(found, 2)[k] == pytest.approx(getattr(law, name), rel=rel)
 
 
 def test_energy_against_table_one_as_printed_depends_on_the_errors():

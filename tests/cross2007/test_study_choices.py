@@ -234,3 +234,13 @@ def test_without_the_rolling_pair_a_model_gives_all_values(base):
 
 def test_rigid_models_and_theories_are_all_models():
     assert (*NAMES, *THEORIES) == MODELS
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_every_model_takes_many_trials(name):
+    """Numbers that are fixed and numbers that are varied meet in the ties."""
+    objective = objective_of(BASE, name)
+    one = np.tile(trial_of(objective), (3, 1))
+    found = objective.chi_squared(one)
+    assert np.all(np.isfinite(found))
+    assert found == pytest.approx([found[0]] * 3, rel=1e-9)

@@ -4,7 +4,7 @@ import math
 
 from stackbounce.cross2007.study.inputs import PRINTED
 from stackbounce.cross2007.study.theories import ELASTIC, OWN, SHARED, Theory
-from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
+from stackbounce.model import HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
 
 __all__ = ["AS_HEIGHTS", "AS_PRINTED", "CHOSEN", "MISPRINT", "NAMES", "THEORIES"]
 
@@ -56,6 +56,22 @@ THEORIES: dict[str, Theory] = {
         _BOTH,
         exponent=1.0,
         reloading="lossy",
+    ),
+    "Z": Theory(
+        "linear solid that relaxes in every contact, two restitutions",
+        StandardLinearSolid,
+        SHARED,
+        {},
+        _BOTH,
+        exponent=1.0,
+    ),
+    "Z, time": Theory(
+        "as Z, and relaxation time over contact time",
+        StandardLinearSolid,
+        SHARED,
+        {},
+        (*_BOTH, "relaxation"),
+        exponent=1.0,
     ),
     "B": Theory(
         "hysteresis: B1 on the floor, and any two balls",

@@ -19,6 +19,7 @@ from stackbounce.cross2007.study.figures import (
 )
 from stackbounce.cross2007.study.figures_hierarchy import draw_information, draw_probabilities
 from stackbounce.cross2007.study.figures_predictions import draw_decisive, draw_energy
+from stackbounce.cross2007.study.inner_mode_ranges import RANGES
 from stackbounce.cross2007.study.readings import LAWS, READINGS, penalty
 from stackbounce.cross2007.study.results import BOTH, Study, run_study
 from stackbounce.cross2007.style import Picture, render, use_style
@@ -110,6 +111,7 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         said={one.what: one for one in done.predictions},
         laws=list(LAWS),
         chosen=CHOSEN,
+        mode_ranges=RANGES,
         version=__version__,
     )
 
@@ -140,12 +142,12 @@ def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
 
     Examples
     --------
-    >>> _number(-1.26), _number(0.5, 2, sign=True), _number(float("nan"))
-    ('−1.3', '+0.50', '–')
+    >>> _number(-1.26), _number(0.5, 2, sign=True), _number(-0.01), _number(float("nan"))
+    ('−1.3', '+0.50', '0.0', '–')
     """
     if math.isnan(value):
         return "–"
-    return f"{value:{'+' if sign else ''}.{digits}f}".replace("-", "−")
+    return f"{value:{'+' if sign else ''}z.{digits}f}".replace("-", "−")
 
 
 def _misses(rows: list[Residual]) -> str:
@@ -172,6 +174,7 @@ _WORDS = {
     "between": "loss of two balls times",
     "stiffer": "stiffness of two balls times",
     "exponent": "exponent",
+    "relaxation": "relaxation time over contact time",
 }
 
 

@@ -9,7 +9,7 @@ from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, AS_PRINTED, MISPRI
 from stackbounce.cross2007.study.searches import fit_model
 from stackbounce.cross2007.study.theories import SHARED, Theory
 from stackbounce.fitting import Fit
-from stackbounce.model import HuntCrossley, Hysteretic, Viscoelastic
+from stackbounce.model import HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
 
 __all__ = ["LAWS", "READINGS", "Combination", "fit_combinations", "penalty"]
 
@@ -27,6 +27,7 @@ LAWS: dict[str, Theory] = {
     "hysteresis": Theory("", Hysteretic, SHARED),
     "hysteresis, lossy reloading": Theory("", Hysteretic, SHARED, reloading="lossy"),
     "the same, linear": Theory("", Hysteretic, SHARED, exponent=1.0, reloading="lossy"),
+    "a solid that relaxes": Theory("", StandardLinearSolid, SHARED, exponent=1.0),
 }
 """The laws, with the loss of both balls in every contact."""
 

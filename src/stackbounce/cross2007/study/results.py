@@ -19,6 +19,7 @@ from stackbounce.cross2007.study.cross_validation import (
 from stackbounce.cross2007.study.energy import EnergyBound, bound_energy
 from stackbounce.cross2007.study.hierarchy import Hierarchy, weigh_models
 from stackbounce.cross2007.study.information import Information, rank_measurements
+from stackbounce.cross2007.study.inner_mode_ranges import InnerModes, study_inner_modes
 from stackbounce.cross2007.study.predictions import Prediction, predict
 from stackbounce.cross2007.study.readings import Combination, fit_combinations
 from stackbounce.cross2007.study.records import Fact, compare_records
@@ -59,6 +60,7 @@ class Study:
     refits: list[Refit]
     weighed: Hierarchy
     expected: Information
+    modes: InnerModes
 
     @property
     def compared(self) -> FittedModels:
@@ -105,6 +107,7 @@ class Study:
             "models": [{**row, "pairs": own.pairs(row["name"])} for row in self.rows],
             "choices": self.fits.as_dict(),
             "energy": [{**one._asdict(), "excesses": one.excesses} for one in self.kept],
+            "inner_modes": self.modes.as_dict(),
             "readings": {
                 choice: [
                     {"reading": one.reading, "law": one.law, "chi_squared": one.fit.chi_squared}
@@ -149,7 +152,7 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
     shown, said = compare_records(fits[BASE]), predict(fits[BASE])
     weighed = weigh_models(progress)
     expected = rank_measurements(weighed, progress)
-    progress("study: the basketball, and section V's fits")
+    progress("study: the basketball, section V's fits, and inner vibrations")
     return Study(
         fits,
         [bound_energy(pair) for pair in inputs.PAIRS],
@@ -164,4 +167,5 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
         refit_section_v(),
         weighed,
         expected,
+        study_inner_modes(),
     )

@@ -2,11 +2,12 @@
 
 By dimensional analysis, a law that is calibrated to mass m, contact time T and impact speed v has
 the stiffness ``κ m/T**2 (v T)**(1 - p)`` and a loss that scales with T or v. κ and the scaled loss
-are smooth functions of restitution and exponent. They are interpolated with Chebyshev polynomials
-through results of `stackbounce.calibrate`.
+are smooth functions of restitution and exponent, or of restitution and relaxation time. They are
+interpolated with Chebyshev polynomials through results of `stackbounce.calibrate`.
 """
 
 import functools
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
@@ -18,38 +19,66 @@ from stackbounce.calibration import calibrate
 from stackbounce.cross2007.study.inputs import Solo
 from stackbounce.model import ContactLaw
 
-__all__ = ["LOWEST", "Numbers", "calibrate_numbers", "loss_unit"]
+__all__ = ["LOWEST", "RELAXATION", "Numbers", "calibrate_numbers", "loss_unit"]
 
 Array: TypeAlias = NDArray[np.float64]
 
 LOWEST = 0.5
 """The smallest restitution of the interpolation."""
-_STEEPEST = 2.0  # the largest exponent
-_TERMS, _POWERS = 16, 8  # of the polynomials, in restitution and exponent
+RELAXATION = (0.02, 0.4)
+"""The relaxation times of the interpolation, in contact times."""
+_TERMS = 16  # of the polynomials in the restitution
 
 
 class Numbers(NamedTuple):
-    """Stiffness in N/m**exponent and the loss parameter, each of (n,) trials."""
+    """Stiffness in N/m**exponent, the loss parameter and the relaxation time, of (n,) trials.
+
+    The time is in s, and 0 for laws that have none.
+    """
 
     stiffness: Array
     loss: Array
+    relaxation: Array
+
+
+class _Other(NamedTuple):
+    """The second number of an interpolation: range, terms, and the option of `calibrate`."""
+
+    low: float
+    high: float
+    terms: int
+    option: Callable[[float], dict[str, float]]
+
+
+_OTHER = {
+    "exponent": _Other(1.0, 2.0, 8, lambda p: {"exponent": p}),
+    "relaxation": _Other(
+        math.log(RELAXATION[0]),
+        math.log(RELAXATION[1]),
+        20,
+        lambda y: {"relaxation_time": math.exp(y)},
+    ),
+}
 
 
 def calibrate_numbers(
-    law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any
+    law: Any, ball: Solo, speed: float, restitution: Any, exponent: Any, relaxation: Any = None
 ) -> Numbers:
     """Return the parameters of a ball's law, calibrated to its contact time and restitution.
 
     Parameters
     ----------
     law : type
-        `HuntCrossley`, `Viscoelastic` or `Hysteretic`.
+        `HuntCrossley`, `Viscoelastic`, `Hysteretic` or `StandardLinearSolid`.
     ball : Solo
         Mass and contact time.
     speed : float
         Of the impact, in m/s.
     restitution, exponent : float or ndarray
         (n,), from 0.5 to 1 and from 1 to 2; a restitution of 1 is no loss.
+    relaxation : float or ndarray, optional
+        (n,), the relaxation time of a `StandardLinearSolid` in contact times, in `RELAXATION`;
+        without it the one that `stackbounce.calibrate` takes.
 
     Returns
     -------
@@ -66,7 +95,11 @@ def calibrate_numbers(
     True
     """
     p = np.asarray(exponent, dtype=float)
-    unit, loss = _at(law, np.asarray(restitution, dtype=float), p)
+    e = np.asarray(restitution, dtype=float)
+    if relaxation is None:
+        unit, loss, relaxed = _at(law, e, "exponent", p)
+    else:
+        unit, loss, relaxed = _at(law, e, "relaxation", np.log(relaxation))
     mass, time = ball
     stiffness = unit * mass / time**2 * (speed * time) ** (1.0 - p)
     match loss_unit(law):
@@ -74,7 +107,7 @@ def calibrate_numbers(
             loss = loss / speed
         case "s":
             loss = loss * time
-    return Numbers(stiffness, loss)
+    return Numbers(stiffness, loss, relaxed * time)
 
 
 def loss_unit(law: type[ContactLaw]) -> str:
@@ -89,41 +122,45 @@ def loss_unit(law: type[ContactLaw]) -> str:
     return law.quantities()[law.loss].symbol
 
 
-def _at(law: Any, restitution: Array, exponent: Array) -> tuple[Array, Array]:
-    """Return κ and the scaled loss: stiffness and loss for 1 kg, 1 s and 1 m/s."""
+def _at(law: Any, restitution: Array, name: str, other: Array) -> tuple[Array, Array, Array]:
+    """Return κ, the scaled loss and the relaxation time: those for 1 kg, 1 s and 1 m/s."""
     x = 2.0 * (restitution - LOWEST) / (1.0 - LOWEST) - 1.0
-    if exponent.ndim == 0:
-        table = _of_restitution(law, float(exponent))
+    if other.ndim == 0:
+        table = _of_restitution(law, name, float(other))
         found = [chebyshev.chebval(x, one) for one in table]
     else:
-        y = 2.0 * (exponent - 1.0) / (_STEEPEST - 1.0) - 1.0
-        found = [chebyshev.chebval2d(x, y, one) for one in _of_both(law)]
+        low, high, *_ = _OTHER[name]
+        y = 2.0 * (other - low) / (high - low) - 1.0
+        found = [chebyshev.chebval2d(x, y, one) for one in _of_both(law, name)]
     # round-off must not make a lossless contact gain energy
     top = 1.0 if law.loss == "restitution" else np.inf
-    return np.exp(found[0]), np.clip(found[1], 0.0, top)
+    return np.exp(found[0]), np.clip(found[1], 0.0, top), found[2]
 
 
-def _law(law: Any, restitution: float, exponent: float) -> tuple[float, float]:
-    options = {"exponent": exponent} if law.fixed_exponent() is None else {}
+def _law(law: Any, restitution: float, options: dict[str, float]) -> tuple[float, float, float]:
     made: Any = calibrate(
         law, mass=1.0, contact_time=1.0, restitution=restitution, impact_speed=1.0, **options
     )
-    return float(np.log(made.stiffness)), float(getattr(made, law.loss))
+    relaxed = getattr(made, law.second_parameter) if law.second_parameter else 0.0
+    return float(np.log(made.stiffness)), float(getattr(made, law.loss)), float(relaxed)
 
 
 @functools.cache
-def _of_restitution(law: Any, exponent: float) -> Array:
-    """Return (2, terms) coefficients of the stiffness's logarithm and the loss."""
-    return _interpolated(lambda e: _law(law, e, exponent), LOWEST, 1.0, _TERMS)
+def _of_restitution(law: Any, name: str, other: float) -> Array:
+    """Return (3, terms) coefficients: the stiffness's logarithm, the loss, the relaxation time."""
+    is_fixed = name == "exponent" and law.fixed_exponent() is not None
+    options = {} if is_fixed else _OTHER[name].option(other)
+    return _interpolated(lambda e: _law(law, e, options), LOWEST, 1.0, _TERMS)
 
 
 @functools.cache
-def _of_both(law: Any) -> Array:
-    """Return (2, terms, powers) coefficients in restitution and exponent."""
+def _of_both(law: Any, name: str) -> Array:
+    """Return (3, terms, others) coefficients in the restitution and the other number."""
+    low, high, terms, _ = _OTHER[name]
     inner = _interpolated(
-        lambda p: _of_restitution(law, p).ravel(), 1.0, _STEEPEST, _POWERS
-    )  # (2 terms, powers)
-    return inner.reshape(2, _TERMS, _POWERS)
+        lambda y: _of_restitution(law, name, y).ravel(), low, high, terms
+    )  # (3 TERMS, terms)
+    return inner.reshape(-1, _TERMS, terms)
 
 
 def _interpolated(function: Callable[[float], Any], low: float, high: float, count: int) -> Array:

@@ -9,7 +9,12 @@ from numpy.typing import NDArray
 
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.cross2007.study import inputs
-from stackbounce.cross2007.study.single_ball import Numbers, calibrate_numbers, loss_unit
+from stackbounce.cross2007.study.single_ball import (
+    RELAXATION,
+    Numbers,
+    calibrate_numbers,
+    loss_unit,
+)
 from stackbounce.fitting import FitProblem, Model, Range
 from stackbounce.model import Drop, Rigid
 
@@ -30,6 +35,7 @@ _BOUNDS = {
     "between": (0.0, 4.0),
     "stiffer": (0.4, 3.0),
     "exponent": (1.0, 2.0),
+    "relaxation": RELAXATION,
     "longer_B1": (-5e-4, 5e-4),
     "longer_B2": (-5e-4, 5e-4),
     "longer_B3": (-5e-4, 5e-4),
@@ -38,6 +44,7 @@ _BOUNDS = {
 _WIDEST = 0.03  # m: of the gaps that are searched
 _GAP = 4e-3  # m: where a search begins
 _SPEED = fallen_speed(inputs.HEIGHT)  # m/s: of a ball alone, at which Table I has its numbers
+_RELAXES = "relaxation_time"
 
 
 @dataclass(frozen=True)
@@ -49,7 +56,7 @@ class Theory:
     title : str
         One line for people.
     law : type
-        Of every contact: `HuntCrossley`, `Viscoelastic` or `Hysteretic`.
+        Of every contact: `HuntCrossley`, `Viscoelastic`, `Hysteretic` or `StandardLinearSolid`.
     where : str
         The loss between two balls: `ELASTIC`, `SHARED`, or `OWN` (`Hysteretic` only).
     known : mapping of str to float
@@ -58,7 +65,8 @@ class Theory:
         The fitted numbers: ``e_B1``, the restitution of B1 alone on the floor, ``e_B2`` and
         ``e_B3`` (by default that of B2); ``e_between``, that of two balls; ``loss``, a factor on
         all losses; ``between``, a factor on the loss between two balls; ``stiffer``, a factor on
-        the stiffness between them; ``exponent``.
+        the stiffness between them; ``exponent``; ``relaxation``, the relaxation time of a
+        `StandardLinearSolid` over the contact time of each ball, by default that of `calibrate`.
     exponent : float
         Of the law.
     reloading : str
@@ -131,7 +139,8 @@ class Theory:
         longer = self.longer.get(ball, 0.0) + values[f"longer_{ball}"]
         own = inputs.Solo(mass, time + longer)
         p = values["exponent"]
-        found = calibrate_numbers(self.law, own, _SPEED, values[f"e_{ball}"], p)
+        slow = values["relaxation"]
+        found = calibrate_numbers(self.law, own, _SPEED, values[f"e_{ball}"], p, slow)
         if loss_unit(self.law) == "s/m":
             found = found._replace(loss=found.loss * values["loss"])
         return found
@@ -141,12 +150,22 @@ class Theory:
 
         The two are in series: at equal force the compressions add, so that ``k**(-1/p)`` adds. The
         lower ball has the share f of the compression and of the work.
+
+        A solid that relaxes is softer when it is slow: of its slow compression the share
+        ``Δ/(1 + Δ)`` creeps, with the time ``(1 + Δ) τ`` at a constant force. In series the
+        creeping compressions add as well. Two that creep with different times become one with the
+        geometric mean of both times, weighted by what creeps. Compared with both in series, the
+        restitution of two balls here is wrong by less than 0.01 with the relaxation times of
+        `calibrate`, and by less than 0.02 with others.
         """
         p = values["exponent"]
         soft = lower.stiffness ** (-1.0 / p), upper.stiffness ** (-1.0 / p)
         f = soft[0] / (soft[0] + soft[1])
         stiffness = values["stiffer"] * (soft[0] + soft[1]) ** -p
-        return Numbers(stiffness, self._lost(f, lower.loss, upper.loss, values))
+        loss = self._lost(f, lower.loss, upper.loss, values)
+        if self.law.second_parameter != _RELAXES:
+            return Numbers(stiffness, loss, np.zeros_like(f))
+        return Numbers(stiffness, loss, _creep_time(f, lower, upper) / (1.0 + loss))
 
     def _lost(self, f: Array, lower: Array, upper: Array, values: Mapping[str, Any]) -> Array:
         """Return the loss between two balls; the lower one has the share f of the compression."""
@@ -157,6 +176,9 @@ class Theory:
             return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
         if self.where == ELASTIC:
             return np.zeros_like(f)
+        if self.law.second_parameter == _RELAXES:
+            stays = f / (1.0 + lower) + (1.0 - f) / (1.0 + upper)
+            return np.asarray(values["between"] * (1.0 / stays - 1.0))
         # A ball has its share of the work; a loss proportional to the compression rate also counts
         # its share of the rate.
         power = 2 if loss_unit(self.law) == "s/m" else 1
@@ -170,6 +192,8 @@ class Theory:
         }
         if self.law.fixed_exponent() is None:
             options["exponent"] = float(values["exponent"])
+        if self.law.second_parameter == _RELAXES:
+            options[_RELAXES] = float(own.relaxation)
         if self.reloading != "free":
             options["reloading"] = self.reloading
         return self.law(**options)
@@ -178,7 +202,8 @@ class Theory:
         """Return all numbers by name."""
         usual = {"e_B1": 1.0, "e_B2": 1.0, "loss": 1.0, "between": 1.0, "stiffer": 1.0}
         usual |= {f"longer_{ball}": 0.0 for ball in inputs.PRINTED}
-        found: dict[str, Any] = {**usual, "exponent": self.exponent, **self.known}
+        found: dict[str, Any] = {**usual, "relaxation": None, "exponent": self.exponent}
+        found |= self.known
         found |= {name: varied[name] for name in self.names}
         return {"e_B3": found["e_B2"], **found}
 
@@ -196,10 +221,13 @@ class Theory:
         def tie(key: str, i: int, name: str) -> Any:
             return lambda varied: getattr(contacts(varied)[key][i], name)
 
+        paths = {"stiffness": "stiffness", "loss": self.law.loss}
+        if self.law.second_parameter == _RELAXES:
+            paths["relaxation"] = _RELAXES
         ties: dict[str, Any] = {}
         for key in pairs:
             for i in (0, 1):
-                for name, path in (("stiffness", "stiffness"), ("loss", self.law.loss)):
+                for name, path in paths.items():
                     ties[f"{key}.contacts.{i}.{path}"] = tie(key, i, name)
                 if "exponent" in self.vary:
                     ties[f"{key}.contacts.{i}.exponent"] = "exponent"
@@ -231,6 +259,15 @@ def make_rigid_model(
     vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in drops}
     ends = {"contacts.0.restitution": names[0], "contacts.1.restitution": names[-1]}
     return Model(drops, vary, ends)
+
+
+def _creep_time(f: Array, lower: Numbers, upper: Numbers) -> Array:
+    """Return the creep time ``(1 + Δ) τ`` of two solids; the lower one has the share f."""
+    creeps = f * lower.loss / (1.0 + lower.loss), (1.0 - f) * upper.loss / (1.0 + upper.loss)
+    times = [(1.0 + one.loss) * one.relaxation for one in (lower, upper)]
+    whole = creeps[0] + creeps[1]
+    share = np.where(whole > 0.0, creeps[0] / np.where(whole > 0.0, whole, 1.0), f)
+    return np.asarray(times[0] ** share * times[1] ** (1.0 - share))
 
 
 def _known_with_errors(priors: Mapping[str, tuple[float, float]]) -> dict[str, Range]:
