@@ -295,10 +295,9 @@ def make_rows(name: str, pair: str, values: Mapping[str, Array]) -> dict[str, Ar
             "contacts.1.restitution": values["e_between"],
         }
     theory = THEORIES[name]
-    usual: dict[str, Any] = {f"longer_{ball}": 0.0 for ball in inputs.PRINTED}
-    usual |= {f"e_{ball}": np.full_like(lower, 0.95) for ball in inputs.PRINTED}  # of other balls
-    factors = {"loss": 1.0, "between": 1.0, "stiffer": np.exp(values["log_stiffer"])}
-    found = theory.contacts({"exponent": theory.exponent, **factors, **usual, **values})[pair]
+    others = {f"e_{ball}": np.full_like(lower, 0.95) for ball in inputs.PRINTED}
+    stiffer = {"stiffer": np.exp(values["log_stiffer"])}
+    found = theory.contacts(theory.usual | others | stiffer | dict(values))[pair]
     return {
         f"contacts.{i}.{path}": np.broadcast_to(array, lower.shape)
         for i, contact in enumerate(found)

@@ -109,6 +109,13 @@ class Theory:
         """The numbers that a fit varies, besides the gaps."""
         return *self.vary, *self.priors
 
+    @property
+    def usual(self) -> dict[str, Any]:
+        """The numbers that are neither known nor varied."""
+        usual = {"e_B1": 1.0, "e_B2": 1.0, "loss": 1.0, "between": 1.0, "stiffer": 1.0}
+        usual |= {f"longer_{ball}": 0.0 for ball in inputs.PRINTED}
+        return {**usual, "relaxation": None, "exponent": self.exponent}
+
     def model(self, pairs: tuple[str, ...] = tuple(inputs.PAIRS)) -> FitProblem:
         """Return the model for `stackbounce.fitting`: drops, varied numbers and ties."""
         vary: dict[str, Any] = {name: _BOUNDS[name] for name in self.vary}
@@ -200,11 +207,7 @@ class Theory:
 
     def _values(self, varied: Mapping[str, Any]) -> dict[str, Any]:
         """Return all numbers by name."""
-        usual = {"e_B1": 1.0, "e_B2": 1.0, "loss": 1.0, "between": 1.0, "stiffer": 1.0}
-        usual |= {f"longer_{ball}": 0.0 for ball in inputs.PRINTED}
-        found: dict[str, Any] = {**usual, "relaxation": None, "exponent": self.exponent}
-        found |= self.known
-        found |= {name: varied[name] for name in self.names}
+        found = {**self.usual, **self.known, **{name: varied[name] for name in self.names}}
         return {"e_B3": found["e_B2"], **found}
 
     def _ties(self, pairs: tuple[str, ...]) -> dict[str, Any]:
