@@ -68,9 +68,9 @@ def same(one, other, tolerance):
     return one == other
 
 
-def compare(asked, questions, calls, tolerance=CLOSE):
+def compare(asked, questions, calls, tolerance=CLOSE, **options):
     """Compare what page and library answer; return the answers."""
-    answers = asked(questions)
+    answers = asked(questions, **options)
     told = [library(call) for call in calls]
     for question, ours, theirs in zip(questions, answers, told, strict=True):
         kept = {key: ours[key] for key in ours if key in ("answer", "error")}
@@ -292,8 +292,9 @@ def requests(seed, count, log):
         yield mapping, *sides, chance.choice(SHOWS)
 
 
-def compare_maps(asked, seed, count, log):
+def compare_maps(asked, seed, count, log, monkeypatch):
     """Compare maps: the powers of ten of a logarithmic side differ in their last bit."""
+    monkeypatch.setattr(maps, "LIMITS", dataclasses.replace(maps.LIMITS, events=EVENTS))
     questions, calls = [], []
     for drop, x, y, show in requests(seed, count, log):
         questions.append(["map", {"drop": drop, "x": x, "y": y, "show": show}])
@@ -302,7 +303,7 @@ def compare_maps(asked, seed, count, log):
         calls.append(lambda b=base, s=sides, w=show: without_version(maps.map_drop(b, *s, w)))
         questions.append(["mapPaths", drop])
         calls.append(lambda b=base: maps.list_paths(b))
-    return compare(asked, questions, calls, 1e-9 if log else CLOSE)
+    return compare(asked, questions, calls, 1e-9 if log else CLOSE, events=EVENTS)
 
 
 def without_version(text):
@@ -312,12 +313,12 @@ def without_version(text):
 
 
 @pytest.mark.parametrize("log", [False, True])
-def test_maps_are_the_same(asked, log):
-    told = compare_maps(asked, SEED, 40, log)
+def test_maps_are_the_same(asked, log, monkeypatch):
+    told = compare_maps(asked, SEED, 40, log, monkeypatch)
     assert 0.05 < refused(told) < 0.6
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("log", [False, True])
-def test_many_maps_are_the_same(asked, log):
-    compare_maps(asked, SEED + 1, 1000, log)
+def test_many_maps_are_the_same(asked, log, monkeypatch):
+    compare_maps(asked, SEED + 1, 1000, log, monkeypatch)
