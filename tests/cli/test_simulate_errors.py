@@ -25,6 +25,14 @@ def test_tables_have_errors_and_say_how(capsys):
     assert "Measure height better: it makes 8" in out
 
 
+def test_times_of_springs_that_do_not_change_have_no_error(capsys):
+    out = said(capsys, "simulate", "basketball", "tennis", "--height", "63 ± 1 cm")
+    contacts = out[out.index("Contacts,") :].splitlines()
+    (basketball,) = (line.split() for line in contacts if line.startswith("floor"))
+    assert basketball[5:7] == ["30.58", "30.58"]
+    assert "70.07(56)" in basketball
+
+
 def test_json_has_the_errors_of_predict(capsys):
     plain = json.loads(said(capsys, *PAIR[:4], "63 cm", *PAIR[5:], "--json"))
     found = json.loads(said(capsys, *PAIR, "--json"))

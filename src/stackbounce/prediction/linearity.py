@@ -12,12 +12,12 @@ from stackbounce.run.options import Options
 from stackbounce.run.quantities import QUANTITIES, solve_quantities
 from stackbounce.run.result import Status
 
-__all__ = ["STEP", "Slopes", "Solved", "differentiate"]
+__all__ = ["ROUND_OFF", "STEP", "Slopes", "Solved", "differentiate"]
 
 STEP = 0.1  # of a standard deviation, for central differences
+ROUND_OFF = 1e-10  # relative: differences of this size are none
 
 _ALLOWED = 0.1  # root mean square of their differences, in standard deviations of the result
-_ROUND_OFF = 1e-10  # relative: differences of this size are none
 
 Slopes = Mapping[str, tuple[Array, Array]]
 """Values (parts,) by the name of a quantity, and derivatives (parts, numbers); nan where none."""
@@ -78,7 +78,7 @@ def differentiate(
             if not np.all(np.isfinite(table[:, part])):
                 reason = reason or f"some drops have no {here}"
                 continue
-            size = _ROUND_OFF * np.nanmax(np.abs(table))
+            size = ROUND_OFF * np.nanmax(np.abs(table))
             if np.ptp(table[:, part]) <= size:
                 slope[part] = 0.0
             off = float(np.sqrt(np.mean((tested[:, part] - lines[:, part]) ** 2)))

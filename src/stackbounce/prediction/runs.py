@@ -9,7 +9,7 @@ import numpy as np
 
 from stackbounce.model import Drop
 from stackbounce.prediction.inputs import Array, Inputs, of_draws
-from stackbounce.prediction.linearity import STEP
+from stackbounce.prediction.linearity import ROUND_OFF, STEP
 from stackbounce.run.driver import simulate
 from stackbounce.run.options import Options
 from stackbounce.run.paths import drop_at
@@ -64,6 +64,8 @@ class Runs:
             column[~np.isfinite(column)] = np.nan
             share = float(np.mean(np.isfinite(column)))
             if self.drawn is None and share == 1.0:
+                if np.ptp(column) <= ROUND_OFF * np.max(np.abs(column)):
+                    column[:] = column[0]
                 found[name] = self.inputs.linear(float(column[0]), self._slopes(column)), share
             else:
                 found[name] = of_draws(column), share
