@@ -21,6 +21,10 @@ CONTACTS = {
     "Hertz": (sb.Hertz(1e6), sb.Hertz(6e5)),
     "Viscoelastic": (sb.Viscoelastic(1e6, 1e-4), sb.Viscoelastic(6e5, 5e-5)),
     "HuntCrossley": (sb.HuntCrossley(1e6, 1.5, 0.2), sb.HuntCrossley(6e5, 1.5, 0.1)),
+    "StandardLinearSolid": (
+        sb.StandardLinearSolid(3e4, 0.6, 5e-4),
+        sb.StandardLinearSolid(2e4, 0.4, 1e-3),
+    ),
     "free": (
         sb.Hysteretic(3.6e4, restitution=0.78),
         sb.Hysteretic(2.2e4, restitution=0.9),
