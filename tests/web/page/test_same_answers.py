@@ -4,6 +4,7 @@ import dataclasses
 import json
 import math
 import random
+import re
 import shutil
 
 import numpy as np
@@ -21,7 +22,9 @@ from web.page.scenarios import drawn, scenarios
 
 SEED = 5
 CLOSE = 1e-12
+STRONG = 1e4  # relaxation strength
 EVENTS = 300  # of random drops
+NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="node is not installed")
 
@@ -62,6 +65,11 @@ def differences(one, other, path="", tolerance=CLOSE):
 
 
 def same(one, other, tolerance):
+    """Tell whether words are the same, and numbers, also those in words, nearly."""
+    if isinstance(one, str) and isinstance(other, str):
+        words = NUMBER.sub("#", one) == NUMBER.sub("#", other)
+        pairs = zip(NUMBER.findall(one), NUMBER.findall(other), strict=False)
+        return words and all(same(float(a), float(b), tolerance) for a, b in pairs)
     numbers = all(isinstance(n, int | float) and not isinstance(n, bool) for n in (one, other))
     if numbers:
         return math.isclose(one, other, rel_tol=tolerance, abs_tol=1e-300)
@@ -74,7 +82,8 @@ def compare(asked, questions, calls, tolerance=CLOSE, **options):
     told = [library(call) for call in calls]
     for question, ours, theirs in zip(questions, answers, told, strict=True):
         kept = {key: ours[key] for key in ours if key in ("answer", "error")}
-        assert not list(differences(kept, theirs, "", tolerance)), (question, ours.get("stack"))
+        near = tolerance(theirs) if callable(tolerance) else tolerance
+        assert not list(differences(kept, theirs, "", near)), (question, ours.get("stack"))
     return told
 
 
@@ -221,7 +230,17 @@ def compare_laws(asked, seed, count):
         asked_of["exponent"] = chance.choice((None, None, 1.0, 1.5, 2.0, 0.5))
         questions.append(["law", {"law": to} | asked_of])
         calls.append(lambda n=to, g=asked_of: catalogue.calibrate_law(n, **g))
-    return compare(asked, questions, calls)
+    return compare(asked, questions, calls, hardly_bounces)
+
+
+def hardly_bounces(answer):
+    """Return how near the numbers of a law have to be.
+
+    Of a solid that relaxes nearly all of its force, restitutions below 0.001 are a difference of
+    numbers near 1: their calibration returns what was asked for to 1e-10 only.
+    """
+    strength = answer.get("answer", {}).get("contact", {}).get("relaxation_strength", 0.0)
+    return 1e-9 if strength > STRONG else CLOSE
 
 
 def test_laws_are_calibrated_and_converted_alike(asked):
