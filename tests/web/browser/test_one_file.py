@@ -84,6 +84,7 @@ def test_without_workers_it_says_what_it_needs(visit):
         has_text="does not let this page start a worker"
     )
     told.wait_for(state="visible")
+    assert visit.state("result") is None
     visit.complaints.clear()
 
 

@@ -379,6 +379,7 @@ def test_an_engine_that_cannot_be_loaded_is_told_and_tried_again(visit):
     page.get_by_role("button", name="Try again").click()
     visit.ready()
     page.locator("#banner").wait_for(state="hidden")
+    assert visit.state("result.status") == "FINISHED"
     visit.complaints.clear()  # Chromium logs the request that failed, which is the point here
 
 

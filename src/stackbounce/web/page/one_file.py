@@ -12,7 +12,7 @@ from stackbounce.web.page.parts import made_file
 __all__ = ["one_file"]
 
 _STATIC = Path(__file__).parent.parent / "static"
-_SERVED, _ALONE = "js/home/served.js", "js/home/one_file.js"
+_SERVED, _ALONE = "js/origin/served.js", "js/origin/one_file.js"
 _POLICY = (
     "default-src 'none'; script-src '{script}' 'wasm-unsafe-eval'; style-src '{style}'; "
     "worker-src blob:; img-src data: blob:; base-uri 'none'; form-action 'none'"

@@ -2,7 +2,7 @@
 
 import { Client } from "./engine/client.js";
 import { pictureOf } from "./export_picture.js";
-import { hasServer, loadParts, startWorker } from "./home/served.js";
+import { hasServer, loadParts, startWorker } from "./origin/served.js";
 
 let loaded = null;
 

@@ -5,7 +5,7 @@ import * as api from "./api.js";
 import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
-import { hasServer, loadMeasure } from "./home/served.js";
+import { hasServer, loadMeasure } from "./origin/served.js";
 import { mountNumbers } from "./numbers.js";
 import { mountPlots } from "./plots.js";
 import { carryErrors } from "./prediction.js";
