@@ -1,6 +1,5 @@
 """Ties: what follows from what is varied, and formulas that would do harm."""
 
-
 import numpy as np
 import pytest
 
