@@ -21,7 +21,8 @@ from adversary.table import Failure, begin
 START = 0.15  # s; every third signal comes that early
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _PAIR = ("basketball", "tennis", "--height", "63cm")
-_INTERPRETER = re.compile(r'File "(?!<frozen )(?!.*lib.python3)')  # a place outside of Python's own
+_OURS = re.compile(r'File "(?!<frozen )(?!.*lib.python3)')  # a place outside of Python's own
+_SITE = 'File "<frozen site>"'  # Python sets itself up, .pth files of any package included
 _FALL = np.abs((np.arange(120) / 60.0) % 0.9 - 0.45)  # s from the top of each of three flights
 _RECORD = "\n".join(
     ["t,y", *(f"{row / 60.0:.4f},{1.0 - 4.903 * t**2:.5f}" for row, t in enumerate(_FALL))]
@@ -70,7 +71,7 @@ def attack(count: int, seed: int, folder: Path) -> list[Failure]:
         process = Started(command.arguments, own, folder / "logs")
         process.send(number, delay)
         ended = process.wait()
-        wrong = _wrong(command, number, ended, own, whole[key][1])
+        wrong = judge(command, number, ended, own, whole[key][1])
         if not wrong:
             again = run(command.arguments, own, folder / "logs", Started)
             if (again.code, again.out) != (0, whole[key][0].out):
@@ -101,11 +102,11 @@ def _undisturbed(command: Command, own: Path, logs: Path) -> tuple[Ended, dict[s
     return made
 
 
-def _wrong(
+def judge(
     command: Command, number: signal.Signals, ended: Ended, own: Path, files: dict[str, bytes]
 ) -> str:
     """Return what is wrong with the end of a command that a signal came to."""
-    if _INTERPRETER.search(ended.err):
+    if _OURS.search(ended.err) and _SITE not in ended.err:
         return "traceback"
     if ended.code not in (0, -number, 128 + number):
         at_start = ended.code == 1 and "KeyboardInterrupt" in ended.err  # before any of our code

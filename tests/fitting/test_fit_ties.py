@@ -1,7 +1,5 @@
 """Ties: what follows from what is varied, and formulas that would do harm."""
 
-import time
-
 import numpy as np
 import pytest
 
@@ -99,11 +97,9 @@ def test_a_formula_computes(text, expected):
         "k" * 100_000,
     ],
 )
-def test_what_is_no_formula_is_refused_at_once(text):
-    begun = time.perf_counter()
+def test_what_is_no_formula_is_refused(text):
     with pytest.raises(InvalidValue, match=r"^tie: contacts\.1\.stiffness ") as caught:
         fitted({UPPER: text})
-    assert time.perf_counter() - begun < 5.0
     assert "\n" not in str(caught.value)
     assert len(str(caught.value)) < 1500
 

@@ -7,7 +7,7 @@ import { dropAt, numbersOf as pathsOf, valueIn } from "../model/paths.js";
 import { numbersOf } from "../run/result.js";
 import { spaced } from "./play.js";
 
-const FLAT = ["mass", "kind", "stiffness", "exponent", "law_parameter", "second_parameter", "gap", "velocity"];
+const PER_BALL = ["mass", "kind", "stiffness", "exponent", "law_parameter", "second_parameter", "gap", "velocity"];
 
 /** Return the values along a side, evenly spaced or in equal ratios. */
 export function spread({ low, high, count, log }) {
@@ -124,44 +124,54 @@ export class Points {
 
   /** Return the numbers of some drops as the engine takes them. */
   list(from, count) {
-    const { base, drop, varied } = this;
-    const balls = drop.balls.length;
-    const drops = { rigid: base.rigid, gravity: new Float64Array(count).fill(base.gravity) };
-    for (const name of FLAT) {
-      drops[name] = new Float64Array(count * balls);
-      for (let k = 0; k < count; k += 1) drops[name].set(base[name], k * balls);
-    }
-    for (let k = 0; k < count; k += 1) {
-      const [i, j] = [(from + k) % this.columns, Math.floor((from + k) / this.columns)];
-      this.fill(drops, k, varied.map((one) => [one.number, one.at(i, j)]));
+    const { base } = this;
+    const drops = { rigid: base.rigid, gravity: repeated([base.gravity], count) };
+    for (const name of PER_BALL) drops[name] = repeated(base[name], count);
+    this.writers ??= this.makeWriters();
+    for (const { dims, targets, numbers } of this.writers) {
+      const [across, up] = ["x", "y"].map((dim) => dims.includes(dim));
+      const places = targets.map(([name, place]) => [drops[name], place, drops[name].length / count]);
+      for (let k = 0; k < count; k += 1) {
+        const [i, j] = [(from + k) % this.columns, Math.floor((from + k) / this.columns)];
+        const values = numbers(across ? i : 0, up ? j : 0);
+        for (let t = 0; t < places.length; t += 1) places[t][0][k * places[t][2] + places[t][1]] = values[t];
+      }
     }
     return drops;
   }
 
-  /** Set the numbers that vary in a row. */
-  fill(drops, row, values) {
-    const { drop } = this;
-    const balls = drop.balls.length;
-    const at = row * balls;
-    let { height } = drop;
-    const laws = {};
-    for (const [{ part, index, field }, value] of values) {
-      if (part === "gaps") drops.gap[at + index + 1] = value;
-      else if (part === "velocities") drops.velocity[at + index] = value;
-      else if (part === "balls") drops.mass[at + index] = value;
-      else if (part === "contacts") (laws[index] ??= {})[field] = value;
-      else if (field === "gravity") drops.gravity[row] = value;
-      else if (field === "height") height = value;
-      else drops.velocity.fill(-value, at, at + balls);
+  /** Return `[{dims, targets, numbers(i, j)}]`: what the engine's numbers become that a varied number changes. */
+  makeWriters() {
+    const { base, drop, varied } = this;
+    const writers = [];
+    const write = (some, targets, numbers) => {
+      const dims = [...new Set(some.flatMap((one) => one.dims))];
+      writers.push({ dims, targets, numbers: dims.length === 1 ? remembered(numbers) : numbers });
+    };
+    for (const one of varied) {
+      const { part, index } = one.number;
+      if (part === "gaps") write([one], [["gap", index + 1]], (i, j) => [one.at(i, j)]);
+      if (part === "velocities") write([one], [["velocity", index]], (i, j) => [one.at(i, j)]);
+      if (part === "balls") write([one], [["mass", index]], (i, j) => [one.at(i, j)]);
     }
-    for (const [index, varied] of Object.entries(laws)) {
-      const place = at + Number(index);
-      const [, ...numbers] = drop.contacts[index].engine_numbers(varied);
-      [drops.stiffness[place], drops.exponent[place], drops.law_parameter[place], drops.second_parameter[place]] = numbers;
-    }
-    if (height !== undefined) {
-      drops.velocity.fill(-Math.sqrt(2 * (drops.gravity[row] || known.gravity) * height), at, at + balls);
-    }
+    drop.contacts.forEach((law, contact) => {
+      const own = varied.filter(({ number }) => number.part === "contacts" && number.index === contact);
+      const constants = (i, j) => Object.fromEntries(own.map((one) => [one.number.field, one.at(i, j)]));
+      const targets = ["stiffness", "exponent", "law_parameter", "second_parameter"].map((name) => [name, contact]);
+      if (own.length) write(own, targets, (i, j) => law.engine_numbers(constants(i, j)).slice(1));
+    });
+    const fall = varied.filter(({ number }) => ["gravity", "height", "impact_speed"].includes(number.field));
+    const given = (field) => fall.find(({ number }) => number.field === field);
+    const speeds = (i, j) => {
+      const gravity = given("gravity")?.at(i, j) ?? base.gravity;
+      const height = given("height")?.at(i, j) ?? drop.height;
+      const speed = given("impact_speed")?.at(i, j) ?? Math.sqrt(2 * (gravity || known.gravity) * height);
+      return [gravity, ...drop.balls.map(() => -speed)];
+    };
+    const falls = given("height") || given("impact_speed") || drop.height !== undefined;
+    const targets = [["gravity", 0], ...drop.balls.map((_, ball) => ["velocity", ball])];
+    if (fall.length) write(fall, falls ? targets : targets.slice(0, 1), speeds);
+    return writers;
   }
 }
 
@@ -173,7 +183,7 @@ function run(drops, springs) {
 export function solveAll(drops) {
   const numbers = drops.map(numbersOf);
   const together = { rigid: drops[0].rigid, gravity: Float64Array.from(numbers, ({ gravity }) => gravity) };
-  for (const name of FLAT) together[name] = Float64Array.from(numbers.flatMap((one) => one[name]));
+  for (const name of PER_BALL) together[name] = Float64Array.from(numbers.flatMap((one) => one[name]));
   return new Outcomes(together, run(together, false), drops[0].balls.length);
 }
 
@@ -205,4 +215,18 @@ class Outcomes {
     const speed = ratio * reference;
     return (speed * Math.abs(speed)) / (2 * known.gravity);
   }
+}
+
+/** Return an array of some numbers, so many times. */
+function repeated(numbers, count) {
+  const all = new Float64Array(count * numbers.length);
+  all.set(numbers);
+  for (let done = numbers.length; done < all.length; done *= 2) all.copyWithin(done, 0, done);
+  return all;
+}
+
+/** Return a function of the places along one side that computes each once. */
+function remembered(numbers) {
+  const found = [];
+  return (i, j) => (found[i + j] ??= numbers(i, j)); // one of the two is 0
 }
