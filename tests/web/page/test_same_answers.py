@@ -5,7 +5,6 @@ import json
 import math
 import random
 import re
-import shutil
 
 import numpy as np
 import pytest
@@ -17,7 +16,6 @@ from stackbounce.json_values import plain
 from stackbounce.model.schema import read_law
 from stackbounce.web.answers import catalogue, exports, maps, play
 from stackbounce.web.schema import Axis, read_drop
-from web.page.asking import ask, lay_out
 from web.page.scenarios import drawn, scenarios
 
 SEED = 5
@@ -25,18 +23,6 @@ CLOSE = 1e-12
 STRONG = 1e4  # relaxation strength
 EVENTS = 300  # of random drops
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?")
-
-pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="node is not installed")
-
-
-@pytest.fixture(scope="session")
-def page(tmp_path_factory):
-    return lay_out(tmp_path_factory.mktemp("page"))
-
-
-@pytest.fixture
-def asked(page, tmp_path):
-    return lambda questions, **options: ask(page, questions, tmp_path, **options)
 
 
 def library(call):

@@ -51,7 +51,7 @@ export async function mount(root, store, api, clock) {
     parts.again.hidden = !news.problem;
     if (news.problem) return;
     ({ answer, paths } = news);
-    form.update({ ...news, figure: figureOf(figures, answer) });
+    form.update({ ...news, figure: figureOf(figures, answer), notice: store.get().notice });
     draw();
   });
   const refresh = () => {

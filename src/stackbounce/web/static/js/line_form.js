@@ -6,7 +6,7 @@ import { SHOWS } from "./line_words.js";
 import { sideForm } from "./side_form.js";
 
 /**
- * Return `{element, update({settings, paths, unfit, figure})}`.
+ * Return `{element, update({settings, paths, unfit, figure, notice})}`.
  * @param {object[]} figures the paper's lines @param {object} heard `set(settings)`, `use(figure)` and `save(kind)`
  */
 export function lineForm(figures, { set, use, save }) {
@@ -14,8 +14,8 @@ export function lineForm(figures, { set, use, save }) {
   const says = h("p", { class: "note" });
   element.addEventListener("submit", (event) => event.preventDefault());
   let shown = "";
-  const update = ({ settings, paths, unfit, figure }) => {
-    write(says, [wordsOf(unfit), figure?.says].filter(Boolean).join(" "));
+  const update = ({ settings, paths, unfit, figure, notice }) => {
+    write(says, [notice, wordsOf(unfit), figure?.says].filter(Boolean).join(" "));
     const now = JSON.stringify([settings, paths.map(({ path, label }) => [path, label]), figure?.name]);
     if (now === shown) return;
     shown = now;

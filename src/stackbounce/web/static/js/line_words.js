@@ -61,6 +61,7 @@ function written(show, value, times = true) {
 /** Return a line as a whole in words: the smallest and the largest value of each curve, and where they are. */
 export function summary(answer) {
   const { x, show, curves, unfinished } = answer;
+  if (!curves.length) return "This drop has no contact.";
   const sentences = [...curves].reverse().map((curve) => {
     const [low, high] = extremes(curve.values, show);
     const name = capital(nameOf(answer, curve));

@@ -128,7 +128,7 @@ export class LineJob {
       drop: drop.toMapping(),
       x: { path: x.path, label, unit, low: x.low, high: x.high, log: x.log, values: places.map((place) => this.valueAt(place)) },
       show,
-      unit: this.curves[0].unit,
+      unit: (known.outcomes[show] ?? known.energy)[1],
       curves: this.curves.map(({ index, label: name }, i) => ({ index, label: name, ...curve("own", i), textbook: textbook(i) })),
       unfinished: places.filter((place) => this.rows.get(place).open).length,
     };
@@ -140,8 +140,8 @@ function listCurves(drop, show) {
   const kinds = ["energy_retained", ...Object.keys(known.outcomes)];
   if (!kinds.includes(show)) throw new InvalidValue(`${shown(show)} is no outcome; ${nearest(show, kinds)}`);
   const curve = (path, index) => {
-    const [label, unit] = nameOutcome(drop, path);
-    return { name: show, index, label, unit };
+    const [label] = nameOutcome(drop, path);
+    return { name: show, index, label };
   };
   if (show === "energy_retained") return [curve(show, null)];
   return drop.balls

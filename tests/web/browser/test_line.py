@@ -1,0 +1,298 @@
+"""The line in Chromium: what it draws, says and saves is what was computed."""
+
+import csv
+import io
+import re
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+
+pytestmark = pytest.mark.slow
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True}
+MASSES = "#view=line&line.x.path=mass_ratio&line.x.low=1&line.x.high=10&line.x.log=false"
+CURVES = """() => [...document.querySelectorAll('.line-curve')].map((curve) =>
+    [...curve.getAttribute('d').matchAll(/[ML](\\S+) ([-\\d.]+)/g)].map(([, x, y]) => [+x, +y]))"""
+
+
+def opened(visit, fragment="#view=line"):
+    page = visit.open(fragment)
+    whole(page)
+    return page
+
+
+def whole(page):
+    """Wait until a line is drawn."""
+    page.wait_for_function(
+        "() => document.querySelector('.line-curve') && document.querySelector('#line-summary')"
+        ".textContent && !document.querySelector('.line-message').textContent"
+    )
+
+
+def field(page):
+    """Return where the field of the drawing is on the board, in px: left, top, width, height."""
+    curve = np.array(page.evaluate(CURVES)[0])
+    lines = page.evaluate(
+        """() => [...document.querySelectorAll('.line-board svg > line')].map((one) =>
+             ['x1', 'x2', 'y1', 'y2'].map((name) => +one.getAttribute(name)))"""
+    )
+    across = [one for one in lines if one[2] == one[3]]
+    left, width = curve[0, 0], curve[-1, 0] - curve[0, 0]
+    heights = [one[2] for one in across]
+    return left, min(heights), width, max(heights) - min(heights)
+
+
+def spot(page, part, up=0.5):
+    left, top, width, height = field(page)
+    return {"x": left + part * width, "y": top + (1.0 - up) * height}
+
+
+def ratios(visit, mass_ratio):
+    drop = sb.Drop.from_mapping(visit.state("drop"))
+    balls = [sb.Ball(drop.balls[1].mass * mass_ratio), drop.balls[1]]
+    return sb.simulate(sb.Drop(balls, drop.contacts, impact_speed=3.53)).rebound_ratios
+
+
+def test_curves_and_axis_are_the_library_s(visit):
+    """Heights of the curves in px are proportional to the rebound ratios."""
+    page = opened(visit, MASSES)
+    left, _, width, _ = field(page)
+    lower, upper = (np.array(curve) for curve in page.evaluate(CURVES))
+    marks = dict(
+        page.evaluate(
+            """() => [...document.querySelectorAll('.line-board svg > text[text-anchor=end]')]
+                 .map((one) => [+one.textContent, +one.getAttribute('y')])"""
+        )
+    )
+    scale = np.polyfit(list(marks.values()), list(marks), 1)
+    for ratio in (1.3, 2.0, 4.4, 9.1):
+        x = left + (ratio - 1.0) / 9.0 * width
+        drawn = [np.polyval(scale, np.interp(x, *curve.T)) for curve in (lower, upper)]
+        assert drawn == pytest.approx(ratios(visit, ratio), abs=0.01)
+
+
+def test_words_at_the_crosshair_are_those_of_the_drop_there(visit):
+    page = opened(visit, MASSES)
+    board = page.locator(".line-board")
+    board.press("ArrowRight")  # the crosshair appears at the present drop
+    board.press("Shift+ArrowRight")
+    said = page.locator("#line [aria-live]").inner_text()
+    words = r"Mass ratio m₁/m₂ ([\d.]+): tennis ([\d.]+) times \(textbook ([\d.]+)\), basketball "
+    ratio, upper, textbook = map(float, re.match(words, said).groups())
+    assert ratio == pytest.approx(0.150 / 0.057 + 0.9, abs=0.01)
+    assert upper == pytest.approx(ratios(visit, ratio)[1], abs=0.006)
+    assert textbook == pytest.approx((3 * ratio - 1) / (ratio + 1), abs=0.006)  # eq. 2, e = 1
+    assert page.locator(".line-readout").inner_text() == said
+    board.press("Home")
+    assert "m₁/m₂ 2.63:" in page.locator("#line [aria-live]").inner_text()
+    board.press("Shift+ArrowRight")
+    board.press("Enter")
+    assert visit.state("view") == "play"
+    assert visit.state("drop.balls[0].mass") == pytest.approx(0.150 + 0.9 * 0.057, rel=1e-3)
+
+
+def test_a_click_plays_the_drop_of_that_point(visit):
+    page = opened(visit, MASSES)
+    page.locator(".line-board").click(position=spot(page, 0.5))
+    assert visit.state("view") == "play"
+    assert visit.state("drop.balls[0].mass") == pytest.approx(5.5 * 0.057, rel=0.01)
+
+
+def test_the_point_can_be_dragged_and_its_drop_follows(visit):
+    page = opened(visit, MASSES)
+    drawn = page.evaluate(CURVES)
+    box = page.locator(".line-board").bounding_box()
+    begin, end = spot(page, 0.2), spot(page, 0.7, 0.2)
+    page.mouse.move(box["x"] + begin["x"], box["y"] + begin["y"])
+    page.mouse.down()
+    page.mouse.move(box["x"] + end["x"], box["y"] + end["y"], steps=8)
+    page.mouse.up()
+    visit.ready()
+    assert visit.state("view") == "line"
+    masses = [ball["mass"] for ball in visit.state("result.drop.balls")]
+    assert masses[0] / masses[1] == pytest.approx(1.0 + 9.0 * 0.7, rel=0.01)
+    assert page.evaluate(CURVES) == drawn  # what varies along the line does not change it
+    dot = page.locator(".line-board circle").first
+    assert float(dot.get_attribute("cx")) == pytest.approx(end["x"], abs=1.5)
+
+
+def test_a_finger_looks_first_and_plays_by_the_button(visits):
+    visit = visits(**PHONE)
+    page = opened(visit, MASSES)
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
+    page.locator(".line-board").tap(position=spot(page, 0.5))
+    assert visit.state("view") == "line"
+    visit.picture("line-phone", full_page=True)
+    page.locator(".line-play").tap()
+    assert visit.state("view") == "play"
+    assert visit.state("drop.balls[0].mass") == pytest.approx(5.5 * 0.057, rel=0.02)
+
+
+def test_a_curve_follows_while_a_number_changes(visit):
+    """Many changes in a row: curves are drawn in between, and the last one wins."""
+    page = opened(visit)
+    page.evaluate(
+        """async () => {
+             const { store } = window.stackbounce; let seen = new Set();
+             const curve = () => document.querySelectorAll('.line-curve')[1].getAttribute('d');
+             for (let stiffness = 1000; stiffness <= 4000; stiffness += 100) {
+               const { drop } = store.get();
+               const contacts = [{ law: 'Spring', stiffness }, drop.contacts[1]];
+               store.set({ drop: { ...drop, contacts } });
+               await new Promise(requestAnimationFrame); seen.add(curve()); }
+             window.seen = seen.size; }"""
+    )
+    assert page.evaluate("() => window.seen") > 3
+    visit.ready()
+    drop = sb.Drop.from_mapping(visit.state("drop"))
+    assert drop.contacts[0].stiffness == 4000.0
+    ratio = sb.simulate(drop).rebound_ratios[1]
+    page.wait_for_function(
+        "(said) => document.querySelector('#line-summary').textContent.includes(said)",
+        arg=f"Tennis: smallest {ratio:.3g} times at 0 mm",
+    )
+
+
+def test_a_figure_of_the_paper_sets_drop_and_line(visit):
+    page = opened(visit)
+    page.locator("[data-key=line-figure]").select_option("figure-6-B2")
+    page.locator(".line-measured").first.wait_for()
+    assert page.locator(".line-measured").count() == 2
+    assert "measured 1.91 ± 0.02" in page.locator(".line-board").inner_text()
+    assert visit.state("drop.balls[1].mass") == 0.0248
+    assert page.locator("[data-key=line-x-high]").input_value() == "100"
+    page.evaluate(
+        """() => { const { store } = window.stackbounce;
+             store.set({ drop: { ...store.get().drop, gaps: [0.001] } }); }"""
+    )
+    page.locator(".line-measured").first.wait_for(state="detached")  # no drop of that figure
+    assert page.locator("[data-key=line-figure]").input_value() == ""
+
+
+def test_every_figure_and_every_outcome_is_drawn(visit):
+    page = opened(visit)
+    figures = page.locator("[data-key=line-figure] option")
+    names = [name for name in figures.evaluate_all("(all) => all.map((o) => o.value)") if name]
+    assert len(names) == 9
+    shows = ("rebound_height", "energy_retained", "collisions")
+    for name in names:
+        page.locator("[data-key=line-figure]").select_option(name)
+        page.wait_for_function(
+            "(name) => document.querySelector('[data-key=line-figure]').value === name", arg=name
+        )
+        visit.picture(f"line-{name}")
+    for show in shows:
+        page.locator("[data-key=line-show]").select_option(show)
+        page.wait_for_function("() => document.querySelector('.line-curve')")
+        visit.picture(f"line-{show}")
+
+
+def test_the_address_keeps_the_line(visits):
+    first = visits()
+    page = opened(first)
+    page.locator("[data-key=line-x]").select_option("impact_speed")
+    page.locator("[data-key=line-show]").select_option("rebound_height")
+    page.locator("[data-key=line-x-high]").fill("5")
+    page.locator("[data-key=line-x-high]").press("Tab")
+    page.wait_for_function("() => /line.x.high=5/.test(location.hash)")
+    second = visits()
+    other = opened(second, page.evaluate("() => location.hash"))
+    assert second.state("line") == first.state("line")
+    assert other.locator("[data-key=line-show]").input_value() == "rebound_height"
+    assert other.locator(".line-title").inner_text() == "Rebound heights against impact speed"
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ("line.x.path=wind&line.x.low=0&line.x.high=1", "This drop has no “wind”"),
+        ("line.x.path=__proto__&line.x.low=0&line.x.high=1", "This drop has no “__proto__”"),
+        ("line.x.path=gaps.0&line.x.low=1e999&line.x.high=%3Cb%3E", "This drop has no “x”"),
+        ("line.show=%3Cimg%20src%3Dx%3E", "This drop has no “<img src=x>”"),
+    ],
+)
+def test_what_a_link_has_and_this_drop_has_not_is_named(visit, more, words):
+    page = opened(visit, f"#view=line&{more}")
+    assert page.locator(".line-form .note").inner_text().startswith(words)
+    assert page.locator("[data-key=line-x]").input_value() == "gaps.0"
+    assert page.locator("img").count() == 0
+
+
+def test_settings_of_a_newer_page_are_named_and_the_rest_is_kept(visit):
+    page = opened(visit, "#view=line&line.show=collisions&line.smooth=3&map.z.low=1&line.x=1")
+    assert visit.state("line") == {"show": "collisions"}
+    assert "“line.smooth”, “map.z.low”, “line.x”" in page.locator(".line-form .note").inner_text()
+    assert page.locator("[data-key=line-show]").input_value() == "collisions"
+
+
+def test_a_drop_that_is_none_is_told_and_the_line_comes_back(visit):
+    page = opened(visit)
+    page.evaluate(
+        """() => { const { store } = window.stackbounce; window.good = store.get().drop;
+             store.set({ drop: { ...window.good, impact_speed: -1 } }); }"""
+    )
+    page.locator(".line-message").get_by_text("impact_speed must be a positive number").wait_for()
+    page.evaluate("() => window.stackbounce.store.set({ drop: window.good })")
+    whole(page)
+
+
+@pytest.mark.parametrize("law", ["HuntCrossley", "StandardLinearSolid"])
+def test_six_balls_with_a_law_of_their_own_are_drawn_from_coarse_to_fine(visit, law):
+    page = opened(visit)
+    contact = {
+        "HuntCrossley": {"stiffness": 1e6, "exponent": 1.5, "dissipation": 0.1},
+        "StandardLinearSolid": {
+            "stiffness": 1e4,
+            "relaxation_strength": 1.0,
+            "relaxation_time": 1e-3,
+        },
+    }[law]
+    page.evaluate(
+        """(contact) => { const { store } = window.stackbounce; const { drop } = store.get();
+             const balls = Array.from({ length: 6 }, (_, i) => ({ mass: 0.1 / (1 + i) }));
+             store.set({ drop: { ...drop, balls, gaps: [0, 0, 0, 0, 0],
+                                 contacts: balls.map(() => contact) } }); }""",
+        {"law": law} | contact,
+    )
+    page.wait_for_function("() => document.querySelectorAll('.line-curve').length === 6")
+    page.wait_for_function(
+        "() => document.querySelectorAll('.line-curve')[5].getAttribute('d').length > 2000"
+    )
+    visit.picture(f"line-six-{law}")
+
+
+@pytest.mark.parametrize("kind", ["csv", "svg", "png"])
+def test_a_line_is_saved(visit, kind):
+    page = opened(visit, MASSES)
+    with page.expect_download() as saved:
+        page.locator(f"[data-key=line-save-{kind}]").click()
+    content = saved.value.path().read_bytes()
+    assert saved.value.suggested_filename == f"stackbounce-line.{kind}"
+    if kind != "csv":
+        assert content.startswith({"svg": b"<svg xmlns=", "png": b"\x89PNG"}[kind])
+        return
+    head, *rows = csv.reader(io.StringIO(content.decode()))
+    assert head[0] == "mass ratio m₁/m₂, lower over upper"
+    assert head[3:] == [
+        "rebound speed of tennis over v₀",
+        "rebound speed of tennis over v₀, textbook",
+    ]
+    for row in rows[:: len(rows) // 5]:
+        ratio, lower, _, upper, _ = map(float, row)
+        assert [lower, upper] == pytest.approx(ratios(visit, ratio), rel=1e-9)
+
+
+def test_a_screen_reader_is_told(visit):
+    page = opened(visit)
+    board = page.locator(".line-board")
+    assert board.get_attribute("role") == "application"
+    assert board.get_attribute("aria-label").startswith("Line: Rebound speeds over v₀; across, gap")
+    for one in board.get_attribute("aria-describedby").split():
+        assert len(page.locator(f"#{one}").text_content()) > 40
+    board.focus()
+    assert page.evaluate("() => getComputedStyle(document.activeElement).cursor") == "crosshair"
+    page.locator("#tab-line").focus()
+    page.keyboard.press("ArrowRight")
+    assert visit.state("view") == "map"
