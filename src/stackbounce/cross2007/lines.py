@@ -114,11 +114,11 @@ def pair_mass_ratios(b: Bench) -> tuple[float, ...]:
 
 def _separate(b: Bench) -> Iterator[Line]:
     """Yield the lines of Fig. 2: separate collisions with two restitutions."""
-    figures = (("a", "3", "first", 3.0, AFTER_FIRST), ("b", "0.52", "second", 0.6, AFTER_SECOND))
-    for part, least, count, ratio, across in figures:
+    figures = (("a", "first", 3.0, AFTER_FIRST), ("b", "second", 0.6, AFTER_SECOND))
+    for part, count, ratio, across in figures:
         says = (
-            f"Speeds after the last collision. Above a mass ratio of about {least} that is the "
-            f"{count} one of the two balls, which Figure 2({part}) shows."
+            "Speeds after the last collision. To the right of the last place where the lower ball "
+            f"stops, that is the {count} one of the two balls, which Figure 2({part}) shows."
         )
         for key, ending in (("models.lossless", ""), ("models.restitution", "-lossy")):
             upper, e = b("fig5.upper_mass"), b(key)

@@ -5,7 +5,7 @@ import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withVal
 import { choice, numberField } from "./fields.js";
 import { asMeasured, changeLaw } from "./laws.js";
 import { withError } from "./prediction.js";
-import { FIRST } from "./store.js";
+import { withExample } from "./store.js";
 import { capital } from "./words.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
 
@@ -98,8 +98,7 @@ export function mountControls(root, store, api, catalogue) {
     write(said, preset.says);
     notes = [];
     example = complete(preset.drop);
-    const { until, slow, replay } = store.get();
-    store.set({ drop: example, errors: {}, until: null, t: null, slow: until === null ? slow : FIRST.slow, replay: replay + 1 });
+    store.set(withExample(store.get(), example));
   });
   root.replaceChildren(presets, said, general, drops, tower);
   store.subscribe((state, before) => {

@@ -12,6 +12,7 @@ import { brief, haveSameMap, numberIn, withNumbers } from "./map_words.js";
 import { onRepaint, palette } from "./palette.js";
 import { download } from "./share.js";
 import { mountStage } from "./stage.js";
+import { withExample } from "./store.js";
 import { shortly } from "./words.js";
 
 const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
@@ -33,9 +34,8 @@ export async function mount(root, store, api, clock) {
 
   const use = (figure) => {
     if (!figure) return;
-    const { replay } = store.get();
     const line = { x: figure.x, show: "rebound_ratio" };
-    store.set({ drop: complete(figure.drop), line, errors: {}, until: null, t: null, replay: replay + 1 });
+    store.set({ ...withExample(store.get(), complete(figure.drop)), line });
   };
   const save = async (kind) => {
     if (answer) download(await fileOf(kind, answer, measured()), `stackbounce-line.${kind}`);

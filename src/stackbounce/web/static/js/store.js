@@ -38,6 +38,11 @@ export const FIRST = {
   overlays: [],
 };
 
+/** Return what changes in a state that shows another drop from its begin: its impact, without errors. */
+export function withExample({ until, slow, replay }, drop) {
+  return { drop, errors: {}, until: null, t: null, slow: until === null ? slow : FIRST.slow, replay: replay + 1 };
+}
+
 /** Return a store: `get()`, `set(patch)`, `subscribe(listener)`. */
 export function createStore(first = {}) {
   let state = { ...FIRST, ...first };
