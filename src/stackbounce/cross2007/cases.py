@@ -76,14 +76,8 @@ def _sized(bench: Bench, drop: Drop) -> Drop:
 
 
 def _section_two(ratio: float, stiffness: float = 1.0) -> Callable[[Bench], Drop]:
-    """Return a function that makes section II's drop with 0.2 kg above and a mass ratio."""
-
-    def make(b: Bench) -> Drop:
-        upper, spring = b("fig5.upper_mass"), b("fig5.ball_stiffness")
-        masses, springs = (ratio * upper, upper), (stiffness * spring, spring)
-        return spring_pair(masses, springs, speed=b("models.speed"))
-
-    return make
+    """Return a function that makes section II's drop with a mass ratio and a stiffness ratio."""
+    return lambda b: stacks.section_two(b, ratio, stiffness)
 
 
 def _textbook(restitution: str, ratio: float | None = None) -> Callable[[Bench], Drop]:

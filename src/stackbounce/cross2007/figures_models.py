@@ -13,6 +13,7 @@ from stackbounce.cross2007.curves import (
     sample_forces,
 )
 from stackbounce.cross2007.drops import spring_pair
+from stackbounce.cross2007.lines import AFTER_FIRST, AFTER_SECOND, STIFFNESS, pair_mass_ratios
 from stackbounce.cross2007.style import (
     BLACK,
     FLOOR,
@@ -42,7 +43,7 @@ _POINTS = 241
 def draw_figure_2a(bench: Bench) -> Picture:
     """Draw the velocities after the first ball-ball collision against the mass ratio."""
     figure, (ax,) = make_axes()
-    ratios = np.linspace(0.02, 10.0, _POINTS)
+    ratios = np.linspace(AFTER_FIRST.low, AFTER_FIRST.high, _POINTS)
     lossless = after_collision(bench, ratios, bench("models.lossless"), 1)
     lossy = after_collision(bench, ratios, bench("models.restitution"), 1)
     _two_curves(ax, ratios, lossless, "-")
@@ -69,7 +70,8 @@ def draw_figure_2a(bench: Bench) -> Picture:
 def draw_figure_2b(bench: Bench) -> Picture:
     """Draw the velocities after the second ball-ball collision against the mass ratio."""
     figure, (ax,) = make_axes()
-    ratios = np.linspace(0.02, 0.9999, _POINTS)  # at 1 the second collision ends for e = 1
+    most = 0.9999 * AFTER_SECOND.high  # where the second collision ends for e = 1
+    ratios = np.linspace(AFTER_SECOND.low, most, _POINTS)
     lossless = after_collision(bench, ratios, bench("models.lossless"), 2)
     lossy = after_collision(bench, ratios, bench("models.restitution"), 2)
     _two_curves(ax, ratios, lossless, "-")
@@ -149,13 +151,9 @@ def draw_figure_5(bench: Bench) -> Picture:
 def draw_figure_6(bench: Bench) -> Picture:
     """Draw the rebound ratios against the stiffness ratio for three mass ratios."""
     figure, (ax,) = make_axes(3.3, right=0.4)
-    ratios = np.geomspace(0.1, 100.0, _POINTS)
-    cases = (
-        (bench("basketball.mass") / bench("tennis.mass"), BLACK),
-        (bench("B2_on_B1.mass_ratio"), FLOOR),
-        (bench("B3_on_B1.mass_ratio"), UPPER),
-    )
-    for mass_ratio, color in cases:
+    ratios = np.geomspace(STIFFNESS.low, STIFFNESS.high, _POINTS)
+    colors = (BLACK, FLOOR, UPPER)
+    for mass_ratio, color in zip(pair_mass_ratios(bench), colors, strict=True):
         lower, upper = rebound_by_stiffness(bench, mass_ratio, ratios)
         ax.semilogx(ratios, lower, "--", color=color)
         ax.semilogx(ratios, upper, "-", color=color)
@@ -188,7 +186,7 @@ def _two_curves(ax: "Axes", xs: Array, pair: Array, style: str) -> None:
 
 def _rebound(bench: Bench, name: str, stiffness_ratio: float, at: float) -> Picture:
     figure, (ax,) = make_axes()
-    ratios = 10.0 * np.linspace(0.045, 1.0, _POINTS) ** 2  # finer where the curves wind
+    ratios = AFTER_FIRST.high * np.linspace(0.045, 1.0, _POINTS) ** 2  # finer where the curves wind
     pair = rebound_by_mass(bench, ratios, stiffness_ratio)
     _two_curves(ax, ratios, pair, "-")
     tag(ax, ratios, pair[1], at, r"$v_2/v_0$", UPPER)

@@ -19,6 +19,7 @@ __all__ = [
     "other_fit",
     "parted_twins",
     "reversed_pair",
+    "section_two",
     "small_fit",
     "smallest_fit",
     "stack_masses",
@@ -31,6 +32,13 @@ __all__ = [
 def stack_masses(b: Bench) -> Two:
     """Return the masses of basketball and tennis ball in kg."""
     return b("basketball.mass"), b("tennis.mass")
+
+
+def section_two(b: Bench, ratio: float, stiffness: float) -> Drop:
+    """Return section II's drop for two ratios, with Fig. 5's upper mass and upper spring."""
+    upper, spring = b("fig5.upper_mass"), b("fig5.ball_stiffness")
+    masses, springs = (ratio * upper, upper), (stiffness * spring, spring)
+    return spring_pair(masses, springs, speed=b("models.speed"))
 
 
 def better_fit(b: Bench) -> Drop:

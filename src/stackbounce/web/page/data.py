@@ -1,10 +1,12 @@
 """What the page knows of the package, as JSON: `model.json`."""
 
+import dataclasses
 import functools
 import itertools
 import json
 from typing import Any
 
+from stackbounce.cross2007.lines import list_lines
 from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, STEEPEST
 from stackbounce.model.catalogue import BALLS, stack
@@ -35,6 +37,7 @@ def model_json() -> str:
             "energy": maps.ENERGY,
             "gravity": STANDARD_GRAVITY,
             "kinds": examples(),
+            "lines": _list_lines(),
             "map_rtol": maps.RTOL,
             "outcomes": maps.OUTCOMES,
             "ratios": {
@@ -52,6 +55,21 @@ def model_json() -> str:
             },
         }
     )
+
+
+def _list_lines() -> list[dict[str, Any]]:
+    """Return the paper's lines: a drop each, what varies, and what was measured of each ball."""
+    return [
+        {
+            "name": line.name,
+            "title": line.title,
+            "says": line.says,
+            "drop": line.drop.to_mapping(),
+            "x": dataclasses.asdict(line.across),
+            "measured": [{"value": value, "error": error} for value, error in line.measured],
+        }
+        for line in list_lines()
+    ]
 
 
 def _list_stacks() -> dict[str, Any]:

@@ -1,11 +1,12 @@
 /** The state in the address: a link shows again what it was copied from. */
 
 import { complete, isDrop } from "./drops.js";
-import { FIRST } from "./store.js";
+import { FIRST, VIEWS } from "./store.js";
 
 const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height", "gravity"];
 const WORDS = new Set(["name", "law", "reloading", "path", "show", "x", "y"]);
-const VIEWS = ["play", "map", "measure", "paper"];
+const SETTINGS = { line: ["x", "show"], map: ["x", "y", "show"] }; // of a view, by the first part of their paths
+const SIDE = ["path", "low", "high", "log"];
 const PART = /^[a-z]+(_[a-z]+)*$/;
 const MOST = 16; // more members than any list of a drop may have
 const NAMED = 3; // parts of a link that are named
@@ -22,7 +23,7 @@ export function write(state) {
   if (state.slow !== FIRST.slow) pairs.push(["slow", state.slow]);
   if (state.magnify !== FIRST.magnify) pairs.push(["magnify", state.magnify]);
   if (state.t !== null) pairs.push(["t", Number(state.t.toPrecision(6))]);
-  if (state.map) flatten("map.", state.map, pairs);
+  for (const view of Object.keys(SETTINGS)) if (state[view]) flatten(`${view}.`, state[view], pairs);
   return pairs.map(([key, value]) => `${key}=${escape(String(value))}`).join("&");
 }
 
@@ -30,7 +31,7 @@ export function write(state) {
 export function read(fragment) {
   const patch = {};
   const drop = {};
-  const map = {};
+  const settings = {};
   const errors = {};
   const unknown = [];
   for (const pair of fragment.replace(/^#/, "").split("&")) {
@@ -41,8 +42,8 @@ export function read(fragment) {
     const parts = key.split(".");
     const taken = DROP.includes(parts[0])
       ? insert(drop, parts, text)
-      : parts[0] === "map"
-        ? insert(map, parts.slice(1), text)
+      : Object.hasOwn(SETTINGS, parts[0])
+        ? insertSetting(settings, parts, text)
         : parts[0] === "error"
           ? insertError(errors, parts.slice(1), text)
           : readOne(patch, key, text);
@@ -50,7 +51,7 @@ export function read(fragment) {
   }
   if (isDrop(drop)) Object.assign(patch, { drop: complete(drop), errors });
   else if (Object.keys(drop).length) patch.notice = "The link holds no whole drop: this is what was here.";
-  if (Object.keys(map).length) patch.map = map;
+  Object.assign(patch, settings);
   if (unknown.length) {
     const more = unknown.length > NAMED ? ` and ${unknown.length - NAMED} more` : "";
     const names = unknown.slice(0, NAMED).map((name) => `“${name}”`).join(", ");
@@ -81,7 +82,7 @@ export function follow(store) {
 }
 
 const FIRST_SHOWN = Object.fromEntries(
-  ["view", "until", "ghosts", "slow", "magnify", "t", "map"].map((name) => [name, FIRST[name]]),
+  ["view", "until", "ghosts", "slow", "magnify", "t", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 
 function flatten(path, value, pairs) {
@@ -110,6 +111,12 @@ function insert(target, parts, text) {
     place = place[index];
   }
   return false;
+}
+
+/** Take a setting of a view, such as line.x.low; tell whether there is such a one. */
+function insertSetting(settings, [view, name, ...rest], text) {
+  const fits = rest.length === 0 ? name === "show" : rest.length === 1 && name !== "show" && SIDE.includes(rest[0]);
+  return SETTINGS[view].includes(name) && fits && insert((settings[view] ??= {}), [name, ...rest], text);
 }
 
 /** Take the error of a number of the drop; tell whether its path is one. */

@@ -16,7 +16,7 @@ function parts() {
 }
 
 const player = new Client(startWorker, parts); // the drop that is shown
-const desk = new Client(startWorker, parts); // maps, and all else
+const desk = new Client(startWorker, parts); // maps, lines, and all else
 
 /** Start the second worker, so that nothing has to be loaded later on. */
 export const prepare = () => desk.prepare().catch(() => null); // it is tried again when it is asked
@@ -37,6 +37,9 @@ export const mapPaths = (drop) => desk.ask("mapPaths", [drop]);
 
 /** Return the last one of some maps; `told` hears the others. A newer call ends it, with null. */
 export const maps = (requests, told) => desk.ask("maps", [requests], { told });
+
+/** Return a line; `told` hears its coarser stages. A newer call, or one of `maps`, ends it, with null. */
+export const line = (request, told) => desk.ask("lines", [[request]], { told });
 
 /** Return a file (Blob) of a drop: csv, toml, python, svg or png. */
 export async function exportFile(kind, drop, until = null) {

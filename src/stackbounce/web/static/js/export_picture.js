@@ -5,9 +5,13 @@ import { ticks } from "./map_axes.js";
 import { format } from "./units.js";
 import { ballName, setUp } from "./words.js";
 
-const WIDTH = 720;
+/** Of all pictures that are saved. */
+export const WIDTH = 720;
+
 const PANEL = { left: 64, width: 630, height: 170, step: 226, top: 44 };
-const COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7a6a00", "#56b4e9"]; // Okabe and Ito's
+/** Colours on white paper: Okabe and Ito's. */
+export const COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7a6a00", "#56b4e9"];
+
 const SCALE = 2; // px of a PNG for each unit of the SVG
 const FONT = "font-family='sans-serif'";
 
@@ -38,10 +42,14 @@ function writeSvg(result, whole) {
   ].join("\n");
 }
 
-/** Return a text as it stands in XML, without characters that XML has not. */
+/** Return a text without characters that XML has not. */
+export function plain(text) {
+  return text.replace(/[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]|\p{Cs}/gu, "\ufffd");
+}
+
+/** Return a text as it stands in XML. */
 function escaped(text) {
-  const plain = text.replace(/[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]|\p{Cs}/gu, "\ufffd");
-  return plain.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;");
+  return plain(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;");
 }
 
 function drawPanel(panel, top) {
@@ -105,8 +113,8 @@ function legend(lines, y) {
   return `<text x="${PANEL.left + PANEL.width}" y="${y}" font-size="12" text-anchor="end" ${FONT}>${names.join("   ")}</text>`;
 }
 
-/** Return an SVG as a PNG. */
-async function rasterised(blob, height) {
+/** Return an SVG as a PNG; it is `WIDTH` wide. */
+export async function rasterised(blob, height) {
   const url = URL.createObjectURL(blob);
   try {
     const image = new Image();

@@ -32,8 +32,10 @@ mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals"), live: place("live") }, store);
 mountShare(place("share"), store, api);
+const loadLine = () => import("./line.js");
 const loadMap = () => import("./map.js");
 mountTabs(store, {
+  line: (section) => open(loadLine, section),
   map: (section) => open(loadMap, section),
   measure: (section) => (loadMeasure ? open(loadMeasure, section) : explain(section)),
 });
@@ -47,7 +49,7 @@ followResults();
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
-  window.stackbounce.whole = Promise.all([api.prepare(), loadMap()]); // from here on nothing is loaded
+  window.stackbounce.whole = Promise.all([api.prepare(), loadLine(), loadMap()]); // from here on nothing is loaded
 });
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();

@@ -120,7 +120,7 @@ function drawLabel(ctx, text, x, y, color, light) {
 }
 
 /** Return a side's ticks in the units that people read, and its title. */
-function marks(side, { label, unit }, most) {
+export function marks(side, { label, unit }, most) {
   const { unit: name, size } = shownUnit(unit, unit === "m" && Math.max(Math.abs(side.low), Math.abs(side.high)) > 0.2);
   const places = sideOf(side);
   const found = ticks(clean(side.low / size), clean(side.high / size), side.log, most);
@@ -165,7 +165,7 @@ function drawLeft(ctx, { left, top, width, height }, side, axis) {
 }
 
 /** Return a title, shortened where there is no room. */
-function fitting(ctx, title, width) {
+export function fitting(ctx, title, width) {
   return ctx.measureText(title).width <= width ? title : title.replace(/, .*?(?= \(|$)/, "");
 }
 

@@ -1,6 +1,6 @@
 /** The colours of the page for canvases, read from style.css, where they are defined. */
 
-const NAMES = ["text", "muted", "line", "paper", "ball-0", "ball-1", "ball-2", "ball-3", "ball-4", "ball-5"];
+const NAMES = ["text", "muted", "line", "paper", "card", "ball-0", "ball-1", "ball-2", "ball-3", "ball-4", "ball-5"];
 
 /** Return the present colours by name. */
 export function palette() {

@@ -58,7 +58,8 @@ export function mountShare(root, store, api) {
   root.replaceChildren(box);
 }
 
-function download(blob, name) {
+/** Have the browser save a file. */
+export function download(blob, name) {
   const url = URL.createObjectURL(blob);
   h("a", { href: url, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(url), 10_000);

@@ -1,5 +1,8 @@
 /** One observable state for the whole page. */
 
+/** The views, in the order of their tabs. */
+export const VIEWS = ["play", "line", "map", "measure", "paper"];
+
 /** The state at the start: the paper's basketball and tennis ball (Fig. 9). */
 export const FIRST_DROP = {
   balls: [
@@ -23,6 +26,7 @@ export const FIRST = {
   slow: 1000, // how many times slower than life: 10 ms in 10 s
   magnify: null, // how many times movement is shown larger, null to let the page choose
   t: null, // s, where the cursor stands, null for the begin
+  line: null, // {x, show}, null to let the page choose
   map: null,
   errors: {}, // of numbers of the drop, by path: SI numbers, or texts that the server reads
   result: null,

@@ -1,6 +1,6 @@
-/** The four views as tabs: arrows move between them, a view is built when it is first opened. */
+/** The views as tabs: arrows move between them, a view is built when it is first opened. */
 
-const VIEWS = ["play", "map", "measure", "paper"];
+import { VIEWS } from "./store.js";
 
 /**
  * Show the store's view and let tabs choose it.

@@ -6,6 +6,7 @@ import { useEngine } from "../model/one_ball.js";
 import { readDrop } from "../model/schema.js";
 import { calibrateLaw, convertLaw, stackBalls } from "./catalogue.js";
 import { exportText } from "./exports.js";
+import { LineJob } from "./lines.js";
 import { MapJob, listPaths } from "./maps.js";
 import { playDrop } from "./play.js";
 
@@ -20,12 +21,16 @@ export async function openDesk({ engine, layout, model }) {
     law: calibrateLaw,
     like: convertLaw,
     mapPaths: listPaths,
-    mapJob: (request) => new MapJob(request),
     exportText,
-    map(request) {
-      const job = new MapJob(request);
-      while (job.done < job.count) job.run(job.count);
-      return job.answer();
-    },
+    mapJob: (request) => new MapJob(request),
+    lineJob: (request) => new LineJob(request),
+    map: (request) => finished(new MapJob(request)),
+    line: (request) => finished(new LineJob(request)),
   };
+}
+
+/** Return the answer of a job that is done at once. */
+function finished(job) {
+  while (!job.finished) job.run(Infinity);
+  return job.answer();
 }

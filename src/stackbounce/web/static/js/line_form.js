@@ -1,0 +1,64 @@
+/** The choices of a line: a figure of the paper, what lies across, and what is shown. */
+
+import { h, write } from "./dom.js";
+import { choice } from "./fields.js";
+import { SHOWS } from "./line_words.js";
+import { sideForm } from "./side_form.js";
+
+/**
+ * Return `{element, update({settings, paths, unfit, figure})}`.
+ * @param {object[]} figures the paper's lines @param {object} heard `set(settings)`, `use(figure)` and `save(kind)`
+ */
+export function lineForm(figures, { set, use, save }) {
+  const element = h("form", { class: "view-form line-form", "aria-label": "What the line shows", autocomplete: "off" });
+  const says = h("p", { class: "note" });
+  element.addEventListener("submit", (event) => event.preventDefault());
+  let shown = "";
+  const update = ({ settings, paths, unfit, figure }) => {
+    write(says, [wordsOf(unfit), figure?.says].filter(Boolean).join(" "));
+    const now = JSON.stringify([settings, paths.map(({ path, label }) => [path, label]), figure?.name]);
+    if (now === shown) return;
+    shown = now;
+    const focused = document.activeElement?.dataset?.key;
+    let latest = settings; // a second choice may come before the first one is answered
+    const change = (patch) => set((latest = { ...latest, ...patch }));
+    element.replaceChildren(
+      choice({
+        label: "Curves of the paper",
+        key: "line-figure",
+        groups: [["", [["", "Choose a figure"], ...figures.map(({ name, title }) => [name, title])]]],
+        value: figure?.name ?? "",
+        set: (name) => use(figures.find((one) => one.name === name)),
+      }),
+      says,
+      choice({
+        label: "Shown",
+        key: "line-show",
+        groups: [["", [...SHOWS]]],
+        value: settings.show,
+        set: (show) => change({ show }),
+      }),
+      sideForm("line-x", "Across", () => latest.x, paths, (x) => change({ x })),
+      h("div", { class: "line-save", role: "group", "aria-label": "Save the line" }, KINDS.map(([kind, text]) => saver(kind, text, save))),
+    );
+    if (focused?.startsWith("line-")) element.querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus();
+  };
+  return { element, update };
+}
+
+const KINDS = [
+  ["csv", "Save CSV"],
+  ["svg", "SVG"],
+  ["png", "PNG"],
+];
+
+function saver(kind, text, save) {
+  return h("button", { type: "button", class: "small", "data-key": `line-save-${kind}`, text, onclick: () => save(kind) });
+}
+
+/** Name what the wanted settings have that this drop has not. */
+function wordsOf(unfit) {
+  if (!unfit.length) return "";
+  const names = unfit.map((name) => `“${name.slice(0, 40)}”`).join(" and ");
+  return `This drop has no ${names}: something else is shown.`;
+}

@@ -1,0 +1,72 @@
+/** The choice of a number that varies, between which ends: for the sides of a map, and for a line. */
+
+import { h, write } from "./dom.js";
+import { choice } from "./fields.js";
+import { firstSide, isSide } from "./map_axes.js";
+import { clean, format, pretty, read, shownUnit } from "./units.js";
+import { capital } from "./words.js";
+
+/**
+ * Return the fields of a side: which number, between which ends, logarithmic or not.
+ * @param {string} key begins the keys of its fields @param {() => object} current returns `{path, low, high, log}`
+ */
+export function sideForm(key, title, current, paths, set) {
+  const side = current();
+  const error = h("p", { class: "field-error", id: `${key}-error`, role: "alert", hidden: true });
+  const { unit } = paths.find(({ path }) => path === side.path);
+  const shown = shownUnit(unit);
+  const change = (patch) => {
+    const next = { ...current(), ...patch };
+    const problem = problemOf(next);
+    error.hidden = !problem;
+    write(error, problem ?? "");
+    if (!problem) set(next);
+  };
+  const end = (which, label) => {
+    const input = h("input", {
+      type: "text",
+      inputmode: "decimal",
+      class: "field-number",
+      "data-key": `${key}-${which}`,
+      "aria-describedby": error.id,
+      value: format(clean(side[which] / shown.size), 6),
+      onchange: () => change({ [which]: read(input.value, unit, shown) }),
+    });
+    return h("label", { class: "side-end" }, h("span", { text: label }), input);
+  };
+  const log = h("input", {
+    type: "checkbox",
+    checked: side.log,
+    "data-key": `${key}-log`,
+    onchange: (event) => change({ log: event.target.checked }),
+  });
+  return h(
+    "fieldset",
+    {},
+    h("legend", { text: title }),
+    choice({
+      label: `${title}: parameter`,
+      quiet: true,
+      key,
+      groups: [["", paths.map(({ path, label }) => [path, capital(label)])]],
+      value: side.path,
+      set: (path) => set(firstSide(paths.find((one) => one.path === path))),
+    }),
+    h(
+      "div",
+      { class: "side-ends" },
+      end("low", "from"),
+      end("high", "to"),
+      h("span", { class: "unit", text: pretty(shown.unit) }),
+      h("label", { class: "check" }, log, "logarithmic"),
+    ),
+    error,
+  );
+}
+
+function problemOf(side) {
+  const text = [side.low, side.high].find((end) => typeof end !== "number");
+  if (text !== undefined) return `“${text}” is not a number.`;
+  if (side.low === side.high) return "The two ends must differ.";
+  return isSide(side) ? null : "A logarithmic axis needs limits above 0.";
+}
