@@ -19,11 +19,11 @@ OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist wo
   --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning \
   -W ignore::FutureWarning tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz \
   --ignore=tests/web/browser --ignore=tests/web/test_openapi.py
+# 3: kernels cannot be compiled on this machine, plain Python runs.
+COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build || test $$? -eq 3; }
 # Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.
 RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
-# What pyproject.toml says that a build needs; the package is built with it in $(VENV) itself.
-BUILD_NEEDS := import tomllib; print(*tomllib.load(open("pyproject.toml", "rb"))["build-system"]["requires"], sep="\n")
 
 .DEFAULT_GOAL := help
 .PHONY: help venv kernels paper app explorer test lowest coverage bench check lint types imports docs format fuzz attack frozen constraints clean \
@@ -50,7 +50,7 @@ test: $(DEV) kernels  ## run the fast tests of every kind, in under four minutes
 lowest: kernels  ## the fast tests with the lowest versions of all dependencies that pyproject.toml allows
 	@rm -rf build/lowest
 	@$(PYTHON) -m venv build/lowest
-	@$(BIN)/python .ci/lowest.py > build/lowest/requirements.txt
+	@$(BIN)/python .ci/requirements.py lowest > build/lowest/requirements.txt
 	@build/lowest/bin/python -m pip --disable-pip-version-check install --quiet --quiet \
 	  --requirement build/lowest/requirements.txt
 	@PYTHONPATH=$(CURDIR)/src build/lowest/$(OF_LOWEST)
@@ -78,7 +78,7 @@ frozen: $(DEV) kernels  ## compare all answers with those that were kept in test
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m frozen
 
 kernels: $(RUNTIME)  ## compile the engine's kernels anew if its sources changed: a minute or two
-	@$(BIN)/python -m kernel_build || test $$? -eq 3 # 3: not to be compiled on this machine, plain Python runs
+	@$(COMPILE)
 
 lint: $(DEV)  ## ruff's rules and formatting
 	@$(BIN)/ruff check
@@ -128,7 +128,10 @@ $(RUNTIME): pyproject.toml constraints.txt
 	@test -x $(BIN)/pip || $(PYTHON) -m venv --clear $(VENV) || \
 	  { echo "Python's venv module does not work here (on Debian or Ubuntu: apt install python3-venv)" >&2; exit 1; }
 	@echo "Installing stackbounce into $(VENV), and compiling its kernels: a few minutes"
-	@$(BIN)/python -c '$(BUILD_NEEDS)' > $(VENV)/build-needs.txt
-	@$(INSTALL) editables --requirement $(VENV)/build-needs.txt
-	@$(INSTALL) --no-build-isolation --editable '.[all]'
+	@$(BIN)/python .ci/requirements.py build > $(VENV)/build.txt
+	@$(BIN)/python .ci/requirements.py runtime > $(VENV)/runtime.txt
+	@$(INSTALL) editables --requirement $(VENV)/build.txt
+	@$(INSTALL) --requirement $(VENV)/runtime.txt & installing=$$!; $(COMPILE); compiled=$$?; \
+	  wait $$installing && exit $$compiled # pip has one processor, the compiler the others
+	@$(INSTALL) --no-build-isolation --no-deps --editable .
 	@touch $@

@@ -60,6 +60,50 @@ def test_a_click_plays_the_drop_of_that_point(visit):
     assert visit.state("drop.contacts[0].stiffness") == pytest.approx(1e3 * 10.0**-0.25, rel=0.02)
 
 
+def test_the_map_follows_a_slider_while_it_moves(visit):
+    page = opened(visit)
+    drawn = page.evaluate(
+        """async () => {
+             const slider = document.querySelector("#map [data-slider='gaps.0']");
+             const summary = document.querySelector("#map-summary");
+             const drawn = new Set();
+             for (let step = 1; step <= 200 && (step < 20 || drawn.size < 3); step += 1) {
+               slider.value = step;
+               slider.dispatchEvent(new Event("input", { bubbles: true }));
+               await new Promise(requestAnimationFrame);
+               drawn.add(summary.textContent);
+             }
+             return drawn.size; }"""
+    )
+    assert drawn >= 3
+    visit.ready()
+    page.wait_for_function(
+        "() => { const { drop, result } = window.stackbounce.store.get();"
+        " return result.drop.gaps[0] === drop.gaps[0]; }"
+    )
+    drop = visit.state("drop")
+    balls = [sb.Ball(one["mass"]) for one in drop["balls"]]
+    contacts = [sb.Spring(one["stiffness"]) for one in drop["contacts"]]
+    gapped = sb.Drop(balls, contacts, gaps=drop["gaps"], impact_speed=drop["impact_speed"])
+    expected = sb.simulate(gapped).rebound_ratios[1]
+    board = page.locator(".map-board")
+    board.press("Home")  # the crosshair goes to the present drop
+    page.wait_for_function(
+        "([expected]) => Math.abs(Number(document.querySelector('#map [aria-live]').textContent"
+        ".match(/(\\d+\\.?\\d*)\\.$/)?.[1]) - expected) < 0.02",
+        arg=[expected],
+    )
+
+
+def test_the_set_up_is_one_form_that_goes_with_the_view(visit):
+    page = opened(visit)
+    assert page.locator("#map #controls [data-path='balls.0.mass']").is_visible()
+    page.locator("#tab-play").click()
+    assert page.locator("#play #controls [data-path='balls.0.mass']").is_visible()
+    page.locator("#tab-map").click()
+    assert page.locator("#map #controls").count() == page.locator("#controls").count() == 1
+
+
 def test_the_point_can_be_dragged_and_its_drop_follows(visit):
     page = opened(visit)
     box = page.locator(".map-board").bounding_box()

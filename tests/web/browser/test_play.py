@@ -83,10 +83,13 @@ def test_playing_follows_the_clock_at_sixty_frames_with_no_request(visit):
         expected = np.interp(seen[1:, 1], frames["time"], frames["position"][ball])
         assert seen[1:, 2 + ball] == pytest.approx(expected, abs=1e-9)
     assert (np.diff(seen[1:, 1]) > 0).all()
-    passed, shown = seen[-1, :2] - seen[1, :2]
+    steps = np.diff(seen[1:, 0])
+    passed, shown = (
+        np.minimum(steps, 100.0).sum(),
+        seen[-1, 1] - seen[1, 1],
+    )  # a long stop is left out
     assert shown == pytest.approx(1e-3 * passed / visit.state("slow"), rel=0.2)
     assert len(visit.requests) == before
-    steps = np.diff(seen[1:, 0])
     # Kept to be looked at: no test depends on how fast this machine is.
     visit.note("frame-times", f"median {np.median(steps):.1f} ms, longest {steps.max():.1f} ms")
 

@@ -11,6 +11,7 @@ const PART = /^[a-z]+(_[a-z]+)*$/;
 const MOST = 16; // more members than any list of a drop may have
 const NAMED = 3; // parts of a link that are named
 const LONGEST = 30; // letters of each
+const REST = 300; // ms without a change
 
 /** Return a state as the text of a fragment: a drop by the paths of its numbers, as sweeps name them. */
 export function write(state) {
@@ -69,7 +70,8 @@ export function follow(store) {
     if (location.hash !== written) history.replaceState(null, "", written);
   };
   store.subscribe(() => {
-    timer ||= setTimeout(later, 300);
+    clearTimeout(timer); // not while numbers change
+    timer = setTimeout(later, REST);
   });
   addEventListener("hashchange", () => {
     if (location.hash === written || !location.hash.includes("=")) return;

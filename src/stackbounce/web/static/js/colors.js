@@ -6,11 +6,18 @@ const VIRIDIS =
     .split(" ")
     .map((hex) => [0, 2, 4].map((at) => parseInt(hex.slice(at, at + 2), 16)));
 
-/** Return the colour [r, g, b] of a part of the range, from 0 to 1. */
-export function colorAt(part) {
-  const place = Math.min(Math.max(part, 0), 1) * (VIRIDIS.length - 1);
+const STEPS = 1024; // of colours that are told apart
+
+/** Colours of parts of the range, from 0 to 1. */
+const COLORS = Array.from({ length: STEPS + 1 }, (_, step) => {
+  const place = (step / STEPS) * (VIRIDIS.length - 1);
   const low = Math.min(Math.floor(place), VIRIDIS.length - 2);
   return VIRIDIS[low].map((one, i) => Math.round(one + (place - low) * (VIRIDIS[low + 1][i] - one)));
+});
+
+/** Return the colour [r, g, b] of a part of the range, from 0 to 1. */
+export function colorAt(part) {
+  return COLORS[Math.round(Math.min(Math.max(part, 0), 1) * STEPS)];
 }
 
 /** Return a colour as CSS writes it. */
@@ -31,17 +38,23 @@ export const MANY = 10;
  * `{kind, counts, color(value)}`; `MANY` stands for all above it, -1 is a count without end and comes last.
  */
 export function scaleOfColors(values, whole) {
-  const known = values.flat().filter((value) => value !== null);
   if (whole) {
+    const known = values.flat().filter((value) => value !== null);
     const kind = (count) => Math.min(count, MANY);
     const order = (count) => (count < 0 ? Infinity : count);
     const counts = [...new Set(known.map(kind))].sort((a, b) => order(a) - order(b));
     const part = (count) => (counts.length > 1 ? counts.indexOf(count) / (counts.length - 1) : 0.5);
     return { kind: "counts", counts, color: (count) => colorAt(part(kind(count))) };
   }
-  let low = known.reduce((a, b) => Math.min(a, b), Infinity);
-  let high = known.reduce((a, b) => Math.max(a, b), -Infinity);
-  if (known.length === 0) [low, high] = [0, 1];
+  let [low, high] = [Infinity, -Infinity];
+  for (const line of values) {
+    for (const value of line) {
+      if (value === null) continue;
+      if (value < low) low = value;
+      if (value > high) high = value;
+    }
+  }
+  if (low > high) [low, high] = [0, 1];
   const least = 1e-6 * Math.max(Math.abs(low), Math.abs(high), 1e-9); // what is the same but for rounding
   if (high - low < least) {
     const air = 0.5 * Math.abs(high) || 1;

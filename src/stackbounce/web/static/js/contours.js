@@ -13,16 +13,16 @@ const JOINS = [
 export function contour(values, level) {
   const pieces = [];
   for (let row = 0; row + 1 < values.length; row += 1) {
-    for (let column = 0; column + 1 < values[row].length; column += 1) {
-      const corners = [
-        values[row][column],
-        values[row][column + 1],
-        values[row + 1][column + 1],
-        values[row + 1][column],
-      ];
-      if (corners.includes(null)) continue;
-      const above = corners.reduce((sum, value, i) => sum + (value >= level ? 1 << i : 0), 0);
-      for (const [from, to] of JOINS[above]) {
+    const [below, above] = [values[row], values[row + 1]];
+    for (let column = 0; column + 1 < below.length; column += 1) {
+      const a = below[column];
+      const b = below[column + 1];
+      const c = above[column + 1];
+      const d = above[column];
+      const which = (a >= level) | ((b >= level) << 1) | ((c >= level) << 2) | ((d >= level) << 3);
+      if (which === 0 || which === 15 || a === null || b === null || c === null || d === null) continue;
+      const corners = [a, b, c, d];
+      for (const [from, to] of JOINS[which]) {
         pieces.push([...crossing(corners, from, level, column, row), ...crossing(corners, to, level, column, row)]);
       }
     }

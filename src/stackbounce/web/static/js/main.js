@@ -39,6 +39,7 @@ mountTabs(store, {
   map: (section) => open(loadMap, section),
   measure: (section) => (loadMeasure ? open(loadMeasure, section) : explain(section)),
 });
+store.subscribe((state, before) => state.view !== before.view && placeSetUp());
 place("skip").addEventListener("click", (event) => {
   event.preventDefault(); // the fragment holds the state
   place("stage-box").focus();
@@ -58,9 +59,17 @@ loadCatalogue();
 async function open(load, section) {
   try {
     await (await load()).mount(section, store, api, clock);
+    placeSetUp();
   } catch (error) {
     section.append(h("p", { class: "field-error", role: "alert", text: `This view could not be opened: ${error.message}` }));
   }
+}
+
+/** Move the set-up, which is one form, to the view that is shown, if that has a place for it. */
+function placeSetUp() {
+  const there = place(store.get().view).querySelector(".set-up-place");
+  const form = place("controls");
+  if (there && form.parentElement !== there) there.append(form);
 }
 
 /** Say what cannot be done without stackbounce itself. */

@@ -11,7 +11,6 @@ import { onRepaint, palette } from "./palette.js";
 import { mountStage } from "./stage.js";
 import { capital, shortly } from "./words.js";
 
-const REST = 40; // ms without a change
 const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
 const STILL = 4; // px that a mouse may move in a click
 const STEP = 1 / 60; // of a side, for one press of an arrow
@@ -23,25 +22,21 @@ export function mount(root, store, api, clock) {
   const parts = build();
   const form = mapForm((map) => store.set({ map }));
   const side = h("div", { class: "map-side" }, form.element, parts.stage, parts.told, parts.summary);
-  root.replaceChildren(parts.figure, side);
+  root.replaceChildren(parts.figure, side, h("div", { class: "set-up-place" }));
   mountStage(parts.stage, store, clock);
-  let chosen = null; // {settings, paths, shows}
   let answer = null;
   let pointed = null; // [x, y] as fractions of the sides
-  let timer = 0;
+  let due = 0; // a frame in which to draw
   let asked = []; // the drop and the settings of the last request
   let held = null; // where the mouse was pressed, and whether it has moved since
 
   const requests = mapper(api, (news) => {
-    if (news.settings) {
-      chosen = news;
-      form.update(news);
-    }
+    if (news.settings) form.update(news);
     if (news.answer) {
-      answer = { ...news.answer, settings: chosen.settings, paths: chosen.paths };
+      answer = { ...news.answer, settings: news.settings, paths: news.paths };
       write(parts.message, "");
       parts.again.hidden = true;
-      draw();
+      drawSoon();
     }
     parts.figure.classList.toggle("stale", Boolean(news.problem));
     if (news.problem) {
@@ -51,17 +46,14 @@ export function mount(root, store, api, clock) {
   });
   const refresh = () => {
     const { view, drop, map } = store.get();
-    clearTimeout(timer);
     if (view !== "map") {
       requests.drop();
       asked = [];
       return;
     }
-    timer = setTimeout(() => {
-      asked = [drop, map];
-      if (!answer) write(parts.message, "Computing …");
-      requests.ask(drop, map);
-    }, REST);
+    asked = [drop, map];
+    if (!answer) write(parts.message, "Computing …");
+    requests.ask(drop, map);
   };
   const tell = ({ result, until }) => write(parts.told, result ? shortly(result, until) : "");
   const draw = () => {
@@ -72,6 +64,12 @@ export function mount(root, store, api, clock) {
     parts.board.setAttribute("aria-label", `Map: ${answer.label}; across, ${answer.x.label}; up, ${answer.y.label}`);
     write(parts.title, capital(answer.label));
     mark();
+  };
+  const drawSoon = () => {
+    due ||= requestAnimationFrame(() => {
+      due = 0;
+      draw();
+    });
   };
   const mark = () => {
     const there = present();
@@ -168,7 +166,7 @@ export function mount(root, store, api, clock) {
     parts.play.hidden = !pointed;
   });
   parts.again.addEventListener("click", refresh);
-  new ResizeObserver(draw).observe(parts.board);
+  new ResizeObserver(drawSoon).observe(parts.board);
   onRepaint(draw);
   store.subscribe((state, before) => {
     if (state.result !== before.result) tell(state);

@@ -63,12 +63,18 @@ function drawHatch(ctx, { left, top, width, height }, colors) {
 function drawField(ctx, { left, top, width, height }, values, scale) {
   const [rows, columns] = [values.length, values[0].length];
   const image = new ImageData(columns, rows);
-  values.forEach((line, row) => {
-    line.forEach((value, column) => {
-      if (value === null) return;
-      image.data.set([...scale.color(value), 255], 4 * ((rows - 1 - row) * columns + column));
-    });
-  });
+  for (let row = 0; row < rows; row += 1) {
+    for (let column = 0; column < columns; column += 1) {
+      const value = values[row][column];
+      if (value === null) continue;
+      const [red, green, blue] = scale.color(value);
+      const at = 4 * ((rows - 1 - row) * columns + column);
+      image.data[at] = red;
+      image.data[at + 1] = green;
+      image.data[at + 2] = blue;
+      image.data[at + 3] = 255;
+    }
+  }
   const field = document.createElement("canvas");
   [field.width, field.height] = [columns, rows];
   field.getContext("2d").putImageData(image, 0, 0);

@@ -1,6 +1,6 @@
 /** The results: speeds, ratios, heights, collisions and energy, beside those of separate collisions. */
 
-import { h, write } from "./dom.js";
+import { h, renew, write } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
 import { formatMeasured, withSpread } from "./quantity.js";
 import { fixed, format } from "./units.js";
@@ -15,8 +15,8 @@ export function mountNumbers({ root, table, live }, store) {
     const { result, until, prediction } = store.get();
     if (!result) return;
     const sentence = h("p", { class: "told", "aria-hidden": "true", text: shortly(result, until) });
-    root.replaceChildren(sentence, ballTable(result, until, prediction), facts(result, until, prediction));
-    table.replaceChildren(intervalTable(result));
+    renew(root, sentence, ballTable(result, until, prediction), facts(result, until, prediction));
+    renew(table, intervalTable(result));
     clearTimeout(timer);
     timer = setTimeout(() => write(live, told(result, until)), SETTLED);
   };

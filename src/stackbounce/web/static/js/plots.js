@@ -11,8 +11,8 @@ import { format } from "./units.js";
 export function mountPlots(root, store, clock) {
   let shown = [];
   const build = () => {
-    const { result, until, overlays, prediction } = store.get();
-    if (!result) return;
+    const { result, until, overlays, prediction, view } = store.get();
+    if (!result || view !== "play") return;
     const wanted = panels(result, until !== null, overlays, prediction);
     const same = shown.length > 0 && wanted.every((panel, i) => shown[i].key === keyOf(panel));
     if (same) {
@@ -31,7 +31,7 @@ export function mountPlots(root, store, clock) {
     build();
   };
   store.subscribe((state, before) => {
-    if (["result", "overlays", "prediction"].some((name) => state[name] !== before[name])) build();
+    if (["result", "overlays", "prediction", "view"].some((name) => state[name] !== before[name])) build();
   });
   clock.subscribe(() => {
     for (const one of shown) one.follow(clock.time);

@@ -28,10 +28,13 @@ export function mountStage(root, store, clock) {
   const nothing = h("p", { class: "stage-empty note", text: "Computing the first drop …" });
   root.append(nothing);
   let scene = null;
+  let size = null; // of the stage in px; asked for at each change, it would have the whole page laid out
+  let stack = ""; // whose balls are drawn
 
   const build = () => {
     const { result, until, magnify } = store.get();
-    const { width, height } = root.getBoundingClientRect();
+    size ??= root.getBoundingClientRect();
+    const { width, height } = size;
     if (!result || width < 10 || height < 10) return;
     nothing.hidden = true;
     put(svg, "viewBox", `0 0 ${width} ${height}`);
@@ -42,7 +45,9 @@ export function mountStage(root, store, clock) {
     drawGround(ground, result.drop, scene, width);
     drawRuler(ruler, scene, width);
     write(scale, note(scene));
-    balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, scene, light)));
+    const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
+    if (names !== stack) balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));
+    stack = names;
     const separate = result.separate?.position ?? [];
     ghosts.replaceChildren(...separate.map((_, ball) => ghostBall(ball, view)));
     clock.touch();
@@ -73,7 +78,10 @@ export function mountStage(root, store, clock) {
     if (state.ghosts !== before.ghosts) showGhosts();
   });
   clock.subscribe(draw);
-  new ResizeObserver(build).observe(root);
+  new ResizeObserver(([{ contentRect }]) => {
+    size = contentRect;
+    build();
+  }).observe(root);
   showGhosts();
 }
 
@@ -81,7 +89,7 @@ function centre({ view, floor }, ball, position) {
   return (floor - view.rest[ball] - view.move * position).toFixed(2);
 }
 
-function ballGroup(drop, ball, { view }, light) {
+function ballGroup(drop, ball, light) {
   const group = s("g", { class: "ball", "data-ball": ball });
   group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
   const name = s("text", { class: "ball-name", "text-anchor": "end", text: shortened(ballName(drop, ball)) });

@@ -7,7 +7,7 @@ import { dropAt, numbersOf as pathsOf, valueIn } from "../model/paths.js";
 import { numbersOf } from "../run/result.js";
 import { spaced } from "./play.js";
 
-const PER_BALL = ["mass", "kind", "stiffness", "exponent", "law_parameter", "second_parameter", "gap", "velocity"];
+const FLAT = ["mass", "kind", "stiffness", "exponent", "law_parameter", "second_parameter", "gap", "velocity"];
 
 /** Return the values along a side, evenly spaced or in equal ratios. */
 export function spread({ low, high, count, log }) {
@@ -40,6 +40,7 @@ export class Points {
     this.check();
     this.base = numbersOf(drop);
     this.springs = this.suitsTwoSprings();
+    this.changes = this.listChanges();
   }
 
   /** Return `[{number, dims, at(i, j)}]`: the numbers that vary; a ratio sets the first of its two numbers. */
@@ -124,15 +125,14 @@ export class Points {
 
   /** Return the numbers of some drops as the engine takes them. */
   list(from, count) {
-    const { base } = this;
+    const { base, columns } = this;
     const drops = { rigid: base.rigid, gravity: repeated([base.gravity], count) };
-    for (const name of PER_BALL) drops[name] = repeated(base[name], count);
-    this.writers ??= this.makeWriters();
-    for (const { dims, targets, numbers } of this.writers) {
+    for (const name of FLAT) drops[name] = repeated(base[name], count);
+    for (const { dims, targets, numbers } of this.changes) {
       const [across, up] = ["x", "y"].map((dim) => dims.includes(dim));
       const places = targets.map(([name, place]) => [drops[name], place, drops[name].length / count]);
       for (let k = 0; k < count; k += 1) {
-        const [i, j] = [(from + k) % this.columns, Math.floor((from + k) / this.columns)];
+        const [i, j] = [(from + k) % columns, Math.floor((from + k) / columns)];
         const values = numbers(across ? i : 0, up ? j : 0);
         for (let t = 0; t < places.length; t += 1) places[t][0][k * places[t][2] + places[t][1]] = values[t];
       }
@@ -140,25 +140,24 @@ export class Points {
     return drops;
   }
 
-  /** Return `[{dims, targets, numbers(i, j)}]`: what the engine's numbers become that a varied number changes. */
-  makeWriters() {
+  /** Return `[{dims, targets, numbers(i, j)}]`: which of the engine's numbers change from point to point, and to what. */
+  listChanges() {
     const { base, drop, varied } = this;
-    const writers = [];
-    const write = (some, targets, numbers) => {
+    const found = [];
+    const change = (some, targets, numbers) => {
       const dims = [...new Set(some.flatMap((one) => one.dims))];
-      writers.push({ dims, targets, numbers: dims.length === 1 ? remembered(numbers) : numbers });
+      found.push({ dims, targets, numbers: dims.length === 1 ? remembered(numbers) : numbers });
     };
     for (const one of varied) {
       const { part, index } = one.number;
-      if (part === "gaps") write([one], [["gap", index + 1]], (i, j) => [one.at(i, j)]);
-      if (part === "velocities") write([one], [["velocity", index]], (i, j) => [one.at(i, j)]);
-      if (part === "balls") write([one], [["mass", index]], (i, j) => [one.at(i, j)]);
+      const target = { gaps: ["gap", index + 1], velocities: ["velocity", index], balls: ["mass", index] }[part];
+      if (target) change([one], [target], (i, j) => [one.at(i, j)]);
     }
     drop.contacts.forEach((law, contact) => {
       const own = varied.filter(({ number }) => number.part === "contacts" && number.index === contact);
       const constants = (i, j) => Object.fromEntries(own.map((one) => [one.number.field, one.at(i, j)]));
       const targets = ["stiffness", "exponent", "law_parameter", "second_parameter"].map((name) => [name, contact]);
-      if (own.length) write(own, targets, (i, j) => law.engine_numbers(constants(i, j)).slice(1));
+      if (own.length) change(own, targets, (i, j) => law.engine_numbers(constants(i, j)).slice(1));
     });
     const fall = varied.filter(({ number }) => ["gravity", "height", "impact_speed"].includes(number.field));
     const given = (field) => fall.find(({ number }) => number.field === field);
@@ -170,9 +169,23 @@ export class Points {
     };
     const falls = given("height") || given("impact_speed") || drop.height !== undefined;
     const targets = [["gravity", 0], ...drop.balls.map((_, ball) => ["velocity", ball])];
-    if (fall.length) write(fall, falls ? targets : targets.slice(0, 1), speeds);
-    return writers;
+    if (fall.length) change(fall, falls ? targets : targets.slice(0, 1), speeds);
+    return found;
   }
+}
+
+/** Return an array of some numbers, so many times. */
+function repeated(numbers, count) {
+  const all = new Float64Array(count * numbers.length);
+  if (count) all.set(numbers);
+  for (let done = numbers.length; done < all.length; done *= 2) all.copyWithin(done, 0, done);
+  return all;
+}
+
+/** Return a function of the places along one side that computes each once. */
+function remembered(numbers) {
+  const found = [];
+  return (i, j) => (found[i + j] ??= numbers(i, j)); // one of the two is 0
 }
 
 function run(drops, springs) {
@@ -183,7 +196,7 @@ function run(drops, springs) {
 export function solveAll(drops) {
   const numbers = drops.map(numbersOf);
   const together = { rigid: drops[0].rigid, gravity: Float64Array.from(numbers, ({ gravity }) => gravity) };
-  for (const name of PER_BALL) together[name] = Float64Array.from(numbers.flatMap((one) => one[name]));
+  for (const name of FLAT) together[name] = Float64Array.from(numbers.flatMap((one) => one[name]));
   return new Outcomes(together, run(together, false), drops[0].balls.length);
 }
 
@@ -215,18 +228,4 @@ class Outcomes {
     const speed = ratio * reference;
     return (speed * Math.abs(speed)) / (2 * known.gravity);
   }
-}
-
-/** Return an array of some numbers, so many times. */
-function repeated(numbers, count) {
-  const all = new Float64Array(count * numbers.length);
-  all.set(numbers);
-  for (let done = numbers.length; done < all.length; done *= 2) all.copyWithin(done, 0, done);
-  return all;
-}
-
-/** Return a function of the places along one side that computes each once. */
-function remembered(numbers) {
-  const found = [];
-  return (i, j) => (found[i + j] ??= numbers(i, j)); // one of the two is 0
 }
