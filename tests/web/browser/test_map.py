@@ -54,8 +54,12 @@ def test_words_at_the_crosshair_are_those_of_the_drop_there(visit):
 
 def test_a_click_plays_the_drop_of_that_point(visit):
     page = opened(visit)
+    page.evaluate(
+        "() => { const { clock } = window.stackbounce; clock.pause(); clock.seek(clock.end); }"
+    )
     page.locator(".map-board").click(position=spot(page, 0.5, 0.25))
     assert visit.state("view") == "play"
+    page.wait_for_function("() => window.stackbounce.clock.playing")
     assert visit.state("drop.balls[0].mass") == pytest.approx(0.057 * 10.0**0.5, rel=0.02)
     assert visit.state("drop.contacts[0].stiffness") == pytest.approx(1e3 * 10.0**-0.25, rel=0.02)
 
