@@ -194,6 +194,8 @@ def test_the_address_keeps_the_line(visits):
     page = opened(first)
     page.locator("[data-key=line-x]").select_option("impact_speed")
     page.locator("[data-key=line-show]").select_option("rebound_height")
+    title = page.locator(".line-title").filter(has_text="Rebound heights against impact speed")
+    title.wait_for()
     page.locator("[data-key=line-x-high]").fill("5")
     page.locator("[data-key=line-x-high]").press("Tab")
     page.wait_for_function("() => /line.x.high=5/.test(location.hash)")
