@@ -35,7 +35,7 @@ def field(page):
     """Return where the field of the drawing is on the board, in px: left, top, width, height."""
     curve = np.array(page.evaluate(CURVES)[0])
     lines = page.evaluate(
-        """() => [...document.querySelectorAll('.line-board svg > line')].map((one) =>
+        """() => [...document.querySelectorAll('.line-drawing svg > line')].map((one) =>
              ['x1', 'x2', 'y1', 'y2'].map((name) => +one.getAttribute(name)))"""
     )
     across = [one for one in lines if one[2] == one[3]]
@@ -62,7 +62,7 @@ def test_curves_and_axis_are_the_library_s(visit):
     lower, upper = (np.array(curve) for curve in page.evaluate(CURVES))
     marks = dict(
         page.evaluate(
-            """() => [...document.querySelectorAll('.line-board svg > text[text-anchor=end]')]
+            """() => [...document.querySelectorAll('.line-drawing svg > text[text-anchor=end]')]
                  .map((one) => [+one.textContent, +one.getAttribute('y')])"""
         )
     )
@@ -223,7 +223,7 @@ def test_what_a_link_has_and_this_drop_has_not_is_named(visit, more, words):
 def test_settings_of_a_newer_page_are_named_and_the_rest_is_kept(visit):
     page = opened(visit, "#view=line&line.show=collisions&line.smooth=3&map.z.low=1&line.x=1")
     assert visit.state("line") == {"show": "collisions"}
-    assert "“line.smooth”, “map.z.low”, “line.x”" in page.locator(".line-form .note").inner_text()
+    assert "“line.smooth”, “map.z.low”, “line.x”" in page.locator("#preset-says").inner_text()
     assert page.locator("[data-key=line-show]").input_value() == "collisions"
 
 

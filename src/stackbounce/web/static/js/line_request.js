@@ -1,5 +1,6 @@
-/** Asks for lines: while one is computed the newest question waits, and is asked when the first stage is there. */
+/** Asks for lines, from coarse to fine, with settings that fit the drop. */
 
+import { inTurn } from "./in_turn.js";
 import { firstSide, isSide } from "./map_axes.js";
 import { SHOWS } from "./line_words.js";
 
@@ -8,41 +9,14 @@ const FIRST = ["gaps", "mass_ratio", "contacts", "balls"];
 
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, unfit, answer} or {problem}. */
 export function liner(api, tell) {
-  let newest = 0;
-  let computing = false; // nothing of the newest question was answered yet
-  let waiting = null;
-  const begin = async () => {
-    const [drop, wanted] = waiting;
-    newest += 1;
-    waiting = null;
-    computing = true;
-    const mine = newest;
-    const heard = (news) => {
-      if (mine !== newest) return;
-      tell(news);
-      computing = false;
-      if (waiting) begin();
-    };
-    try {
-      const { paths } = await api.mapPaths(drop);
-      const { settings, unfit } = complete(wanted, paths);
-      const request = { drop, x: settings.x, show: settings.show };
-      const answer = await api.line(request, (part) => heard({ settings, paths, unfit, answer: part }));
-      if (answer) heard({ settings, paths, unfit, answer });
-    } catch (error) {
-      heard({ problem: error.message });
-    }
+  const answer = async ([drop, wanted], heard) => {
+    const { paths } = await api.mapPaths(drop);
+    const { settings, unfit } = complete(wanted, paths);
+    const told = (line) => line && heard({ settings, paths, unfit, answer: line });
+    told(await api.line({ drop, x: settings.x, show: settings.show }, told));
   };
-  const ask = (drop, wanted) => {
-    waiting = [drop, wanted];
-    if (!computing) begin();
-  };
-  const drop = () => {
-    newest += 1;
-    computing = false;
-    waiting = null;
-  };
-  return { ask, drop };
+  const { ask, drop } = inTurn(answer, tell);
+  return { ask: (...question) => ask(question), drop };
 }
 
 /** Return `{settings, unfit}`: the wanted settings as far as they fit the drop, and the names of the others. */

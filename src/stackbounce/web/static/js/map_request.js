@@ -1,5 +1,6 @@
 /** Asks for a map, from coarse to fine; a newer question replaces an older one. */
 
+import { inTurn } from "./in_turn.js";
 import { lawOf } from "./laws.js";
 import { firstSide, isSide } from "./map_axes.js";
 import { depends } from "./map_words.js";
@@ -14,59 +15,23 @@ function steps(drop, laws) {
   return exact && drop.balls.length <= 2 ? [FINE] : [COARSE, MEDIUM, FINE];
 }
 
-/**
- * Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, with an {answer} as well, or {problem}. While one question
- * waits for its first map, only the newest of the others is kept: so maps follow a slider, one whole map after the other.
- */
+/** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, with an {answer} as well, or {problem}. */
 export function mapper(api, tell) {
-  let newest = 0;
-  let dropped = 0; // the last question that nobody waits for any more
-  let next = null;
-  let free = true;
   let laws = null;
-
-  const answer = async ({ mine, drop, wanted }, seen) => {
+  const answer = async ([drop, wanted], heard) => {
     const { paths, shows } = await api.mapPaths(drop);
     const settings = complete(wanted, paths, shows, drop);
-    if (mine > dropped) tell({ settings, paths, shows });
+    heard({ settings, paths, shows });
     laws ??= (await api.catalogue()).laws;
     const requests = steps(drop, laws).map(([across, up]) => {
       const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
       return { drop, x, y, show: settings.show };
     });
-    const told = (map) => {
-      if (map && mine > dropped) tell({ settings, paths, shows, answer: map });
-      seen();
-    };
+    const told = (map) => map && heard({ settings, paths, shows, answer: map });
     told(await api.maps(requests, told));
   };
-  const start = async () => {
-    const question = next;
-    next = null;
-    free = !question;
-    if (free) return;
-    let waits = true;
-    const seen = () => {
-      if (waits) start();
-      waits = false;
-    };
-    try {
-      await answer(question, seen);
-    } catch (error) {
-      if (question.mine === newest) tell({ problem: error.message });
-    }
-    seen();
-  };
-  const ask = (drop, wanted) => {
-    newest += 1;
-    next = { mine: newest, drop, wanted };
-    if (free) start();
-  };
-  const drop = () => {
-    dropped = newest;
-    next = null;
-  };
-  return { ask, drop };
+  const { ask, drop } = inTurn(answer, tell);
+  return { ask: (...question) => ask(question), drop };
 }
 
 /** Return the settings of a map; defaults replace those that are missing or do not fit the drop. */
