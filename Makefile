@@ -62,8 +62,8 @@ bench: $(DEV) kernels  ## growth, accuracy and speed, also of other solvers (ext
 	@PYTHONPATH=tests $(BIN)/python -m benchmarks --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
 
-check: kernels lint types imports docs  ## everything: lint, types, import rules, documentation, all tests, in Chromium too
-	@tests/web/browser/chromium.sh
+check: kernels lint types imports docs  ## everything: lint, types, import rules, documentation, all tests, in Chromium and Firefox too
+	@tests/web/browser/browsers.sh
 	@$(PYTEST)
 
 fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS=1000000 FILES=5000 FOLDER= SEED=1

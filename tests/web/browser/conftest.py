@@ -1,35 +1,55 @@
-"""A page of the explorer in Chromium; whatever it complains about or asks for elsewhere fails."""
+"""A page of the explorer in Chromium and in Firefox; a page that complains fails."""
 
 import os
 import shutil
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
 from playwright.sync_api import sync_playwright
 
-NAMES = ("chromium", "chromium-browser", "google-chrome")
+BROWSERS = {
+    "chromium": ("chromium", "chromium-browser", "google-chrome"),
+    "firefox": ("firefox-esr", "firefox"),
+}
 PICTURES = Path("build/screenshots")
 LAPTOP = {"width": 1366, "height": 768}
 
 
-def chromium():
-    found = next(filter(None, map(shutil.which, NAMES)), None)
+def path_of(name):
+    found = next(filter(None, map(shutil.which, BROWSERS[name])), None)
     if found is None and os.environ.get("STACKBOUNCE_BROWSER") == "required":
-        pytest.fail("there is no Chromium, which STACKBOUNCE_BROWSER=required asks for")
+        pytest.fail(f"there is no {name}, which STACKBOUNCE_BROWSER=required asks for")
     if found is None:
-        pytest.skip("there is no Chromium on this machine")
+        pytest.skip(f"there is no {name} on this machine")
     return found
 
 
-@pytest.fixture(scope="module")  # while it runs, its event loop is in the way of other tests' own
-def browser():
-    path = chromium()
+@pytest.fixture(scope="module")
+def downloads(tmp_path_factory):
+    """Return the folder in which Firefox saves files."""
+    return tmp_path_factory.mktemp("downloads")
+
+
+@pytest.fixture(scope="module", params=BROWSERS)
+def browser(request, downloads):
+    """Start one browser after the other; while it runs, its event loop is in the way of others."""
+    path = path_of(request.param)
     with sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=path)
+        options = {"executable_path": path, "downloads_path": downloads}
+        if request.param == "firefox":
+            options["channel"] = "moz-firefox"  # as it is installed, by WebDriver BiDi
+        started = getattr(playwright, request.param).launch(**options)
         yield started
         started.close()
+
+
+@pytest.fixture
+def in_firefox(browser):
+    """Tell whether the browser is Firefox."""
+    return browser.browser_type.name == "firefox"
 
 
 @pytest.fixture(scope="session")
@@ -53,8 +73,8 @@ def address(request):
 class Visit:
     """A page, and what it complained about or asked for."""
 
-    def __init__(self, page, address):
-        self.page, self.address = page, address
+    def __init__(self, page, address, downloads):
+        self.page, self.address, self.downloads = page, address, downloads
         self.complaints, self.requests = [], []
         page.on("console", self._heard)
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
@@ -85,7 +105,26 @@ class Visit:
 
     def picture(self, name, **options):
         PICTURES.mkdir(parents=True, exist_ok=True)
-        self.page.screenshot(path=PICTURES / f"{name}.png", **options)
+        heard = len(self.complaints)
+        path = PICTURES / f"{name}-{self.page.context.browser.browser_type.name}.png"
+        self.page.screenshot(path=path, **options)
+        del self.complaints[heard:]  # in Firefox it adds a style, which the page's policy forbids
+
+    def saved(self, act):
+        """Return the content of the file that the page saves when something is done."""
+        if self.page.context.browser.browser_type.name == "chromium":
+            with self.page.expect_download() as saved:
+                act()
+            return saved.value.path().read_bytes()
+        before = set(self.downloads.iterdir())  # Playwright is not told of what Firefox saves
+        act()
+        end = time.monotonic() + 30.0
+        while time.monotonic() < end:
+            self.page.wait_for_timeout(50)
+            new = set(self.downloads.iterdir()) - before
+            if len(new) == 1 and (content := min(new).read_bytes()):
+                return content
+        raise AssertionError("no file was saved")
 
     def foreign(self):
         inside = (self.address, "data:", "blob:")
@@ -93,14 +132,14 @@ class Visit:
 
 
 @pytest.fixture
-def visits(browser, address):
+def visits(browser, address, downloads):
     """Open pages of their own settings; check at the end that none complained."""
     opened = []
 
     def visit(**settings):
         context = browser.new_context(**{"viewport": LAPTOP} | settings)
         context.set_default_timeout(60_000)
-        opened.append(Visit(context.new_page(), address))
+        opened.append(Visit(context.new_page(), address, downloads))
         return opened[-1]
 
     yield visit

@@ -1,4 +1,4 @@
-"""Errors of the drop's numbers in Chromium: typed into fields, shown as errors and bands."""
+"""Errors of the drop's numbers: typed into fields, shown as errors and bands."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The map in Chromium: what it draws and says is what was computed, by mouse and keyboard."""
+"""The map: what it draws and says is what was computed, by mouse and keyboard."""
 
 import re
 
@@ -54,8 +54,12 @@ def test_words_at_the_crosshair_are_those_of_the_drop_there(visit):
 
 def test_a_click_plays_the_drop_of_that_point(visit):
     page = opened(visit)
+    page.evaluate(
+        "() => { const { clock } = window.stackbounce; clock.pause(); clock.seek(clock.end); }"
+    )
     page.locator(".map-board").click(position=spot(page, 0.5, 0.25))
     assert visit.state("view") == "play"
+    page.wait_for_function("() => window.stackbounce.clock.playing")
     assert visit.state("drop.balls[0].mass") == pytest.approx(0.057 * 10.0**0.5, rel=0.02)
     assert visit.state("drop.contacts[0].stiffness") == pytest.approx(1e3 * 10.0**-0.25, rel=0.02)
 
@@ -124,7 +128,9 @@ def test_the_point_can_be_dragged_and_its_drop_follows(visit):
     visit.picture("map-dragged")
 
 
-def test_a_finger_looks_first_and_plays_by_the_button(visits):
+def test_a_finger_looks_first_and_plays_by_the_button(visits, in_firefox):
+    if in_firefox:
+        pytest.skip("Playwright taps nothing by WebDriver BiDi")
     visit = visits(**PHONE)
     page = opened(visit)
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
@@ -172,8 +178,10 @@ def test_sides_and_what_is_shown_are_in_the_address(visit):
 
 def test_an_end_that_makes_no_side_is_told_where_it_stands(visit):
     page = opened(visit)
-    page.locator("[data-key=map-x-low]").fill("-1")
-    page.locator("[data-key=map-x-low]").press("Tab")
+    low = page.locator("[data-key=map-x-low]")
+    low.fill("")
+    low.press_sequentially("-1")
+    low.blur()
     assert page.locator("#map-x-error").inner_text() == "A logarithmic axis needs limits above 0."
 
 

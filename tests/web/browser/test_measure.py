@@ -1,4 +1,4 @@
-"""Bring your own, in Chromium: a file is read, laid over the drop, and the drop fitted to it."""
+"""Bring your own: a file is read, laid over the drop, and the drop fitted to it."""
 
 import json
 

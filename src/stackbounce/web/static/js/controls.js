@@ -5,6 +5,7 @@ import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withVal
 import { choice, numberField } from "./fields.js";
 import { asMeasured, changeLaw } from "./laws.js";
 import { withError } from "./prediction.js";
+import { restacked } from "./restack.js";
 import { withExample } from "./store.js";
 import { capital } from "./words.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
@@ -50,8 +51,13 @@ export function mountControls(root, store, api, catalogue) {
   const choose = (ball, name) =>
     attempt(async () => {
       const entry = catalogue.balls.find((one) => one.name === name);
-      const drop = withChosen(store.get().drop, ball, entry);
-      change(...(await asStacked(api, catalogue, drop, entry ? ball : null)));
+      const { drop } = store.get();
+      change(...(await restacked(api, catalogue, drop, withChosen(drop, ball, entry))));
+    });
+  const arrange = (act) =>
+    attempt(async () => {
+      const { drop } = store.get();
+      change(...(await restacked(api, catalogue, drop, act(drop))));
     });
   const relaw = (contact, name) =>
     attempt(async () => {
@@ -64,7 +70,7 @@ export function mountControls(root, store, api, catalogue) {
       const { contact: changed, note } = await asMeasured(api, catalogue, drop, contact, values);
       change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
-  const tools = { catalogue, set, errorAt, change, choose, relaw, measured, drop: () => store.get().drop };
+  const tools = { catalogue, set, errorAt, choose, arrange, relaw, measured };
 
   const rebuild = () => {
     const { drop, until } = store.get();
@@ -114,22 +120,6 @@ function placed(contact, note) {
   const notes = [];
   if (note) notes[contact] = note;
   return notes;
-}
-
-/**
- * Return `[drop, notes]`: where all balls are the paper's and all contacts have the paper's laws, the contacts
- * that a chosen ball touches become those that these balls have.
- */
-async function asStacked(api, catalogue, drop, ball) {
-  const names = drop.balls.map(({ name }) => name);
-  const known = names.every((name) => catalogue.balls.some((one) => one.name === name));
-  if (ball === null || !known) return [drop, []];
-  const stack = await api.stack(names, 1);
-  if (!drop.contacts.every(({ law }, i) => law === stack.drop.contacts[i].law)) return [drop, []];
-  const touched = (contact) => contact === ball || contact === ball + 1 || contact === 0;
-  const contacts = drop.contacts.map((one, i) => (touched(i) ? stack.drop.contacts[i] : one));
-  const gaps = gapsOf(drop).map((gap, i) => (touched(i + 1) ? stack.drop.gaps[i] : gap));
-  return [{ ...drop, contacts, gaps }, stack.contact_sources.map((source, i) => (touched(i) ? source : undefined))];
 }
 
 function presetChoice({ presets }, use) {

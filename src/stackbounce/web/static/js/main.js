@@ -5,6 +5,7 @@ import * as api from "./api.js";
 import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
+import { takeFiles } from "./dropped.js";
 import { hasServer, loadMeasure } from "./origin/served.js";
 import { mountNumbers } from "./numbers.js";
 import { mountPlots } from "./plots.js";
@@ -27,6 +28,7 @@ if (typeof WebAssembly === "object" && typeof Worker === "function") place("old"
 address.follow(store);
 const runner = run(store, api);
 carryErrors(store, api);
+takeFiles(store);
 mountStage(place("stage"), store, clock);
 mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);

@@ -105,7 +105,7 @@ export function mount(root, store, api, clock) {
   };
   const play = () => {
     if (!answer || !pointed) return;
-    store.set({ drop: chosenDrop(), view: "play", t: null });
+    store.set({ drop: chosenDrop(), view: "play", t: null, replay: store.get().replay + 1 });
     parts.play.hidden = true;
     document.getElementById("tab-play")?.focus();
   };

@@ -68,11 +68,12 @@ export async function mount(root, store, api) {
     },
   });
   const form = measureForm(offered, ask);
-  const drop = fileDrop(root, (given, known) => {
+  const take = (given, known) => {
     file = given;
     if (known) store.set({ drop: known, until: null });
     ask();
-  });
+  };
+  const drop = fileDrop(root, take);
   const unsaid = h(
     "details",
     { class: "measure-card", open: matchMedia("(min-width: 900px)").matches },
@@ -90,7 +91,9 @@ export async function mount(root, store, api) {
     h("div", { class: "measure-out" }, plot, h("section", { class: "measure-card" }, fit.element)),
   );
   fit.offer(null);
+  if (store.get().file) take(store.get().file);
   store.subscribe((state, before) => {
+    if (state.file && state.file !== before.file) take(state.file);
     if (state.drop !== before.drop) fit.follow();
     if (state.result !== before.result || state.drop !== before.drop) overlay.follow();
   });

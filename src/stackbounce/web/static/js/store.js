@@ -36,6 +36,7 @@ export const FIRST = {
   notice: null, // one line about the page itself, such as a link that could not be read
   replay: 0, // raised where a drop is to be shown from its begin
   overlays: [],
+  file: null, // that was dropped on the page, to be measured
 };
 
 /** Return what changes in a state that shows another drop from its begin: its impact, without errors. */

@@ -1,9 +1,10 @@
 /** The tower: cards of the balls, with cards of the contacts between them. */
 
 import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
-import { h } from "./dom.js";
+import { h, write } from "./dom.js";
 import { choice, numberField } from "./fields.js";
 import { firstContact } from "./laws.js";
+import { isOfCatalogue } from "./restack.js";
 import { format } from "./units.js";
 import { ballName, contactName } from "./words.js";
 
@@ -11,14 +12,18 @@ const OWN = "";
 
 /**
  * Return `{element, fields}` of the tower of a drop.
- * @param {object} tools `{catalogue, change(drop), set(path, value), choose(ball, name), relaw(contact, name), measured(contact, values)}`
+ * @param {object} tools `{catalogue, set(path, value), choose(ball, name), arrange(act), relaw(contact, name), measured(contact, values)}`
  */
 export function towerOf(drop, tools, notes) {
   const fields = [];
-  const field = (spec) => {
+  const field = (spec, follow = () => {}) => {
     const one = numberField({ set: tools.set, errorAt: tools.errorAt, ...spec });
-    one.update(valueAt(drop, spec.path));
-    fields.push(one);
+    const update = (value) => {
+      one.update(value);
+      follow(value);
+    };
+    update(valueAt(drop, spec.path));
+    fields.push({ ...one, update });
     return one.element;
   };
   const items = [];
@@ -32,7 +37,7 @@ export function towerOf(drop, tools, notes) {
     "data-key": "add",
     disabled: full,
     text: "Add a ball on top",
-    onclick: () => tools.change(withBall(tools.drop(), firstContact(tools.catalogue.laws))),
+    onclick: () => tools.arrange((now) => withBall(now, firstContact(tools.catalogue.laws))),
   });
   return { element: h("div", {}, add, h("ol", { class: "tower" }, items)), fields };
 }
@@ -49,19 +54,18 @@ function ballCard(drop, ball, tools, field) {
       "data-key": `${key}-${ball}`,
       disabled,
       text,
-      onclick: () => tools.change(act(tools.drop())),
+      onclick: () => tools.arrange(act),
     });
   const entries = tools.catalogue.balls.map((one) => [one.name, `${one.name}, ${format(one.mass * 1e3)} g`]);
-  const { mass } = drop.balls[ball];
-  const known = tools.catalogue.balls.some((one) => one.name === drop.balls[ball].name && one.mass === mass);
   const choose = choice({
     label: `Ball ${ball}`,
     quiet: true,
     key: `ball-${ball}`,
-    groups: [["", [[OWN, known ? "another ball" : name]]], ["Balls of the paper", entries]],
-    value: known ? drop.balls[ball].name : OWN,
+    groups: [["", [[OWN, "another ball"]]], ["Balls of the paper", entries]],
+    value: OWN,
     set: (chosen) => tools.choose(ball, chosen),
   });
+  const changed = h("p", { class: "note", hidden: true });
   const header = h(
     "div",
     { class: "card-head" },
@@ -71,13 +75,29 @@ function ballCard(drop, ball, tools, field) {
     button("↓", `Move ${name} down`, "down", ball === 0, (now) => withSwap(now, ball - 1)),
     button("×", `Remove ${name}`, "remove", last === 0, (now) => withoutBall(now, ball)),
   );
-  const rows = [field({ path: `balls.${ball}.mass`, label: "mass", of: name, unit: "kg", low: 1e-3, high: 2 })];
+  const naming = namer(choose.querySelector("select"), changed, drop, ball, tools);
+  const rows = [field({ path: `balls.${ball}.mass`, label: "mass", of: name, unit: "kg", low: 1e-3, high: 2 }, naming)];
   if (incidenceOf(drop) === "velocities") {
     rows.push(field({ path: `velocities.${ball}`, label: "velocity", of: name, unit: "m/s", low: -10, high: 10, says: "up is positive" }));
   }
   const size = { path: `balls.${ball}.diameter`, label: "diameter", of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
   const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: "Size" }), field({ ...size, says: "for the picture only" }));
-  return h("li", { class: "card ball-card" }, header, rows, more);
+  return h("li", { class: "card ball-card" }, header, rows, changed, more);
+}
+
+/** Return a function that keeps a ball's name true while its mass changes. */
+function namer(select, note, drop, ball, { catalogue }) {
+  const own = drop.balls[ball];
+  const entry = catalogue.balls.find(({ name }) => name === own.name);
+  return (mass) => {
+    const known = isOfCatalogue(catalogue, { name: own.name, mass });
+    select.value = known ? own.name : OWN;
+    write(select.options[0], known ? "another ball" : entry ? `${own.name}, changed` : ballName(drop, ball));
+    note.hidden = known || !entry;
+    if (note.hidden) return;
+    const grams = `${format(entry.mass * 1e3)} g`;
+    write(note, `Not the ${own.name} of ${grams}: stiffnesses stay those of ${grams} until you change them.`);
+  };
 }
 
 function swatch(index) {
