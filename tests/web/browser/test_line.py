@@ -1,4 +1,4 @@
-"""The line in Chromium: what it draws, says and saves is what was computed."""
+"""The line: what it draws, says and saves is what was computed."""
 
 import csv
 import io
@@ -97,6 +97,7 @@ def test_a_click_plays_the_drop_of_that_point(visit):
     page = opened(visit, MASSES)
     page.locator(".line-board").click(position=spot(page, 0.5))
     assert visit.state("view") == "play"
+    page.wait_for_function("() => window.stackbounce.clock.playing")
     assert visit.state("drop.balls[0].mass") == pytest.approx(5.5 * 0.057, rel=0.01)
 
 
@@ -118,7 +119,9 @@ def test_the_point_can_be_dragged_and_its_drop_follows(visit):
     assert float(dot.get_attribute("cx")) == pytest.approx(end["x"], abs=1.5)
 
 
-def test_a_finger_looks_first_and_plays_by_the_button(visits):
+def test_a_finger_looks_first_and_plays_by_the_button(visits, in_firefox):
+    if in_firefox:
+        pytest.skip("Playwright taps nothing by WebDriver BiDi")
     visit = visits(**PHONE)
     page = opened(visit, MASSES)
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
@@ -194,8 +197,10 @@ def test_the_address_keeps_the_line(visits):
     page = opened(first)
     page.locator("[data-key=line-x]").select_option("impact_speed")
     page.locator("[data-key=line-show]").select_option("rebound_height")
-    page.locator("[data-key=line-x-high]").fill("5")
-    page.locator("[data-key=line-x-high]").press("Tab")
+    high = page.locator("[data-key=line-x-high]")
+    high.fill("")
+    high.press_sequentially("5")
+    high.blur()
     page.wait_for_function("() => /line.x.high=5/.test(location.hash)")
     second = visits()
     other = opened(second, page.evaluate("() => location.hash"))
@@ -266,10 +271,7 @@ def test_six_balls_with_a_law_of_their_own_are_drawn_from_coarse_to_fine(visit, 
 @pytest.mark.parametrize("kind", ["csv", "svg", "png"])
 def test_a_line_is_saved(visit, kind):
     page = opened(visit, MASSES)
-    with page.expect_download() as saved:
-        page.locator(f"[data-key=line-save-{kind}]").click()
-    content = saved.value.path().read_bytes()
-    assert saved.value.suggested_filename == f"stackbounce-line.{kind}"
+    content = visit.saved(page.locator(f"[data-key=line-save-{kind}]").click)
     if kind != "csv":
         assert content.startswith({"svg": b"<svg xmlns=", "png": b"\x89PNG"}[kind])
         return

@@ -98,7 +98,7 @@ export async function mount(root, store, api, clock) {
   const chosenDrop = () => withNumbers(answer.drop, { [answer.x.path]: sideOf(answer.x).value(pointed) });
   const play = () => {
     if (!answer || pointed === null) return;
-    store.set({ drop: chosenDrop(), view: "play", t: null });
+    store.set({ drop: chosenDrop(), view: "play", t: null, replay: store.get().replay + 1 });
     parts.play.hidden = true;
     document.getElementById("tab-play")?.focus();
   };
