@@ -123,7 +123,7 @@ def _separate(b: Bench) -> Iterator[Line]:
         for key, ending in (("models.lossless", ""), ("models.restitution", "-lossy")):
             upper, e = b("fig5.upper_mass"), b(key)
             drop = rigid_pair((ratio * upper, upper), e, speed=b("models.speed"))
-            title = f"Figure 2({part}): separate collisions, e = {e:g}"
+            title = f"Figure 2({part}): separate, e = {e:g}"
             yield Line(f"figure-2{part}{ending}", title, says, drop, across)
 
 
@@ -136,7 +136,7 @@ def _on_springs(b: Bench) -> Iterator[Line]:
         ("b", stiff, "A stiff floor contact ends early: nearly separate collisions."),
     ):
         drop = stacks.section_two(b, 3.0, ratio)
-        title = f"Figure 4({part}): on springs, k₁/k₂ = {ratio:g}"
+        title = f"Figure 4({part}): springs, k₁/k₂ = {ratio:g}"
         yield Line(f"figure-4{part}", title, says, drop, AFTER_FIRST)
 
 
@@ -149,9 +149,9 @@ def _over_stiffness(b: Bench, lower: str, upper: str, drop: Drop) -> Line:
     measured = (b.measured(f"{upper}_on_{lower}.{ball}") for ball in ("lower", "upper"))
     return Line(
         f"figure-6-{upper}",
-        f"Figure 6: {upper} on {lower}, m₁/m₂ = {balls[0].mass / balls[1].mass:.3g}",
-        "No loss in the springs. Bands show the measured speeds: the paper asks at which stiffness "
-        "ratio the curves meet them.",
+        f"Figure 6: {upper} on {lower}",
+        f"Mass ratio {balls[0].mass / balls[1].mass:.3g}, no loss in the springs. Bands show the "
+        "measured speeds: the paper asks at which stiffness ratio the curves meet them.",
         replace(drop, balls=balls),
         STIFFNESS,
         tuple((one.n, one.s) for one in measured),

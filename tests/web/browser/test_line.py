@@ -1,4 +1,4 @@
-"""The line in Chromium: what it draws, says and saves is what was computed."""
+"""The line: what it draws, says and saves is what was computed."""
 
 import csv
 import io
@@ -35,7 +35,7 @@ def field(page):
     """Return where the field of the drawing is on the board, in px: left, top, width, height."""
     curve = np.array(page.evaluate(CURVES)[0])
     lines = page.evaluate(
-        """() => [...document.querySelectorAll('.line-board svg > line')].map((one) =>
+        """() => [...document.querySelectorAll('.line-drawing svg > line')].map((one) =>
              ['x1', 'x2', 'y1', 'y2'].map((name) => +one.getAttribute(name)))"""
     )
     across = [one for one in lines if one[2] == one[3]]
@@ -62,7 +62,7 @@ def test_curves_and_axis_are_the_library_s(visit):
     lower, upper = (np.array(curve) for curve in page.evaluate(CURVES))
     marks = dict(
         page.evaluate(
-            """() => [...document.querySelectorAll('.line-board svg > text[text-anchor=end]')]
+            """() => [...document.querySelectorAll('.line-drawing svg > text[text-anchor=end]')]
                  .map((one) => [+one.textContent, +one.getAttribute('y')])"""
         )
     )
@@ -97,6 +97,7 @@ def test_a_click_plays_the_drop_of_that_point(visit):
     page = opened(visit, MASSES)
     page.locator(".line-board").click(position=spot(page, 0.5))
     assert visit.state("view") == "play"
+    page.wait_for_function("() => window.stackbounce.clock.playing")
     assert visit.state("drop.balls[0].mass") == pytest.approx(5.5 * 0.057, rel=0.01)
 
 
@@ -118,7 +119,9 @@ def test_the_point_can_be_dragged_and_its_drop_follows(visit):
     assert float(dot.get_attribute("cx")) == pytest.approx(end["x"], abs=1.5)
 
 
-def test_a_finger_looks_first_and_plays_by_the_button(visits):
+def test_a_finger_looks_first_and_plays_by_the_button(visits, in_firefox):
+    if in_firefox:
+        pytest.skip("Playwright taps nothing by WebDriver BiDi")
     visit = visits(**PHONE)
     page = opened(visit, MASSES)
     assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
@@ -194,10 +197,10 @@ def test_the_address_keeps_the_line(visits):
     page = opened(first)
     page.locator("[data-key=line-x]").select_option("impact_speed")
     page.locator("[data-key=line-show]").select_option("rebound_height")
-    title = page.locator(".line-title").filter(has_text="Rebound heights against impact speed")
-    title.wait_for()
-    page.locator("[data-key=line-x-high]").fill("5")
-    page.locator("[data-key=line-x-high]").press("Tab")
+    high = page.locator("[data-key=line-x-high]")
+    high.fill("")
+    high.press_sequentially("5")
+    high.blur()
     page.wait_for_function("() => /line.x.high=5/.test(location.hash)")
     second = visits()
     other = opened(second, page.evaluate("() => location.hash"))
@@ -225,7 +228,7 @@ def test_what_a_link_has_and_this_drop_has_not_is_named(visit, more, words):
 def test_settings_of_a_newer_page_are_named_and_the_rest_is_kept(visit):
     page = opened(visit, "#view=line&line.show=collisions&line.smooth=3&map.z.low=1&line.x=1")
     assert visit.state("line") == {"show": "collisions"}
-    assert "“line.smooth”, “map.z.low”, “line.x”" in page.locator(".line-form .note").inner_text()
+    assert "“line.smooth”, “map.z.low”, “line.x”" in page.locator("#preset-says").inner_text()
     assert page.locator("[data-key=line-show]").input_value() == "collisions"
 
 
@@ -268,10 +271,7 @@ def test_six_balls_with_a_law_of_their_own_are_drawn_from_coarse_to_fine(visit, 
 @pytest.mark.parametrize("kind", ["csv", "svg", "png"])
 def test_a_line_is_saved(visit, kind):
     page = opened(visit, MASSES)
-    with page.expect_download() as saved:
-        page.locator(f"[data-key=line-save-{kind}]").click()
-    content = saved.value.path().read_bytes()
-    assert saved.value.suggested_filename == f"stackbounce-line.{kind}"
+    content = visit.saved(page.locator(f"[data-key=line-save-{kind}]").click)
     if kind != "csv":
         assert content.startswith({"svg": b"<svg xmlns=", "png": b"\x89PNG"}[kind])
         return

@@ -1,6 +1,6 @@
 /** The line: the rebound over one number of the drop, with the present drop as a point on it. */
 
-import { h, s, write } from "./dom.js";
+import { h, renew, s, write } from "./dom.js";
 import { complete } from "./drops.js";
 import { drawLine, drawLineMarks } from "./line_draw.js";
 import { lineForm } from "./line_form.js";
@@ -28,6 +28,7 @@ export async function mount(root, store, api, clock) {
   let answer = null;
   let paths = [];
   let drawing = null;
+  let due = 0; // a frame in which to draw
   let pointed = null; // part of the side, from 0 to 1
   let held = null; // where the mouse was pressed, and whether it has moved since
   let asked = {}; // the drop and the settings that are shown, or will be
@@ -41,8 +42,8 @@ export async function mount(root, store, api, clock) {
     if (answer) download(await fileOf(kind, answer, measured()), `stackbounce-line.${kind}`);
   };
   const form = lineForm(figures, { set: (line) => store.set({ line }), use, save });
-  const side = h("div", { class: "line-side" }, form.element, parts.stage, parts.told, h("div", { class: "set-up-place" }));
-  root.replaceChildren(parts.figure, side);
+  const side = h("div", { class: "line-side" }, form.element, parts.stage, parts.told, parts.summary);
+  root.replaceChildren(parts.figure, side, h("div", { class: "set-up-place" }));
   mountStage(parts.stage, store, clock);
 
   const requests = liner(api, (news) => {
@@ -51,8 +52,8 @@ export async function mount(root, store, api, clock) {
     parts.again.hidden = !news.problem;
     if (news.problem) return;
     ({ answer, paths } = news);
-    form.update({ ...news, figure: figureOf(figures, answer), notice: store.get().notice });
-    draw();
+    form.update({ ...news, figure: figureOf(figures, answer) });
+    drawSoon();
   });
   const refresh = () => {
     const { drop, line } = store.get();
@@ -66,15 +67,18 @@ export async function mount(root, store, api, clock) {
     if (!answer || width < 20 || height < 20) return;
     const colors = palette();
     drawing = drawLine(answer, { width, height }, colors, measured());
-    drawing.svg.setAttribute("aria-hidden", "true");
-    parts.marks.replaceChildren();
-    drawing.svg.append(parts.marks);
-    parts.board.replaceChildren(drawing.svg);
+    renew(parts.drawing, drawing.svg);
     const shows = SHOWS.get(answer.show);
     write(parts.title, `${shows} against ${brief(answer.x.label)}`);
     write(parts.summary, summary(answer));
     parts.board.setAttribute("aria-label", `Line: ${shows}; across, ${answer.x.label}`);
     mark();
+  };
+  const drawSoon = () => {
+    due ||= requestAnimationFrame(() => {
+      due = 0;
+      draw();
+    });
   };
   const mark = () => {
     if (!drawing) return;
@@ -94,7 +98,7 @@ export async function mount(root, store, api, clock) {
   const chosenDrop = () => withNumbers(answer.drop, { [answer.x.path]: sideOf(answer.x).value(pointed) });
   const play = () => {
     if (!answer || pointed === null) return;
-    store.set({ drop: chosenDrop(), view: "play", t: null });
+    store.set({ drop: chosenDrop(), view: "play", t: null, replay: store.get().replay + 1 });
     parts.play.hidden = true;
     document.getElementById("tab-play")?.focus();
   };
@@ -186,15 +190,21 @@ function within(part) {
 }
 
 function build() {
-  const marks = s("g");
-  const board = h("div", {
-    class: "line-board",
-    tabindex: "0",
-    role: "application",
-    "aria-roledescription": "line",
-    "aria-label": "Line",
-    "aria-describedby": "line-keys line-summary",
-  });
+  const drawing = h("div", { class: "line-drawing", "aria-hidden": "true" });
+  const marks = s("svg", { class: "line-marks", width: "100%", height: "100%", "aria-hidden": "true" });
+  const board = h(
+    "div",
+    {
+      class: "line-board",
+      tabindex: "0",
+      role: "application",
+      "aria-roledescription": "line",
+      "aria-label": "Line",
+      "aria-describedby": "line-keys line-summary",
+    },
+    drawing,
+    marks,
+  );
   const title = h("h2", { class: "line-title" });
   const readout = h("p", { class: "line-readout" });
   const play = h("button", { type: "button", class: "line-play", text: "Play this drop", hidden: true });
@@ -204,8 +214,8 @@ function build() {
   const summary = h("p", { class: "note", id: "line-summary" });
   const keys = h("p", { class: "quiet", id: "line-keys", text: KEYS });
   const box = h("div", { class: "line-box" }, board, h("div", { class: "line-over" }, message, again));
-  const figure = h("section", { class: "line-figure", "aria-label": "Line" }, title, readout, play, box, summary, keys, live);
+  const figure = h("section", { class: "line-figure", "aria-label": "Line" }, title, readout, play, box, keys, live);
   const stage = h("div", { class: "stage line-stage" });
   const told = h("p", { class: "line-told" });
-  return { stage, told, figure, marks, board, title, readout, play, live, message, again, summary };
+  return { stage, told, figure, drawing, marks, board, title, readout, play, live, message, again, summary };
 }

@@ -3,7 +3,7 @@
 import { h, write } from "./dom.js";
 import { choice } from "./fields.js";
 import { SHOWS } from "./line_words.js";
-import { sideForm } from "./side_form.js";
+import { patient, sideForm } from "./side_form.js";
 
 /**
  * Return `{element, update({settings, paths, unfit, figure, notice})}`.
@@ -14,14 +14,18 @@ export function lineForm(figures, { set, use, save }) {
   const says = h("p", { class: "note" });
   element.addEventListener("submit", (event) => event.preventDefault());
   let shown = "";
-  const update = ({ settings, paths, unfit, figure, notice }) => {
-    write(says, [notice, wordsOf(unfit), figure?.says].filter(Boolean).join(" "));
+  const update = ({ settings, paths, unfit, figure }) => {
+    write(says, [wordsOf(unfit), figure?.says].filter(Boolean).join(" "));
     const now = JSON.stringify([settings, paths.map(({ path, label }) => [path, label]), figure?.name]);
     if (now === shown) return;
     shown = now;
     const focused = document.activeElement?.dataset?.key;
     let latest = settings; // a second choice may come before the first one is answered
-    const change = (patch) => set((latest = { ...latest, ...patch }));
+    const change = (patch) => {
+      const other = patch.x && patch.x.path !== latest.x.path;
+      set((latest = { ...latest, ...patch }));
+      if (other) update({ settings: latest, paths, unfit: [] }); // its ends are of another unit
+    };
     element.replaceChildren(
       choice({
         label: "Curves of the paper",
@@ -43,7 +47,7 @@ export function lineForm(figures, { set, use, save }) {
     );
     if (focused?.startsWith("line-")) element.querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus();
   };
-  return { element, update };
+  return { element, update: patient(element, update) };
 }
 
 const KINDS = [

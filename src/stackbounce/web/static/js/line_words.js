@@ -5,6 +5,8 @@ import { brief, quantity } from "./map_words.js";
 import { format } from "./units.js";
 import { ballName, capital, contactName, count, height, percent } from "./words.js";
 
+const FEW = 3; // curves whose textbook is told, too
+
 /** What a line can show, and what its axis is called. */
 export const SHOWS = new Map([
   ["rebound_ratio", "Rebound speeds over v₀"],
@@ -43,7 +45,7 @@ export function told(answer, part) {
 function outcome(answer, curve, part) {
   const own = valueAt(answer, curve, part);
   const name = nameOf(answer, curve);
-  const theirs = curve.textbook && valueAt(answer, curve.textbook, part);
+  const theirs = answer.curves.length <= FEW && curve.textbook && valueAt(answer, curve.textbook, part);
   const beside = typeof theirs === "number" ? ` (textbook ${written(answer.show, theirs, false)})` : "";
   const said = own === null ? "not finished" : written(answer.show, own) + beside;
   if (answer.show === "energy_retained") return `${said} of the kinetic energy retained`;

@@ -3,7 +3,7 @@
 import { h } from "./dom.js";
 import { choice } from "./fields.js";
 import { depends } from "./map_words.js";
-import { sideForm } from "./side_form.js";
+import { patient, sideForm } from "./side_form.js";
 import { capital } from "./words.js";
 
 /** Return `{element, update({settings, paths, shows})}`; `set` hears the new settings. */
@@ -40,5 +40,5 @@ export function mapForm(set) {
     );
     if (focused?.startsWith("map-")) element.querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus();
   };
-  return { element, update };
+  return { element, update: patient(element, update) };
 }

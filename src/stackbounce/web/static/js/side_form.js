@@ -64,6 +64,18 @@ export function sideForm(key, title, current, paths, set) {
   );
 }
 
+/** Return a function that updates a form, but not while somebody types into it: what is typed would be lost. */
+export function patient(form, update) {
+  let late = null;
+  form.addEventListener("change", () => (late = null)); // what was typed is taken, and brings news of its own
+  form.addEventListener("focusout", () => late && update(late));
+  return (news) => {
+    const typing = [...form.querySelectorAll("input[type=text]")].some((one) => one === document.activeElement && one.value !== one.defaultValue);
+    late = typing ? news : null;
+    if (!typing) update(news);
+  };
+}
+
 function problemOf(side) {
   const text = [side.low, side.high].find((end) => typeof end !== "number");
   if (text !== undefined) return `“${text}” is not a number.`;
