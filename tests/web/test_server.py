@@ -442,6 +442,24 @@ def test_the_lines_of_python_reproduce_the_drop(server, drop, tmp_path, monkeypa
     assert "rebound ratios" in capsys.readouterr().out
 
 
+def test_errors_of_numbers_are_exported(server, drop, tmp_path, monkeypatch):
+    errors = {"balls.1.mass": "0.5 g", "contacts.0.stiffness": 100.0}
+    monkeypatch.chdir(tmp_path)
+    found = {}
+    exec(post(server, "export/python", drop=drop, errors=errors).text, found)
+    exact = sb.predict(
+        sb.Drop.from_mapping(drop),
+        {"balls.1.mass": "57 ± 0.5 g", "contacts.0.stiffness": (2500.0, 100.0)},
+    )
+    assert found["result"].errors.keys() == exact.errors.keys()
+    assert str(found["result"].rebound_ratios) == str(exact.rebound_ratios)
+    scenario = post(server, "export/toml", drop=drop, errors=errors).text
+    assert 'mass = "0.057 ± 0.0005 kg"' in scenario
+    assert 'stiffness = "2500.0 ± 100.0 N/m"' in scenario
+    wrong = post(server, "export/python", drop=drop, errors={"balls.1.mass": "-1 g"})
+    assert wrong.json()["detail"] == "balls.1.mass's error must be 0 or above, got -0.001"
+
+
 def record(drop, noise=0.3):
     """Return a force record of both contacts, as CSV, its clock 0.5 s late."""
     result = library(drop)
