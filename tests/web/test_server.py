@@ -8,6 +8,7 @@ import struct
 import xml.etree.ElementTree as ET
 from importlib.resources import files
 from pathlib import Path
+from urllib.parse import unquote
 
 import numpy as np
 import pytest
@@ -397,6 +398,12 @@ def test_a_body_that_is_no_request(server, body):
     response = server.post("/api/simulate", content=body, headers=headers)
     assert response.status_code in (400, 422)
     assert "\n" not in response.json()["detail"]
+
+
+def test_the_icon_in_the_page_is_that_of_the_file(server):
+    """Chromium asks for an icon in a file again after each change of the address."""
+    inside = re.search(r'rel="icon" href="data:image/svg\+xml,([^"]*)"', server.get("/").text)[1]
+    assert unquote(inside) == server.get("/icon.svg").text.strip()
 
 
 def test_exports(server, drop):

@@ -3,7 +3,7 @@
 import base64
 import json
 
-from stackbounce.web.page.assembly import assemble, digest, icon, with_policy
+from stackbounce.web.page.assembly import assemble, digest, with_policy
 from stackbounce.web.page.parts import made_file
 
 __all__ = ["one_file"]
@@ -34,9 +34,7 @@ def one_file() -> str:
     if "</script" in script or "<!--" in script or "</style" in styles:
         raise AssertionError("a text of the page would end its own element")
     policy = _POLICY.format(script=digest(script.encode()), style=digest(styles.encode()))
-    picture = base64.b64encode(icon()).decode()
     page = with_policy(html, policy)
-    page = page.replace('href="icon.svg"', f'href="data:image/svg+xml;base64,{picture}"')
     page = page.replace("</head>", f"<style>{styles}</style>\n</head>")
     engine = base64.b64encode(made_file("engine.wasm")).decode()
     parts = [
