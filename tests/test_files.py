@@ -6,7 +6,7 @@ import pytest
 
 from stackbounce.cli import main
 from stackbounce.errors import FileError
-from stackbounce.files import content_of, write_file, write_files
+from stackbounce.files import content_of, prepare_folder, write_file, write_files, write_folder
 
 posix = pytest.mark.skipif(os.name != "posix", reason="permissions, links and pipes of POSIX")
 
@@ -120,3 +120,33 @@ def test_no_more_is_read_than_allowed():
     assert len(content_of("large", 2**20 + 1)[1]) == 2**20 + 1
     with pytest.raises(FileError, match="large is larger than 1 MiB"):
         content_of("large", 2**20)
+
+
+def test_no_temporary_file_stays_where_a_file_of_a_folder_cannot_be_replaced(tmp_path):
+    (tmp_path / "audit.csv").mkdir()
+    with pytest.raises(FileError):
+        write_folder(tmp_path, {"audit.csv": b"new", "index.html": b"new"})
+    assert [path.name for path in tmp_path.iterdir()] == ["audit.csv"]
+
+
+def test_only_files_as_they_were_written_are_replaced(tmp_path):
+    write_folder(tmp_path, {"index.html": b"1", "study.html": b"1"})
+    write_folder(tmp_path, {"index.html": b"2"})
+    assert (tmp_path / "index.html").read_bytes() == b"2"
+    write_folder(tmp_path, {"study.html": b"3"})
+    (tmp_path / "index.html").write_bytes(b"changed by hand")
+    with pytest.raises(FileError, match=r"index\.html is there"):
+        write_folder(tmp_path, {"index.html": b"4", "study.html": b"4"})
+    assert (tmp_path / "study.html").read_bytes() == b"3"
+
+
+def test_a_folder_is_made_for_its_files_and_foreign_files_are_told_of_before():
+    prepare_folder(Path("new/site"), ["index.html", "made/data.json"])
+    assert names("new/site") == ["made"]
+    Path("new/site/made/data.json").write_bytes(b"mine")
+    with pytest.raises(FileError, match=r"data\.json is there, and is not as this command"):
+        prepare_folder(Path("new/site"), ["index.html", "made/data.json"])
+    Path("taken").write_bytes(b"mine")
+    for place in ("taken", "taken/below", "a\0b"):
+        with pytest.raises(FileError, match="cannot be written to"):
+            prepare_folder(Path(place), ["index.html"])

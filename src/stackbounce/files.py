@@ -1,15 +1,26 @@
 """Files: reading ordinary ones of limited size, and writing them whole or not at all."""
 
 import contextlib
+import hashlib
 import os
 import secrets
 import stat
-from collections.abc import Iterable
+import tempfile
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from stackbounce.errors import FileError, InvalidType, shown
 
-__all__ = ["check_place", "content_of", "write_file", "write_files"]
+__all__ = [
+    "check_place",
+    "content_of",
+    "prepare_folder",
+    "write_file",
+    "write_files",
+    "write_folder",
+]
+
+_SUMS = "stackbounce.sha256"
 
 
 def content_of(path: object, most: int) -> tuple[str, bytearray]:
@@ -139,6 +150,93 @@ def write_files(files: Iterable[tuple[Path, bytes]]) -> None:
         for part, _ in parts:
             with contextlib.suppress(OSError, ValueError):
                 part.unlink(missing_ok=True)
+
+
+def prepare_folder(folder: Path, names: Iterable[str]) -> None:
+    """Make a folder for files, with the folders in it, before these are computed.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder.
+    names : iterable of str
+        The names of the files, such as ``figures/first.svg``.
+
+    Raises
+    ------
+    FileError
+        If the folder cannot be made or written to, or `write_folder` would not replace a file.
+
+    Examples
+    --------
+    >>> folder = getfixture("tmp_path") / "new"
+    >>> prepare_folder(folder, ["index.html", "made/data.json"])
+    >>> [path.name for path in folder.iterdir()]
+    ['made']
+    """
+    names = list(names)
+    try:
+        for place in sorted({folder, *((folder / name).parent for name in names)}):
+            place.mkdir(parents=True, exist_ok=True)
+            tempfile.TemporaryFile(dir=place).close()
+    except (OSError, ValueError) as error:  # ValueError: a null character in the name
+        reason = getattr(error, "strerror", None) or error
+        raise FileError(f"{folder} cannot be written to: {reason}") from None
+    _check_ours(folder, names)
+
+
+def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
+    """Write files into a folder, all or none, and their digests into ``stackbounce.sha256`` there.
+
+    Whenever it is stopped, the digests tell which files are as they were written here. Only such
+    files are replaced.
+
+    Parameters
+    ----------
+    folder : Path
+        The folder, as `prepare_folder` makes it.
+    files : mapping of str to bytes
+        The contents of the files by their names.
+
+    Raises
+    ------
+    FileError
+        If a file is there that was not written here, or one cannot be written.
+
+    Examples
+    --------
+    >>> folder = getfixture("tmp_path")
+    >>> write_folder(folder, {"index.html": b"1"})
+    >>> write_folder(folder, {"index.html": b"2"})
+    >>> _ = (folder / "index.html").write_bytes(b"mine")
+    >>> write_folder(folder, {"index.html": b"3"})
+    Traceback (most recent call last):
+    stackbounce.errors.FileError: ...index.html is there, and is not as this command writes it: ...
+    """
+    known = _check_ours(folder, files)
+    new = {f"{hashlib.sha256(content).hexdigest()}  {name}" for name, content in files.items()}
+    others = [line for line in known if line.partition("  ")[2] not in files]
+    contents = [(folder / name, content) for name, content in files.items()]
+    before, after = (
+        (folder / _SUMS, "".join(f"{line}\n" for line in sorted({*new, *lines})).encode())
+        for lines in (known, others)
+    )
+    write_files([before, *contents, after])
+
+
+def _check_ours(folder: Path, names: Iterable[str]) -> list[str]:
+    """Refuse files that are not as they were written here; return what was, ``DIGEST  NAME``."""
+    sums = folder / _SUMS
+    known = sums.read_text("utf-8", "replace").splitlines() if sums.is_file() else []
+    for name in names:
+        path = folder / name
+        found = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
+        if path.exists() and f"{found}  {name}" not in known:
+            raise FileError(
+                f"{path} is there, and is not as this command writes it: move it away, or choose "
+                "another folder"
+            )
+    return known
 
 
 def _is_stream(path: Path) -> bool:

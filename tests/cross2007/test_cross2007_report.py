@@ -161,15 +161,6 @@ def test_a_file_in_the_way_is_told_before_any_work(tmp_path):
     assert (tmp_path / "taken").read_text(encoding="utf-8") == "mine"
 
 
-def test_no_temporary_file_stays_where_a_file_cannot_be_replaced(tmp_path):
-    from stackbounce.cross2007.report import _replace
-
-    (tmp_path / "audit.csv").mkdir()
-    with pytest.raises(FileError):
-        _replace(tmp_path, {"audit.csv": b"new", "index.html": b"new"})
-    assert [path.name for path in tmp_path.iterdir()] == ["audit.csv"]
-
-
 def test_foreign_files_are_not_replaced(tmp_path):
     page, told = tmp_path / "index.html", []
     page.write_text("mine", encoding="utf-8")
@@ -177,19 +168,6 @@ def test_foreign_files_are_not_replaced(tmp_path):
         cross2007.write(tmp_path, told.append)
     assert told == []
     assert page.read_text(encoding="utf-8") == "mine"
-
-
-def test_only_files_as_they_were_written_are_replaced(tmp_path):
-    from stackbounce.cross2007.report import _replace
-
-    _replace(tmp_path, {"index.html": b"1", "study.html": b"1"})
-    _replace(tmp_path, {"index.html": b"2"})
-    assert (tmp_path / "index.html").read_bytes() == b"2"
-    _replace(tmp_path, {"study.html": b"3"})
-    (tmp_path / "index.html").write_bytes(b"changed by hand")
-    with pytest.raises(FileError, match=r"index\.html is there"):
-        _replace(tmp_path, {"index.html": b"4", "study.html": b"4"})
-    assert (tmp_path / "study.html").read_bytes() == b"3"
 
 
 @pytest.mark.parametrize(

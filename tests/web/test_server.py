@@ -8,6 +8,7 @@ import struct
 import xml.etree.ElementTree as ET
 from importlib.resources import files
 from pathlib import Path
+from urllib.parse import unquote
 
 import numpy as np
 import pytest
@@ -399,6 +400,12 @@ def test_a_body_that_is_no_request(server, body):
     assert "\n" not in response.json()["detail"]
 
 
+def test_the_icon_in_the_page_is_that_of_the_file(server):
+    """Chromium asks for an icon in a file again after each change of the address."""
+    inside = re.search(r'rel="icon" href="data:image/svg\+xml,([^"]*)"', server.get("/").text)[1]
+    assert unquote(inside) == server.get("/icon.svg").text.strip()
+
+
 def test_exports(server, drop):
     def export(kind):
         response = post(server, f"export/{kind}", drop=drop)
@@ -440,6 +447,24 @@ def test_the_lines_of_python_reproduce_the_drop(server, drop, tmp_path, monkeypa
     assert found["drop"] == sb.Drop.from_mapping(drop)
     assert (tmp_path / "bounce.svg").stat().st_size > 10_000
     assert "rebound ratios" in capsys.readouterr().out
+
+
+def test_errors_of_numbers_are_exported(server, drop, tmp_path, monkeypatch):
+    errors = {"balls.1.mass": "0.5 g", "contacts.0.stiffness": 100.0}
+    monkeypatch.chdir(tmp_path)
+    found = {}
+    exec(post(server, "export/python", drop=drop, errors=errors).text, found)
+    exact = sb.predict(
+        sb.Drop.from_mapping(drop),
+        {"balls.1.mass": "57 ± 0.5 g", "contacts.0.stiffness": (2500.0, 100.0)},
+    )
+    assert found["result"].errors.keys() == exact.errors.keys()
+    assert str(found["result"].rebound_ratios) == str(exact.rebound_ratios)
+    scenario = post(server, "export/toml", drop=drop, errors=errors).text
+    assert 'mass = "0.057 ± 0.0005 kg"' in scenario
+    assert 'stiffness = "2500.0 ± 100.0 N/m"' in scenario
+    wrong = post(server, "export/python", drop=drop, errors={"balls.1.mass": "-1 g"})
+    assert wrong.json()["detail"] == "balls.1.mass's error must be 0 or above, got -0.001"
 
 
 def record(drop, noise=0.3):

@@ -43,10 +43,11 @@ def run(
         ),
     ] = None,
     export: Annotated[
-        Path | None,
+        str | None,
         typer.Option(
-            metavar="FILE",
-            help="Write the explorer as one HTML file, which needs no server and no network.",
+            metavar="PATH",
+            help="Write the explorer: as one HTML file, which needs no server and no network, if "
+            "PATH ends in .html; else as a folder for any web server, which works offline later.",
             show_default=False,
         ),
     ] = None,
@@ -73,14 +74,39 @@ def run(
     serve(host, port, limits, browser=browser, tell=tell)
 
 
-def _export(path: Path, as_json: bool) -> None:
-    """Write the explorer as one file, and tell its size."""
-    from stackbounce.files import check_place, write_file
+def _export(path: str, as_json: bool) -> None:
+    """Write the explorer as one file or as a folder, and tell its size."""
+    from stackbounce.errors import InvalidValue
     from stackbounce.version import __version__
+
+    if not path:  # Path("") is the current folder
+        raise InvalidValue("--export must name a file that ends in .html, or a folder, got ''")
+    is_file = path.lower().endswith(".html")
+    sizes = _write_file(Path(path)) if is_file else _write_folder(Path(path))
+    size = sum(sizes)
+    kind = "file" if is_file else "folder"
+    told = json_text({"stackbounce": __version__, kind: path, "bytes": size})
+    files = "" if is_file else f" in {len(sizes)} files"
+    typer.echo(told if as_json else f"{path}: the explorer{files}, {size / 1e3:.0f} kB")
+
+
+def _write_file(path: Path) -> list[int]:
+    """Write the explorer as one file; return its size."""
+    from stackbounce.files import check_place, write_file
     from stackbounce.web.page.one_file import one_file
 
     check_place(path)
     content = one_file().encode()
     write_file(path, content)
-    told = json_text({"stackbounce": __version__, "file": str(path), "bytes": len(content)})
-    typer.echo(told if as_json else f"{path}: the explorer, {len(content) / 1e3:.0f} kB")
+    return [len(content)]
+
+
+def _write_folder(folder: Path) -> list[int]:
+    """Write the explorer as a folder of files; return their sizes."""
+    from stackbounce.files import prepare_folder, write_folder
+    from stackbounce.web.page.folder import folder_files
+
+    files = folder_files()
+    prepare_folder(folder, files)
+    write_folder(folder, files)
+    return [len(content) for content in files.values()]

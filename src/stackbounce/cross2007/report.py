@@ -1,11 +1,9 @@
 """The files of `stackbounce paper`: the audit, the figures, and one page with everything."""
 
 import csv
-import hashlib
 import io
 import itertools
 import json
-import tempfile
 from collections.abc import Callable, Iterable
 from decimal import Decimal
 from pathlib import Path
@@ -14,17 +12,15 @@ from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Row
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.pages import data_uri, make_environment
-from stackbounce.cross2007.paper import Audit, audit, draw_figures
+from stackbounce.cross2007.paper import FIGURES, Audit, audit, draw_figures
 from stackbounce.cross2007.style import Picture, render
 from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
-from stackbounce.errors import FileError
 from stackbounce.extras import need
-from stackbounce.files import write_files
+from stackbounce.files import prepare_folder, write_folder
 from stackbounce.version import __version__
 
 __all__ = ["write"]
 
-_SUMS = "stackbounce.sha256"
 _NAMES = ("index.html", "audit.csv", "audit.json", "study.html", "study.json")
 _COLUMNS = (
     "id", "where", "what", "printed", "unit", "computed", "tolerance", "error", "verdict", "reason",
@@ -68,8 +64,8 @@ def write(
         found before anything is computed.
     """
     need("paper", "stackbounce paper")
-    _make_writable(out)
-    _check_ours(out, _NAMES if study else _NAMES[:3])
+    figures = [f"figures/figure-{name}.svg" for name in FIGURES]
+    prepare_folder(out, [*(_NAMES if study else _NAMES[:3]), *figures])
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}
     drawn: list[tuple[Picture, str]] = []
@@ -87,45 +83,8 @@ def write(
     files["audit.csv"] = _csv(done).encode()
     files["audit.json"] = _json(done, [picture for picture, _ in drawn], tables).encode()
     files["index.html"] = _page(done, drawn, tables, study=study).encode()
-    _replace(out, files)
+    write_folder(out, files)
     return done
-
-
-def _make_writable(out: Path) -> None:
-    try:
-        (out / "figures").mkdir(parents=True, exist_ok=True)
-        for folder in (out, out / "figures"):
-            tempfile.TemporaryFile(dir=folder).close()
-    except OSError as error:
-        raise FileError(f"{out} cannot be written to: {error.strerror}") from None
-
-
-def _replace(out: Path, files: dict[str, bytes]) -> None:
-    """Write all files, or none; whenever it is stopped, the digests tell that they are ours."""
-    known = _check_ours(out, files)
-    new = {f"{hashlib.sha256(content).hexdigest()}  {name}" for name, content in files.items()}
-    others = [line for line in known if line.partition("  ")[2] not in files]
-    contents = [(out / name, content) for name, content in files.items()]
-    before, after = (
-        (out / _SUMS, "".join(f"{line}\n" for line in sorted({*new, *lines})).encode())
-        for lines in (known, others)
-    )
-    write_files([before, *contents, after])
-
-
-def _check_ours(out: Path, names: Iterable[str]) -> list[str]:
-    """Refuse files that are not as they were written here; return what was, ``DIGEST  NAME``."""
-    sums = out / _SUMS
-    known = sums.read_text("utf-8", "replace").splitlines() if sums.is_file() else []
-    for name in names:
-        path = out / name
-        found = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
-        if path.exists() and f"{found}  {name}" not in known:
-            raise FileError(
-                f"{path} is there, and is not as this command writes it: move it away, or choose "
-                "another folder"
-            )
-    return known
 
 
 def _json(done: Audit, drawn: list[Picture], tables: list[Table]) -> str:

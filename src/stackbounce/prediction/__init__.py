@@ -13,6 +13,6 @@ scenario    the errors in a scenario file
 
 from stackbounce.prediction.prediction import predict
 from stackbounce.prediction.result import Apex, Prediction
-from stackbounce.prediction.scenario import read_scenario
+from stackbounce.prediction.scenario import read_scenario, write_scenario
 
-__all__ = ["Apex", "Prediction", "predict", "read_scenario"]
+__all__ = ["Apex", "Prediction", "predict", "read_scenario", "write_scenario"]

@@ -189,7 +189,8 @@ def _add_files(app: FastAPI, workers: Workers) -> None:
         request: Request, kind: schema.ExportKind, asked: schema.Export
     ) -> Response:
         """Export a drop as a file: its data, its picture, its scenario, or lines of Python."""
-        job = functools.partial(exports.export_drop, kind, asked.drop, asked.until)
+        given = asked.drop, asked.until, asked.errors
+        job = functools.partial(exports.export_drop, kind, *given)
         seconds, client = LIMITS.job_seconds, client_of(request)
         content = await workers.run(job, seconds=seconds, client=client, short=True)
         name = f"drop.{_ENDINGS.get(kind, kind)}"

@@ -148,23 +148,32 @@ class Request(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
-class Export(Request):
-    """A drop to export."""
+class _Run(Request):
+    """A drop, and the end of its run."""
 
     drop: Scenario
     until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
 
 
-class Play(Export):
+class Play(_Run):
     """A drop to simulate."""
 
     frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
 
 
-class Uncertain(Export):
+_Errors = Annotated[dict[_Name, _Finite | _Name], Field(max_length=LIMITS.varied)]
+
+
+class Export(_Run):
+    """A drop to export, and the errors of some of its numbers as `Uncertain` has them."""
+
+    errors: _Errors = {}
+
+
+class Uncertain(_Run):
     """A drop, and the errors of some of its numbers by path: SI numbers, or texts with a unit."""
 
-    errors: Annotated[dict[_Name, _Finite | _Name], Field(min_length=1, max_length=LIMITS.varied)]
+    errors: Annotated[_Errors, Field(min_length=1)]
 
 
 class StackRequest(Request):

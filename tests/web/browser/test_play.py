@@ -8,6 +8,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.model import catalogue
+from stackbounce.prediction import read_scenario
 
 pytestmark = pytest.mark.slow
 
@@ -297,6 +298,23 @@ def test_exports_are_saved(visit, button, begins):
     page.get_by_text("Share", exact=True).click()
     save = page.get_by_role("button", name=button)
     assert visit.saved(save.click).startswith(begins)
+
+
+def test_what_is_saved_has_the_errors_of_the_numbers(visit, tmp_path):
+    page = visit.open()
+    mass = page.locator("[data-path='balls.1.mass']")
+    mass.fill("57 ± 0.5 g")
+    mass.press("Enter")
+    page.wait_for_function("() => window.stackbounce.store.get().errors['balls.1.mass']")
+    page.get_by_text("Share", exact=True).click()
+    scenario = tmp_path / "drop.toml"
+    scenario.write_bytes(visit.saved(page.get_by_role("button", name="Scenario (TOML)").click))
+    drop, errors = read_scenario(scenario)
+    assert drop == sb.Drop.from_mapping(visit.state("drop"))
+    assert errors == {"balls.1.mass": "0.057 ± 0.0005 kg"}
+    lines = visit.saved(page.get_by_role("button", name="Python lines").click).decode()
+    assert "    'balls.1.mass': (0.057, 0.0005),\n" in lines
+    assert "sb.predict(drop, errors)" in lines
 
 
 def test_a_phone_has_no_sideways_scrolling_and_large_targets(visits):

@@ -14,6 +14,7 @@ from stackbounce.cross2007.cases import list_cases
 from stackbounce.errors import StackbounceError
 from stackbounce.json_values import plain
 from stackbounce.model.schema import read_law
+from stackbounce.run.paths import numbers_of
 from stackbounce.web.answers import catalogue, exports, maps, play
 from stackbounce.web.schema import Axis, read_drop
 from web.page.scenarios import drawn, scenarios
@@ -259,6 +260,33 @@ def test_texts_of_a_drop_are_the_same_bytes(asked):
         for drop, ours in zip(drops, answers, strict=True):
             theirs = exports.export_drop(kind, sb.Drop.from_mapping(drop), None).decode()
             assert ours["answer"] == theirs
+
+
+ERRORS = (0.0, 1e-3, "1 g", "2 mm", "1 %", -0.1, "0.5", "many", 1e-7)
+
+
+def uncertain(seed, count):
+    """Return random drops, and errors of some of their numbers, many of which make none."""
+    chance = random.Random(seed)
+    for batch in range(count):
+        mapping, _ = next(drawn(seed, batch, 1))
+        paths = [*numbers_of(sb.Drop.from_mapping(mapping)), "gaps.9"]
+        chosen = chance.sample(paths, chance.choice((0, 1, 1, 2, 3)))
+        yield mapping, {path: chance.choice(ERRORS) for path in chosen}
+
+
+def test_texts_of_a_drop_have_the_errors_of_its_numbers(asked):
+    pairs = list(uncertain(SEED, 300))
+    for kind in ("toml", "python"):
+        answers = asked([["exportText", kind, drop, None, errors] for drop, errors in pairs])
+        for (drop, errors), ours in zip(pairs, answers, strict=True):
+            given = kind, sb.Drop.from_mapping(drop), None, errors
+            theirs = library(lambda g=given: [exports.export_drop(*g).decode()])
+            if "answer" in theirs:
+                assert [ours["answer"]] == theirs["answer"]
+            else:
+                assert same(ours["error"], theirs["error"], CLOSE)
+        assert 0.2 < refused(answers) < 0.8
 
 
 def test_the_table_of_a_drop_has_the_same_numbers(asked):

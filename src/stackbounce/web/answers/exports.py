@@ -2,6 +2,7 @@
 
 import csv
 import io
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -10,8 +11,11 @@ from stackbounce.model import Drop
 from stackbounce.plots import bounce
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
 from stackbounce.plots.style import render
+from stackbounce.prediction import write_scenario
+from stackbounce.prediction.inputs import read_inputs
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import run_drop
+from stackbounce.web.answers.predictions import add_values
 
 __all__ = ["KINDS", "export_drop"]
 
@@ -27,7 +31,9 @@ KINDS = {
 _SAMPLES = 1001
 
 
-def export_drop(kind: str, drop: Drop, until: float | None) -> bytes:
+def export_drop(
+    kind: str, drop: Drop, until: float | None, errors: Mapping[str, float | str] | None = None
+) -> bytes:
     """Return the content of a file.
 
     Parameters
@@ -38,6 +44,9 @@ def export_drop(kind: str, drop: Drop, until: float | None) -> bytes:
         The drop to export.
     until : float or None
         End of the run in s; None ends it when the balls have separated.
+    errors : mapping, optional
+        The errors of some of its numbers by path, in SI units or as texts with a unit: they are in
+        the scenario and in the lines of Python.
 
     Returns
     -------
@@ -46,21 +55,36 @@ def export_drop(kind: str, drop: Drop, until: float | None) -> bytes:
     """
     match kind:
         case "toml":
-            return drop.to_toml().encode()
+            pairs = _checked(drop, errors or {})
+            return (write_scenario(drop, pairs) if pairs else drop.to_toml()).encode()
         case "python":
-            return _write_python(drop, until).encode()
+            return _write_python(drop, until, _checked(drop, errors or {})).encode()
         case "csv":
             return _write_table(drop, until).encode()
     return _draw(kind, drop, until)
 
 
-def _write_python(drop: Drop, until: float | None) -> str:
-    """Return lines of Python that simulate a drop and draw it."""
+def _checked(drop: Drop, errors: Mapping[str, float | str]) -> dict[str, tuple[float, float]]:
+    """Return numbers with their errors, which `predict` takes."""
+    pairs = add_values(drop, errors)
+    if pairs:
+        read_inputs(drop, pairs)
+    return pairs
+
+
+def _write_python(
+    drop: Drop, until: float | None, errors: Mapping[str, tuple[float, float]]
+) -> str:
+    """Return lines of Python that simulate a drop, or predict it with its errors, and draw it."""
     balls = ",\n        ".join(_write_call("Ball", ball) for ball in drop.balls)
     contacts = ",\n        ".join("None" if law is None else f"sb.{law!r}" for law in drop.contacts)
     plain = drop.to_mapping()
     rest = [f"{key}={plain[key]!r}" for key in plain if key not in ("balls", "contacts")]
     stop = "" if until is None else f", until={until!r}"
+    pairs = [f"    {path!r}: {pair!r}," for path, pair in errors.items()]
+    run = [f"result = sb.simulate(drop{stop})"]
+    if errors:
+        run = ["errors = {", *pairs, "}", f"result = sb.predict(drop, errors{stop})"]
     lines = [
         f"# Made by stackbounce {__version__}",
         "import stackbounce as sb",
@@ -71,7 +95,7 @@ def _write_python(drop: Drop, until: float | None) -> str:
         f"    contacts=[\n        {contacts},\n    ],",
         *[f"    {one}," for one in rest],
         ")",
-        f"result = sb.simulate(drop{stop})",
+        *run,
         'print("rebound ratios:", result.rebound_ratios)',
         'plots.bounce(result).savefig("bounce.svg")',
     ]

@@ -12,7 +12,7 @@ from stackbounce.version import __version__
 from stackbounce.web.answers.play import RTOL, choose_times
 from stackbounce.web.limits import LIMITS
 
-__all__ = ["predict_drop"]
+__all__ = ["add_values", "predict_drop"]
 
 _TIMES = 300  # of a band
 _DRAWS = 300  # where derivatives do not do: each is a run, for its curves
@@ -38,11 +38,14 @@ def predict_drop(drop: Drop, errors: Mapping[str, float | str], until: float | N
     """
     if not 0 < len(errors) <= LIMITS.varied:
         raise InvalidValue(f"errors must be of 1 to {LIMITS.varied} numbers, got {len(errors)}")
-    pairs = {}
-    for path, error in errors.items():
-        number = number_at(drop, path)
-        pairs[path] = value_in(drop, number), quantity(error, number.unit, f"error of {path}")
-    found = predict(drop, pairs, until=until, rtol=RTOL, event_limit=LIMITS.events, draws=_DRAWS)
+    found = predict(
+        drop,
+        add_values(drop, errors),
+        until=until,
+        rtol=RTOL,
+        event_limit=LIMITS.events,
+        draws=_DRAWS,
+    )
     times = choose_times(found.result, until, _TIMES)
     times = times[times >= 0.0]
     names = ["position"] if drop.rigid else ["position", "force"]  # a rigid contact's is infinite
@@ -50,3 +53,20 @@ def predict_drop(drop: Drop, errors: Mapping[str, float | str], until: float | N
     del answer["shares"]
     bands = {name: found.band(times, name) for name in names}
     return as_json({"stackbounce": __version__, **answer, "band": {"time": times, **bands}})
+
+
+def add_values(drop: Drop, errors: Mapping[str, float | str]) -> dict[str, tuple[float, float]]:
+    """Return numbers of a drop with their errors by path, in SI units; see `predict_drop`.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(2e4)], height=0.63)
+    >>> add_values(drop, {"height": "1 cm"})
+    {'height': (0.63, 0.01)}
+    """
+    pairs = {}
+    for path, error in errors.items():
+        number = number_at(drop, path)
+        pairs[path] = value_in(drop, number), quantity(error, number.unit, f"error of {path}")
+    return pairs

@@ -7,7 +7,10 @@ units       all units that the package reads, with their factors
 laws        the formulas of the contact laws, as JavaScript
 bounds      the numbers that a check lets through
 translation Python to JavaScript, for these formulas
+policy      the content security policy of a page that comes from a server
 one_file    the whole explorer as one HTML file
+folder      the whole explorer as a folder for any web server
+assembly    the texts that one_file and folder are made of
 bundle      ES modules to one classic script
 =========== ================================================================
 """

@@ -41,10 +41,10 @@ export const maps = (requests, told) => desk.ask("maps", [requests], { told });
 /** Return a line; `told` hears its coarser stages. A newer call, or one of `maps`, ends it, with null. */
 export const line = (request, told) => desk.ask("lines", [[request]], { told });
 
-/** Return a file (Blob) of a drop: csv, toml, python, svg or png. */
-export async function exportFile(kind, drop, until = null) {
+/** Return a file (Blob) of a drop: csv, toml, python, svg or png; toml and python have the errors of its numbers. */
+export async function exportFile(kind, drop, until = null, errors = {}) {
   if (kind === "svg" || kind === "png") return pictureOf(kind, await simulate(drop, until), until);
-  return new Blob([await desk.ask("exportText", [kind, drop, until])], { type: "text/plain; charset=utf-8" });
+  return new Blob([await desk.ask("exportText", [kind, drop, until, errors])], { type: "text/plain; charset=utf-8" });
 }
 
 async function ask(path, options) {

@@ -31,8 +31,8 @@ export function mountShare(root, store, api) {
   const save = async (kind, ending) => {
     write(said, "");
     try {
-      const { drop, until } = store.get();
-      download(await api.exportFile(kind, drop, until), `stackbounce.${ending}`);
+      const { drop, until, errors } = store.get();
+      download(await api.exportFile(kind, drop, until, errors), `stackbounce.${ending}`);
     } catch (error) {
       write(said, error.message);
     }
