@@ -1,22 +1,21 @@
-/** Asks for lines, from coarse to fine, with settings that fit the drop. */
+/** Asks for lines, from coarse to fine. */
 
-import { inTurn } from "./in_turn.js";
 import { firstSide, isSide } from "./map_axes.js";
 import { SHOWS } from "./line_words.js";
+import { oneAtATime } from "./questions.js";
 
 /** Which numbers are drawn first. */
 const FIRST = ["gaps", "mass_ratio", "contacts", "balls"];
 
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, unfit, answer} or {problem}. */
 export function liner(api, tell) {
-  const answer = async ([drop, wanted], heard) => {
+  return oneAtATime(async (told, drop, wanted) => {
     const { paths } = await api.mapPaths(drop);
     const { settings, unfit } = complete(wanted, paths);
-    const told = (line) => line && heard({ settings, paths, unfit, answer: line });
-    told(await api.line({ drop, x: settings.x, show: settings.show }, told));
-  };
-  const { ask, drop } = inTurn(answer, tell);
-  return { ask: (...question) => ask(question), drop };
+    const request = { drop, x: settings.x, show: settings.show };
+    const found = (answer) => answer && { settings, paths, unfit, answer };
+    return found(await api.line(request, (part) => told(found(part))));
+  }, tell);
 }
 
 /** Return `{settings, unfit}`: the wanted settings as far as they fit the drop, and the names of the others. */

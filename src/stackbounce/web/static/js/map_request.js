@@ -1,9 +1,9 @@
-/** Asks for a map, from coarse to fine; a newer question replaces an older one. */
+/** Asks for maps, from coarse to fine. */
 
-import { inTurn } from "./in_turn.js";
 import { lawOf } from "./laws.js";
 import { firstSide, isSide } from "./map_axes.js";
 import { depends } from "./map_words.js";
+import { oneAtATime } from "./questions.js";
 
 const COARSE = [24, 18];
 const MEDIUM = [60, 45];
@@ -18,20 +18,18 @@ function steps(drop, laws) {
 /** Return `{ask(drop, wanted), drop()}`; `tell` hears {settings, paths, shows}, with an {answer} as well, or {problem}. */
 export function mapper(api, tell) {
   let laws = null;
-  const answer = async ([drop, wanted], heard) => {
+  return oneAtATime(async (told, drop, wanted) => {
     const { paths, shows } = await api.mapPaths(drop);
     const settings = complete(wanted, paths, shows, drop);
-    heard({ settings, paths, shows });
+    told({ settings, paths, shows });
     laws ??= (await api.catalogue()).laws;
     const requests = steps(drop, laws).map(([across, up]) => {
       const [x, y] = [{ ...settings.x, count: across }, { ...settings.y, count: up }];
       return { drop, x, y, show: settings.show };
     });
-    const told = (map) => map && heard({ settings, paths, shows, answer: map });
-    told(await api.maps(requests, told));
-  };
-  const { ask, drop } = inTurn(answer, tell);
-  return { ask: (...question) => ask(question), drop };
+    const found = (answer) => answer && { settings, paths, shows, answer };
+    return found(await api.maps(requests, (part) => told(found(part))));
+  }, tell);
 }
 
 /** Return the settings of a map; defaults replace those that are missing or do not fit the drop. */
