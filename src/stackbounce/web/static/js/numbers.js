@@ -11,12 +11,18 @@ const SETTLED = 700; // ms without a new result before it is said
 /** Write the numbers into `root`, the contact intervals into `table`, and say results in `live`. */
 export function mountNumbers({ root, table, live }, store) {
   let timer = 0;
+  const box = table.closest("details");
+  const showIntervals = () => {
+    const { result } = store.get();
+    if (result && box.open) renew(table, intervalTable(result));
+  };
+  box.addEventListener("toggle", showIntervals);
   const show = () => {
     const { result, until, prediction } = store.get();
     if (!result) return;
     const sentence = h("p", { class: "told", "aria-hidden": "true", text: shortly(result, until) });
     renew(root, sentence, ballTable(result, until, prediction), facts(result, until, prediction));
-    renew(table, intervalTable(result));
+    showIntervals();
     clearTimeout(timer);
     timer = setTimeout(() => write(live, told(result, until)), SETTLED);
   };

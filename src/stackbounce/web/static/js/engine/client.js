@@ -16,9 +16,29 @@ export class Client {
 
   /** Return a promise of the answer; `told` hears what comes before it. `newest`: it takes the place of older ones. */
   async ask(name, given, { told, newest = false } = {}) {
-    if (newest) await this.makeRoom(name);
+    if (newest) return this.askNewest(name, given);
     await this.prepare();
     return this.send(name, given, told);
+  }
+
+  /** Ask what takes the place of older questions: one of these may be computed meanwhile, but not for long. */
+  async askNewest(name, given) {
+    this.turn += 1;
+    const mine = this.turn;
+    const older = () => [...this.waiting.values()].filter((one) => one.name === name);
+    if (older().length > 1) await answeredSoon(older()[0]);
+    if (this.turn !== mine) throw replaced();
+    if (older().length > 1) this.restart(replaced());
+    const [before] = older();
+    await this.prepare();
+    const answer = this.send(name, given);
+    if (!before) return answer;
+    answer.catch(() => null); // it may be asked a second time
+    if (await answeredSoon(before)) return answer;
+    if (this.turn !== mine) throw replaced();
+    this.restart(replaced());
+    await this.prepare();
+    return this.send(name, given);
   }
 
   /** Start the worker, if there is none. */
@@ -72,17 +92,6 @@ export class Client {
     else question.reject(new Error(error));
   }
 
-  /** Wait for an older question of this name, but not for long, and not if a newer one comes. */
-  async makeRoom(name) {
-    this.turn += 1;
-    const mine = this.turn;
-    const older = [...this.waiting.values()].find((one) => one.name === name);
-    if (!older) return;
-    await Promise.race([older.done.catch(() => null), new Promise((done) => setTimeout(done, PATIENCE))]);
-    if (this.turn !== mine) throw replaced();
-    if ([...this.waiting.values()].includes(older)) this.restart(replaced());
-  }
-
   /** End the worker; all that it was asked fails with an error. */
   restart(error) {
     this.worker?.terminate();
@@ -95,6 +104,12 @@ export class Client {
       reject(error);
     }
   }
+}
+
+/** Return a promise of whether a question is answered, be it with an error, before patience ends. */
+function answeredSoon({ done }) {
+  const late = new Promise((tell) => setTimeout(() => tell(false), PATIENCE));
+  return Promise.race([done.then(() => true, () => true), late]);
 }
 
 function replaced() {
