@@ -70,7 +70,7 @@ export function mountControls(root, store, api, catalogue) {
       const { contact: changed, note } = await asMeasured(api, catalogue, drop, contact, values);
       change(withValue(drop, `contacts.${contact}`, changed), placed(contact, note));
     });
-  const tools = { catalogue, set, errorAt, choose, arrange, relaw, measured };
+  const tools = { catalogue, set, errorAt, change, choose, arrange, relaw, measured, drop: () => store.get().drop };
 
   const rebuild = () => {
     const { drop, until } = store.get();
