@@ -20,8 +20,8 @@ LAPTOP = {"width": 1366, "height": 768}
 
 def path_of(name):
     found = next(filter(None, map(shutil.which, BROWSERS[name])), None)
-    if found is None and os.environ.get("STACKBOUNCE_BROWSER") == "required":
-        pytest.fail(f"there is no {name}, which STACKBOUNCE_BROWSER=required asks for")
+    if found is None and name in os.environ.get("STACKBOUNCE_BROWSERS", "").split():
+        pytest.fail(f"there is no {name}, which STACKBOUNCE_BROWSERS asks for")
     if found is None:
         pytest.skip(f"there is no {name} on this machine")
     return found
