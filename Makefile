@@ -26,7 +26,7 @@ RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
 .DEFAULT_GOAL := help
-.PHONY: help venv kernels paper app explorer test lowest coverage bench check lint types imports docs format fuzz attack frozen constraints clean \
+.PHONY: help venv kernels paper app explorer test lowest coverage browsers bench check lint types imports docs format fuzz attack frozen constraints clean \
 	distclean
 
 help:  ## list the targets
@@ -57,6 +57,10 @@ lowest: kernels  ## the fast tests with the lowest versions of all dependencies 
 
 coverage: $(DEV) kernels  ## hold all error bars to their claim (make check: some of them); half an hour
 	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py
+
+browsers: $(DEV) kernels  ## the page's tests in Chromium and in Firefox, served and as one file; ten minutes
+	@tests/web/browser/browsers.sh
+	@STACKBOUNCE_BROWSERS="chromium firefox" $(PYTEST) tests/web/browser
 
 bench: $(DEV) kernels  ## growth, accuracy and speed, also of other solvers (extra: bench), in build/bench
 	@PYTHONPATH=tests $(BIN)/python -m benchmarks --out build/bench

@@ -14,13 +14,17 @@ BROWSERS = {
     "chromium": ("chromium", "chromium-browser", "google-chrome"),
     "firefox": ("firefox-esr", "firefox"),
 }
+ASKED = os.environ.get("STACKBOUNCE_BROWSERS", "").split()
+IN_BOTH = (
+    "test_one_file",
+)  # the others take long in Firefox: `make browsers` runs them there, too
 PICTURES = Path("build/screenshots")
 LAPTOP = {"width": 1366, "height": 768}
 
 
 def path_of(name):
     found = next(filter(None, map(shutil.which, BROWSERS[name])), None)
-    if found is None and name in os.environ.get("STACKBOUNCE_BROWSERS", "").split():
+    if found is None and name in ASKED:
         pytest.fail(f"there is no {name}, which STACKBOUNCE_BROWSERS asks for")
     if found is None:
         pytest.skip(f"there is no {name} on this machine")
@@ -33,7 +37,15 @@ def downloads(tmp_path_factory):
     return tmp_path_factory.mktemp("downloads")
 
 
-@pytest.fixture(scope="module", params=BROWSERS)
+def pytest_generate_tests(metafunc):
+    """Run tests in the browsers that STACKBOUNCE_BROWSERS names, else in Chromium, some in both."""
+    if "browser" in metafunc.fixturenames:
+        both = metafunc.module.__name__.rpartition(".")[2] in IN_BOTH
+        names = ASKED if "firefox" in ASKED else list(BROWSERS) if both else ["chromium"]
+        metafunc.parametrize("browser", names, indirect=True, scope="module")
+
+
+@pytest.fixture(scope="module")
 def browser(request, downloads):
     """Start one browser after the other; while it runs, its event loop is in the way of others."""
     path = path_of(request.param)

@@ -68,7 +68,6 @@ def play(visit):
     assert visit.state("error") is None
 
 
-@pytest.mark.parametrize("browser", ["chromium"], indirect=True)  # it is the server that is tested
 def test_fifty_users_load_the_page_and_ask_for_nothing_more(visits, address):
     opened = [visits() for _ in range(PAGES)]
     first, *others = opened

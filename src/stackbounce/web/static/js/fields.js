@@ -66,10 +66,14 @@ export function numberField(spec) {
     input.value = written(value);
     before = input.value;
   };
+  let shownNow = []; // value, error and whether somebody types: of many fields few change
   const update = (value) => {
+    const next = [value, spec.errorAt?.(path), document.activeElement === input];
+    if (next.every((one, i) => one === shownNow[i]) && shownNow.length) return;
+    shownNow = next;
     place(value);
-    element.classList.toggle("uncertain", Boolean(spec.errorAt?.(path)));
-    if (document.activeElement !== input) show(value);
+    element.classList.toggle("uncertain", Boolean(next[1]));
+    if (!next[2]) show(value);
   };
   const commit = () => {
     if (input.value === before) return; // the shown value may be rounded

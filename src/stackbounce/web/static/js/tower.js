@@ -95,8 +95,7 @@ function namer(select, note, drop, ball, { catalogue }) {
     write(select.options[0], known ? "another ball" : entry ? `${own.name}, changed` : ballName(drop, ball));
     note.hidden = known || !entry;
     if (note.hidden) return;
-    const grams = `${format(entry.mass * 1e3)} g`;
-    write(note, `Not the ${own.name} of ${grams}: stiffnesses stay those of ${grams} until you change them.`);
+    write(note, `The ${own.name} of the catalogue has ${format(entry.mass * 1e3)} g. Stiffnesses do not follow the mass.`);
   };
 }
 
