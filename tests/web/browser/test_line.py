@@ -266,6 +266,8 @@ def test_six_balls_with_a_law_of_their_own_are_drawn_from_coarse_to_fine(visit, 
         "() => document.querySelectorAll('.line-curve')[5].getAttribute('d').length > 2000"
     )
     visit.picture(f"line-six-{law}")
+    assert page.locator(".line-message").inner_text() == ""
+    assert visit.state("error") is None
 
 
 @pytest.mark.parametrize("kind", ["csv", "svg", "png"])

@@ -1,6 +1,7 @@
 /** The line: the rebound over one number of the drop, with the present drop as a point on it. */
 
 import { h, renew, s, write } from "./dom.js";
+import { drawingView } from "./drawing_view.js";
 import { complete } from "./drops.js";
 import { drawLine, drawLineMarks } from "./line_draw.js";
 import { lineForm } from "./line_form.js";
@@ -192,30 +193,5 @@ function within(part) {
 function build() {
   const drawing = h("div", { class: "line-drawing", "aria-hidden": "true" });
   const marks = s("svg", { class: "line-marks", width: "100%", height: "100%", "aria-hidden": "true" });
-  const board = h(
-    "div",
-    {
-      class: "line-board",
-      tabindex: "0",
-      role: "application",
-      "aria-roledescription": "line",
-      "aria-label": "Line",
-      "aria-describedby": "line-keys line-summary",
-    },
-    drawing,
-    marks,
-  );
-  const title = h("h2", { class: "line-title" });
-  const readout = h("p", { class: "line-readout" });
-  const play = h("button", { type: "button", class: "line-play", text: "Play this drop", hidden: true });
-  const live = h("p", { class: "quiet", "aria-live": "polite" });
-  const message = h("p", { class: "line-message", role: "status" });
-  const again = h("button", { type: "button", text: "Try again", hidden: true });
-  const summary = h("p", { class: "note", id: "line-summary" });
-  const keys = h("p", { class: "quiet", id: "line-keys", text: KEYS });
-  const box = h("div", { class: "line-box" }, board, h("div", { class: "line-over" }, message, again));
-  const figure = h("section", { class: "line-figure", "aria-label": "Line" }, title, readout, play, box, keys, live);
-  const stage = h("div", { class: "stage line-stage" });
-  const told = h("p", { class: "line-told" });
-  return { stage, told, figure, drawing, marks, board, title, readout, play, live, message, again, summary };
+  return drawingView("line", KEYS, drawing, marks);
 }

@@ -2,6 +2,7 @@
 
 import { scaleOfColors } from "./colors.js";
 import { h, write } from "./dom.js";
+import { drawingView } from "./drawing_view.js";
 import { sideOf } from "./map_axes.js";
 import { drawMap, drawMarks, frameOf } from "./map_draw.js";
 import { mapForm } from "./map_form.js";
@@ -59,7 +60,7 @@ export function mount(root, store, api, clock) {
   const draw = () => {
     if (!answer || root.hidden) return;
     const whole = answer.show.startsWith("collisions");
-    drawMap(parts.field, answer, answer.settings, scaleOfColors(answer.values, whole), palette());
+    drawMap(parts.drawing, answer, answer.settings, scaleOfColors(answer.values, whole), palette());
     write(parts.summary, inWords(answer));
     parts.board.setAttribute("aria-label", `Map: ${answer.label}; across, ${answer.x.label}; up, ${answer.y.label}`);
     write(parts.title, capital(answer.label));
@@ -195,30 +196,5 @@ function within(part) {
 function build() {
   const field = h("canvas", { class: "map-field", "aria-hidden": "true" });
   const marks = h("canvas", { class: "map-marks", "aria-hidden": "true" });
-  const board = h(
-    "div",
-    {
-      class: "map-board",
-      tabindex: "0",
-      role: "application",
-      "aria-roledescription": "map",
-      "aria-label": "Map",
-      "aria-describedby": "map-keys map-summary",
-    },
-    field,
-    marks,
-  );
-  const title = h("h2", { class: "map-title" });
-  const readout = h("p", { class: "map-readout" });
-  const play = h("button", { type: "button", class: "map-play", text: "Play this drop", hidden: true });
-  const live = h("p", { class: "quiet", "aria-live": "polite" });
-  const message = h("p", { class: "map-message", role: "status" });
-  const again = h("button", { type: "button", text: "Try again", hidden: true });
-  const summary = h("p", { class: "note", id: "map-summary" });
-  const keys = h("p", { class: "quiet", id: "map-keys", text: KEYS });
-  const box = h("div", { class: "map-box" }, board, h("div", { class: "map-over" }, message, again));
-  const figure = h("section", { class: "map-figure", "aria-label": "Map" }, title, readout, play, box, keys, live);
-  const stage = h("div", { class: "stage map-stage" });
-  const told = h("p", { class: "map-told" });
-  return { stage, told, figure, field, marks, board, title, readout, play, live, message, again, summary };
+  return drawingView("map", KEYS, field, marks);
 }
