@@ -5,8 +5,8 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
-# Twice quiet: only errors are shown.
-INSTALL := $(PIP) install --quiet --quiet --constraint constraints.txt
+# Twice quiet: only errors are shown. Without byte code: Python writes that of the modules it imports, and most are never.
+INSTALL := $(PIP) install --quiet --quiet --no-compile --constraint constraints.txt
 DROPS ?= 1000000
 # Files of measurements, changed at random: so many, of those of a folder, or of minimal ones.
 FILES ?= 5000
