@@ -3,6 +3,8 @@
 import { pieceAt } from "./film.js";
 import { closeUp, farView, highest, largest, radii, stacked } from "./shape.js";
 
+const SAMPLES = 240; // of a film, at which is looked how near the camera may be
+const SMOOTH = 0.25; // s of film to either side
 const ZOOMS = { before: (part) => smooth(part), impact: () => 1, between: () => 1, after: (part) => 1 - smooth(part) };
 
 /**
@@ -19,12 +21,17 @@ export function cameraOf(film, result, { width, height, magnify, also = null, le
     return { scale, move: far.move ** (1 - zoom) * near.move ** zoom, near: zoom, ...stacked(radius, scale) };
   };
   const needs = ({ rest, radius: drawn, move }, position) => rest.at(-1) + drawn.at(-1) + move * (position.at(-1) + sinks(position));
+  const mostAt = (time, position) => {
+    const wanted = zoomAt(film, time);
+    return needs(view(wanted), position) <= height ? 1 : nearest((zoom) => needs(view(zoom), position) <= height, wanted);
+  };
+  const most = film.whole ? () => 1 : smoothed(film, (time) => mostAt(time, film.at(time).position));
   return {
     times: near.times,
     far: { ...far, ...stacked(radius, far.scale) },
     at: (time, position) => {
-      let found = view(zoomAt(film, time));
-      if (needs(found, position) > height) found = view(nearest((zoom) => needs(view(zoom), position) <= height, found.near));
+      let found = view(Math.min(zoomAt(film, time), most(film.toFilm(time))));
+      if (needs(found, position) > height) found = view(Math.min(found.near, mostAt(time, position)));
       return { ...found, lift: found.move * sinks(position) };
     },
   };
@@ -56,6 +63,21 @@ function zoomAt(film, time) {
 function smooth(part) {
   const x = Math.min(Math.max(part, 0), 1);
   return x * x * (3 - 2 * x);
+}
+
+/** Return a smooth function of film time that nowhere exceeds a function of the drop's time. */
+function smoothed(film, limit) {
+  const limits = Array.from({ length: SAMPLES + 1 }, (_, i) => limit(film.toTime((film.length * i) / SAMPLES)));
+  if (limits.every((one) => one === 1)) return () => 1;
+  const beside = Math.ceil((SMOOTH * SAMPLES) / film.length);
+  const around = (values, i) => values.slice(Math.max(0, i - beside), i + beside + 1);
+  const least = limits.map((_, i) => Math.min(...around(limits, i)));
+  const mean = least.map((_, i) => around(least, i).reduce((sum, one, _at, all) => sum + one / all.length, 0));
+  return (reel) => {
+    const place = (SAMPLES * reel) / film.length;
+    const i = Math.min(Math.floor(place), SAMPLES - 1);
+    return mean[i] + (place - i) * (mean[i + 1] - mean[i]);
+  };
 }
 
 /** Return the largest number up to `most` for which a condition holds that holds for small ones. */

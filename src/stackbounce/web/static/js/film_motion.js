@@ -3,8 +3,8 @@
  *
  * The engine computes the impact. Before the first touch and after its last separation a ball flies freely, which is a
  * closed form with the drop's gravity, or the standard one where the drop has none during its impact. The leap ends soon
- * after the highest ball's top. It ends earlier where two balls would meet in flight, because what follows is not
- * computed. A ball that comes back to where it lay on the stack stays there: its next bounce is not computed either.
+ * after the highest ball's top. Balls do not meet in flight: a drop is finished when none approaches another, and all
+ * fall alike. A ball that comes back to where it lay on the stack stays there, as its next bounce is not computed.
  * A drop that the engine did not finish has no leap.
  */
 
@@ -101,8 +101,8 @@ function sampled({ time: times, position, velocity, compression }, time) {
 }
 
 /**
- * Return each ball's flight, `{from, position, velocity, top, lands}`: since its own last separation, or for all since the
- * last one of all, where gravity on one of them alone would push two balls into one another.
+ * Return each ball's flight, `{from, position, velocity, top, level, lands}`: since its own last separation, or for all
+ * since the last one of all, where gravity on one of them alone would bring two balls together.
  */
 function flightsOf({ time: times, position, leaves }, freed, last, g, floor) {
   const flight = (ball, from) =>
@@ -113,7 +113,9 @@ function flightsOf({ time: times, position, leaves }, freed, last, g, floor) {
     const flies = (ball) => time > own[ball].from && time <= last;
     return position.every((_, ball) => ball === 0 || !(flies(ball) || flies(ball - 1)) || where(ball, time, i) >= where(ball - 1, time, i));
   });
-  return apart ? own : position.map((_, ball) => flight(ball, last));
+  const speeds = own.map((one) => flightAt({ ...one, lands: Infinity }, last, g).velocity);
+  const parting = speeds.every((speed, ball) => ball === 0 || speed >= speeds[ball - 1]);
+  return apart && parting ? own : position.map((_, ball) => flight(ball, last));
 }
 
 /** Return a function of ball and time that gives the velocity with which a ball flies since its last separation. */
@@ -146,15 +148,10 @@ function fallTime({ position, velocity }, g, floor) {
   return floor ? Math.max(0, Math.min(longest, (-v + Math.sqrt(v * v + 2 * g * p)) / g)) : longest;
 }
 
-/** Return how long after the last separation the highest ball is past its top, or two balls would meet in flight. */
+/** Return how long after the last separation the highest ball is past its top. */
 function leapTime(flights, last, g) {
   const tops = flights.map(({ top }) => top).filter((top) => top && top.time > last);
   const highest = tops.reduce((one, other) => (one && one.height > other.height ? one : other), null);
-  const most = flights.length ? (highest ? highest.time - last + DOWN : STILL) : 0;
-  const there = flights.map((flight) => flightAt(flight, last, g));
-  return flights.slice(1).reduce((first, _, i) => {
-    const closing = there[i].velocity - there[i + 1].velocity;
-    const meets = closing > 0 ? Math.max(0, there[i + 1].position - there[i].position) / closing : Infinity;
-    return last + meets < flights[i].lands ? Math.min(first, meets) : first;
-  }, most);
+  if (!flights.length) return 0;
+  return highest ? highest.time - last + DOWN : STILL;
 }

@@ -3,6 +3,7 @@
 import { h, put, s, write } from "./dom.js";
 import { metres } from "./words.js";
 
+const ABOVE = 56; // px above the highest mark
 const STEP = 0.02; // of what the ruler shows, for one press of an arrow
 
 /** Lay the mark over the stage in `root` while the state asks for a guess; returns what takes the ruler's place in each frame. */
@@ -20,7 +21,7 @@ export function mountGuess(root, store, clock) {
 
   const isAsked = () => store.get().predict && store.get().until === null;
   const isOpen = () => isAsked() && store.get().guess === null;
-  const most = () => (place.zero - 40) / place.scale;
+  const most = () => (place.zero - ABOVE) / place.scale;
 
   function letGo() {
     store.set({ guess: height });

@@ -50,7 +50,7 @@ function ballTable(result, until, prediction) {
   const all = [...own, ...(theirs ?? [])];
   const when = until === null ? "After the impact" : `Within ${format(until)} s`;
   const groups = [h("td"), h("th", { scope: "colgroup", colspan: own.length, text: when })];
-  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length }, "Textbook", wide(": separate collisions")));
+  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: "Textbook" }));
   const rows = drop.balls.map((_, ball) => row(ballName(drop, ball), ball, ...all.map(({ cell }) => cell(ball))));
   return h(
     "table",

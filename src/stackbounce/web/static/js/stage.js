@@ -160,7 +160,8 @@ function words({ film, camera, result }, clock, view) {
   const magnified = view.near > 0.5 && camera.times > 1;
   const scale = magnified ? `, movement shown ×${format(camera.times, 2)}` : "";
   const now = moment(clock.time, film.whole);
-  return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note: `${PHASES[phase]}${speed}${scale}` };
+  const lies = result.drop.balls.some((_, ball) => film.lies(ball, clock.time)) ? "; its next bounce is not shown" : "";
+  return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note: `${PHASES[phase]}${speed}${scale}${lies}` };
 }
 
 const PHASES = { fall: "fall, ", leap: "leap, ", before: "", impact: "impact, ", between: "between contacts, ", after: "", whole: "" };

@@ -41,7 +41,8 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, lies }
     put(arrow, "d", arrowPath((side + 17).toFixed(1), (-ARROW * velocity) / fastest));
     put(name, "x", (-side - 10).toFixed(1));
     put(speed, "x", (side + 28).toFixed(1));
-    write(speed, lies(ball) ? "bounces again" : `${fixed(velocity, 2)} m/s`);
+    write(speed, lies(ball) ? "" : `${fixed(velocity, 2)} m/s`);
+    put(group, "class", lies(ball) ? "ball lies" : "ball");
   });
 }
 
