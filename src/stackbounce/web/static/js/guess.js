@@ -3,7 +3,7 @@
 import { h, put, s, write } from "./dom.js";
 import { metres } from "./words.js";
 
-const ABOVE = 56; // px above the highest mark
+const ABOVE = 60; // px above the highest mark
 const STEP = 0.02; // of what the ruler shows, for one press of an arrow
 
 /** Lay the mark over the stage in `root` while the state asks for a guess; returns what takes the ruler's place in each frame. */

@@ -10,8 +10,8 @@ import { format } from "./units.js";
 import { ballName, happening, moment, pace } from "./words.js";
 
 const FOOT = 30; // px below the floor line
-const HEAD = 50; // px above the highest ball, for the time
-const MIDDLE = 0.42; // of the width, where the balls are
+const HEAD = 64; // px above the highest ball, for the time
+const MIDDLE = 0.46; // of the width, where the balls are
 const PAIR = [0.27, 0.68]; // the same of two drops side by side
 const NEARLY = 1e-9; // of the film's time: at an event
 
