@@ -107,7 +107,8 @@ def test_playing_follows_the_clock_at_sixty_frames_with_no_request(visit):
 WATCH_THE_LAYOUT = """() => {
   window.shifts = [];
   new PerformanceObserver((list) => {
-    for (const one of list.getEntries()) window.shifts.push([one.value, one.sources.map(({ node }) => node?.outerHTML?.slice(0, 80))]);
+    const moved = ({ node }) => node?.outerHTML?.slice(0, 80);
+    for (const one of list.getEntries()) window.shifts.push([one.value, one.sources.map(moved)]);
   }).observe({ type: "layout-shift" });
 }"""
 
@@ -119,7 +120,9 @@ def test_nothing_moves_on_the_page_while_a_film_plays(visits, width, in_firefox)
     visit = visits(viewport={"width": width, "height": 844})
     page = visit.open("#momentum=1&centre=1&speed=4")
     page.evaluate(WATCH_THE_LAYOUT)
-    page.evaluate("() => { const { clock } = window.stackbounce; clock.seek(clock.begin); clock.play(); }")
+    page.evaluate(
+        "() => { const { clock } = window.stackbounce; clock.seek(clock.begin); clock.play(); }"
+    )
     page.wait_for_function("() => !window.stackbounce.clock.playing")
     assert page.evaluate("() => window.shifts") == []
 
@@ -127,7 +130,9 @@ def test_nothing_moves_on_the_page_while_a_film_plays(visits, width, in_firefox)
 def test_buttons_step_from_event_to_event(visit):
     page = visit.open()
     said = page.locator("#stage .scene-time")
-    page.evaluate("() => { const { clock } = window.stackbounce; clock.pause(); clock.seek(-0.1); }")
+    page.evaluate(
+        "() => { const { clock } = window.stackbounce; clock.pause(); clock.seek(-0.1); }"
+    )
     seen = []
     for _ in range(7):
         page.get_by_role("button", name="Next event").click()
@@ -154,7 +159,9 @@ def test_a_changed_drop_is_shown_at_the_same_moment(visit):
     def changed_at(time, gap):
         page.evaluate(f"(time) => {{ {clock}.pause(); {clock}.seek(time); }}", time)
         page.evaluate(CHANGE_THE_GAP, gap)
-        page.wait_for_function("(gap) => window.stackbounce.store.get().result.drop.gaps[0] === gap", arg=gap)
+        page.wait_for_function(
+            "(gap) => window.stackbounce.store.get().result.drop.gaps[0] === gap", arg=gap
+        )
         visit.ready()
         return page.evaluate(f"() => [{clock}.time, {clock}.end, {clock}.begin, {clock}.playing]")
 
@@ -185,6 +192,8 @@ def test_first_a_guess_and_then_the_film(visit):
     assert guess > 0.5
     page.get_by_role("button", name="Let go").click()
     page.wait_for_function("() => window.stackbounce.clock.time > 0")
+    assert question.inner_text() == "How high will the tennis ball fly?"  # until it has its top
+    page.wait_for_function("() => window.stackbounce.store.get().guess !== null")
     assert page.locator("#numbers table").is_visible()
     top = page.evaluate("() => window.stackbounce.clock.film.tops[1].height")
     assert visit.state("guess") == pytest.approx(guess, abs=1e-3)
@@ -290,7 +299,9 @@ def test_the_cursor_by_keyboard(visit):
     assert page.evaluate("() => window.stackbounce.clock.time") < 0.0
     page.keyboard.press("End")
     clock = "window.stackbounce.clock"
-    assert page.evaluate(f"() => {clock}.time === {clock}.end && {clock}.reel === {clock}.film.length")
+    assert page.evaluate(
+        f"() => {clock}.time === {clock}.end && {clock}.reel === {clock}.film.length"
+    )
     page.keyboard.press(" ")
     page.wait_for_function("() => window.stackbounce.clock.playing")
     page.keyboard.press(" ")

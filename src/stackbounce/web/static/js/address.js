@@ -84,7 +84,7 @@ export function follow(store) {
 }
 
 const FIRST_SHOWN = Object.fromEntries(
-  ["view", "until", ...SWITCHES, "speed", "magnify", "t", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
+  ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 
 function flatten(path, value, pairs) {

@@ -15,14 +15,15 @@ export function direct(store, clock, calm) {
       if (other) wanted = state.t;
       else if (!clock.playing) clock.seek(state.t);
     }
-    if (state.predict !== before.predict && state.predict && clock.film) hold(clock);
+    const asks = (one) => one.predict && one.guess === null;
+    if (asks(state) && !asks(before) && clock.film) hold(clock);
     if (state.result === before.result) return;
     const film = filmOf(state.result, state.until);
     const again = clock.film === null || film.whole !== whole || state.replay !== replay;
     const moment = again ? film.begin : sameMoment(clock.film, clock.time, film);
     clock.show(film, [...new Set(film.events.map(({ time }) => time))], wanted ?? moment);
     if (wanted !== null) clock.pause();
-    else if (state.predict && state.guess === null) hold(clock);
+    else if (asks(state) && state.until === null) hold(clock);
     else if (again && !calm() && state.view === "play") clock.play();
     wanted = null;
     whole = film.whole;

@@ -19,15 +19,24 @@ export function mountGuess(root, store, clock) {
   let height = null; // m, where the mark is
   let place = null; // of the ruler in px: {zero, scale, width}, as the stage has it
 
+  let flies = false; // the balls were let go
+
   const isAsked = () => store.get().predict && store.get().until === null;
-  const isOpen = () => isAsked() && store.get().guess === null;
+  const isOpen = () => isAsked() && store.get().guess === null && !flies;
   const most = () => (place.zero - ABOVE) / place.scale;
 
   function letGo() {
-    store.set({ guess: height });
+    flies = true;
+    show();
     clock.seek(clock.begin);
     clock.play();
   }
+  /** Take the guess for good as soon as the film has shown the answer. */
+  const watch = () => {
+    if (!isAsked() || store.get().guess !== null || !place || !clock.film) return;
+    if (clock.time >= (clock.film.tops.at(-1)?.time ?? clock.end)) store.set({ guess: height });
+    else if (clock.playing && !flies) letGo();
+  };
   const set = (value) => {
     height = Math.min(Math.max(value, 0), most());
     follow();
@@ -54,8 +63,8 @@ export function mountGuess(root, store, clock) {
     put(mark, "class", isOpen() ? "guess-mark" : "guess-mark fixed");
     put(mark, "tabindex", isOpen() ? 0 : -1);
     go.hidden = !isOpen();
-    again.hidden = !isAsked() || isOpen();
-    document.body.classList.toggle("guessing", isOpen());
+    again.hidden = !isAsked() || store.get().guess === null;
+    document.body.classList.toggle("guessing", isAsked() && store.get().guess === null);
     follow();
   };
   const drag = (event) => set((place.zero - (event.clientY - svg.getBoundingClientRect().top)) / place.scale);
@@ -73,9 +82,11 @@ export function mountGuess(root, store, clock) {
     set(height + moves[event.key] * most());
   });
   store.subscribe((state, before) => {
-    if (["predict", "guess", "until"].some((name) => state[name] !== before[name])) show();
+    if (!["predict", "guess", "until", "drop"].some((name) => state[name] !== before[name])) return;
+    flies = false;
+    show();
   });
-  clock.subscribe(() => clock.playing && isOpen() && place && letGo());
+  clock.subscribe(watch);
   show();
   return take;
 }

@@ -13,6 +13,8 @@ const FOOT = 30; // px below the floor line
 const HEAD = 64; // px above the highest ball, for the time
 const MIDDLE = 0.46; // of the width, where the balls are
 const PAIR = [0.27, 0.68]; // the same of two drops side by side
+const PHASES = { fall: "fall, ", leap: "leap, ", before: "", impact: "impact, ", between: "between contacts, ", after: "", whole: "" };
+const GUESSED = 5; // times the drop height that can be guessed, at least
 const NEARLY = 1e-9; // of the film's time: at an event
 
 let stages = 0;
@@ -163,9 +165,6 @@ function words({ film, camera, result }, clock, view) {
   const lies = result.drop.balls.some((_, ball) => film.lies(ball, clock.time)) ? "; its next bounce is not shown" : "";
   return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note: `${PHASES[phase]}${speed}${scale}${lies}` };
 }
-
-const PHASES = { fall: "fall, ", leap: "leap, ", before: "", impact: "impact, ", between: "between contacts, ", after: "", whole: "" };
-const GUESSED = 5; // times the drop height that can be guessed, at least
 
 /** Describe the stage in words, for screen readers. */
 function spoken({ result, film }, time, { position, velocity }) {
