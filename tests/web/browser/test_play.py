@@ -113,7 +113,7 @@ WATCH_THE_LAYOUT = """() => {
 }"""
 
 
-@pytest.mark.parametrize("width", [1440, 1024, 390])
+@pytest.mark.parametrize("width", [1440, 390])
 def test_nothing_moves_on_the_page_while_a_film_plays(visits, width, in_firefox):
     if in_firefox:
         pytest.skip("Firefox does not measure layout shifts")

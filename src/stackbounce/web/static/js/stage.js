@@ -142,7 +142,7 @@ function moveTrails(root, { film, floor, middle }, view, time) {
 
 /** Return where the ruler of the highest ball is: its zero and its scale in px, and how near the camera is. */
 function rulerPlace({ film, floor, width }, { lift, rest, radius, move, near }) {
-  const fallen = film.at(film.begin).position.at(-1);
+  const fallen = film.at(film.begin).position[0];
   return { zero: floor - lift - rest.at(-1) + radius.at(-1), scale: move, width, near, fallen };
 }
 
