@@ -7,6 +7,8 @@ const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height
 const WORDS = new Set(["name", "law", "reloading", "path", "show", "x", "y"]);
 const SETTINGS = { line: ["x", "show"], map: ["x", "y", "show"] }; // of a view, by the first part of their paths
 const SIDE = ["path", "low", "high", "log"];
+const SWITCHES = ["ghosts", "arrows", "momentum", "centre", "loop", "predict"];
+const GONE = ["slow"]; // what older links have, and no longer means anything
 const PART = /^[a-z]+(_[a-z]+)*$/;
 const MOST = 16; // more members than any list of a drop may have
 const NAMED = 3; // parts of a link that are named
@@ -19,8 +21,8 @@ export function write(state) {
   flatten("", state.drop, pairs);
   for (const [path, error] of Object.entries(state.errors)) pairs.push([`error.${path}`, error]);
   if (state.until !== FIRST.until) pairs.push(["until", state.until]);
-  if (state.ghosts !== FIRST.ghosts) pairs.push(["ghosts", Number(state.ghosts)]);
-  if (state.slow !== FIRST.slow) pairs.push(["slow", state.slow]);
+  for (const name of SWITCHES) if (state[name] !== FIRST[name]) pairs.push([name, Number(state[name])]);
+  if (state.speed !== FIRST.speed) pairs.push(["speed", state.speed]);
   if (state.magnify !== FIRST.magnify) pairs.push(["magnify", state.magnify]);
   if (state.t !== null) pairs.push(["t", Number(state.t.toPrecision(6))]);
   for (const view of Object.keys(SETTINGS)) if (state[view]) flatten(`${view}.`, state[view], pairs);
@@ -82,7 +84,7 @@ export function follow(store) {
 }
 
 const FIRST_SHOWN = Object.fromEntries(
-  ["view", "until", "ghosts", "slow", "magnify", "t", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
+  ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 
 function flatten(path, value, pairs) {
@@ -132,10 +134,11 @@ function readOne(patch, key, text) {
   const finite = typeof value === "number" && Number.isFinite(value);
   const takes = {
     view: () => VIEWS.includes(text) && [text],
-    ghosts: () => [text !== "0"],
     t: () => finite && [value],
   };
-  for (const name of ["until", "slow", "magnify"]) takes[name] = () => finite && value > 0 && [value];
+  for (const name of SWITCHES) takes[name] = () => [text !== "0"];
+  for (const name of ["until", "speed", "magnify"]) takes[name] = () => finite && value > 0 && [value];
+  if (GONE.includes(key)) return true;
   const taken = Object.hasOwn(takes, key) && takes[key]();
   if (taken) [patch[key]] = taken;
   return Boolean(taken);

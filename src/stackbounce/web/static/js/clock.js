@@ -1,4 +1,4 @@
-/** The clock that stage and plots follow: one time, one rate, one loop. */
+/** The clock that stage and plots follow: one time, one film, one loop. */
 
 /** Return where a time lies in an ascending list: the index below it and the fraction to the next. */
 export function locate(times, time) {
@@ -22,15 +22,18 @@ export function between(values, { index, fraction }) {
 }
 
 const JUMP = 900; // ms between two stops where motion is reduced
+const LINGER = 1200; // ms at the end of a film that is repeated
+const LONGEST = 100; // ms of one frame: a tab that was hidden goes on where it was
 
 export class Clock {
   /** @param {() => boolean} calm whether the clock jumps from stop to stop instead of running */
   constructor(calm = () => false) {
     this.calm = calm;
-    this.time = 0;
-    this.begin = 0;
-    this.end = 1;
-    this.rate = 1e-3; // seconds shown in a second
+    this.time = 0; // s of the drop
+    this.reel = 0; // s of the film
+    this.film = null; // {begin, end, length, toFilm, toTime}
+    this.speed = 1; // seconds of film shown in a second
+    this.loop = false;
     this.stops = [];
     this.playing = false;
     this.listeners = new Set();
@@ -38,27 +41,52 @@ export class Clock {
     this.last = null;
   }
 
+  get begin() {
+    return this.film?.begin ?? 0;
+  }
+
+  get end() {
+    return this.film?.end ?? 1;
+  }
+
   /** Call a listener with the clock whenever its time or its playing has changed. */
   subscribe(listener) {
     this.listeners.add(listener);
   }
 
-  /** Set the window of time, and the stops of a calm clock. */
-  span(begin, end, stops) {
-    Object.assign(this, { begin, end, stops });
-    this.time = Math.min(Math.max(this.time, begin), end);
+  /** Show a film at a time of its drop; `stops` are times to step to. */
+  show(film, stops, time = this.time) {
+    Object.assign(this, { film, stops });
+    this.seek(time);
+  }
+
+  /** Go to a time of the drop. */
+  seek(time) {
+    this.time = Math.min(Math.max(time, this.begin), this.end);
+    this.reel = this.film?.toFilm(this.time) ?? 0;
     this.touch();
   }
 
-  seek(time) {
-    this.time = Math.min(Math.max(time, this.begin), this.end);
+  /** Go to a time of the film. */
+  wind(reel) {
+    if (!this.film) return;
+    this.reel = Math.min(Math.max(reel, 0), this.film.length);
+    this.time = this.film.toTime(this.reel);
     this.touch();
+  }
+
+  /** Go to the next stop, or to the one before. */
+  step(forward) {
+    const apart = 1e-9 * (this.end - this.begin);
+    const next = forward
+      ? this.stops.find((stop) => stop > this.time + apart)
+      : this.stops.findLast((stop) => stop < this.time - apart);
+    this.seek(next ?? (forward ? this.end : this.begin));
   }
 
   play() {
     if (this.playing) return;
-    const rest = this.end - this.time;
-    if (rest <= 1e-6 * (this.end - this.begin)) this.time = this.begin;
+    if (this.film && this.reel >= this.film.length * (1 - 1e-6)) this.wind(0);
     this.playing = true;
     this.last = null;
     this.touch();
@@ -85,16 +113,12 @@ export class Clock {
   advance(now) {
     this.last ??= now;
     const passed = now - this.last;
-    if (this.calm()) {
-      if (passed < JUMP) return;
-      this.time = this.stops.find((stop) => stop > this.time + 1e-12) ?? this.end;
-    } else {
-      // A tab that was hidden goes on where it was.
-      this.time += this.rate * 1e-3 * Math.min(passed, 100);
-    }
+    const ended = this.time >= this.end;
+    if (passed < (ended ? LINGER : this.calm() ? JUMP : 0)) return;
+    if (ended) this.wind(0);
+    else if (this.calm()) this.step(true);
+    else this.wind(this.reel + this.speed * 1e-3 * Math.min(passed, LONGEST));
     this.last = now;
-    if (this.time < this.end) return;
-    this.time = this.end;
-    this.playing = false;
+    if (this.time >= this.end && !this.loop) this.playing = false;
   }
 }

@@ -12,9 +12,9 @@ import { sideOf } from "./map_axes.js";
 import { brief, haveSameMap, numberIn, withNumbers } from "./map_words.js";
 import { onRepaint, palette } from "./palette.js";
 import { download } from "./share.js";
+import { storyOf } from "./sentence.js";
 import { mountStage } from "./stage.js";
 import { withExample } from "./store.js";
-import { shortly } from "./words.js";
 
 const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
 const STILL = 4; // px that a mouse may move in a click
@@ -171,7 +171,7 @@ export async function mount(root, store, api, clock) {
       mark();
     }
   });
-  const tell = ({ result, until }) => write(parts.told, result ? shortly(result, until) : "");
+  const tell = ({ result, until }) => write(parts.told, result ? storyOf(result, until).lead : "");
   tell(store.get());
   refresh();
 }

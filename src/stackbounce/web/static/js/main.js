@@ -5,14 +5,18 @@ import * as api from "./api.js";
 import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
+import { direct } from "./film_director.js";
 import { takeFiles } from "./dropped.js";
 import { hasServer, loadMeasure } from "./origin/served.js";
 import { mountNumbers } from "./numbers.js";
 import { mountPlots } from "./plots.js";
+import { mountMomentum } from "./momentum.js";
 import { carryErrors } from "./prediction.js";
 import { run } from "./runner.js";
 import { mountShare } from "./share.js";
 import { mountStage } from "./stage.js";
+import { mountGuess } from "./guess.js";
+import { mountSentence } from "./sentence_view.js";
 import { createStore } from "./store.js";
 import { mountTabs } from "./tabs.js";
 import { mountTransport } from "./transport.js";
@@ -29,10 +33,13 @@ address.follow(store);
 const runner = run(store, api);
 carryErrors(store, api);
 takeFiles(store);
-mountStage(place("stage"), store, clock);
+direct(store, clock, () => reduced.matches);
+mountStage(place("stage"), store, clock, mountGuess(place("stage"), store, clock));
+mountMomentum(place("momentum"), store, clock);
+mountSentence(place("sentence"), place("live"), store);
 mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);
-mountNumbers({ root: place("numbers"), table: place("intervals"), live: place("live") }, store);
+mountNumbers({ root: place("numbers"), table: place("intervals") }, store);
 mountShare(place("share"), store, api);
 const loadLine = () => import("./line.js");
 const loadMap = () => import("./map.js");
@@ -47,7 +54,6 @@ place("skip").addEventListener("click", (event) => {
   place("stage-box").focus();
 });
 store.subscribe((state, before) => state.view !== before.view && state.view !== "play" && clock.pause());
-followResults();
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
@@ -99,43 +105,6 @@ async function loadCatalogue() {
   } catch (error) {
     store.set({ error: { detail: error.message, offline: true } });
   }
-}
-
-/** Keep the clock's window at the result's, and its cursor where the state has it. */
-function followResults() {
-  let wanted = store.get().t; // the time given by a link, until its result arrives
-  let replay = store.get().replay;
-  let shown = null; // what the cursor belongs to: the impact or the whole drop
-  store.subscribe((state, before) => {
-    const other = state.drop !== before.drop || state.until !== before.until;
-    if (state.t !== before.t && state.t !== null) {
-      if (other) wanted = state.t;
-      else if (!clock.playing) clock.seek(state.t);
-    }
-    if (state.result === before.result) return;
-    const kind = state.until === null ? "impact" : "whole";
-    setWindow(state.result);
-    if (wanted !== null) {
-      clock.pause();
-      clock.seek(wanted);
-    } else if (kind !== shown || state.replay !== replay) restart();
-    wanted = null;
-    shown = kind;
-    replay = state.replay;
-  });
-}
-
-/** Set the clock to the time window of a result, with its events as stops. */
-function setWindow({ frames, intervals }) {
-  const { time } = frames;
-  const events = intervals.flatMap(({ start, end }) => [start, end]).filter((event) => event !== null);
-  clock.span(time[0], time.at(-1), [...new Set([0, ...events])].sort((a, b) => a - b));
-}
-
-/** Play the drop from its beginning, except where reduced motion is preferred. */
-function restart() {
-  clock.seek(clock.begin);
-  if (!reduced.matches && store.get().view === "play") clock.play();
 }
 
 /** Report that the server does not answer, and offer to try again. */

@@ -9,8 +9,9 @@ import { mapForm } from "./map_form.js";
 import { mapper } from "./map_request.js";
 import { haveSameMap, numberIn, outcome, place, summary as inWords, withNumbers } from "./map_words.js";
 import { onRepaint, palette } from "./palette.js";
+import { storyOf } from "./sentence.js";
 import { mountStage } from "./stage.js";
-import { capital, shortly } from "./words.js";
+import { capital } from "./words.js";
 
 const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
 const STILL = 4; // px that a mouse may move in a click
@@ -56,7 +57,7 @@ export function mount(root, store, api, clock) {
     if (!answer) write(parts.message, "Computing …");
     requests.ask(drop, map);
   };
-  const tell = ({ result, until }) => write(parts.told, result ? shortly(result, until) : "");
+  const tell = ({ result, until }) => write(parts.told, result ? storyOf(result, until).lead : "");
   const draw = () => {
     if (!answer || root.hidden) return;
     const whole = answer.show.startsWith("collisions");

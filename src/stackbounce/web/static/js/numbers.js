@@ -1,16 +1,13 @@
 /** The results: speeds, ratios, heights, collisions and energy, beside those of separate collisions. */
 
-import { h, renew, write } from "./dom.js";
+import { h, renew } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
 import { formatMeasured, withSpread } from "./quantity.js";
 import { fixed, format } from "./units.js";
-import { ballName, capital, contactName, count, height, highest, percent, setUp, shortContact, shortly, told } from "./words.js";
+import { ballName, capital, contactName, count, highest, percent, setUp, shortContact } from "./words.js";
 
-const SETTLED = 700; // ms without a new result before it is said
-
-/** Write the numbers into `root`, the contact intervals into `table`, and say results in `live`. */
-export function mountNumbers({ root, table, live }, store) {
-  let timer = 0;
+/** Write the numbers into `root`, and the contact intervals into `table`. */
+export function mountNumbers({ root, table }, store) {
   const box = table.closest("details");
   const showIntervals = () => {
     const { result } = store.get();
@@ -18,16 +15,14 @@ export function mountNumbers({ root, table, live }, store) {
   };
   box.addEventListener("toggle", showIntervals);
   const show = () => {
-    const { result, until, prediction } = store.get();
+    const { result, until, prediction, kept } = store.get();
     if (!result) return;
-    const sentence = h("p", { class: "told", "aria-hidden": "true", text: shortly(result, until) });
-    renew(root, sentence, ballTable(result, until, prediction), facts(result, until, prediction));
+    const compared = kept && until === null ? [h("h3", { class: "kept-title", text: "Kept to compare" }), ballTable(kept, null, null)] : [];
+    renew(root, ballTable(result, until, prediction), facts(result, until, prediction), ...compared);
     showIntervals();
-    clearTimeout(timer);
-    timer = setTimeout(() => write(live, told(result, until)), SETTLED);
   };
   store.subscribe((state, before) => {
-    if (state.result !== before.result || state.prediction !== before.prediction) show();
+    if (["result", "prediction", "kept"].some((name) => state[name] !== before[name])) show();
   });
 }
 
@@ -51,11 +46,11 @@ function ballTable(result, until, prediction) {
   const { drop } = result;
   const separate = prediction?.values ? null : textbook(result); // there is no room for both
   const own = until === null ? impactColumns(result, result, prediction) : wholeColumns(result, result.frames.position);
-  const theirs = separate && (until === null ? impactColumns(result, separate).slice(1) : wholeColumns(result, separate.position));
+  const theirs = separate && (until === null ? impactColumns(result, separate, null, false).slice(1) : wholeColumns(result, separate.position));
   const all = [...own, ...(theirs ?? [])];
   const when = until === null ? "After the impact" : `Within ${format(until)} s`;
   const groups = [h("td"), h("th", { scope: "colgroup", colspan: own.length, text: when })];
-  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length }, "Textbook", wide(": separate collisions")));
+  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: "Textbook" }));
   const rows = drop.balls.map((_, ball) => row(ballName(drop, ball), ball, ...all.map(({ cell }) => cell(ball))));
   return h(
     "table",
@@ -66,18 +61,19 @@ function ballTable(result, until, prediction) {
   );
 }
 
-/** The columns of an impact, of the drop itself or of its separate collisions. */
-function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }, prediction) {
+/** The columns of an impact, of the drop itself or of its separate collisions; `fall`: with heights in terms of the fall. */
+function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }, prediction, fall = true) {
   const known = (name, ball) => prediction?.values?.[`${name}.${ball}`];
+  const { unit, write } = heightsIn(heights);
   const rise = (ball) => {
     const { value, error } = known("rebound_heights", ball) ?? {};
-    return error > 0 ? formatMeasured(value, error, "m") : height(heights[ball]);
+    return error > 0 ? formatMeasured(value, error, "m") : write(heights[ball]);
   };
   const fallen = speedOf(drop) ** 2 / 2 / GRAVITY;
   return [
     { name: "m/s", cell: (ball) => withSpread(known("rebound_speeds", ball)) ?? fixed(speeds[ball], 2) },
     { name: "v / v₀", cell: (ball) => withSpread(known("rebound_ratios", ball)) ?? fixed(ratios[ball], 3) },
-    { name: ["rises", wide(" (× drop)")], cell: (ball) => [rise(ball), times(heights[ball], fallen)] },
+    { name: [`rises ${unit}`, fall ? wide(" (× drop)") : null], cell: (ball) => [rise(ball), fall ? times(heights[ball], fallen) : null] },
   ];
 }
 
@@ -85,7 +81,16 @@ function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratio
 function wholeColumns({ drop, frames }, positions) {
   const fallen = speedOf(drop) ** 2 / 2 / (drop.gravity || GRAVITY);
   const tops = positions.map((path) => highest(frames.time, path));
-  return [{ name: ["highest so far", wide(" (× drop)")], cell: (ball) => [height(tops[ball]), times(tops[ball], fallen)] }];
+  const { unit, write } = heightsIn(tops);
+  return [{ name: [`highest so far ${unit}`, wide(" (× drop)")], cell: (ball) => [write(tops[ball]), times(tops[ball], fallen)] }];
+}
+
+/** Return the one unit of a column of heights in m, and what writes them in it; a ball that goes down has none. */
+function heightsIn(heights) {
+  const most = Math.max(0, ...heights.filter(Number.isFinite));
+  const [unit, factor, decimals] = most < 0.1 ? ["mm", 1e3, 1] : ["m", 1, most < 1 ? 3 : 2];
+  const write = (value) => (Number.isFinite(value) ? fixed(Math.max(value, 0) * factor, decimals) : "–");
+  return { unit, write };
 }
 
 /** Return how many times the height of the drop a ball comes up, to stand behind the height. */
@@ -119,6 +124,7 @@ function facts(result, until, prediction) {
     .map((contact) => `${shortContact(drop, contact)}: ${count(result.collisions[contact])}`);
   const theirs = separate?.collisions.map(count).join(", ");
   list.append(pair("Collisions", met.join(", "), theirs));
+  list.append(pair("Impulse", impulses(result)));
   const set = pair("Set-up", setUp(drop));
   set.classList.add("print-only");
   list.prepend(set);
@@ -128,6 +134,13 @@ function facts(result, until, prediction) {
   const asked = until !== null && result.status === "TIME_REACHED";
   if (result.status !== "FINISHED" && !asked) list.append(pair("Note", capital(result.advice)));
   return list;
+}
+
+/** The whole impulse of each contact. */
+function impulses({ drop, intervals }) {
+  const sums = drop.contacts.map((_, contact) => intervals.filter((one) => one.contact === contact).reduce((sum, one) => sum + one.impulse, 0));
+  const met = sums.map((sum, contact) => `${shortContact(drop, contact)}: ${format(sum, 3)} N s`);
+  return met.filter((_, contact) => drop.contacts[contact]?.law !== "none").join(", ");
 }
 
 /** How the errors were found, and what to measure better, in sentences. */

@@ -117,7 +117,8 @@ class Panel {
   }
 
   legendItem(line, value) {
-    const swatch = h("span", { class: line.dash ? "swatch dashed" : "swatch", "aria-hidden": "true" });
+    const look = line.dash ? ` ${line.dash[0] > line.dash[1] ? "dashed" : "dotted"}` : "";
+    const swatch = h("span", { class: `swatch${look}`, "aria-hidden": "true" });
     swatch.style.setProperty("--ball", this.color(line));
     return h("li", {}, swatch, h("span", { class: "legend-label", text: line.label }), value);
   }

@@ -13,7 +13,7 @@ export function radii(drop) {
 }
 
 /** Return the largest value of each list. */
-function largest(lists) {
+export function largest(lists) {
   return lists.map((values) => values.reduce((most, value) => Math.max(most, value), 0));
 }
 
@@ -39,32 +39,46 @@ export function magnification(result, asked) {
 
 const BEYOND = 1.3; // times the balls' own height that is shown for the textbook's to be seen
 
-/** Return the height in m that a whole drop needs: the balls' own, and not too far beyond the textbook's. */
-function highest({ separate }, tops) {
-  const own = Math.max(...tops);
-  const theirs = Math.max(0, ...largest(separate?.position ?? []));
+/** Return the height in m that a picture needs: the balls' own, and not too far beyond it the textbook's. */
+export function highest(own, theirs) {
   return Math.max(own, Math.min(theirs, BEYOND * own));
 }
 
-/** Return how metres become pixels: radii, rest places, and pixels per metre of movement. */
-export function camera(result, { width, height, whole, asked }) {
+/** Return the near view of an impact, `{scale, move, times}`: px per metre of the balls, and of their magnified movement. */
+export function closeUp(result, { width, height, asked }) {
   const radius = radii(result.drop);
-  const stack = 2 * radius.reduce((sum, r) => sum + r, 0);
-  const tops = largest(result.frames.position);
-  const wide = Math.min(0.44 * width, width - 210) / (2 * Math.max(...radius));
-  const times = whole ? 1 : magnification(result, asked);
-  const high = stack + times * tops.at(-1);
-  const seen = whole ? stack + highest(result, tops) : clamp(high, 1.15 * stack, 1.7 * stack);
-  const scale = Math.min(height / seen, wide);
+  const stack = heightOf(radius);
+  const times = magnification(result, asked);
+  const seen = clamp(stack + times * largest(result.frames.position).at(-1), 1.15 * stack, 1.7 * stack);
+  const scale = Math.min(height / seen, widest(radius, width));
+  return { scale, move: scale * times, times };
+}
+
+/** Return the far view that holds a stack whose highest ball moves between two heights in m: all to scale. */
+export function farView(radius, { width, height, low, high }) {
+  const scale = Math.min(height / (heightOf(radius) + high - low), widest(radius, width));
+  const free = height - heightOf(stacked(radius, scale).radius);
+  return { scale, move: Math.min(scale, Math.max(free, 0.3 * height) / Math.max(high - low, 1e-9)), times: 1 };
+}
+
+/** Return the balls of a stack in px: each one's radius, and the height of its centre. */
+export function stacked(radius, scale) {
   const drawn = radius.map((r) => Math.max(LEAST_RADIUS, r * scale));
   let below = 0;
   const rest = drawn.map((r) => {
     below += 2 * r;
     return below - r;
   });
-  const free = height - below;
-  const move = whole ? Math.max(free, 0.3 * height) / Math.max(seen - stack, 1e-9) : scale * times;
-  return { radius: drawn, rest, move: whole ? Math.min(move, height / seen) : move, times, scale };
+  return { radius: drawn, rest };
+}
+
+function heightOf(radius) {
+  return 2 * radius.reduce((sum, r) => sum + r, 0);
+}
+
+/** Return the largest scale at which names and speeds have room beside the balls. */
+function widest(radius, width) {
+  return Math.min(0.44 * width, width - 210) / (2 * Math.max(...radius));
 }
 
 /** Return how far each ball's lower and upper side give way, in px. */

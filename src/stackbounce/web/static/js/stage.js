@@ -1,19 +1,26 @@
-/** The stage: the balls at the clock's time, and the textbook's beside them as outlines. */
+/** The stage: the balls at the clock's time, the textbook's as outlines, and a ruler beside them. */
 
-import { between, locate } from "./clock.js";
 import { h, put, s, write } from "./dom.js";
-import { camera, clamp, flattening, outline } from "./shape.js";
-import { fixed, format } from "./units.js";
-import { ballName, moment } from "./words.js";
+import { filmOf, pieceAt } from "./film.js";
+import { cameraOf } from "./film_camera.js";
+import { radii, stacked } from "./shape.js";
+import { ballGroup, ghostGroup, height as heightAt, keptGroups, moveBalls, moveGhosts, moveKept } from "./stage_balls.js";
+import { drawRuler } from "./stage_ruler.js";
+import { format } from "./units.js";
+import { ballName, happening, moment, pace } from "./words.js";
 
 const FOOT = 30; // px below the floor line
-const HEAD = 26; // px above the highest ball
-const ARROW = 46; // px of the fastest ball's arrow
+const HEAD = 64; // px above the highest ball, for the time
+const MIDDLE = 0.46; // of the width, where the balls are
+const PAIR = [0.27, 0.68]; // the same of two drops side by side
+const PHASES = { fall: "fall, ", leap: "leap, ", before: "", impact: "impact, ", between: "between contacts, ", after: "", whole: "" };
+const GUESSED = 5; // times the drop height that can be guessed, at least
+const NEARLY = 1e-9; // of the film's time: at an event
 
 let stages = 0;
 
-/** Draw the stage into `root` and keep it at the clock's time. */
-export function mountStage(root, store, clock) {
+/** Draw the stage into `root` and keep it at the clock's time; `onRuler` hears in each frame where the ruler is. */
+export function mountStage(root, store, clock, onRuler = () => null) {
   stages += 1;
   const light = `light-${stages}`; // a gradient of a hidden stage would not be drawn
   const svg = s("svg", { class: "scene", role: "img" });
@@ -21,9 +28,12 @@ export function mountStage(root, store, clock) {
   const scale = s("text", { class: "scene-note", x: 12, y: 42 });
   const ground = s("g", { class: "ground" });
   const ruler = s("g", { class: "ruler" });
+  const trails = s("g", { class: "trails" });
+  const kept = s("g", { class: "kept" });
   const ghosts = s("g", { class: "ghosts" });
   const balls = s("g", { class: "balls" });
-  svg.append(shading(light), ruler, ground, balls, ghosts, time, scale);
+  const centre = s("path", { class: "mass-centre", d: "M-9 0H9M0 -9V9M-5 0A5 5 0 0 0 5 0A5 5 0 0 0 -5 0" });
+  svg.append(shading(light), ruler, ground, trails, kept, balls, ghosts, centre, time, scale);
   root.append(svg);
   const nothing = h("p", { class: "stage-empty note", text: "Computing the first drop …" });
   root.append(nothing);
@@ -32,150 +42,139 @@ export function mountStage(root, store, clock) {
   let stack = ""; // whose balls are drawn
 
   const build = () => {
-    const { result, until, magnify } = store.get();
+    const { result, until, magnify, kept: other, predict } = store.get();
     size ??= root.getBoundingClientRect();
     const { width, height } = size;
     if (!result || width < 10 || height < 10) return;
     nothing.hidden = true;
     put(svg, "viewBox", `0 0 ${width} ${height}`);
-    const whole = until !== null;
-    const view = camera(result, { width, height: height - FOOT - HEAD, whole, asked: magnify });
+    const film = clock.film?.result === result ? clock.film : filmOf(result, until);
+    const also = other && !film.whole ? filmOf(other) : null;
+    const least = predict && !film.whole ? GUESSED * film.at(film.begin).position.at(-1) : 0;
+    const room = { width: also ? 0.7 * width : width, height: height - FOOT - HEAD };
+    const camera = cameraOf(film, result, { ...room, magnify, also, least });
+    const [middle, beside] = also ? PAIR.map((part) => part * width) : [MIDDLE * width];
     const fastest = Math.max(1e-9, ...result.frames.velocity.flat().map(Math.abs));
-    scene = { result, view, whole, fastest, floor: height - FOOT, middle: width / 2, seen: null };
-    drawGround(ground, result.drop, scene, width);
-    drawRuler(ruler, scene, width);
-    write(scale, note(scene));
+    scene = { result, film, camera, fastest, floor: height - FOOT, middle, also, beside, width };
+    drawGround(ground, scene, width);
+    scene.moveRuler = drawRuler(ruler, { ...scene, drop: result.drop, width });
     const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
-    if (names !== stack) balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));
+    if (names !== stack) {
+      balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));
+      trails.replaceChildren(...result.drop.balls.map((_, ball) => trail(ball)));
+    }
     stack = names;
-    const separate = result.separate?.position ?? [];
-    ghosts.replaceChildren(...separate.map((_, ball) => ghostBall(ball, view)));
+    ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));
+    kept.replaceChildren(...(also ? keptGroups(other.drop) : []));
+    if (also) scene.keptRadius = radii(other.drop);
     clock.touch();
   };
 
   const draw = () => {
     if (!scene) return;
-    const { frames, separate } = scene.result;
-    const place = locate(frames.time, clock.time);
-    const compressions = frames.compression.map((values) => between(values, place));
-    const flat = flattening(compressions, scene.view);
-    [...balls.children].forEach((group, ball) => {
-      const position = between(frames.position[ball], place);
-      const velocity = between(frames.velocity[ball], place);
-      moveBall(group, scene, ball, { position, velocity, flat: flat[ball] });
-    });
-    [...ghosts.children].forEach((circle, ball) => {
-      const position = between(separate.position[ball], place);
-      put(circle, "transform", `translate(${scene.middle} ${centre(scene, ball, position)})`);
-    });
-    write(time, moment(clock.time, scene.whole));
-    if (!clock.playing) put(svg, "aria-label", spoken(scene, clock.time, place));
+    const { film, camera, floor, middle } = scene;
+    const now = film.at(clock.time);
+    const view = camera.at(clock.time, now.position);
+    moveBalls([...balls.children], now, { ...scene, view, lies: (ball) => film.lies(ball, clock.time) });
+    if (film.ghosts) moveGhosts(ghosts, film.ghosts.at(clock.time), { view, floor, middle });
+    if (scene.also) {
+      const beside = { ...view, ...stacked(scene.keptRadius, view.scale) };
+      moveKept(kept, scene.also.at(clock.time), { view: beside, floor, middle: scene.beside });
+    }
+    moveTrails(trails, scene, view, clock.time);
+    moveCentre(centre, scene, view, now);
+    scene.moveRuler(view, clock.time);
+    onRuler(rulerPlace(scene, view));
+    const said = words(scene, clock, view);
+    write(time, said.time);
+    write(scale, said.note);
+    if (!clock.playing) put(svg, "aria-label", spoken(scene, clock.time, now));
   };
 
-  const showGhosts = () => ghosts.classList.toggle("hidden", !store.get().ghosts);
+  const showParts = () => {
+    const { ghosts: textbook, arrows, centre: mass } = store.get();
+    ghosts.classList.toggle("hidden", !textbook);
+    balls.classList.toggle("no-arrows", !arrows);
+    centre.classList.toggle("hidden", !mass);
+  };
   store.subscribe((state, before) => {
-    if (state.result !== before.result || state.magnify !== before.magnify) build();
-    if (state.ghosts !== before.ghosts) showGhosts();
+    const changed = (...names) => names.some((name) => state[name] !== before[name]);
+    if (changed("result", "magnify", "kept", "predict")) build();
+    if (changed("ghosts", "arrows", "centre")) showParts();
   });
   clock.subscribe(draw);
   new ResizeObserver(([{ contentRect }]) => {
     size = contentRect;
     build();
   }).observe(root);
-  showGhosts();
+  showParts();
 }
 
-function centre({ view, floor }, ball, position) {
-  return (floor - view.rest[ball] - view.move * position).toFixed(2);
-}
-
-function ballGroup(drop, ball, light) {
-  const group = s("g", { class: "ball", "data-ball": ball });
-  group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
-  const name = s("text", { class: "ball-name", "text-anchor": "end", text: shortened(ballName(drop, ball)) });
-  put(name, "y", 4);
-  const speed = s("text", { class: "ball-speed" });
-  put(speed, "y", 4);
-  group.append(
-    s("path", { class: "ball-body" }),
-    s("path", { class: "ball-light", fill: `url(#${light})` }),
-    s("path", { class: "ball-arrow" }),
-    name,
-    speed,
-  );
-  return group;
-}
-
-function shortened(name) {
-  return name.length > 16 ? `${name.slice(0, 15)}…` : name;
-}
-
-function moveBall(group, scene, ball, { position, velocity, flat }) {
-  const [body, light, arrow, name, speed] = group.children;
-  const { path, side } = outline(scene.view.radius[ball], flat);
-  put(group, "data-position", position);
-  put(group, "transform", `translate(${scene.middle} ${centre(scene, ball, position)})`);
-  put(body, "d", path);
-  put(light, "d", path);
-  put(arrow, "d", arrowPath((side + 17).toFixed(1), (-ARROW * velocity) / scene.fastest));
-  put(name, "x", (-side - 10).toFixed(1));
-  put(speed, "x", (side + 28).toFixed(1));
-  write(speed, `${fixed(velocity, 2)} m/s`);
-}
-
-/** Return an arrow from a height of 0 to `length` px down, at `x`. */
-function arrowPath(x, length) {
-  if (Math.abs(length) < 1.5) return `M${x} 0m-3 0h6`;
-  const head = clamp(length, -5, 5);
-  const tip = length.toFixed(1);
-  return `M${x} 0V${tip}m-4 ${-head}L${x} ${tip}l4 ${-head}`;
-}
-
-function ghostBall(ball, view) {
-  return s("circle", { class: "ghost", r: view.radius[ball], "data-ghost": ball });
-}
-
-function drawGround(ground, drop, { floor }, width) {
-  const none = (drop.contacts[0]?.law ?? "none") === "none";
-  if (none) {
-    ground.replaceChildren();
-    return;
-  }
-  ground.replaceChildren(
+function drawGround(ground, { film, floor }, width) {
+  ground.replaceChildren();
+  if (!film.floor) return;
+  ground.append(
     s("rect", { class: "ground-fill", x: 0, y: floor, width, height: FOOT }),
     s("line", { class: "ground-line", x1: 0, x2: width, y1: floor, y2: floor }),
   );
 }
 
-/** Draw heights in metres beside a whole drop. */
-function drawRuler(ruler, { whole, view, floor }, width) {
-  ruler.replaceChildren();
-  if (!whole) return;
-  const step = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1e3, 1e4].find((one) => one * view.move >= 40) ?? 1e5;
-  for (let height = step; height * view.move < floor - 48; height += step) {
-    const y = floor - height * view.move;
-    ruler.append(
-      s("line", { x1: 0, x2: width, y1: y, y2: y }),
-      s("text", { x: width - 8, y: y - 4, "text-anchor": "end", text: `${format(height, 4)} m` }),
-    );
-  }
+function trail(ball) {
+  const line = s("line", { class: "trail" });
+  line.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+  return line;
 }
 
-function note({ whole, view }) {
-  return whole ? "heights to scale" : `movement shown ×${format(view.times, 2)}`;
+/** Draw how far each ball has come since the impact. */
+function moveTrails(root, { film, floor, middle }, view, time) {
+  const flies = !film.whole && time > film.last;
+  put(root, "visibility", flies ? "visible" : "hidden");
+  if (!flies) return;
+  const now = film.at(time).position;
+  [...root.children].forEach((line, ball) => {
+    const top = film.tops[ball];
+    put(line, "x1", middle);
+    put(line, "x2", middle);
+    put(line, "y1", heightAt(view, floor, ball, 0));
+    put(line, "y2", heightAt(view, floor, ball, top && time > top.time ? top.height : now[ball]));
+  });
+}
+
+/** Return where the ruler of the highest ball is: its zero and its scale in px, and how near the camera is. */
+function rulerPlace({ film, floor, width }, { lift, rest, radius, move, near }) {
+  const fallen = film.at(film.begin).position[0];
+  return { zero: floor - lift - rest.at(-1) + radius.at(-1), scale: move, width, near, fallen };
+}
+
+/** Mark the centre of mass of the balls as they are drawn. */
+function moveCentre(mark, { result, floor, middle }, view, { position }) {
+  const { balls } = result.drop;
+  const mass = balls.reduce((sum, ball) => sum + ball.mass, 0);
+  const y = balls.reduce((sum, ball, i) => sum + (ball.mass / mass) * Number(heightAt(view, floor, i, position[i])), 0);
+  put(mark, "transform", `translate(${middle} ${y.toFixed(2)})`);
+}
+
+/** Return the words on the stage: the time, or the event at it, how fast the film is, and the scale. */
+function words({ film, camera, result }, clock, view) {
+  const { phase, from, to, length } = pieceAt(film, clock.time);
+  const event = clock.playing ? null : film.events.find(({ time }) => Math.abs(time - clock.time) <= NEARLY * (film.end - film.begin));
+  const speed = pace(length / (to - from) / clock.speed);
+  const magnified = view.near > 0.5 && camera.times > 1;
+  const scale = magnified ? `, movement shown ×${format(camera.times, 2)}` : "";
+  const now = moment(clock.time, film.whole);
+  const lies = result.drop.balls.some((_, ball) => film.lies(ball, clock.time)) ? "; its next bounce is not shown" : "";
+  return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note: `${PHASES[phase]}${speed}${scale}${lies}` };
 }
 
 /** Describe the stage in words, for screen readers. */
-function spoken({ result, whole }, time, place) {
-  const { drop, frames } = result;
+function spoken({ result, film }, time, { position, velocity }) {
+  const { drop } = result;
   const balls = drop.balls.map((_, ball) => {
-    const position = between(frames.position[ball], place) * (whole ? 1 : 1e3);
-    const speed = between(frames.velocity[ball], place);
-    const way = speed > 0 ? "up" : "down";
-    const unit = whole ? "m" : "mm";
-    return `${ballName(drop, ball)} at ${format(position, 3)} ${unit}, ${format(Math.abs(speed), 3)} m/s ${way}`;
+    const way = velocity[ball] > 0 ? "up" : "down";
+    const [place, unit] = film.whole ? [position[ball], "m"] : [position[ball] * 1e3, "mm"];
+    return `${ballName(drop, ball)} at ${format(place, 3)} ${unit}, ${format(Math.abs(velocity[ball]), 3)} m/s ${way}`;
   });
-  return `The stack at ${moment(time, whole)}, from below: ${balls.join("; ")}.`;
+  return `The stack at ${moment(time, film.whole)}, from below: ${balls.join("; ")}.`;
 }
 
 function shading(id) {

@@ -23,7 +23,14 @@ export const FIRST = {
   drop: FIRST_DROP,
   until: null, // s of the whole drop, or null for the impact alone
   ghosts: true,
-  slow: 1000, // how many times slower than life: 10 ms in 10 s
+  arrows: true, // velocities on the stage
+  momentum: false, // bars below it
+  centre: false, // of mass
+  speed: 1, // of the film
+  loop: false,
+  predict: false, // first a guess, then the film
+  guess: null, // m that the highest ball was thought to rise, once it is let go
+  kept: null, // the result of a drop to compare with
   magnify: null, // how many times movement is shown larger, null to let the page choose
   t: null, // s, where the cursor stands, null for the begin
   line: null, // {x, show}, null to let the page choose
@@ -40,8 +47,8 @@ export const FIRST = {
 };
 
 /** Return what changes in a state that shows another drop from its begin: its impact, without errors. */
-export function withExample({ until, slow, replay }, drop) {
-  return { drop, errors: {}, until: null, t: null, slow: until === null ? slow : FIRST.slow, replay: replay + 1 };
+export function withExample({ replay }, drop) {
+  return { drop, errors: {}, until: null, t: null, guess: null, replay: replay + 1 };
 }
 
 /** Return a store: `get()`, `set(patch)`, `subscribe(listener)`. */

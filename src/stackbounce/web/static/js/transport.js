@@ -1,16 +1,15 @@
-/** Play, the cursor, slow motion, and what the stage shows. */
+/** Playback: play, replay, events, the film's speed, and what the stage shows. */
 
 import { h, put, write } from "./dom.js";
 import { GRAVITY } from "./drops.js";
 import { choice } from "./fields.js";
-import { FIRST } from "./store.js";
+import { format } from "./units.js";
 import { moment } from "./words.js";
 
 const STEPS = 2000; // of the cursor
-const SLOW = [10000, 3000, 1000, 300, 100, 30, 10, 3, 1];
 const MAGNIFY = [1, 2, 3, 5, 8, 10, 20, 30, 50];
-const LIFE = 1; // how many times slower a whole drop is shown
-const STRIDE = 1 / 200; // of the window, that an arrow key moves the cursor; ten times that for a page
+const STRIDE = 1 / 200; // of the film, that an arrow key moves the cursor; ten times that for a page
+const SPEEDS = { min: -3, max: 2, step: 0.25 }; // the film's, as powers of two
 
 /** Build the transport into `root`; it drives the clock, and follows it. */
 export function mountTransport(root, store, clock) {
@@ -26,71 +25,55 @@ export function mountTransport(root, store, clock) {
     "aria-describedby": "keys",
     oninput: () => {
       clock.pause();
-      clock.seek(clock.begin + (clock.end - clock.begin) * (Number(cursor.value) / STEPS));
+      clock.wind((clock.film?.length ?? 0) * (Number(cursor.value) / STEPS));
     },
   });
-  const readout = h("output", { class: "readout", "aria-live": "off" });
   const options = h("div", { class: "options" });
-  root.replaceChildren(h("div", { class: "transport-main" }, play, cursor, readout), options);
+  root.replaceChildren(h("div", { class: "transport-main" }, play, cursor), actions(store, clock), options);
 
   function toggle() {
     if (clock.playing) clock.pause();
     else clock.play();
   }
-  const act = (key) => {
-    const stride = STRIDE * (clock.end - clock.begin);
-    const moves = {
-      ArrowLeft: () => clock.seek(clock.time - stride),
-      ArrowRight: () => clock.seek(clock.time + stride),
-      Home: () => clock.seek(clock.begin),
-      End: () => clock.seek(clock.end),
-    };
-    if (key === " ") toggle();
-    else if (moves[key]) {
-      clock.pause();
-      moves[key]();
-    } else return false;
-    return true;
+  const move = (part) => {
+    clock.pause();
+    clock.wind(clock.reel + part * (clock.film?.length ?? 0));
   };
+  const keys = {
+    ArrowLeft: () => move(-STRIDE),
+    ArrowRight: () => move(STRIDE),
+    Home: () => move(-1),
+    End: () => move(1),
+    " ": toggle,
+  };
+  const ofCursor = { ...keys, ArrowUp: keys.ArrowRight, ArrowDown: keys.ArrowLeft, PageUp: () => move(10 * STRIDE), PageDown: () => move(-10 * STRIDE) };
   document.addEventListener("keydown", (event) => {
     if (store.get().view !== "play" || event.ctrlKey || event.metaKey || event.altKey) return;
     const own = event.target === cursor;
-    const pages = { PageUp: 10 * STRIDE, PageDown: -10 * STRIDE };
-    if (own && pages[event.key]) {
-      event.preventDefault();
-      clock.pause();
-      clock.seek(clock.time + pages[event.key] * (clock.end - clock.begin));
-      return;
-    }
-    if (!own && event.target.closest("input, select, textarea, button, summary, a, [role=region]")) return;
-    const key = own ? { ArrowUp: "ArrowRight", ArrowDown: "ArrowLeft" }[event.key] ?? event.key : event.key;
-    if (act(key)) event.preventDefault();
+    if (!own && event.target.closest("input, select, textarea, button, summary, a, [role=region], [role=slider]")) return;
+    const act = (own ? ofCursor : keys)[event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
   });
 
-  const showOptions = () => options.replaceChildren(...choices(store));
-  let shown = "";
+  const showOptions = () => options.replaceChildren(...switches(store));
+  let played = false;
   clock.subscribe(() => {
-    const whole = store.get().until !== null;
-    cursor.value = (STEPS * (clock.time - clock.begin)) / (clock.end - clock.begin || 1);
-    const text = moment(clock.time, whole);
-    write(readout, text);
-    if (!clock.playing) put(cursor, "aria-valuetext", text);
+    cursor.value = (STEPS * clock.reel) / (clock.film?.length || 1);
+    if (!clock.playing) put(cursor, "aria-valuetext", moment(clock.time, store.get().until !== null));
     put(play, "aria-label", clock.playing ? "Pause" : "Play");
     play.classList.toggle("playing", clock.playing);
-    const state = `${clock.playing}`;
-    if (state !== shown && !clock.playing) keep(store, clock);
-    shown = state;
+    if (played && !clock.playing) keep(store, clock);
+    played = clock.playing;
   });
   cursor.addEventListener("change", () => keep(store, clock));
   addEventListener("pointerup", () => !clock.playing && keep(store, clock));
   addEventListener("keyup", () => !clock.playing && keep(store, clock));
   store.subscribe((state, before) => {
-    const changed = ["until", "ghosts", "slow", "magnify", "overlays"].filter((name) => state[name] !== before[name]);
-    if (changed.length === 0 && Boolean(state.result?.separate) === Boolean(before.result?.separate)) return;
-    clock.rate = 1 / state.slow;
-    showOptions();
+    const changed = ["until", "magnify", "overlays", "predict", "kept", ...SHOWN.map(([name]) => name)].some((name) => state[name] !== before[name]);
+    if (changed || Boolean(state.result?.separate) !== Boolean(before.result?.separate)) showOptions();
   });
-  clock.rate = 1 / store.get().slow;
   showOptions();
 }
 
@@ -99,32 +82,81 @@ function keep(store, clock) {
   if (store.get().result) store.set({ t: clock.time });
 }
 
-function choices(store) {
-  const { slow, magnify, ghosts, until, result, overlays } = store.get();
-  const numbers = (list, own) => [...new Set(own === null ? list : [...list, own])].sort((a, b) => a - b);
-  const speeds = numbers(SLOW, slow).map((one) => [one, one === 1 ? "real time" : `${one}× slower`]);
-  const sizes = numbers(MAGNIFY, magnify).map((one) => [one, `×${one}`]);
-  const boxes = [
-    choice({ label: "Shown", groups: [["", speeds]], value: slow, set: (value) => store.set({ slow: Number(value) }) }),
-  ];
+/** Return the row of what is done with the film. */
+function actions(store, clock) {
+  const button = (text, act) => h("button", { type: "button", class: "small", text, onclick: act });
+  const step = (forward) => () => {
+    clock.pause();
+    clock.step(forward);
+    keep(store, clock);
+  };
+  const replay = () => {
+    clock.pause();
+    clock.seek(clock.begin);
+    clock.play();
+  };
+  const slider = h("input", {
+    type: "range",
+    class: "speed",
+    id: "film-speed",
+    ...SPEEDS,
+    oninput: () => store.set({ speed: 2 ** Number(slider.value) }),
+  });
+  const told = h("output", { class: "speed-told", for: "film-speed", "aria-live": "off" });
+  const loop = h("input", { type: "checkbox", onchange: () => store.set({ loop: loop.checked }) });
+  const show = () => {
+    const { speed, loop: again } = store.get();
+    slider.value = Math.log2(speed);
+    loop.checked = again;
+    write(told, `×${format(speed, 2)}`);
+    put(slider, "aria-valuetext", `${format(speed, 2)} times`);
+  };
+  store.subscribe((state, before) => (state.speed !== before.speed || state.loop !== before.loop) && show());
+  show();
+  return h(
+    "div",
+    { class: "actions" },
+    button("Replay", replay),
+    button("Previous event", step(false)),
+    button("Next event", step(true)),
+    h("label", { class: "check" }, loop, "Loop"),
+    h("span", { class: "film-speed" }, h("label", { for: "film-speed", text: "Speed of the film" }), slider, told),
+  );
+}
+
+const SHOWN = [
+  ["ghosts", "Textbook’s balls"],
+  ["arrows", "Velocities"],
+  ["momentum", "Momentum"],
+  ["centre", "Centre of mass"],
+];
+
+/** Return the row of what the stage shows. */
+function switches(store) {
+  const { magnify, until, result, overlays, predict, kept } = store.get();
+  const hasTextbook = !result || result.separate;
+  const parts = SHOWN.filter(([name]) => name !== "ghosts" || hasTextbook).map(([name, text]) =>
+    check(text, store.get()[name], (on) => store.set({ [name]: on })),
+  );
+  parts.push(check("Whole drop", until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
   if (until === null) {
-    boxes.push(
-      choice({
-        label: "Movement",
-        groups: [["", [["", "auto"], ...sizes]]],
-        value: magnify ?? "",
-        set: (value) => store.set({ magnify: value === "" ? null : Number(value) }),
+    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((one) => [one, `×${one}`]);
+    const set = (value) => store.set({ magnify: value === "" ? null : Number(value) });
+    parts.push(
+      check("Predict first", predict, (on) => store.set({ predict: on, guess: null })),
+      h("button", {
+        type: "button",
+        class: "small",
+        text: kept ? "Let go what was kept" : "Keep this one to compare",
+        onclick: () => store.set({ kept: kept ? null : store.get().result }),
       }),
+      choice({ label: "Movement", groups: [["", [["", "auto"], ...sizes]]], value: magnify ?? "", set }),
     );
   }
-  boxes.push(check("Whole drop", until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
   if (until === null && overlays.some(({ what }) => what === "position")) {
-    boxes.push(h("p", { class: "note", text: "The measured track is of the whole drop: show that to see it." }));
+    parts.push(h("p", { class: "note", text: "The measured track is of the whole drop: show that to see it." }));
   }
-  if (!result || result.separate) {
-    boxes.push(check("Textbook’s balls", ghosts, (on) => store.set({ ghosts: on })));
-  }
-  return boxes;
+  return parts;
 }
 
 function check(text, checked, set) {
@@ -139,9 +171,9 @@ function whole({ drop, result }) {
   const fastest = Math.max(1, ...(result?.rebound_speeds ?? []).filter(Number.isFinite));
   const until = Math.min(Math.ceil((2.4 * fastest) / GRAVITY), 8);
   before = drop.gravity;
-  return { until, slow: LIFE, t: null, drop: { ...drop, gravity: GRAVITY } };
+  return { until, t: null, drop: { ...drop, gravity: GRAVITY } };
 }
 
 function alone({ drop }) {
-  return { until: null, slow: FIRST.slow, t: null, drop: { ...drop, gravity: before } };
+  return { until: null, t: null, drop: { ...drop, gravity: before } };
 }

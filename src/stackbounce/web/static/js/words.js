@@ -32,13 +32,31 @@ export function count(collisions) {
 /** Return a height in mm or m, whichever reads better; a ball that goes down has none. */
 export function height(value) {
   if (value === null || value === undefined) return "–";
-  if (value <= 0) return "0 m";
+  return value <= 0 ? "0 m" : metres(value);
+}
+
+/** Return a length in mm or m, whichever reads better. */
+export function metres(value) {
   return value < 0.1 ? `${format(value * 1e3, 3)} mm` : `${format(value, 3)} m`;
 }
 
 /** Return a time of the clock: ms of an impact, s of a whole drop. */
 export function moment(time, whole) {
-  return whole ? `${fixed(time, 2)} s` : `${fixed(time * 1e3, 2)} ms`;
+  return whole ? `${fixed(time, 2)} s` : `${fixed(time * 1e3, 1)} ms`;
+}
+
+/** Return how fast a film shows what happens: `slow` times slower than it is. */
+export function pace(slow) {
+  if (Math.abs(slow - 1) < 0.02) return "in real time";
+  return slow > 1 ? `slowed ${format(slow, 2)} times` : `${format(1 / slow, 2)} times as fast as it is`;
+}
+
+/** Return what happens at an event of a film. */
+export function happening(drop, { what, contact, ball }) {
+  if (what === "begin") return "the begin";
+  if (what === "end") return "the end of the film";
+  if (what === "top") return `top of ${ballName(drop, ball)}`;
+  return `${contactName(drop, contact)} ${what === "touch" ? "touch" : "part"}`;
 }
 
 /** Return a share of the energy as percent. */
@@ -56,41 +74,6 @@ export function setUp(drop) {
     return `${law === "none" ? "no floor" : `${law} (${given.join(", ")})${gap}`}; ${ballName(drop, i)} ${format(ball.mass * 1e3)} g`;
   });
   return `${parts.join("; ")}; in SI units from the floor up.`;
-}
-
-/** Return a result in one or two sentences, as somebody would tell it. */
-export function told(result, until) {
-  const { drop } = result;
-  const own = until === null ? (ball) => leaving(result, ball) : (ball) => rising(result, ball);
-  const balls = drop.balls.map((_, ball) => `${ballName(drop, ball)} ${own(ball)}`).reverse();
-  const expected = result.status === "FINISHED" || (until !== null && result.status === "TIME_REACHED");
-  const end = expected ? "" : ` ${capital(result.advice)}.`;
-  if (until !== null) return `Within ${format(until)} seconds, ${balls.join("; ")}.${end}`;
-  return `After the impact, ${balls.join("; ")}. Kinetic energy retained: ${percent(result.energy_retained)}.${end}`;
-}
-
-/** Return the upper ball's part of a result, and the textbook's, in a sentence. */
-export function shortly(result, until) {
-  const { drop, separate } = result;
-  const top = drop.balls.length - 1;
-  const name = capital(ballName(drop, top));
-  if (until !== null || result.rebound_ratios[top] === null) return `${name} ${until === null ? leaving(result, top) : rising(result, top)}.`;
-  const own = `${name} ${leaving(result, top)}`;
-  if (!separate) return `${own}: these are the textbook’s separate collisions.`;
-  if (separate.error || separate.rebound_ratios[top] === null) return `${own}.`;
-  const theirs = separate.rebound_ratios[top];
-  return `${own}; by the textbook, one collision after the other, it would be ${format(theirs, 3)} times.`;
-}
-
-function leaving(result, ball) {
-  const ratio = result.rebound_ratios[ball];
-  if (ratio === null) return "has no end speed";
-  if (Math.abs(ratio) < 5e-4) return "stands still";
-  return `goes ${ratio > 0 ? "up" : "on down"} at ${format(Math.abs(ratio), 3)} times the impact speed`;
-}
-
-function rising({ frames }, ball) {
-  return `rises to ${height(highest(frames.time, frames.position[ball]))}`;
 }
 
 /** Return how high a path comes once the floor has been touched. */

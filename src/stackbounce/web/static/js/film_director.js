@@ -1,0 +1,40 @@
+/** The director: makes a film of each result, and keeps the clock at the moment that is to be seen. */
+
+import { filmOf, sameMoment } from "./film.js";
+
+/** Show films of the store's results on the clock; `calm` tells whether motion is reduced. */
+export function direct(store, clock, calm) {
+  let wanted = store.get().t; // the time given by a link, until its result arrives
+  let replay = store.get().replay;
+  let whole = null; // whether a whole drop is shown
+  store.subscribe((state, before) => {
+    if (state.speed !== before.speed) clock.speed = state.speed;
+    if (state.loop !== before.loop) clock.loop = state.loop;
+    const other = state.drop !== before.drop || state.until !== before.until;
+    if (state.t !== before.t && state.t !== null) {
+      if (other) wanted = state.t;
+      else if (!clock.playing) clock.seek(state.t);
+    }
+    const asks = (one) => one.predict && one.guess === null;
+    if (asks(state) && !asks(before) && clock.film) hold(clock);
+    if (state.result === before.result) return;
+    const film = filmOf(state.result, state.until);
+    const again = clock.film === null || film.whole !== whole || state.replay !== replay;
+    const moment = again ? film.begin : sameMoment(clock.film, clock.time, film);
+    clock.show(film, [...new Set(film.events.map(({ time }) => time))], wanted ?? moment);
+    if (wanted !== null) clock.pause();
+    else if (asks(state) && state.until === null) hold(clock);
+    else if (again && !calm() && state.view === "play") clock.play();
+    wanted = null;
+    whole = film.whole;
+    replay = state.replay;
+  });
+  clock.speed = store.get().speed;
+  clock.loop = store.get().loop;
+}
+
+/** Stop at the begin of the film. */
+function hold(clock) {
+  clock.pause();
+  clock.seek(clock.begin);
+}

@@ -1,0 +1,49 @@
+/** The ruler beside the balls: heights of the highest ball above where it lay, and marks at the tops of all. */
+
+import { put, s } from "./dom.js";
+import { format } from "./units.js";
+import { ballName, metres } from "./words.js";
+
+const APART = 44; // px between two lines, at least
+const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1e3, 1e4];
+const BESIDE = 56; // px from the right edge: marks have their words left of the ruler's
+
+/** Fill a group with the lines of a film's ruler; returns `move(view, time)`. */
+export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
+  const top = drop.balls.length - 1;
+  const base = ({ lift, rest, radius }) => floor - lift - rest[top] + radius[top];
+  const line = (height, name, text) => {
+    const group = s("g", { class: name });
+    const x = name === "tick" ? width - 8 : width - BESIDE;
+    group.append(s("line", { x1: name === "tick" ? 0 : middle, x2: width }), s("text", { x, y: -4, "text-anchor": "end", text }));
+    return { group, height, ball: top };
+  };
+  const step = STEPS.find((one) => one * camera.far.move >= APART) ?? 1e5;
+  const room = floor - camera.far.rest[top] + camera.far.radius[top] - 30;
+  const count = film.floor ? Math.floor(room / (step * camera.far.move)) : 0;
+  const lines = Array.from({ length: count }, (_, i) => line(step * (i + 1), "tick", `${format(step * (i + 1), 4)} m`));
+  const fallen = film.whole ? 0 : film.at(film.begin).position[0]; // the highest ball has the gaps to fall, too
+  if (fallen > 0) lines.push(line(fallen, "mark drop-mark", `dropped from ${metres(fallen)}`));
+  const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(drop, ball, found, width, middle) }).filter(Boolean);
+  root.replaceChildren(...lines.map(({ group }) => group), ...marks.map(({ group }) => group));
+  return (view, time) => {
+    const shown = Math.max(0, 1 - 4 * view.near);
+    put(root, "opacity", shown.toFixed(2));
+    if (shown === 0) return;
+    const from = base(view);
+    for (const { group, height } of lines) put(group, "transform", `translate(0 ${(from - view.move * height).toFixed(1)})`);
+    for (const { group, height, ball, time: reached } of marks) {
+      const y = floor - view.lift - view.rest[ball] + view.radius[ball] - view.move * height;
+      put(group, "transform", `translate(0 ${y.toFixed(1)})`);
+      put(group, "visibility", time >= reached ? "visible" : "hidden");
+    }
+  };
+}
+
+function topMark(drop, ball, { height }, width, middle) {
+  const group = s("g", { class: "mark top-mark" });
+  group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+  const text = `${ballName(drop, ball)} ${metres(height)}`;
+  group.append(s("line", { x1: middle, x2: width }), s("text", { x: width - BESIDE, y: -4, "text-anchor": "end", text }));
+  return group;
+}
