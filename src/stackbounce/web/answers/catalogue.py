@@ -8,7 +8,7 @@ from stackbounce import calibration
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, ContactLaw, Drop, Hysteretic, Rigid, law_named
-from stackbounce.model.catalogue import BALLS, stack
+from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
 from stackbounce.version import __version__
 from stackbounce.web.limits import Limits
 
@@ -45,7 +45,7 @@ def list_choices(limits: Limits) -> str:
     return as_json(
         {
             "stackbounce": __version__,
-            "balls": [entry.to_mapping() for entry in BALLS],
+            "balls": [entry.to_mapping() for entry in (*BALLS, *CLASS_BALLS)],
             "laws": [_describe_law(kind) for kind in LAWS.values()],
             "lossy_law": _LOSSY.__name__,
             "presets": presets,
