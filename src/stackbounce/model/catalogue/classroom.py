@@ -137,7 +137,7 @@ CLASS_BALLS: tuple[CatalogueBall, ...] = (
         contact_time=Figure(5.0e-3, MEASURED, _CROSS),
     ),
     _ball(
-        "table tennis ball",
+        "ping-pong ball",
         mass=Figure(2.83e-3, MEASURED, _JENA),
         diameter=Figure(39.7e-3, MEASURED, _JENA),
         restitution=Figure(0.88, MEASURED, f"{_JENA}: from 31.5 cm, on a table"),

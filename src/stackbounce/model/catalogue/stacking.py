@@ -67,7 +67,7 @@ def catalogue_ball(name: str) -> CatalogueBall:
     --------
     >>> catalogue_ball("Tennis").ball.mass
     0.057
-    >>> catalogue_ball("table-tennis-ball").restitution
+    >>> catalogue_ball("ping-pong-ball").restitution
     0.88
     """
     entries = {str(entry.ball.name): entry for entry in (*BALLS, *CLASS_BALLS)}

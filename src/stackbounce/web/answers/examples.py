@@ -21,7 +21,7 @@ def list_examples() -> Iterator[Case]:
     >>> [case.name for case in list_examples()][:2]
     ['class-touching', 'class-gap']
     """
-    tower = ["big basketball", "volleyball", "tennis ball", "table tennis ball"]
+    tower = ["big basketball", "volleyball", "tennis ball", "ping-pong ball"]
     yield Case(
         "class-touching",
         _PAIRS,
@@ -39,22 +39,22 @@ def list_examples() -> Iterator[Case]:
     yield Case(
         "class-superball",
         _PAIRS,
-        "Table tennis ball on a superball, 5 mm apart",
+        "Ping-pong ball on a superball, 5 mm apart",
         "It goes up at 2.16 times its speed; close the gap, and see how little is left.",
-        _dropped(["superball", "table tennis ball"], 0.005),
+        _dropped(["superball", "ping-pong ball"], 0.005),
     )
     yield Case(
         "class-golf",
         _PAIRS,
-        "Table tennis ball on a golf ball, touching",
+        "Ping-pong ball on a golf ball, touching",
         "A hard ball below leaves the floor early: 2.14 times, though the two touch.",
-        _dropped(["golf ball", "table tennis ball"], 0.0),
+        _dropped(["golf ball", "ping-pong ball"], 0.0),
     )
     yield Case(
         "class-three",
         _TOWERS,
-        "Basketball, tennis ball and table tennis ball, 2 cm apart",
-        "The table tennis ball leaves at 3.88 times its speed, for 15 times the height.",
+        "Basketball, tennis ball and ping-pong ball, 2 cm apart",
+        "The ping-pong ball leaves at 3.88 times its speed, for 15 times the height.",
         _dropped([tower[0], *tower[2:]], 0.02),
     )
     yield Case(

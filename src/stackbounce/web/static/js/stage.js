@@ -1,6 +1,7 @@
 /** The stage: the balls at the clock's time, and the textbook's beside them as outlines. */
 
 import { between, locate } from "./clock.js";
+import { patternOf, squash } from "./ball_looks.js";
 import { h, put, s, write } from "./dom.js";
 import { camera, clamp, flattening, outline } from "./shape.js";
 import { fixed, format } from "./units.js";
@@ -98,6 +99,7 @@ function ballGroup(drop, ball, light) {
   put(speed, "y", 4);
   group.append(
     s("path", { class: "ball-body" }),
+    patternOf(group, drop.balls[ball]),
     s("path", { class: "ball-light", fill: `url(#${light})` }),
     s("path", { class: "ball-arrow" }),
     name,
@@ -107,16 +109,18 @@ function ballGroup(drop, ball, light) {
 }
 
 function shortened(name) {
-  return name.length > 16 ? `${name.slice(0, 15)}…` : name;
+  return name.length > 18 ? `${name.slice(0, 17)}…` : name;
 }
 
 function moveBall(group, scene, ball, { position, velocity, flat }) {
-  const [body, light, arrow, name, speed] = group.children;
-  const { path, side } = outline(scene.view.radius[ball], flat);
+  const [body, pattern, light, arrow, name, speed] = group.children;
+  const radius = scene.view.radius[ball];
+  const { path, side } = outline(radius, flat);
   put(group, "data-position", position);
   put(group, "transform", `translate(${scene.middle} ${centre(scene, ball, position)})`);
   put(body, "d", path);
   put(light, "d", path);
+  squash(pattern, side, radius - flat.upper, radius - flat.lower);
   put(arrow, "d", arrowPath((side + 17).toFixed(1), (-ARROW * velocity) / scene.fastest));
   put(name, "x", (-side - 10).toFixed(1));
   put(speed, "x", (side + 28).toFixed(1));
