@@ -124,6 +124,14 @@ def test_the_gap():
         f"{ratio(cannon, 0.02):.2f} times its speed, for "
         f"{ratio(cannon, 0.02) ** 2:.0f} times the height",
     )
+    intervals = result_of(CLASSROOM, 0.03).intervals
+    says(
+        "gap",
+        f"meet {1e3 * intervals['start'][1]:.1f} ms after the touch",
+        f"it ends at {1e3 * intervals['end'][0]:.1f} ms",
+    )
+    apart = result_of(CLASSROOM, 0.043).intervals
+    assert apart["start"][1] > apart["end"][0] == pytest.approx(contact_time, rel=1e-6)
     assert tops[5] ** 2 / tops[0] ** 2 == pytest.approx(2.0, abs=0.05)
     alone = sb.separate(drop_of(CLASSROOM))
     assert tops[-1] == pytest.approx(sb.simulate(alone).rebound_ratios[1], rel=1e-2)
