@@ -12,7 +12,7 @@ import stackbounce
 from stackbounce import measure, plots
 
 ROOT = Path(__file__).parents[2]
-PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md")])
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")])
 SLOW = ("gaps-and-masses.md", "paper.md", "towers.md")  # pages whose examples take long
 
 

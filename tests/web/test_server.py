@@ -16,6 +16,7 @@ import pytest
 import stackbounce as sb
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.web import LIMITS
+from stackbounce.web.answers.examples import list_examples
 
 
 def post(server, path, **asked):
@@ -156,7 +157,7 @@ def test_a_rigid_drop_has_no_other(server, drop):
 def test_all_presets_play(server):
     catalogue = server.get("/api/catalogue").json()
     names = [preset["name"] for preset in catalogue["presets"]]
-    assert names == [case.name for case in list_cases()]
+    assert names == [case.name for case in (*list_examples(), *list_cases())]
     for preset in catalogue["presets"]:
         assert answer(server, "simulate", drop=preset["drop"])["status"] == "FINISHED"
 

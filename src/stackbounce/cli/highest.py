@@ -35,7 +35,7 @@ def run(
         typer.Argument(
             metavar="[BALL]...",
             help="Balls of the catalogue, or scenario files of one ball each, as measure --save "
-            "writes them; by default the whole catalogue.",
+            "writes them; by default the balls of the paper.",
             show_default=False,
         ),
     ] = None,

@@ -67,7 +67,7 @@ def highest(
     balls : sequence of str or Drop, optional
         The balls: names of the catalogue, or drops of one ball on the floor, as `Drop.from_toml`
         reads and `stackbounce measure --save` writes them, of which the ball and the contact are
-        used. By default the whole catalogue. A ball that is given twice can be used twice.
+        used. By default the balls of the paper. A ball that is given twice can be used twice.
     count : int, optional
         The number of balls in a stack, 2 or more.
     gaps : sequence of float, optional

@@ -1,4 +1,4 @@
-"""The balls, contact laws and paper's cases that the page offers, and laws from measurements."""
+"""The balls, contact laws and examples that the page offers, and laws from measurements."""
 
 import dataclasses
 import functools
@@ -8,8 +8,9 @@ from stackbounce import calibration
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, ContactLaw, Drop, Hysteretic, Rigid, law_named
-from stackbounce.model.catalogue import BALLS, stack
+from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
 from stackbounce.version import __version__
+from stackbounce.web.answers.examples import list_examples
 from stackbounce.web.limits import Limits
 
 __all__ = [
@@ -36,16 +37,16 @@ _LOSSY = Hysteretic  # the paper's own way to lose energy
 
 @functools.cache
 def list_choices(limits: Limits) -> str:
-    """List balls, contact laws, the paper's cases and the limits of a request, as JSON."""
+    """List balls, contact laws, examples and the limits of a request, as JSON."""
     presets = [
         {"name": one.name, "group": one.group, "title": one.title, "says": one.says}
         | {"drop": one.drop.to_mapping()}
-        for one in list_cases()
+        for one in (*list_examples(), *list_cases())
     ]
     return as_json(
         {
             "stackbounce": __version__,
-            "balls": [entry.to_mapping() for entry in BALLS],
+            "balls": [entry.to_mapping() for entry in (*BALLS, *CLASS_BALLS)],
             "laws": [_describe_law(kind) for kind in LAWS.values()],
             "lossy_law": _LOSSY.__name__,
             "presets": presets,

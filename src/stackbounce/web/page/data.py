@@ -9,7 +9,7 @@ from typing import Any
 from stackbounce.cross2007.lines import list_lines
 from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, STEEPEST
-from stackbounce.model.catalogue import BALLS, stack
+from stackbounce.model.catalogue import BALLS, CLASS_BALLS, pressed, stack
 from stackbounce.run.result import Status
 from stackbounce.units import examples
 from stackbounce.web.answers import catalogue, maps, play
@@ -26,14 +26,14 @@ def model_json() -> str:
     Examples
     --------
     >>> sorted(json.loads(model_json()))[:4]
-    ['advice', 'balls', 'catalogue_law', 'energy']
+    ['advice', 'balls', 'contacts', 'energy']
     """
     known = json.loads(catalogue.list_choices(LIMITS))
     return as_json(
         known
         | {
             "advice": {status.name: status.advice for status in Status},
-            "catalogue_law": {"law": type(stack(["B1"]).contacts[0]).__name__},
+            "contacts": _list_contacts(),
             "energy": maps.ENERGY,
             "gravity": STANDARD_GRAVITY,
             "kinds": examples(),
@@ -72,14 +72,25 @@ def _list_lines() -> list[dict[str, Any]]:
     ]
 
 
+def _list_contacts() -> dict[str, Any]:
+    """Return each ball's contact with the floor, as it is and as it is pressed on another one."""
+    return {
+        str(entry.ball.name): {
+            "floor": entry.contact.to_mapping(),
+            "pressed": pressed(entry).to_mapping(),
+        }
+        for entry in (*BALLS, *CLASS_BALLS)
+    }
+
+
 def _list_stacks() -> dict[str, Any]:
-    """Return contacts and gaps of any two balls of the catalogue, and their gap further up."""
+    """Return contacts and gaps of any two of the paper's balls, and their gap further up."""
     found = {}
     for names in itertools.product([str(entry.ball.name) for entry in BALLS], repeat=2):
         two, three = stack(names), stack([names[0], *names])
         found[" ".join(names)] = {
-            "floor": (two.contacts[0].stiffness, two.contact_sources[0]),
-            "between": (two.contacts[1].stiffness, two.contact_sources[1]),
+            "floor": (two.contacts[0].to_mapping(), two.contact_sources[0]),
+            "between": (two.contacts[1].to_mapping(), two.contact_sources[1]),
             "gap": (two.gaps[0], two.gap_sources[0]),
             "other_gap": (three.gaps[1], three.gap_sources[1]),
         }

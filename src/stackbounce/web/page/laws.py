@@ -25,7 +25,7 @@ __all__ = ["laws_js"]
 _ASKED = frozenset(
     "restitution_at contact_time_at calibrated calibration_needs engine_numbers loss_fields "
     "derived_field contact_time_depends_on default_exponent fixed_exponent __post_init__ "
-    "replaced to_mapping".split()
+    "replaced to_mapping pressed_on".split()
 )
 """The methods that the page calls."""
 

@@ -2,6 +2,7 @@
 
 import { panels } from "./curves.js";
 import { ticks } from "./map_axes.js";
+import { colorOf, paperPalette } from "./palette.js";
 import { format } from "./units.js";
 import { ballName, setUp } from "./words.js";
 
@@ -9,9 +10,6 @@ import { ballName, setUp } from "./words.js";
 export const WIDTH = 720;
 
 const PANEL = { left: 64, width: 630, height: 170, step: 226, top: 44 };
-/** Colours on white paper: Okabe and Ito's. */
-export const COLORS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7a6a00", "#56b4e9"];
-
 const SCALE = 2; // px of a PNG for each unit of the SVG
 const FONT = "font-family='sans-serif'";
 
@@ -28,7 +26,9 @@ function heightOf(count) {
 
 function writeSvg(result, whole) {
   const found = panels(result, whole);
-  const parts = found.map((panel, i) => drawPanel(panel, PANEL.top + i * PANEL.step));
+  const colors = paperPalette();
+  const paint = (index) => (index === null ? colors.text : colorOf(colors, index));
+  const parts = found.map((panel, i) => drawPanel(panel, PANEL.top + i * PANEL.step, paint));
   const title = result.drop.balls.map((_, ball) => ballName(result.drop, ball)).reverse().join(" on ");
   return [
     `<?xml version="1.0" encoding="utf-8"?>`,
@@ -52,7 +52,7 @@ function escaped(text) {
   return plain(text).replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;");
 }
 
-function drawPanel(panel, top) {
+function drawPanel(panel, top, paint) {
   const { times, lines, stems = [], title, unit, timeUnit } = panel;
   const [low, high] = rangeOf(panel);
   const x = (time) => (PANEL.left + ((time - times[0]) / (times.at(-1) - times[0])) * PANEL.width).toFixed(2);
@@ -66,10 +66,10 @@ function drawPanel(panel, top) {
   const clock = ticks(times[0], times.at(-1), false, 8).map(
     ({ value }) => `<text x="${x(value)}" y="${bottom + 16}" font-size="11" text-anchor="middle" ${FONT}>${format(value, 4)}</text>`,
   );
-  const curves = lines.filter(({ values }) => values).map((line) => curve(line, times, x, y));
+  const curves = lines.filter(({ values }) => values).map((line) => curve(line, times, x, y, paint));
   const blows = stems.map(
     ({ index, time, impulse }) =>
-      `<line x1="${x(time)}" x2="${x(time)}" y1="${y(0)}" y2="${y(impulse)}" stroke="${colorOf(index)}" stroke-width="3"/>`,
+      `<line x1="${x(time)}" x2="${x(time)}" y1="${y(0)}" y2="${y(impulse)}" stroke="${paint(index)}" stroke-width="3"/>`,
   );
   return [
     ...marks,
@@ -79,7 +79,7 @@ function drawPanel(panel, top) {
     ...curves,
     ...blows,
     `<text x="${PANEL.left + 6}" y="${top - 6}" font-size="12" ${FONT}>${escaped(title)}, ${escaped(unit)}</text>`,
-    legend(lines, top - 6),
+    legend(lines, top - 6, paint),
   ].join("\n");
 }
 
@@ -98,18 +98,14 @@ function rangeOf({ lines, stems = [], floor = Infinity }) {
   return [low === floor ? low : low - air, high + air];
 }
 
-function colorOf(index) {
-  return index === null ? "#222" : COLORS[index % COLORS.length];
-}
-
-function curve({ index, values, dash }, times, x, y) {
+function curve({ index, values, dash }, times, x, y, paint) {
   const points = values.map((value, i) => (Number.isFinite(value) ? `${x(times[i])},${y(value)}` : "")).filter(Boolean);
   const dashed = dash ? ` stroke-dasharray="${dash.join(" ")}"` : "";
-  return `<polyline fill="none" stroke="${colorOf(index)}" stroke-width="1.6"${dashed} points="${points.join(" ")}"/>`;
+  return `<polyline fill="none" stroke="${paint(index)}" stroke-width="1.6"${dashed} points="${points.join(" ")}"/>`;
 }
 
-function legend(lines, y) {
-  const names = [...lines].reverse().map(({ label, index }) => `<tspan fill="${colorOf(index)}">${escaped(label)}</tspan>`);
+function legend(lines, y, paint) {
+  const names = [...lines].reverse().map(({ label, index }) => `<tspan fill="${paint(index)}">${escaped(label)}</tspan>`);
   return `<text x="${PANEL.left + PANEL.width}" y="${y}" font-size="12" text-anchor="end" ${FONT}>${names.join("   ")}</text>`;
 }
 

@@ -1,17 +1,16 @@
 /** A line as a file: a table of its numbers, or its picture. */
 
 import { s } from "./dom.js";
-import { COLORS, WIDTH, plain, rasterised } from "./export_picture.js";
+import { WIDTH, plain, rasterised } from "./export_picture.js";
 import { drawLine } from "./line_draw.js";
+import { paperPalette } from "./palette.js";
 
 const HEIGHT = 440;
-const PAPER = { text: "#1b2026", muted: "#56606b", line: "#dfe3e8", card: "#ffffff" };
 
 /** Return a Blob of a line: csv, svg or png. */
 export async function fileOf(kind, answer, measured) {
   if (kind === "csv") return new Blob([tableOf(answer)], { type: "text/csv; charset=utf-8" });
-  const colors = { ...PAPER, ...Object.fromEntries(COLORS.map((color, i) => [`ball-${i}`, color])) };
-  const { svg } = drawLine(answer, { width: WIDTH, height: HEIGHT }, colors, measured);
+  const { svg } = drawLine(answer, { width: WIDTH, height: HEIGHT }, paperPalette(), measured);
   svg.prepend(s("rect", { width: WIDTH, height: HEIGHT, fill: "white" }));
   const blob = new Blob([plain(new XMLSerializer().serializeToString(svg))], { type: "image/svg+xml" });
   return kind === "svg" ? blob : rasterised(blob, HEIGHT);

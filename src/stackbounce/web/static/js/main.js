@@ -2,6 +2,7 @@
 
 import * as address from "./address.js";
 import * as api from "./api.js";
+import { mountLooks } from "./ball_looks.js";
 import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
@@ -30,6 +31,7 @@ window.stackbounce = { store, clock };
 if (typeof WebAssembly === "object" && typeof Worker === "function") place("old").remove();
 
 address.follow(store);
+mountLooks(store);
 const runner = run(store, api);
 carryErrors(store, api);
 takeFiles(store);

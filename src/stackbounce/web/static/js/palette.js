@@ -13,9 +13,27 @@ export function colorOf(colors, index) {
   return colors[`ball-${index % 6}`];
 }
 
-/** Call a listener whenever the colours change: dark or light, and for paper. */
+/** Return the colours on white paper, whatever the page has now. */
+export function paperPalette() {
+  const { classList } = document.documentElement;
+  const was = classList.contains("on-paper");
+  classList.add("on-paper");
+  const colors = palette();
+  classList.toggle("on-paper", was);
+  return colors;
+}
+
+const listeners = new Set();
+
+/** Tell all that the colours have changed. */
+export function repaint() {
+  for (const listener of [...listeners]) listener();
+}
+
+/** Call a listener whenever the colours change: dark or light, for paper, and with the balls. */
 export function onRepaint(listener) {
   const root = document.documentElement;
+  listeners.add(listener);
   const paper = (on) => () => {
     root.classList.toggle("on-paper", on);
     listener();

@@ -17,7 +17,7 @@ export async function restacked(api, catalogue, before, after) {
     const place = before.contacts.indexOf(contact); // of a ball that has come there is none
     const moved = place < 0 || pairOf(before, place) !== pairOf(after, i);
     const isKnown = place < 0 || (old !== null && areAlike(contact, old.drop.contacts[place]));
-    if (isKnown && now !== null && now.drop.contacts[i].law === contact.law) {
+    if (isKnown && now !== null && (place >= 0 || now.drop.contacts[i].law === contact.law)) {
       if (i > 0 && (place < 1 || gapsOf(before)[place - 1] === old.drop.gaps[place - 1])) gaps[i - 1] = now.drop.gaps[i - 1];
       if (moved) notes[i] = now.contact_sources[i];
       return now.drop.contacts[i];

@@ -1,5 +1,6 @@
 /** The balls on the stage, and what belongs to them: names, arrows, outlines of the textbook's and of a kept drop's. */
 
+import { inksOf, patternOf, squash } from "./ball_looks.js";
 import { put, s, write } from "./dom.js";
 import { clamp, flattening, outline } from "./shape.js";
 import { fixed } from "./units.js";
@@ -15,6 +16,7 @@ export function ballGroup(drop, ball, light) {
   const name = s("text", { class: "ball-name", "text-anchor": "end", y: 4, text: shortened(ballName(drop, ball)) });
   group.append(
     s("path", { class: "ball-body" }),
+    patternOf(group, drop.balls[ball]),
     s("path", { class: "ball-light", fill: `url(#${light})` }),
     s("path", { class: "ball-arrow" }),
     name,
@@ -31,13 +33,15 @@ function shortened(name) {
 export function moveBalls(groups, moment, { view, floor, middle, fastest, lies }) {
   const flat = flattening(moment.compression, view);
   groups.forEach((group, ball) => {
-    const [body, light, arrow, name, speed] = group.children;
-    const { path, side } = outline(view.radius[ball], flat[ball]);
+    const [body, pattern, light, arrow, name, speed] = group.children;
+    const radius = view.radius[ball];
+    const { path, side } = outline(radius, flat[ball]);
     const velocity = moment.velocity[ball];
     put(group, "data-position", moment.position[ball]);
     put(group, "transform", `translate(${middle} ${height(view, floor, ball, moment.position[ball])})`);
     put(body, "d", path);
     put(light, "d", path);
+    squash(pattern, side, radius - flat[ball].upper, radius - flat[ball].lower);
     put(arrow, "d", arrowPath((side + 17).toFixed(1), (-ARROW * velocity) / fastest));
     put(name, "x", (-side - 10).toFixed(1));
     put(speed, "x", (side + 28).toFixed(1));
@@ -83,9 +87,10 @@ export function moveGhosts(group, positions, { view, floor, middle }) {
 
 /** Return what shows the balls of a kept drop, paler, and its name. */
 export function keptGroups(drop) {
+  const inks = inksOf(drop.balls);
   const bodies = drop.balls.map((_, ball) => {
     const body = s("path", { class: "ball-body" });
-    body.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+    body.style.setProperty("--ball", inks[ball] ?? `var(--place-${ball % 6})`);
     return body;
   });
   return [...bodies, s("text", { y: 18, text: "kept" })];

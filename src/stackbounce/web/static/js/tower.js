@@ -56,12 +56,13 @@ function ballCard(drop, ball, tools, field) {
       text,
       onclick: () => tools.arrange(act),
     });
-  const entries = tools.catalogue.balls.map((one) => [one.name, `${one.name}, ${format(one.mass * 1e3)} g`]);
+  const entries = (lossy) =>
+    tools.catalogue.balls.filter((one) => one.lossy === lossy).map((one) => [one.name, `${one.name}, ${format(one.mass * 1e3)} g`]);
   const choose = choice({
     label: `Ball ${ball}`,
     quiet: true,
     key: `ball-${ball}`,
-    groups: [["", [[OWN, "another ball"]]], ["Balls of the paper", entries]],
+    groups: [["", [[OWN, "another ball"]]], ["Balls a class owns", entries(true)], ["Balls of the paper", entries(false)]],
     value: OWN,
     set: (chosen) => tools.choose(ball, chosen),
   });

@@ -7,21 +7,36 @@ import { lawNamed, readLaw } from "../model/schema.js";
 
 /** Stack balls of the catalogue: the drop, and the sources of its numbers. */
 export function stackBalls(names, height) {
-  const { stacks, balls } = known;
-  const entry = (name) => balls.find((one) => one.name === name);
-  const pair = (lower, upper) => stacks[`${lower} ${upper}`];
-  const lowest = names.length > 1 ? pair(names[0], names[1]) : null;
-  const floors = lowest?.floor ?? [entry(names[0]).stiffness, entry(names[0]).sources.stiffness];
-  const contacts = [floors, ...names.slice(1).map((name, i) => pair(names[i], name).between)];
-  const gaps = names.slice(1).map((_, i) => (i === 0 ? lowest.gap : pair(names[i], names[i + 1]).other_gap));
-  const laws = contacts.map(([stiffness]) => ({ ...known.catalogue_law, stiffness }));
+  const { stacks } = known;
+  const pair = (lower, upper) => stacks[`${lower} ${upper}`]; // of the paper's balls only
+  const contacts = names.map((name, i) => (i === 0 ? floorOf(names, pair) : betweenOf(names[i - 1], name, pair)));
+  const gaps = names.slice(1).map((name, i) => pair(names[i], name)?.[i === 0 ? "gap" : "other_gap"] ?? NO_GAP);
   const drop = new Drop({
-    balls: names.map((name) => Drop.ball({ mass: entry(name).mass, diameter: entry(name).diameter, name })),
-    contacts: laws.map((law, i) => readLaw(law, `contacts.${i}`)),
+    balls: names.map((name) => Drop.ball({ mass: entryOf(name).mass, diameter: entryOf(name).diameter, name })),
+    contacts: contacts.map(([law]) => law),
     gaps: gaps.map(([gap]) => gap),
     height,
   });
   return { drop: drop.toMapping(), contact_sources: contacts.map(([, source]) => source), gap_sources: gaps.map(([, source]) => source) };
+}
+
+const NO_GAP = [0, "no gap given"];
+
+function entryOf(name) {
+  return known.balls.find((one) => one.name === name);
+}
+
+function floorOf([name, upper], pair) {
+  const [law, source] = pair(name, upper)?.floor ?? [known.contacts[name].floor, entryOf(name).sources.stiffness];
+  return [readLaw(law, "contacts.0"), source];
+}
+
+/** Return the contact between two balls: the paper's, or both floor contacts in series with the loss of both. */
+function betweenOf(lower, upper, pair) {
+  const fitted = pair(lower, upper)?.between;
+  if (fitted) return [readLaw(fitted[0], "contact"), fitted[1]];
+  const [one, other] = [lower, upper].map((name) => readLaw(known.contacts[name].pressed, "contact"));
+  return [one.pressed_on(other), `${lower} and ${upper} in series`];
 }
 
 /** Find the constants of a law from restitution and contact time. */

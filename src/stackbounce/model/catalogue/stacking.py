@@ -1,0 +1,162 @@
+"""Balls of the catalogue by name, and their contacts and gaps in a stack."""
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.model.ball import Ball
+from stackbounce.model.catalogue.classroom import CLASS_BALLS
+from stackbounce.model.catalogue.entry import CatalogueBall
+from stackbounce.model.catalogue.paper import BALLS, PAIRS, Pair
+from stackbounce.model.laws import ContactLaw, Spring
+
+__all__ = ["Stack", "catalogue_ball", "pressed", "stack"]
+
+
+@dataclass(frozen=True)
+class Stack:
+    """A stack of balls of the catalogue: the arguments of a `Drop`, and their sources.
+
+    Parameters
+    ----------
+    balls : tuple of Ball
+        N balls, the lowest first.
+    contacts : tuple of ContactLaw
+        N contacts, each below its ball.
+    gaps : tuple of float
+        N - 1 distances in m.
+    contact_sources : tuple of str
+        Where each contact's numbers come from, (N,).
+    gap_sources : tuple of str
+        Where each gap comes from, (N - 1,).
+
+    Examples
+    --------
+    >>> from stackbounce.model.catalogue import stack
+    >>> stack(["B1", "B2"]).gaps
+    (0.001,)
+    """
+
+    balls: tuple[Ball, ...]
+    contacts: tuple[ContactLaw, ...]
+    gaps: tuple[float, ...]
+    contact_sources: tuple[str, ...]
+    gap_sources: tuple[str, ...]
+
+
+def catalogue_ball(name: str) -> CatalogueBall:
+    """Return the catalogue's entry for a ball's name.
+
+    Parameters
+    ----------
+    name : str
+        Such as ``"basketball"`` or ``"B1"``. Case does not matter, and the words of a name may be
+        joined by hyphens: ``"tennis-ball"``.
+
+    Returns
+    -------
+    CatalogueBall
+
+    Raises
+    ------
+    InvalidValue
+        If the catalogue has no ball of this name; the message suggests the nearest.
+
+    Examples
+    --------
+    >>> catalogue_ball("Tennis").ball.mass
+    0.057
+    >>> catalogue_ball("ping-pong-ball").restitution
+    0.88
+    """
+    entries = {str(entry.ball.name): entry for entry in (*BALLS, *CLASS_BALLS)}
+    asked = _plain(str(name))
+    for known, entry in entries.items():
+        if asked == _plain(known):
+            return entry
+    names = [known.replace(" ", "-") for known in entries]
+    raise InvalidValue(
+        f"ball must be one of the catalogue, got {shown(name)}; {nearest(name, names)}"
+    )
+
+
+def _plain(name: str) -> str:
+    return name.casefold().replace("-", " ")
+
+
+def stack(names: Sequence[str]) -> Stack:
+    """Return a stack of balls of the catalogue, with contacts and gaps.
+
+    Parameters
+    ----------
+    names : sequence of str
+        The balls, the lowest first.
+
+    Returns
+    -------
+    Stack
+        Its contacts and gaps follow the rules in the docstring of `stackbounce.model.catalogue`.
+
+    Raises
+    ------
+    InvalidValue
+        If there is no name, or the catalogue lacks one of them.
+
+    Examples
+    --------
+    >>> stack(["basketball", "tennis"]).contacts
+    (Spring(stiffness=2500.0), Spring(stiffness=1000.0))
+    >>> [round(law.restitution, 3) for law in stack(["big basketball", "tennis ball"]).contacts]
+    [0.81, 0.767]
+    """
+    if not names:
+        raise InvalidValue("balls must hold at least one name, got none")
+    entries = [catalogue_ball(name) for name in names]
+    lowest = _pair(*entries[:2]) if len(entries) > 1 else None
+    contacts = [_floor(entries[0], lowest)]
+    contacts += [_between(a, b) for a, b in itertools.pairwise(entries)]
+    gaps = [(0.0, "no gap given")] * (len(entries) - 1)
+    if lowest is not None and lowest.gap > 0.0:
+        gaps[0] = (lowest.gap, lowest.source)
+    return Stack(
+        balls=tuple(entry.ball for entry in entries),
+        contacts=tuple(law for law, _ in contacts),
+        gaps=tuple(gap for gap, _ in gaps),
+        contact_sources=tuple(source for _, source in contacts),
+        gap_sources=tuple(source for _, source in gaps),
+    )
+
+
+def pressed(ball: CatalogueBall) -> ContactLaw:
+    """Return a ball's contact on the floor as a `Hysteretic` one, which may lose nothing.
+
+    Examples
+    --------
+    >>> pressed(catalogue_ball("B1"))
+    Hysteretic(stiffness=54000.0, exponent=1.0, restitution=1.0)
+    """
+    law = ball.contact.as_hysteretic()
+    assert law is not None
+    return law
+
+
+def _pair(lower: CatalogueBall, upper: CatalogueBall) -> Pair | None:
+    names = (lower.ball.name, upper.ball.name)
+    return next((pair for pair in PAIRS if (pair.lower, pair.upper) == names), None)
+
+
+def _floor(ball: CatalogueBall, pair: Pair | None) -> tuple[ContactLaw, str]:
+    if pair is not None:
+        return Spring(pair.floor_stiffness), pair.source
+    return ball.contact, dict(ball.sources)["stiffness"]
+
+
+def _between(lower: CatalogueBall, upper: CatalogueBall) -> tuple[ContactLaw, str]:
+    pair = _pair(lower, upper) or _pair(upper, lower)
+    if pair is not None:
+        return Spring(pair.stiffness), pair.source
+    source = f"{lower.ball.name} and {upper.ball.name} in series"
+    if lower.lossy or upper.lossy:
+        return pressed(lower).pressed_on(pressed(upper)), source
+    return Spring(1.0 / (1.0 / lower.stiffness + 1.0 / upper.stiffness)), source

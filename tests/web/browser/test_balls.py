@@ -1,0 +1,59 @@
+"""Balls that a class owns, in a real browser: their losses, their colours and their patterns."""
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.model.catalogue import stack
+
+COLORS = """() => [0, 1].map((i) =>
+  getComputedStyle(document.documentElement).getPropertyValue(`--ball-${i}`).trim())"""
+INK = """(name) =>
+  getComputedStyle(document.documentElement).getPropertyValue(`--ink-${name}`).trim()"""
+LOOKS = """() => [...document.querySelectorAll("#stage .ball-pattern")]
+  .map((one) => one.dataset.look ?? null)"""
+DRAWN = """() => [...document.querySelectorAll("#stage .ball")]
+  .map((one) => one.querySelectorAll(".ball-mark").length)"""
+
+
+def choose(visit, ball, name):
+    visit.page.locator(f"#controls [data-key='ball-{ball}']").select_option(name)
+    visit.page.wait_for_function(
+        "([ball, name]) => window.stackbounce.store.get().drop.balls[ball].name === name",
+        arg=[ball, name],
+    )
+    visit.ready()
+
+
+def test_a_ball_of_a_class_brings_its_losses(visit):
+    page = visit.open()
+    groups = page.locator("#controls [data-key='ball-0'] optgroup")
+    assert [one.get_attribute("label") for one in groups.all()] == [
+        "Balls a class owns",
+        "Balls of the paper",
+    ]
+    choose(visit, 0, "big basketball")
+    choose(visit, 1, "tennis ball")
+    chosen = stack(["big basketball", "tennis ball"])
+    expected = sb.simulate(sb.Drop(chosen.balls, chosen.contacts, [0.0], impact_speed=3.53))
+    assert visit.state("result.rebound_ratios") == pytest.approx(expected.rebound_ratios, rel=1e-9)
+    notes = page.locator("#controls .contact-card > .note").all_inner_texts()
+    assert "big basketball and tennis ball in series" in notes
+
+
+def test_colours_belong_to_balls_and_not_to_places(visit):
+    page = visit.open()
+    inks = [page.evaluate(INK, name) for name in ("basketball", "tennis")]
+    assert all(inks)
+    assert page.evaluate(COLORS) == inks
+    page.locator("#controls [data-key='down-1']").click()
+    page.wait_for_function("() => window.stackbounce.store.get().drop.balls[0].name === 'tennis'")
+    visit.ready()
+    assert page.evaluate(COLORS) == inks[::-1]
+    assert page.evaluate(LOOKS) == ["tennis", "basketball"]
+    assert page.evaluate(DRAWN) == [2, 2]
+    page.locator("#controls [data-key='ball-1']").select_option("")  # a ball without a name
+    page.wait_for_function("() => !window.stackbounce.store.get().drop.balls[1].name")
+    visit.ready()
+    assert page.evaluate(COLORS)[0] == inks[1]
+    assert page.evaluate(COLORS)[1] not in inks
+    assert page.evaluate(LOOKS) == ["tennis", None]
