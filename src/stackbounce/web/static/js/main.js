@@ -6,6 +6,7 @@ import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
 import { takeFiles } from "./dropped.js";
+import { mountHistory } from "./history.js";
 import { hasServer, loadMeasure } from "./origin/served.js";
 import { mountNumbers } from "./numbers.js";
 import { mountPlots } from "./plots.js";
@@ -34,6 +35,7 @@ mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals"), live: place("live") }, store);
 mountShare(place("share"), store, api);
+mountHistory(place("history"), store);
 const loadLine = () => import("./line.js");
 const loadMap = () => import("./map.js");
 mountTabs(store, {
