@@ -1,4 +1,4 @@
-"""Undo, redo, start anew, and the browser's Back."""
+"""Undo, redo, reset, and the browser's Back."""
 
 import pytest
 
@@ -68,11 +68,11 @@ def test_keys_in_a_field_are_the_fields_own(visit):
     assert mass(visit) == 0.06
 
 
-def test_start_anew_can_be_undone(visit):
+def test_a_reset_can_be_undone(visit):
     page = visit.open()
     page.get_by_label("Remove tennis").click()
     page.wait_for_function("() => window.stackbounce.store.get().drop.balls.length === 1")
-    page.get_by_role("button", name="Start anew").click()
+    page.get_by_role("button", name="Reset").click()
     assert len(visit.state("drop.balls")) == 2
     page.get_by_role("button", name="Undo", exact=True).click()
     assert len(visit.state("drop.balls")) == 1

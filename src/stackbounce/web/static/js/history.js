@@ -15,7 +15,7 @@ export function mountHistory(root, store) {
   const button = (text, key, act) => h("button", { type: "button", class: "small", text, "data-key": key, "aria-keyshortcuts": KEYS[key], onclick: act });
   const undo = button("Undo", "undo", steps.undo);
   const redo = button("Redo", "redo", steps.redo);
-  root.replaceChildren(undo, redo, button("Start anew", "anew", anew));
+  root.replaceChildren(undo, redo, button("Reset", "anew", anew));
   const show = () => {
     enable(undo, steps.canUndo(), redo);
     enable(redo, steps.canRedo(), undo);
@@ -56,19 +56,21 @@ export function record(store) {
   let undone = [];
   let held = false; // a button of the mouse or a finger is down: what changes until it is up is one step
   let open = null; // {at, paths}: the step that a change may still join
-  let moving = false;
+  let present = taken(store.get());
   const listeners = new Set();
   const tell = () => {
     for (const listener of listeners) listener();
   };
-  store.subscribe((state, before) => {
-    if (moving || KEPT.every((name) => state[name] === before[name])) return;
-    if (state.result !== before.result && state.drop === state.result.drop) return; // the same drop, with numbers in place of texts
-    const paths = changedPaths(state, before);
-    if (paths === "") return;
+  store.subscribe(() => {
+    const state = store.get(); // a listener before this one may have changed it further
+    if (KEPT.every((name) => state[name] === present[name])) return;
+    const before = present;
+    present = taken(state);
+    const paths = changedPaths(present, before);
+    if (paths === "" || state.drop === state.result?.drop) return; // the same drop, with numbers in place of texts
     const now = performance.now();
     const joins = open && undone.length === 0 && (open.held ? open.held === held : open.paths === paths && now - open.at < PAUSE);
-    if (!joins) done = [...done.slice(1 - MOST), taken(before)];
+    if (!joins) done = [...done.slice(1 - MOST), before];
     open = { at: now, paths, held };
     undone = [];
     tell();
@@ -88,11 +90,10 @@ export function record(store) {
     const next = from.at(-1);
     if (!next) return;
     from.pop();
-    to.push(taken(store.get()));
+    to.push(present);
     open = null;
-    moving = true;
+    present = next;
     store.set({ ...next, t: null, error: null });
-    moving = false;
     tell();
   };
   return {

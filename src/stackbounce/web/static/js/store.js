@@ -30,6 +30,7 @@ export const FIRST = {
   map: null,
   errors: {}, // of numbers of the drop, by path: SI numbers, or texts that the server reads
   result: null,
+  resultOf: null, // {drop, until} that the result belongs to
   prediction: null, // what follows of the errors, or {problem}
   busy: false,
   error: null, // {detail, offline}
