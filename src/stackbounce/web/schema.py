@@ -343,6 +343,24 @@ class Curve(BaseModel):
     values: list[float]
 
 
+class Bounce(BaseModel):
+    """What was found of one ball's bounce, in SI units; of a press curve the contact."""
+
+    restitution: float | None
+    contact_time: float | None
+    impact_speed: float | None
+    contact: _Json | None
+
+
+class Branch(BaseModel):
+    """A way in or out of a press curve, in m and N."""
+
+    label: str
+    compression: list[float]
+    force: list[float]
+    fit: list[float]
+
+
 class MeasureOptions(BaseModel):
     """Kinds of measurement, and options of a file, in the order of the form."""
 
@@ -364,6 +382,8 @@ class Measured(BaseModel):
     series: list[Curve]
     zero: float | None
     measured: dict[str, str]
+    bounce: Bounce | None
+    branches: list[Branch]
 
 
 class Fitted(BaseModel):

@@ -112,6 +112,29 @@ function tidied(contact) {
   return Object.fromEntries(entries.map(([name, value]) => [name, typeof value === "number" ? clean(value) : value]));
 }
 
+const MIXED = "Rigid contacts and others cannot be mixed: choose another law for the rigid ones first.";
+
+/**
+ * Return the contact of a ball, at the floor or on the ball below, with what was measured of its bounce alone: `restitution`,
+ * `contact_time` and `impact_speed`, null where not known, or the `contact` itself. A law that cannot lose becomes one that can.
+ */
+export async function asBounced(api, { laws, lossy_law: lossy }, drop, place, bounce) {
+  const { restitution, contact_time: time, impact_speed: speed, contact: given } = bounce;
+  const own = drop.contacts[place];
+  const areRigid = drop.contacts.some(({ law }, i) => i !== place && lawOf(laws, law).rigid);
+  if (given) {
+    if (areRigid) throw new Error(MIXED);
+    return tidied(given);
+  }
+  const kept = restitution === null ? null : Math.min(restitution, 1);
+  const law = own.law === "none" || (kept !== null && kept < 1 && !loses(laws, own.law)) ? lossy : own.law;
+  if (time === null) return converted(api, law, drop, place, kept);
+  if (lawOf(laws, law).rigid) throw new Error("A rigid contact has no contact time: choose another law in the set-up first.");
+  if (areRigid) throw new Error(MIXED);
+  const alone = { mass: contactMass({ balls: [drop.balls[place]] }, 0), impact_speed: speed ?? speedOf(drop) };
+  return tidied((await api.like({ contact: own, to: law, ...alone, restitution: kept, contact_time: time })).contact);
+}
+
 /** Return `{contact, note}`: a contact with a measured restitution and contact time, of its own law if that can lose. */
 export async function asMeasured(api, { laws, lossy_law: lossy }, drop, place, { restitution, contactTime }) {
   const { law: own, exponent } = drop.contacts[place];
