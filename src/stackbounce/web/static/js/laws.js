@@ -112,7 +112,7 @@ function tidied(contact) {
   return Object.fromEntries(entries.map(([name, value]) => [name, typeof value === "number" ? clean(value) : value]));
 }
 
-const MIXED = "Rigid contacts and others cannot be mixed: choose another law for the rigid ones first.";
+const MIXED = "A rigid contact and others cannot be mixed: choose another law for the rigid one first.";
 
 /**
  * Return the contact of a ball, at the floor or on the ball below, with what was measured of its bounce alone: `restitution`,
