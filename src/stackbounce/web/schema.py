@@ -361,6 +361,19 @@ class Branch(BaseModel):
     fit: list[float]
 
 
+class Place(BaseModel):
+    """An address of the page, and its QR code: rows of 1, which is dark, and 0."""
+
+    address: str
+    code: list[str]
+
+
+class Places(BaseModel):
+    """The addresses of the page that other machines can type; none if it is for this one alone."""
+
+    places: list[Place]
+
+
 class MeasureOptions(BaseModel):
     """Kinds of measurement, and options of a file, in the order of the form."""
 

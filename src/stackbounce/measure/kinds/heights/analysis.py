@@ -224,7 +224,7 @@ def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
 
 
 def _notes(before: list[Any], counted: list[Any]) -> list[str]:
-    notes = []
+    notes: list[str] = []
     if any(math.isnan(one.std_dev) for one in [before[0], *counted]):
         notes.append(
             Said(
