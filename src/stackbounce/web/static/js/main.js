@@ -6,6 +6,7 @@ import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
 import { takeFiles } from "./dropped.js";
+import { mountHands } from "./hands.js";
 import { mountHistory } from "./history.js";
 import { hasServer, loadMeasure } from "./origin/served.js";
 import { mountNumbers } from "./numbers.js";
@@ -38,6 +39,7 @@ mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals"), live: place("live") }, store);
 mountShare(place("share"), store, api);
 mountHistory(place("history"), store);
+mountHands(place("stage"), store, clock, api);
 const loadLine = () => import("./line.js");
 const loadMap = () => import("./map.js");
 mountTabs(store, {
