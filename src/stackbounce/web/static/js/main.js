@@ -57,7 +57,7 @@ followResults();
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
-  const views = [loadLine, loadMap, loadMeasure].map((load) => load?.().catch(() => null)); // what fails is tried again when it is opened
+  const views = [loadLine, loadMap].map((load) => load().catch(() => null)); // what fails is tried again when it is opened
   window.stackbounce.whole = Promise.all([api.prepare(), ...views]); // from here on nothing is loaded
 });
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
