@@ -21,7 +21,7 @@ EXTRAS = {
     "sheets": ("openpyxl", "xlrd"),
     "fit": _FIT,
     "paper": _PAPER,
-    "web": (*_PAPER, "fastapi", "pydantic", "python_multipart", "uvicorn"),
+    "web": (*_PAPER, "fastapi", "psutil", "pydantic", "python_multipart", "segno", "uvicorn"),
 }
 """The modules that each extra brings; ``all`` has them all, and a plain install none."""
 

@@ -72,8 +72,10 @@ def runs(pid):
 def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     with subprocess.Popen([*APP, "--json", "--port", "0"], **pipes) as process:
-        lines = [process.stdout.readline() for _ in range(4)]
-        address = json.loads("".join(lines))["address"]
+        lines = [process.stdout.readline() for _ in range(5)]
+        told = json.loads("".join(lines))
+        address = told["address"]
+        assert told["others"] == []
         answer = httpx.post(f"{address}api/stack", json={"balls": ["B1"]}, timeout=60.0)
         assert answer.status_code == 200
         workers = children(process)
@@ -142,6 +144,25 @@ def test_without_a_port_the_first_free_one_is_taken():
     port = int(line.split()[2].rstrip("/").rpartition(":")[2])
     assert PORT < port < PORT + 20
     assert line.endswith("(Ctrl+C ends it)\n")
+
+
+def test_a_class_is_told_addresses_that_it_can_type():
+    command = [*APP, "--host", "0.0.0.0", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, encoding="utf-8") as process:
+        try:
+            first, others, code = (process.stdout.readline() for _ in range(3))
+            port = first.split()[2].rstrip("/").rpartition(":")[2]
+            if "in no network" in others:
+                pytest.skip("this machine is in no network")
+            addresses = others.partition(": ")[2].split(" or ")
+            assert all(one.strip().endswith(f":{port}/") for one in addresses)
+            assert not any("127.0.0.1" in one or "localhost" in one for one in addresses)
+            assert set(code.strip()) == {"█"}
+            places = httpx.get(f"{addresses[0].strip()}api/places", timeout=60.0).json()["places"]
+        finally:
+            process.terminate()
+    assert [one["address"] for one in places] == [one.strip() for one in addresses]
+    assert len(places[0]["code"]) == len(places[0]["code"][0])
 
 
 class Stub:

@@ -2,12 +2,15 @@
 
 import os
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from stackbounce.cli.options import AsJson
 from stackbounce.cli.output import json_text
+
+if TYPE_CHECKING:
+    from stackbounce.web.addresses import Place
 
 __all__ = ["EPILOG", "run"]
 
@@ -64,14 +67,39 @@ def run(
     from stackbounce.web import LIMITS
     from stackbounce.web.serve import serve
 
-    def tell(address: str) -> None:
-        told = json_text({"stackbounce": __version__, "address": address})
-        typer.echo(told if as_json else f"The explorer: {address} (Ctrl+C ends it)")
+    def tell(address: str, others: "list[Place]") -> None:
+        if as_json:
+            known = {"address": address, "others": [one.address for one in others]}
+            typer.echo(json_text({"stackbounce": __version__, **known}))
+            return
+        typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
+        if others or host in ("0.0.0.0", "::"):
+            _tell_others(others)
 
     by_default = min(max((os.cpu_count() or 1) // 2, 2), 4)
     count = by_default if workers is None else whole("--workers", workers, 1, 64)
     limits = dataclasses.replace(LIMITS, workers=count)
     serve(host, port, limits, browser=browser, tell=tell)
+
+
+def _tell_others(others: "list[Place]") -> None:
+    """Print the addresses that a class can type, and the first one as a QR code."""
+    import sys
+
+    from stackbounce.web.addresses import code_text
+
+    if not others:
+        typer.echo("This machine is in no network: others cannot open the page.")
+        return
+    typer.echo(f"For others on the same network: {' or '.join(one.address for one in others)}")
+    lines = code_text(others[0].code).splitlines()
+    try:
+        lines[0].encode(sys.stdout.encoding or "ascii")
+    except UnicodeEncodeError:  # a terminal that cannot show it
+        return
+    width = len(lines[0])
+    for line in lines:
+        typer.secho(line.ljust(width), fg="bright_white", bg="black")
 
 
 def _export(path: str, as_json: bool) -> None:

@@ -13,6 +13,7 @@ from stackbounce.cross2007.checks import Row
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.paper import FIGURES, Audit, audit, draw_figures
+from stackbounce.cross2007.playable import link_figures
 from stackbounce.cross2007.style import Picture, render
 from stackbounce.cross2007.tables import Table, make_table_one, make_table_two
 from stackbounce.extras import need
@@ -34,6 +35,7 @@ def write(
     *,
     study: bool = False,
     workers: int = 1,
+    explorer: str | None = None,
 ) -> Audit:
     """Recompute the paper and write the results to files.
 
@@ -52,6 +54,9 @@ def write(
     workers : int, optional
         Processes that share the study's fits; the files do not depend on it. A script that asks for
         several needs ``if __name__ == "__main__":`` around its call.
+    explorer : str, optional
+        The address of the explorer from the page. The page then has a way back to it, and links
+        that play the drops of the figures. By default there are none: the page needs no server.
 
     Returns
     -------
@@ -82,7 +87,7 @@ def write(
     progress(f"writing to {out}")
     files["audit.csv"] = _csv(done).encode()
     files["audit.json"] = _json(done, [picture for picture, _ in drawn], tables).encode()
-    files["index.html"] = _page(done, drawn, tables, study=study).encode()
+    files["index.html"] = _page(done, drawn, tables, study=study, explorer=explorer).encode()
     write_folder(out, files)
     return done
 
@@ -130,7 +135,12 @@ def _csv(done: Audit) -> str:
 
 
 def _page(
-    done: Audit, drawn: list[tuple[Picture, str]], tables: list[Table], *, study: bool
+    done: Audit,
+    drawn: list[tuple[Picture, str]],
+    tables: list[Table],
+    *,
+    study: bool,
+    explorer: str | None,
 ) -> str:
     pages = make_environment()
     pages.filters["digits"] = _digits
@@ -142,6 +152,8 @@ def _page(
         version=__version__,
         total=len(done.rows),
         study=study,
+        explorer=explorer,
+        links=link_figures(explorer) if explorer else {},
     )
 
 

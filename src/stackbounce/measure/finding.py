@@ -8,7 +8,15 @@ from stackbounce.measure.quantities import Array, Number, Row, nominal
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Curve", "Finding", "as_ratios", "channels", "force_channels", "rigid_contact"]
+__all__ = [
+    "Branch",
+    "Curve",
+    "Finding",
+    "as_ratios",
+    "channels",
+    "force_channels",
+    "rigid_contact",
+]
 
 
 class Curve(NamedTuple):
@@ -19,6 +27,15 @@ class Curve(NamedTuple):
     times: Array
     values: Array
     unit: str
+
+
+class Branch(NamedTuple):
+    """A way in or out of a press curve: compression in m and force in N of its points and fit."""
+
+    label: str
+    compression: Array
+    force: Array
+    fit: Array
 
 
 class Finding:
@@ -61,6 +78,10 @@ class Finding:
     def curves(self, data: "xr.Dataset") -> list[Curve] | None:  # noqa: ARG002
         """Return the curves to draw over a simulated drop; None means the recorded channels."""
         return None
+
+    def branches(self) -> list[Branch]:
+        """Return the branches of a force over a compression; nothing for results over time."""
+        return []
 
     def first_touch(self) -> float | None:
         """Return when the lowest ball first touches the floor, in s on the record's clock."""

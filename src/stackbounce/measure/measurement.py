@@ -10,12 +10,12 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, StackbounceError, a_or_an
 from stackbounce.measure.analysis import analyse
-from stackbounce.measure.finding import Curve, Finding, channels
+from stackbounce.measure.finding import Branch, Curve, Finding, channels
 from stackbounce.measure.hints import Hint, Said, Words, about, in_python, in_words, said
 from stackbounce.measure.kind import keywords_of
 from stackbounce.measure.kinds import TYPED
 from stackbounce.measure.options import OPTIONS, options_for
-from stackbounce.measure.quantities import Row
+from stackbounce.measure.quantities import Row, nominal
 from stackbounce.measure.reading import read, read_content
 
 __all__ = ["File", "Measurement", "measure_file", "measure_numbers", "row_mapping"]
@@ -74,6 +74,27 @@ class Measurement:
         """The curves over time, to draw over a simulated drop."""
         own = (one.curves(self.data) for one in self.found)
         return next((curves for curves in own if curves is not None), None) or channels(self.data)
+
+    @property
+    def branches(self) -> list[Branch]:
+        """The branches of a press curve."""
+        return [branch for one in self.found for branch in one.branches()]
+
+    @property
+    def bounce(self) -> dict[str, Any] | None:
+        """What was found of one ball's bounce: `restitution`, `contact_time`, `impact_speed`.
+
+        Numbers are without errors, and None where they are not known. A press curve gives the
+        `contact` instead, a law as a drop's TOML has it.
+        """
+        names = ("restitution", "contact_time", "impact_speed")
+        for one in self.found:
+            told = one.told()
+            known = {name: nominal(told[name]) for name in names if told.get(name) is not None}
+            contact = None if known else one.parts().get("contact")
+            if contact or {"restitution", "contact_time"} & set(known):
+                return {**dict.fromkeys(names), **known, "contact": contact}
+        return None
 
     @property
     def first_touch(self) -> float | None:

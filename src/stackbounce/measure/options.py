@@ -153,7 +153,7 @@ _TABLE: dict[str, tuple[Option, ...]] = {
                says="Instead of a file: the drop's and those of the bounces, "
                "'1.00, 0.62, 0.39 m'."),
         _number("height_error", "Error of each height", "5 mm", unit="m", rare=True,
-                says="Of each height of --heights or of a table, such as 5mm."),
+                says="Of each height that is typed or in a table, such as 5mm."),
         Option("repeated", "Heights of the same bounce, repeated", "", form="flag",
                default=False, rare=True,
                says="The heights after the first are all of the first bounce, of several drops."),
@@ -167,7 +167,7 @@ _TABLE: dict[str, tuple[Option, ...]] = {
                 "long."),
         Option("alone", "Force under the lower ball alone", "", form="file", rare=True,
                says="Force record of the lower ball alone from the same height: it gives the gap "
-               "of the stack in FILE."),
+               "of the stack in the other record."),
         _number("time_constant", "Sensor's time constant", "0.1 s", unit="s", rare=True,
                 says="Time constant of a piezo sensor, such as 0.1s: its droop is corrected."),
         _number("gravity", "Gravity", "9.81 m/s^2", unit="m/s**2", rare=True,

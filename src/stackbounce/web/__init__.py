@@ -2,6 +2,7 @@
 
 =========== ================================================================
 serve       finds a port, runs the server, opens the browser
+addresses   the addresses that others can type, with their QR codes
 app         the server's addresses: request, answer function, schema
 guard       admission of requests, and the headers of every answer
 connections limits of connections

@@ -8,7 +8,7 @@ import functools
 import inspect
 import json
 import tempfile
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any, NamedTuple
 
@@ -21,6 +21,7 @@ from pydantic import BaseModel
 from stackbounce.errors import InvalidValue, StackbounceError, shown
 from stackbounce.version import __version__
 from stackbounce.web import schema
+from stackbounce.web.addresses import Place
 from stackbounce.web.answers import catalogue, exports, maps, play, predictions, records
 from stackbounce.web.guard import Guard
 from stackbounce.web.limits import LIMITS, Limits
@@ -91,13 +92,15 @@ ROUTES = (
 """All addresses that take and return JSON; a new one is a line here."""
 
 
-def create_app(limits: Limits) -> Any:
+def create_app(limits: Limits, others: Sequence[Place] = ()) -> Any:
     """Return the explorer's server, an ASGI application.
 
     Parameters
     ----------
     limits : Limits
         Of the server as a whole; those of a single request are always `LIMITS`.
+    others : sequence of Place
+        The addresses that others can type, for the page to show.
 
     Returns
     -------
@@ -133,7 +136,7 @@ def create_app(limits: Limits) -> Any:
     _add_errors(app)
     for route in ROUTES:
         _add_route(app, workers, route)
-    _add_queries(app, workers, limits)
+    _add_queries(app, workers, limits, others)
     _add_files(app, workers)
     _add_pages(app)
     return Guard(app, limits)
@@ -160,7 +163,7 @@ def _add_route(app: FastAPI, workers: Workers, route: Route) -> None:
     )(respond)
 
 
-def _add_queries(app: FastAPI, workers: Workers, limits: Limits) -> None:
+def _add_queries(app: FastAPI, workers: Workers, limits: Limits, others: Sequence[Place]) -> None:
     """Add the addresses that take no arguments."""
 
     @app.get("/api/status", response_model=schema.State)
@@ -174,6 +177,11 @@ def _add_queries(app: FastAPI, workers: Workers, limits: Limits) -> None:
         job = functools.partial(catalogue.list_choices, limits)
         seconds, client = LIMITS.job_seconds, client_of(request)
         return _json(await workers.run(job, seconds=seconds, client=client, short=True))
+
+    @app.get("/api/places", response_model=schema.Places)
+    async def list_places() -> dict[str, Any]:
+        """List the addresses that other machines can type, with their QR codes."""
+        return {"places": [one._asdict() for one in others]}
 
     @app.get("/api/measure/options", response_model=schema.MeasureOptions)
     async def list_options() -> Response:

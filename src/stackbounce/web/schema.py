@@ -343,6 +343,37 @@ class Curve(BaseModel):
     values: list[float]
 
 
+class Bounce(BaseModel):
+    """What was found of one ball's bounce, in SI units; of a press curve the contact."""
+
+    restitution: float | None
+    contact_time: float | None
+    impact_speed: float | None
+    contact: _Json | None
+
+
+class Branch(BaseModel):
+    """A way in or out of a press curve, in m and N."""
+
+    label: str
+    compression: list[float]
+    force: list[float]
+    fit: list[float]
+
+
+class Place(BaseModel):
+    """An address of the page, and its QR code: rows of 1, which is dark, and 0."""
+
+    address: str
+    code: list[str]
+
+
+class Places(BaseModel):
+    """The addresses of the page that other machines can type; none if it is for this one alone."""
+
+    places: list[Place]
+
+
 class MeasureOptions(BaseModel):
     """Kinds of measurement, and options of a file, in the order of the form."""
 
@@ -364,6 +395,8 @@ class Measured(BaseModel):
     series: list[Curve]
     zero: float | None
     measured: dict[str, str]
+    bounce: Bounce | None
+    branches: list[Branch]
 
 
 class Fitted(BaseModel):

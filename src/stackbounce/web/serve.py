@@ -2,6 +2,7 @@
 
 import contextlib
 import errno
+import functools
 import logging
 import signal
 import socket
@@ -12,6 +13,7 @@ from collections.abc import Callable
 from typing import Any
 
 from stackbounce.errors import FileError, InvalidValue, whole
+from stackbounce.web.addresses import Place, list_places, url
 from stackbounce.web.limits import Limits
 
 __all__ = ["HOST", "PORT", "serve"]
@@ -32,7 +34,7 @@ def serve(
     limits: Limits,
     *,
     browser: bool,
-    tell: Callable[[str], None],
+    tell: Callable[[str, list[Place]], None],
 ) -> None:
     """Serve the explorer until it is interrupted.
 
@@ -48,7 +50,8 @@ def serve(
     browser : bool
         Whether to open the page.
     tell : callable
-        Called with the address of the page once the server has started.
+        Called with the address of the page on this machine, and with those for others, once the
+        server has started.
 
     Raises
     ------
@@ -70,9 +73,10 @@ def serve(
 
     logging.getLogger("python_multipart").setLevel(logging.CRITICAL)  # of forms that are none
     with contextlib.closing(_open_socket(host, port)) as listening:
-        address = f"http://{_name_host(host)}:{listening.getsockname()[1]}/"
+        port = listening.getsockname()[1]
+        address, others = url(_own_host(host), port), list_places(host, port)
         config = uvicorn.Config(
-            create_app(limits),
+            create_app(limits, others),
             http=make_protocol(limits),
             ws="none",
             log_level="error",  # what clients do wrong, they are told
@@ -93,8 +97,9 @@ def serve(
                 await super().shutdown(sockets)
 
         server = Server(config)
+        begun = functools.partial(tell, address, others)
         waiting = threading.Thread(
-            target=_announce, args=(server, address, browser, tell), daemon=True
+            target=_announce, args=(server, address, browser, begun), daemon=True
         )
         waiting.start()
         before = signal.signal(signal.SIGTERM, _exit)  # uvicorn raises it again at its end
@@ -133,24 +138,22 @@ def _open_socket(host: str, port: int | None) -> socket.socket:
     raise FileError(f"{host}, port {tried[-1]} cannot be used: {problem.strerror or problem}")
 
 
-def _name_host(host: str) -> str:
-    """Return a host as it is written in an address."""
-    if host in ("0.0.0.0", "::"):
-        return socket.gethostname()
-    return f"[{host}]" if ":" in host else host
+def _own_host(host: str) -> str:
+    """Return the host by which this machine itself reaches the server."""
+    return {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(host, host)
 
 
 def _announce(
     server: Any,
     address: str,
     browser: bool,
-    tell: Callable[[str], None],
+    tell: Callable[[], None],
 ) -> None:
-    """Report the address, and open it in a browser, once the server has started."""
+    """Report the addresses, and open the page in a browser, once the server has started."""
     while not server.started:
         if server.should_exit:
             return
         time.sleep(0.02)
-    tell(address)
+    tell()
     if browser:
         webbrowser.open(address)

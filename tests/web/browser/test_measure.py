@@ -1,10 +1,12 @@
 """Bring your own: a file is read, laid over the drop, and the drop fitted to it."""
 
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import stackbounce as sb
 from stackbounce.web import LIMITS
 
 pytestmark = pytest.mark.slow
@@ -179,6 +181,79 @@ def test_a_dropped_file_is_read(visit):
     page.locator(".recognised b").wait_for()
     assert "heights.csv holds a table" in page.locator(".recognised").inner_text()
     assert "The file is of one ball alone" in page.locator(".fit").inner_text()
+
+
+LAB = Path(__file__).parents[3] / "docs/lab"
+
+
+def given(page, name):
+    page.locator(".file-drop input[type=file]").set_input_files(LAB / name)
+    page.locator(".recognised b").filter(has_text=name).wait_for()
+
+
+def test_a_sound_becomes_the_bounce_of_the_ball_that_is_chosen(visit):
+    page = opened(visit)
+    given(page, "tennis.wav")
+    use = page.locator(".bounce-use")
+    button = use.get_by_role("button", name="Use this as the ball")
+    assert button.is_disabled()  # of two balls, none is guessed
+    use.get_by_label("Which ball bounced?").select_option("Tennis")
+    button.click()
+    use.get_by_role("button", name="See it in Play").click()
+    visit.ready()
+    lower, upper = visit.state("drop.contacts")
+    assert lower == {"law": "Spring", "stiffness": 2500}
+    assert upper["restitution"] == pytest.approx(0.74993, abs=1e-5)
+    drop = sb.Drop.from_mapping(visit.state("drop"))
+    assert sb.contact_time(upper_law := drop.contacts[1], mass=0.057, speed=3.5) == pytest.approx(
+        sb.contact_time(sb.Spring(1000.0), mass=0.057, speed=3.5), rel=1e-3
+    ), upper_law
+    note = page.locator(".contact-card > .note").first.inner_text()
+    assert note.startswith("As measured: tennis.wav.")
+
+
+def test_a_contact_time_becomes_the_stiffness_of_the_ball_that_bounced(visit):
+    page = visit.open(
+        "#view=measure&impact_speed=3.5&balls.0.mass=0.057&contacts.0.law=Spring&contacts.0.stiffness=9e3"
+    )
+    page.locator(".fit-vary input").first.wait_for()
+    given(page, "tennis-force.csv")
+    page.get_by_role("button", name="Use this as the ball").click()
+    page.wait_for_function(
+        "() => window.stackbounce.store.get().drop.contacts[0].stiffness !== 9000"
+    )
+    exact = 0.057 * (np.pi / 0.005344390241265924) ** 2
+    assert visit.state("drop.contacts[0].stiffness") == pytest.approx(exact, rel=1e-4)
+
+
+def test_a_press_curve_is_plotted_and_used(visit):
+    page = opened(visit)
+    given(page, "basketball-press.csv")
+    plot = page.get_by_role("img", name="Force over compression")
+    label = plot.get_attribute("aria-label")
+    assert "pressed in: " in label
+    assert "up to 30.1 N at 12 mm" in label
+    assert plot.locator("canvas").count() == 1
+    visit.picture("measure-press")
+    page.get_by_label("Which ball bounced?").select_option("Basketball")
+    page.get_by_role("button", name="Use this as the ball").click()
+    page.wait_for_function("() => window.stackbounce.store.get().drop.contacts[0].restitution")
+    contact = visit.state("drop.contacts[0]")
+    assert contact["law"] == "Hysteretic"
+    assert contact["stiffness"] == pytest.approx(2500.0, abs=5.0)
+    assert contact["restitution"] == pytest.approx(0.770, abs=1e-3)
+
+
+def test_a_record_of_one_says_over_what_it_lies(visit):
+    page = opened(visit)
+    given(page, "tennis-force.csv")
+    over = page.get_by_label("The record is of one contact. Which?")
+    assert over.locator("option:checked").inner_text() == "floor – basketball"
+    over.select_option("basketball – tennis")
+    page.wait_for_function("() => window.stackbounce.store.get().overlays[0]?.index === 1")
+    assert page.locator(".fit-row select").first.input_value() == "force.1"
+    over.select_option("floor – basketball")
+    page.wait_for_function("() => window.stackbounce.store.get().overlays[0]?.index === 0")
 
 
 def test_a_phone_needs_no_scrolling_sideways(visits):

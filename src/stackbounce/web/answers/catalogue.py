@@ -32,6 +32,46 @@ DEFAULT_CONTACT = Rigid(0.8)
 DEFAULT_EXPONENT = 1.5
 """Of a law with a free exponent, in place of a law without one."""
 
+_WORDS = {
+    "stiffness": (
+        "how stiff",
+        "Force over compression. A stiffer contact is pressed less, for a shorter time.",
+    ),
+    "exponent": (
+        "how it stiffens",
+        "1: the force grows as that of a spring. 1.5: it grows faster, as that of a solid ball.",
+    ),
+    "restitution": (
+        "how bouncy",
+        "The speed after a bounce over the speed before it: 1 loses nothing, 0 does not bounce.",
+    ),
+    "damping": (
+        "how it brakes",
+        "A force against the motion while the two touch: the faster, the larger. It takes energy.",
+    ),
+    "dissipation": (
+        "how it brakes",
+        "A force against the motion: the faster and the harder pressed, the larger.",
+    ),
+    "dissipative_time": (
+        "how it brakes",
+        "The longer this time, the more energy a fast contact takes.",
+    ),
+    "relaxation_strength": (
+        "how much it gives way",
+        "How much stiffer the contact is at once than after a while: 0.5 is half as much again.",
+    ),
+    "relaxation_time": (
+        "how soon it gives way",
+        "The time in which the additional force of a fast contact dies away.",
+    ),
+    "unloading_exponent": (
+        "how it lets go",
+        "The larger, the faster the force falls on the way back, and the more energy is lost.",
+    ),
+}
+"""What numbers of a law are called by a pupil, and a sentence on each."""
+
 _LOSSY = Hysteretic  # the paper's own way to lose energy
 
 
@@ -62,6 +102,7 @@ def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
     for name, number in kind.quantities().items():
         given = defaults[name]
         default, low, high = number.slider
+        words, explains = _WORDS.get(name, (name.replace("_", " "), ""))
         fields.append(
             {
                 "name": name,
@@ -71,6 +112,8 @@ def _describe_law(kind: type[ContactLaw]) -> dict[str, Any]:
                 "low": low,
                 "high": high,
                 "says": name.replace("_", " "),
+                "words": words,
+                "explains": explains,
             }
         )
     return {

@@ -8,5 +8,5 @@ __all__ = ["write_paper"]
 
 
 def write_paper(folder: str) -> None:
-    """Write the paper's pages into a folder; the audit itself is not sent back."""
-    cross2007.write(Path(folder))
+    """Write the paper's pages into a folder beside the page; the audit itself is not sent back."""
+    cross2007.write(Path(folder), explorer="../")

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from stackbounce.errors import InvalidValue, a_or_an, nearest, shown
 from stackbounce.fitting import Fit, fit
 from stackbounce.json_values import as_json
-from stackbounce.measure.finding import Curve
+from stackbounce.measure.finding import Branch, Curve
 from stackbounce.measure.hints import Hint
 from stackbounce.measure.kinds import KINDS
 from stackbounce.measure.measurement import Measurement, measure_file
@@ -30,6 +30,7 @@ __all__ = ["fit_record", "list_options", "measure_record"]
 _Array = NDArray[np.float64]
 _Series = dict[str, Any]
 
+_POINTS = 500  # about so many points of a branch that a page draws
 _SHOWN = 4000  # most points of a curve that a page draws
 _AFTER = 1.5  # part of a record that is kept, in durations of the simulated impact
 
@@ -68,7 +69,8 @@ def measure_record(
     -------
     str
         JSON with `format`, `why`, `doubt`, `holds`, `found`, `notes`, `series` (curves, in SI),
-        `zero` (the first touch on their clock), `measured` (numbers that a fit can use).
+        `zero` (the first touch on their clock), `measured` (numbers that a fit can use), `bounce`
+        (what is known of one ball's bounce), `branches` (of a press curve).
 
     Raises
     ------
@@ -83,6 +85,8 @@ def measure_record(
             "series": _describe_curves(one.curves),
             "zero": one.first_touch,
             "measured": one.measured,
+            "bounce": one.bounce,
+            "branches": [_sorted(branch) for branch in one.branches],
         }
     )
 
@@ -188,6 +192,13 @@ def _thin(label: str, what: str, times: _Array, values: _Array) -> _Series:
         kept = np.unique(ends)
         times, values = times[kept], values[kept]
     return {"label": label.replace("_", " "), "what": what, "time": times, "values": values}
+
+
+def _sorted(branch: Branch) -> dict[str, Any]:
+    """Return some points of a branch in the order of compression, to be drawn."""
+    kept = np.argsort(branch.compression)[:: max(1, len(branch.force) // _POINTS)]
+    columns = {name: values[kept] for name, values in branch._asdict().items() if name != "label"}
+    return {"label": branch.label, **columns}
 
 
 def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr.DataArray":

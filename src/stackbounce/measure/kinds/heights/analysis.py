@@ -7,6 +7,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.heights.result import Heights
 from stackbounce.measure.quantities import Number, nominal
 from stackbounce.measure.statistics.regression import widening
@@ -223,10 +224,14 @@ def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
 
 
 def _notes(before: list[Any], counted: list[Any]) -> list[str]:
-    notes = []
+    notes: list[str] = []
     if any(math.isnan(one.std_dev) for one in [before[0], *counted]):
         notes.append(
-            "A height has no error, so that the restitutions' are unknown: give height_error."
+            Said(
+                "A height has no error, so that the restitutions' are unknown: give ",
+                Hint({"height_error": None}),
+                ".",
+            )
         )
     for k, (first, after) in enumerate(zip(before, counted, strict=True)):
         if after.nominal_value > first.nominal_value:

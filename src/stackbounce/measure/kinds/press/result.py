@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from stackbounce.errors import InvalidValue
-from stackbounce.measure.finding import Finding
+from stackbounce.measure.finding import Branch, Finding
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, measured
 
 __all__ = ["Curve", "Press"]
@@ -166,6 +166,15 @@ class Press(Finding):
         if self.cycles > 1:
             rows.append(Row("cycle", f"{self.cycle + 1} of {self.cycles}"))
         return rows
+
+    def branches(self) -> list[Branch]:
+        """Return loading and unloading, as far as they were recorded."""
+        ways = (("pressed in", self.loading), ("let go", self.unloading))
+        return [
+            Branch(label, one.compression, one.force, one.fit)
+            for label, one in ways
+            if one is not None
+        ]
 
     def parts(self) -> dict[str, Any]:
         """Return the contact, as a drop's TOML has it.

@@ -277,8 +277,10 @@ def _droops(seen: Seen, step: float) -> list[str]:
     if low > -max(_UNDERSHOOT * error, 0.005 * top):
         return []
     area = float(np.sum(seen.signal[one.first : one.last + 1])) * step
-    note = (
+    note = Said(
         f"after the contact the signal lies {-low / top:.1%} of its peak too low, as by the droop "
-        f"of a piezo sensor: give time_constant (about {area / -low:.2g} s)"
+        "of a piezo sensor: give ",
+        Hint({"time_constant": None}),
+        f" (about {area / -low:.2g} s)",
     )
     return [note]

@@ -62,29 +62,60 @@ export function read(fragment) {
   return patch;
 }
 
-/** Keep the address and the state in step: writes soon after a change, reads when a link is followed. */
+/**
+ * Keep the address and the state in step: writes soon after a change, reads when a link is followed. Another view and
+ * another example are places of their own in the browser's history: its Back undoes them.
+ */
 export function follow(store) {
   let timer = 0;
   let written = location.hash;
-  const later = () => {
-    timer = 0;
-    written = `#${write(store.get())}`;
-    if (location.hash !== written) history.replaceState(null, "", written);
-  };
-  store.subscribe(() => {
+  let way = history.state?.way ?? ""; // a letter for each place before this one: what led on from there
+  const put = (state, how = "replaceState") => {
     clearTimeout(timer); // not while numbers change
-    timer = setTimeout(later, REST);
+    timer = 0;
+    written = `#${write(state)}`;
+    history[how]({ way }, "", written);
+  };
+  store.subscribe((state, before) => {
+    const step = state.visits !== before.visits ? EXAMPLE : state.view !== before.view ? VIEW : null;
+    if (step && !following) {
+      put(before);
+      way += step;
+      put(state, "pushState");
+    } else {
+      clearTimeout(timer);
+      timer = setTimeout(() => put(store.get()), REST);
+    }
+  });
+  let following = false;
+  const show = (patch) => {
+    following = true;
+    store.set(patch);
+    following = false;
+    put(store.get());
+  };
+  addEventListener("popstate", ({ state }) => {
+    if (typeof state?.way !== "string") return; // a link was followed
+    const [from, to] = [way, state.way].sort((one, other) => one.length - other.length);
+    const found = read(location.hash);
+    way = state.way;
+    written = location.hash;
+    if (to.slice(from.length).includes(EXAMPLE)) show({ ...FIRST_SHOWN, ...found });
+    else show({ view: found.view ?? FIRST.view }); // the drop stays as it is now
   });
   addEventListener("hashchange", () => {
     if (location.hash === written || !location.hash.includes("=")) return;
-    clearTimeout(timer);
-    timer = 0;
-    store.set({ ...FIRST_SHOWN, ...read(location.hash) });
+    way += EXAMPLE;
+    show({ ...FIRST_SHOWN, ...read(location.hash) });
   });
+  if (!history.state) history.replaceState({ way }, "");
 }
 
+const EXAMPLE = "e"; // an example was loaded, or a link followed
+const VIEW = "v";
+
 const FIRST_SHOWN = Object.fromEntries(
-  ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
+  ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", "notes", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
 );
 
 function flatten(path, value, pairs) {

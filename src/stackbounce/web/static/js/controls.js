@@ -3,7 +3,7 @@
 import { h, write } from "./dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
 import { choice, numberField } from "./fields.js";
-import { asMeasured, changeLaw } from "./laws.js";
+import { asMeasured, changeLaw, lawMemory } from "./laws.js";
 import { withError } from "./prediction.js";
 import { restacked } from "./restack.js";
 import { withExample } from "./store.js";
@@ -24,12 +24,9 @@ export function mountControls(root, store, api, catalogue) {
   const general = h("p", { class: "field-error", role: "alert", hidden: true });
   let fields = [];
   let shape = "";
-  let notes = [];
+  const laws = lawMemory();
 
-  const change = (drop, news = []) => {
-    notes = news;
-    store.set({ drop });
-  };
+  const change = (drop, notes = []) => store.set({ drop, notes });
   const set = (path, value, error) => {
     const { drop, errors } = store.get();
     if (path === "until") {
@@ -61,7 +58,7 @@ export function mountControls(root, store, api, catalogue) {
     });
   const relaw = (contact, name) =>
     attempt(async () => {
-      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name);
+      const { drop, note } = await changeLaw(api, catalogue.laws, store.get().drop, contact, name, laws);
       change(drop, placed(contact, note));
     });
   const measured = (contact, values) =>
@@ -73,7 +70,7 @@ export function mountControls(root, store, api, catalogue) {
   const tools = { catalogue, set, errorAt, change, choose, arrange, relaw, measured, drop: () => store.get().drop };
 
   const rebuild = () => {
-    const { drop, until } = store.get();
+    const { drop, until, notes } = store.get();
     const focused = document.activeElement?.closest?.("[data-key], [data-path], [data-slider]");
     const open = [...root.querySelectorAll("details[open]")].map((one) => one.dataset.key);
     const built = towerOf(drop, tools, notes);
@@ -83,7 +80,7 @@ export function mountControls(root, store, api, catalogue) {
     focusAgain(root, focused);
   };
   const update = () => {
-    const { drop, until, error } = store.get();
+    const { drop, until, error, notes } = store.get();
     const now = JSON.stringify([shapeOf(drop), until === null, drop.gravity > 0, notes]);
     if (now !== shape) {
       shape = now;
@@ -102,14 +99,13 @@ export function mountControls(root, store, api, catalogue) {
   let example = null;
   const presets = presetChoice(catalogue, (preset) => {
     write(said, preset.says);
-    notes = [];
     example = complete(preset.drop);
     store.set(withExample(store.get(), example));
   });
   root.replaceChildren(presets, said, general, drops, tower);
   store.subscribe((state, before) => {
     if (state.notice !== before.notice) write(said, state.notice ?? "");
-    const touched = ["drop", "error", "errors", "until"].some((name) => state[name] !== before[name]);
+    const touched = ["drop", "error", "errors", "until", "notes"].some((name) => state[name] !== before[name]);
     if (touched) update();
   });
   write(said, store.get().notice ?? "");

@@ -7,11 +7,12 @@ const STEPS = 1000; // of a slider
 
 /**
  * Return a field `{element, path, update(value), fail(message)}`.
- * @param {object} spec `{path, label, of, unit, low, high, large, says, optional, set(path, value, error), errorAt(path)}`;
+ * @param {object} spec `{path, label, term, of, unit, low, high, large, says, optional, set(path, value, error), errorAt(path)}`;
  * with `errorAt` a text such as "63 ± 1 cm" has an error, which is null where none is typed
  */
 export function numberField(spec) {
-  const { path, label, unit, low, high } = spec;
+  const { path, unit, low, high } = spec;
+  const label = spec.term ? `${spec.label} (${spec.term})` : spec.label;
   const spoken = spec.of ? `${label} of ${spec.of}` : label;
   const shown = shownUnit(unit, spec.large);
   const id = `field-${path.replaceAll(".", "-")}`;
@@ -26,7 +27,6 @@ export function numberField(spec) {
     "data-path": path,
     "aria-label": spoken,
     "aria-describedby": `${id}-unit ${id}-error`,
-    title: spec.says || null,
   });
   const slider = h("input", {
     class: "field-slider",
@@ -38,12 +38,14 @@ export function numberField(spec) {
     "aria-label": `${spoken}, slider`,
   });
   const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
+  const help = spec.says ? explanation(spec.says, spec.term ?? spec.label, `${id}-says`) : null;
   const element = h(
     "div",
     { class: "field" },
-    h("label", { for: id, text: label }),
-    slider,
+    h("span", { class: "field-label" }, h("label", { for: id, text: label }), help?.button),
     h("span", { class: "field-box" }, input, h("span", { class: "unit", id: `${id}-unit`, text: pretty(shown.unit) })),
+    slider,
+    help?.text,
     error,
   );
 
@@ -111,6 +113,18 @@ export function numberField(spec) {
     input.setAttribute("aria-invalid", message ? "true" : "false");
   };
   return { element, path, update, fail };
+}
+
+/** Return `{button, text}`: an explanation that a button shows and hides. */
+function explanation(says, what, id) {
+  const text = h("p", { class: "note", id, text: says, hidden: true });
+  const toggle = () => {
+    text.hidden = !text.hidden;
+    button.setAttribute("aria-expanded", String(!text.hidden));
+  };
+  const about = { class: "explain", "aria-label": `What is ${what}?`, "aria-expanded": "false", "aria-controls": id };
+  const button = h("button", { type: "button", ...about, text: "?", onclick: toggle });
+  return { button, text };
 }
 
 /** Return how a slider's steps become values: by factors over a wide range, else evenly. */

@@ -31,21 +31,21 @@ const EXAMPLES = {
 };
 
 /**
- * Return `{element, offer(record), follow()}`: `offer` takes the results of a file ({measured, file, options} or
+ * Return `{element, offer(record), follow(), retarget(index)}`: `offer` takes the results of a file ({measured, file, options} or
  * null), `follow` adapts the form to the store's drop. `fitted` is called with each answer.
  */
 export function fitForm(store, api, fitted) {
   const vary = h("fieldset", { class: "fit-vary" });
   const rows = h("ul", { class: "fit-rows" });
+  const alonePlace = h("div");
+  const aloneButton = h("button", { type: "button", text: "Drop this ball alone", onclick: () => dropAlone() });
+  let aloneBall = "";
   const alone = h(
     "div",
     { class: "fit-alone", hidden: true },
     h("p", { text: "The file is of one ball alone; the drop is a stack." }),
-    h("button", {
-      type: "button",
-      text: "Drop the lowest ball alone",
-      onclick: () => dropAlone(),
-    }),
+    alonePlace,
+    aloneButton,
   );
   const status = h("p", { class: "note", role: "status" });
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
@@ -118,6 +118,7 @@ export function fitForm(store, api, fitted) {
     const measured = Object.entries(next?.measured ?? {});
     const single = measured.length === 1 && measured[0][0] === "rebound_ratios.0" && store.get().drop.balls.length > 1;
     alone.hidden = !single;
+    if (single) askWhich();
     if (!single) for (const [name, value] of measured) addRow(name, value, name.startsWith("force."));
     if (!rows.hasChildNodes()) addRow();
     outcome.replaceChildren();
@@ -126,10 +127,21 @@ export function fitForm(store, api, fitted) {
     write(status, "");
     offerVaried();
   };
+  const askWhich = () => {
+    const { drop } = store.get();
+    const balls = drop.balls.map((_, ball) => [String(ball), capital(ballName(drop, ball))]);
+    aloneBall = "";
+    aloneButton.disabled = true;
+    const set = (value) => {
+      aloneBall = value;
+      aloneButton.disabled = value === "";
+    };
+    alonePlace.replaceChildren(choice({ label: "Which ball?", key: "alone", groups: [["", [["", "Choose a ball"], ...balls]]], value: "", set }));
+  };
   const dropAlone = async () => {
     problem.hidden = true;
     try {
-      store.set({ drop: await lowest(api, await catalogue(), store.get().drop) });
+      store.set({ drop: await aloneDrop(api, await catalogue(), store.get().drop, Number(aloneBall)) });
     } catch (error) {
       write(problem, error.message);
       problem.hidden = false;
@@ -203,7 +215,12 @@ export function fitForm(store, api, fitted) {
     }
     return form;
   };
-  return { element, offer, follow };
+  /** Let the record be that of another ball or contact. */
+  const retarget = (index) => {
+    const moved = (name) => name.replace(/\.\d+$/, `.${index}`);
+    offer({ ...record, measured: Object.fromEntries(Object.entries(record.measured).map(([name, value]) => [moved(name), value])) });
+  };
+  return { element, offer, follow, retarget };
 }
 
 /** Return one sentence on how well the fitted drop describes the measurement. */
@@ -212,12 +229,12 @@ function describeVerdict({ probability }) {
   return "Fitted, but not well: the drop is now the nearest one, and it does not describe what was measured.";
 }
 
-/** Return a drop without the balls on top; its law can lose energy, as one ball alone is measured for its loss. */
-async function lowest(api, { laws, lossy_law: lossy }, drop) {
-  const [own] = drop.contacts;
-  const contact = lossOf(laws, own) ? own : await converted(api, lossy, drop, 0, START);
-  const next = { ...drop, balls: drop.balls.slice(0, 1), contacts: [contact], gaps: [] };
-  if (drop.velocities) next.velocities = drop.velocities.slice(0, 1);
+/** Return a drop of one ball alone; its law can lose energy, as one ball alone is measured for its loss. */
+async function aloneDrop(api, { laws, lossy_law: lossy }, drop, ball) {
+  const own = drop.contacts[ball];
+  const contact = lossOf(laws, own) ? own : await converted(api, lossy, drop, ball, START);
+  const next = { ...drop, balls: [drop.balls[ball]], contacts: [contact], gaps: [] };
+  if (drop.velocities) next.velocities = [drop.velocities[ball]];
   return next;
 }
 

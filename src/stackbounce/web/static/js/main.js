@@ -6,18 +6,22 @@ import { mountLooks } from "./ball_looks.js";
 import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
-import { direct } from "./film_director.js";
 import { takeFiles } from "./dropped.js";
-import { hasServer, loadMeasure } from "./origin/served.js";
-import { mountNumbers } from "./numbers.js";
-import { mountPlots } from "./plots.js";
+import { direct } from "./film_director.js";
+import { mountGuess } from "./guess.js";
+import { mountHands } from "./hands.js";
+import { mountHistory } from "./history.js";
 import { mountMomentum } from "./momentum.js";
+import { mountNumbers } from "./numbers.js";
+import { hasServer, loadMeasure } from "./origin/served.js";
+import { mountPlots } from "./plots.js";
 import { carryErrors } from "./prediction.js";
+import { retry } from "./retry.js";
 import { run } from "./runner.js";
+import { mountSentence } from "./sentence_view.js";
 import { mountShare } from "./share.js";
 import { mountStage } from "./stage.js";
-import { mountGuess } from "./guess.js";
-import { mountSentence } from "./sentence_view.js";
+import { markStale } from "./stale.js";
 import { createStore } from "./store.js";
 import { mountTabs } from "./tabs.js";
 import { mountTransport } from "./transport.js";
@@ -43,6 +47,8 @@ mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals") }, store);
 mountShare(place("share"), store, api);
+mountHistory(place("history"), store);
+mountHands(place("stage"), store, clock, api);
 const loadLine = () => import("./line.js");
 const loadMap = () => import("./map.js");
 mountTabs(store, {
@@ -59,19 +65,46 @@ store.subscribe((state, before) => state.view !== before.view && state.view !== 
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
-  window.stackbounce.whole = Promise.all([api.prepare(), loadLine(), loadMap()]); // from here on nothing is loaded
+  const views = [loadLine, loadMap].map((load) => load().catch(() => null)); // what fails is tried again when it is opened
+  window.stackbounce.whole = Promise.all([api.prepare(), ...views]); // from here on nothing is loaded
 });
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();
-loadCatalogue();
+markStale(store, document.body);
+const catalogueAgain = loadCatalogue();
 
-/** Build a view from its own module when it is first opened. */
-async function open(load, section) {
+/** Build a view from its own module when it is first opened; while that fails, say so and try again. */
+function open(load, section) {
+  const said = h("p", { class: "field-error", role: "alert" });
+  const button = h("button", { type: "button", class: "small", text: "Try again", onclick: () => again() });
+  const unopened = h("div", { class: "unopened", hidden: true }, said, button);
+  section.append(unopened);
+  const again = retry(
+    async () => {
+      const { mount } = await loaded(load);
+      await mount(section, store, api, clock);
+      unopened.remove();
+      placeSetUp();
+    },
+    (error) => {
+      unopened.hidden = false;
+      write(said, `This view could not be opened yet: ${error.message}`);
+    },
+  );
+}
+
+/** Return a module; a browser that keeps in mind that it could not be loaded is shown the page anew. */
+async function loaded(load) {
   try {
-    await (await load()).mount(section, store, api, clock);
-    placeSetUp();
-  } catch (error) {
-    section.append(h("p", { class: "field-error", role: "alert", text: `This view could not be opened: ${error.message}` }));
+    return await load();
+  } catch {
+    const { ok } = await fetch("icon.svg", { cache: "no-store" }).catch(() => ({ ok: false }));
+    if (!ok) throw new Error("The server does not answer.");
+    return load().catch((error) => {
+      const [{ type }] = performance.getEntriesByType("navigation");
+      if (type !== "reload") location.reload(); // the address holds what is shown
+      throw error;
+    });
   }
 }
 
@@ -100,13 +133,15 @@ function explain(section) {
 
 for (const one of document.querySelectorAll("[data-home]")) one.hidden = (one.dataset.home === "server") !== hasServer;
 
-/** The controls need the catalogue; until it is loaded there are none. */
-async function loadCatalogue() {
-  try {
-    mountControls(place("controls"), store, api, await api.catalogue());
-  } catch (error) {
-    store.set({ error: { detail: error.message, offline: true } });
-  }
+/** The controls need the catalogue; until it is loaded there are none. Returns what tries at once. */
+function loadCatalogue() {
+  return retry(
+    async () => {
+      mountControls(place("controls"), store, api, await api.catalogue());
+      if (store.get().error?.offline) runner.again();
+    },
+    ({ message }) => store.set({ error: { detail: message, offline: true } }),
+  );
 }
 
 /** Report that the server does not answer, and offer to try again. */
@@ -114,7 +149,7 @@ function showBanner() {
   const text = place("banner-text");
   place("banner-again").addEventListener("click", () => {
     store.set({ error: null });
-    if (!place("controls").hasChildNodes()) loadCatalogue();
+    if (!place("controls").hasChildNodes()) catalogueAgain();
     runner.again();
   });
   const show = ({ error, busy }) => {

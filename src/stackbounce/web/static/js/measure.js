@@ -1,11 +1,13 @@
 /** The Measure view: a file of measurements, its results, and the record over the simulated drop. */
 
 import { h, write } from "./dom.js";
+import { bounceUse } from "./bounce_use.js";
 import { fitForm } from "./fit_form.js";
 import { fileDrop } from "./file_drop.js";
 import { describeFile, listFindings } from "./measure_found.js";
 import { measureForm } from "./measure_form.js";
 import { Overlay } from "./overlay.js";
+import { pressPlot } from "./press_plot.js";
 
 /** Build the view into `root`; the server lists the options of its form. */
 export async function mount(root, store, api) {
@@ -14,7 +16,10 @@ export async function mount(root, store, api) {
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
   const found = h("section", { class: "measure-card", "aria-label": "What was found", hidden: true });
   const plot = h("section", { class: "measure-card", "aria-label": "The record and the drop", hidden: true });
-  const overlay = new Overlay(plot, store, api);
+  const press = pressPlot();
+  const pressed = h("section", { class: "measure-card", "aria-label": "The press curve", hidden: true }, press.element);
+  const use = bounceUse(store, api);
+  const overlay = new Overlay(plot, store, api, (index) => fit.retarget(index));
   let file = null;
   let newest = 0;
 
@@ -41,6 +46,8 @@ export async function mount(root, store, api) {
       found.hidden = false;
       if (answer.doubt) unsaid.open = true;
       overlay.show(answer);
+      showPress(answer.branches);
+      use.offer(answer);
       fit.offer({ measured: answer.measured, file, options });
     } catch (error) {
       if (mine !== newest) return;
@@ -49,9 +56,18 @@ export async function mount(root, store, api) {
       problem.hidden = false;
       unsaid.open = true;
       found.hidden = true;
-      overlay.clear();
-      fit.offer(null);
+      clear();
     }
+  };
+  const showPress = (branches) => {
+    pressed.hidden = branches.length === 0;
+    press.show(branches);
+  };
+  const clear = () => {
+    overlay.clear();
+    showPress([]);
+    use.offer(null);
+    fit.offer(null);
   };
   const away = h("button", {
     type: "button",
@@ -62,8 +78,7 @@ export async function mount(root, store, api) {
       file = null;
       write(said, "");
       found.hidden = true;
-      overlay.clear();
-      fit.offer(null);
+      clear();
       drop.querySelector("button")?.focus();
     },
   });
@@ -88,13 +103,16 @@ export async function mount(root, store, api) {
       found,
       unsaid,
     ),
-    h("div", { class: "measure-out" }, plot, h("section", { class: "measure-card" }, fit.element)),
+    h("div", { class: "measure-out" }, use.element, plot, pressed, h("section", { class: "measure-card" }, fit.element)),
   );
   fit.offer(null);
   if (store.get().file) take(store.get().file);
   store.subscribe((state, before) => {
     if (state.file && state.file !== before.file) take(state.file);
-    if (state.drop !== before.drop) fit.follow();
+    if (state.drop !== before.drop) {
+      fit.follow();
+      use.follow();
+    }
     if (state.result !== before.result || state.drop !== before.drop) overlay.follow();
   });
 }

@@ -1,20 +1,24 @@
 /** A record beside the simulated drop: keeps both, the shift between their clocks, and the plots in step. */
 
-import { h } from "./dom.js";
+import { h, write } from "./dom.js";
+import { choice } from "./fields.js";
 import { bestShift, laid, lines, matched, shifted } from "./record.js";
 import { recordPlot } from "./record_plot.js";
-import { capital, contactName } from "./words.js";
+import { ballName, capital, contactName } from "./words.js";
 
 const GRAVITY = 9.80665;
+const ASK = { force: "The record is of one contact. Which?", position: "The record is of one ball. Which?" };
 const LONGEST = 10; // s of a track that are simulated
 
-/** Draws into `card`, and hands the store's `overlays` to the play view. */
+/** Draws into `card`, and hands the store's `overlays` to the play view; `moved` hears over what a record is to lie. */
 export class Overlay {
-  constructor(card, store, api) {
-    [this.card, this.store, this.api] = [card, store, api];
+  constructor(card, store, api, moved) {
+    [this.card, this.store, this.api, this.moved] = [card, store, api, moved];
     this.plot = recordPlot();
     this.notes = h("div", { class: "note" });
-    card.append(this.plot.element, this.notes);
+    this.over = h("div", { class: "record-over" });
+    this.target = null; // the ball or contact that the user chose for a record of one
+    card.append(this.over, this.plot.element, this.notes);
     this.record = null;
     this.asked = 0;
   }
@@ -24,6 +28,7 @@ export class Overlay {
     this.record = record;
     this.shift = 0;
     this.fresh = true;
+    this.target = null;
     this.store.set({ overlays: [] });
     this.card.hidden = record.series.length === 0;
     if (!this.card.hidden) this.follow();
@@ -39,7 +44,9 @@ export class Overlay {
   async follow() {
     if (!this.record?.series.length) return;
     const { drop } = this.store.get();
-    const curves = laid(this.record, drop);
+    if (this.target !== null && this.target >= drop.balls.length) this.target = null;
+    const curves = laid({ ...this.record, series: this.series() }, drop);
+    this.sayOver(curves);
     this.asked += 1;
     const mine = this.asked;
     const result = curves.length ? await this.simulated(curves).catch(() => null) : null;
@@ -50,6 +57,43 @@ export class Overlay {
     if (result && this.fresh && curves[0].what === "position") this.shift = this.best();
     this.fresh = false;
     this.draw(true);
+  }
+
+  /** Return the curves of the record; one alone is that of the ball or contact that was chosen. */
+  series() {
+    const { series } = this.record;
+    return this.target === null || series.length !== 1 ? series : [{ ...series[0], index: this.target }];
+  }
+
+  /** Say over what the record lies; where it is of one ball or contact and there are several, ask. */
+  sayOver(curves) {
+    const { drop } = this.store.get();
+    this.over.hidden = curves.length === 0;
+    if (this.over.hidden) return;
+    const places = drop.balls.map((_, i) => [String(i), this.place(curves[0].what, i)]);
+    if (this.record.series.length === 1 && places.length > 1) {
+      const set = (value) => {
+        this.target = Number(value);
+        this.fresh = true;
+        this.moved(this.target);
+        this.follow();
+      };
+      const asked = choice({ label: ASK[curves[0].what], key: "over", groups: [["", places]], value: String(curves[0].index), set });
+      const note = h("p", { class: "note", text: "It lies over the drop of the whole stack. The record of a ball that bounced alone fits a drop of that ball alone." });
+      if (this.asking !== JSON.stringify([places, curves[0].index])) this.over.replaceChildren(asked, note);
+      this.asking = JSON.stringify([places, curves[0].index]);
+      return;
+    }
+    this.asking = "";
+    const said = h("p", { class: "note" });
+    write(said, `It lies over ${curves.map(({ what, index }) => this.place(what, index)).join(" and ")}.`);
+    this.over.replaceChildren(said);
+  }
+
+  /** Return what a curve of a record can lie over, in words. */
+  place(what, index) {
+    const { drop } = this.store.get();
+    return what === "force" ? contactName(drop, index) : ballName(drop, index);
   }
 
   /** Return the simulation to compare with: the impact for a force, the whole drop with gravity for a track. */

@@ -44,6 +44,7 @@ function pairOf({ balls }, contact) {
   return contact === 0 ? `floor and ${name(0)}` : [name(contact - 1), name(contact)].sort().join(" and ");
 }
 
-function areAlike(one, other) {
+/** Return whether two contacts have the same law and numbers. */
+export function areAlike(one, other) {
   return Object.keys({ ...one, ...other }).every((name) => one[name] === other[name]);
 }

@@ -30,6 +30,7 @@ export function run(store, api) {
     if (patch.result && store.get().drop === drop && hasTexts(drop)) {
       adopted = patch.result.drop;
       patch.drop = adopted;
+      patch.resultOf = { drop: adopted, until };
     }
     store.set({ ...patch, busy: !last || (frames === FEW && !patch.error) });
   };
@@ -44,7 +45,7 @@ export function run(store, api) {
 /** Return what a drop's result changes in the state; null where a newer drop took its place. */
 async function answer(api, drop, until, frames) {
   try {
-    return { result: await api.play(drop, until, frames), error: null };
+    return { result: await api.play(drop, until, frames), resultOf: { drop, until }, error: null };
   } catch (error) {
     if (error.replaced) return null;
     return { error: { detail: error.message, offline: Boolean(error.offline) } };

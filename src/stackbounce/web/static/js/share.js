@@ -2,6 +2,7 @@
 
 import { write as addressOf } from "./address.js";
 import { h, write } from "./dom.js";
+import { placesBox } from "./places.js";
 
 const FILES = [
   ["csv", "Table (CSV)", "csv"],
@@ -38,6 +39,7 @@ export function mountShare(root, store, api) {
     }
   };
   const button = (text, act) => h("button", { type: "button", class: "small", text, onclick: act });
+  const places = placesBox(api);
   const list = h(
     "div",
     { class: "share-list" },
@@ -45,8 +47,10 @@ export function mountShare(root, store, api) {
     FILES.map(([kind, text, ending]) => button(text, () => save(kind, ending))),
     button("Print", () => print()),
     said,
+    places.element,
   );
   const box = h("details", { class: "share" }, h("summary", { text: "Share" }), list);
+  box.addEventListener("toggle", () => box.open && places.load());
   box.addEventListener("keydown", (event) => {
     if (event.key !== "Escape") return;
     box.open = false;

@@ -37,18 +37,22 @@ export const FIRST = {
   map: null,
   errors: {}, // of numbers of the drop, by path: SI numbers, or texts that the server reads
   result: null,
+  resultOf: null, // {drop, until} that the result belongs to
   prediction: null, // what follows of the errors, or {problem}
   busy: false,
   error: null, // {detail, offline}
   notice: null, // one line about the page itself, such as a link that could not be read
   replay: 0, // raised where a drop is to be shown from its begin
+  visits: 0, // raised where the browser's Back is to lead to the drop before
+  notes: [], // by contact: what became of it at the last change of balls or laws
   overlays: [],
   file: null, // that was dropped on the page, to be measured
 };
 
 /** Return what changes in a state that shows another drop from its begin: its impact, without errors. */
-export function withExample({ replay }, drop) {
-  return { drop, errors: {}, until: null, t: null, guess: null, replay: replay + 1 };
+export function withExample({ replay, visits }, drop) {
+  const shown = { until: null, t: null, guess: null };
+  return { drop, errors: {}, notes: [], ...shown, replay: replay + 1, visits: visits + 1 };
 }
 
 /** Return a store: `get()`, `set(patch)`, `subscribe(listener)`. */

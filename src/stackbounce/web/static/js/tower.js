@@ -79,10 +79,10 @@ function ballCard(drop, ball, tools, field) {
   const naming = namer(choose.querySelector("select"), changed, drop, ball, tools);
   const rows = [field({ path: `balls.${ball}.mass`, label: "mass", of: name, unit: "kg", low: 1e-3, high: 2 }, naming)];
   if (incidenceOf(drop) === "velocities") {
-    rows.push(field({ path: `velocities.${ball}`, label: "velocity", of: name, unit: "m/s", low: -10, high: 10, says: "up is positive" }));
+    rows.push(field({ path: `velocities.${ball}`, label: "velocity", of: name, unit: "m/s", low: -10, high: 10, says: "Up is positive, down negative." }));
   }
-  const size = { path: `balls.${ball}.diameter`, label: "diameter", of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
-  const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: "Size" }), field({ ...size, says: "for the picture only" }));
+  const size = { path: `balls.${ball}.diameter`, label: "size", term: "diameter", of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
+  const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: "Size" }), field({ ...size, says: "For the picture only: it changes nothing of the bounce." }));
   return h("li", { class: "card ball-card" }, header, rows, changed, more);
 }
 
@@ -108,7 +108,7 @@ function swatch(index) {
 
 function contactCard(drop, contact, tools, field, note) {
   const law = tools.catalogue.laws.find((one) => one.law === drop.contacts[contact].law);
-  const laws = tools.catalogue.laws.map((one) => [one.law, one.law]);
+  const laws = tools.catalogue.laws.map((one) => [one.law, spaced(one.law)]);
   if (contact === 0) laws.push(["none", "no floor"]);
   const header = h(
     "div",
@@ -123,11 +123,17 @@ function contactCard(drop, contact, tools, field, note) {
   );
   const rows = law ? lawFields(drop, contact, law, field) : [];
   if (contact > 0) {
-    rows.push(field({ path: `gaps.${contact - 1}`, label: "gap", of: contactName(drop, contact), unit: "m", low: 0, high: 0.03, says: "air between the two" }));
+    const gap = { path: `gaps.${contact - 1}`, label: "air between", term: "gap", unit: "m", low: 0, high: 0.03 };
+    rows.push(field({ ...gap, of: contactName(drop, contact), says: "How far the two are apart while they fall. 0: they touch." }));
   }
   if (note) rows.push(h("p", { class: "note", text: note }));
   const more = law ? measuredBox(contact, law, tools) : null;
   return h("li", { class: "card contact-card" }, header, rows, more);
+}
+
+/** Return the name of a law in words. */
+function spaced(name) {
+  return name.replace(/([a-z])([A-Z])/g, "$1 $2");
 }
 
 /** The fields of a law: those it needs, and of the others those that the contact has. */
@@ -137,8 +143,9 @@ function lawFields(drop, contact, law, field) {
     .filter((one) => typeof one.low === "number" && (one.required || own[one.name] !== undefined))
     .map((one) => {
       const unit = one.unit === "N/m**exponent" && own.exponent === 1 ? "N/m" : one.unit;
-      const { name, low, high } = one;
-      const spec = { label: name.replaceAll("_", " "), of: contactName(drop, contact), unit, low, high };
+      const { name, low, high, words, says, explains } = one;
+      const term = says === words ? undefined : says;
+      const spec = { label: words ?? says, term, of: contactName(drop, contact), unit, low, high, says: explains };
       return field({ path: `contacts.${contact}.${name}`, ...spec });
     });
 }
@@ -151,7 +158,7 @@ function measuredBox(contact, law, tools) {
     one.update(values[spec.name]);
     return one;
   };
-  const boxes = [local({ name: "restitution", label: "restitution", unit: "", low: 0.05, high: 1 })];
+  const boxes = [local({ name: "restitution", label: "how bouncy", term: "restitution", unit: "", low: 0.05, high: 1 })];
   if (!law.rigid) boxes.push(local({ name: "contact_time", label: "contact time", unit: "s", low: 5e-4, high: 5e-2 }));
   const apply = h("button", {
     type: "button",
@@ -163,7 +170,7 @@ function measuredBox(contact, law, tools) {
   return h(
     "details",
     { "data-key": `measured-${contact}` },
-    h("summary", { text: "Law, or a measured bounce" }),
+    h("summary", { text: "What is this law? Or a measured bounce" }),
     about,
     boxes.map((one) => one.element),
     apply,

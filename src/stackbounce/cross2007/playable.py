@@ -1,0 +1,82 @@
+"""The figures that are drops or lines, as links that open them in the explorer."""
+
+from collections.abc import Iterator
+from dataclasses import asdict, replace
+from typing import Any, NamedTuple
+from urllib.parse import urlencode
+
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.cases import list_cases
+from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.lines import list_lines
+from stackbounce.model import Drop
+
+__all__ = ["Link", "link_figures"]
+
+_CASES = {  # of a figure, by the names of the explorer's examples
+    "5": ("figure-5",),
+    "8": ("figure-8", "figure-8-gap"),
+    "9": ("figure-9",),
+    "10a": ("figure-13",),
+    "10b": ("B1-on-B2",),
+    "11a": ("B3-on-B1",),
+    "11b": ("B1-on-B3-late", "B1-on-B3-early"),
+    "12": ("B1-on-B1",),
+    "13": ("figure-13",),
+}
+
+
+class Link(NamedTuple):
+    """A link to the explorer: its text and its address."""
+
+    text: str
+    address: str
+
+
+def link_figures(explorer: str) -> dict[str, list[Link]]:
+    """Return the links of each figure by its number.
+
+    Parameters
+    ----------
+    explorer : str
+        The address of the explorer.
+
+    Examples
+    --------
+    >>> [link.text for link in link_figures("../")["8"]]
+    ['Play this drop', 'Play Figure 8 with a gap of 2 mm']
+    """
+    cases = {case.name: case for case in list_cases()}
+    found: dict[str, list[Link]] = {}
+    for number, names in _CASES.items():
+        texts = ["Play this drop", *(f"Play {cases[name].title}" for name in names[1:])]
+        drops = [_as_drawn(number, cases[name].drop) for name in names]
+        found[number] = [
+            Link(text, _address(explorer, drop)) for text, drop in zip(texts, drops, strict=True)
+        ]
+    for line in list_lines():
+        number = line.name.removeprefix("figure-").partition("-")[0]
+        view = {"line": {"x": asdict(line.across), "show": "rebound_ratio"}}
+        link = Link(f"Open as a line: {line.title}", _address(explorer, line.drop, view))
+        found.setdefault(number, []).append(link)
+    return found
+
+
+def _as_drawn(number: str, drop: Drop) -> Drop:
+    """Return an example's drop as its figure has it: that of Fig. 10(b) has a gap."""
+    return replace(drop, gaps=[Bench(PAPER)("superballs.gap")]) if number == "10b" else drop
+
+
+def _address(explorer: str, drop: Drop, view: dict[str, Any] | None = None) -> str:
+    """Return the address of a drop, with paths and values as the explorer's own addresses."""
+    state = {"view": "line" if view else "play", **drop.to_mapping(), **(view or {})}
+    return f"{explorer}#{urlencode(list(_flatten('', state)))}"
+
+
+def _flatten(path: str, value: Any) -> Iterator[tuple[str, str]]:
+    if isinstance(value, dict | list | tuple):
+        members = value.items() if isinstance(value, dict) else enumerate(value)
+        for key, member in members:
+            yield from _flatten(f"{path}.{key}" if path else str(key), member)
+    elif value is not None:
+        yield path, str(value).lower() if isinstance(value, bool) else str(value)

@@ -1,0 +1,120 @@
+"""The addresses at which other machines reach the explorer, with their QR codes."""
+
+import contextlib
+import ipaddress
+import socket
+from typing import NamedTuple
+
+__all__ = ["Place", "code_text", "list_places", "url"]
+
+_ALL = ("0.0.0.0", "::")
+_OUTSIDE = ("192.0.2.1", "2001:db8::1")  # RFC 5737 and 3849; nothing is sent there
+
+
+class Place(NamedTuple):
+    """An address of the page, and its QR code: rows of 1, which is dark, and 0."""
+
+    address: str
+    code: list[str]
+
+
+def url(host: str, port: int) -> str:
+    """Return the address of the page at a host.
+
+    Examples
+    --------
+    >>> url("::1", 8050)
+    'http://[::1]:8050/'
+    """
+    return f"http://[{host}]:{port}/" if ":" in host else f"http://{host}:{port}/"
+
+
+def list_places(host: str, port: int) -> list[Place]:
+    """Return the addresses that others can type, the likeliest first.
+
+    Parameters
+    ----------
+    host : str
+        Where the server listens: an address, ``"0.0.0.0"`` for all of IPv4, ``"::"`` for all.
+    port : int
+        Its port.
+
+    Returns
+    -------
+    list of Place
+        None where the server listens to this machine alone, or the machine is in no network.
+
+    Examples
+    --------
+    >>> list_places("127.0.0.1", 8050)
+    []
+    >>> list_places("203.0.113.7", 8050)[0].address
+    'http://203.0.113.7:8050/'
+    """
+    hosts = _own_hosts(with_six=host == "::") if host in _ALL else [host]
+    others = [one for one in hosts if not _is_loopback(one)]
+    return [Place(address, _code(address)) for address in (url(one, port) for one in others)]
+
+
+def code_text(code: list[str]) -> str:
+    """Return a QR code for a terminal, two rows in a line; light is drawn and dark left out.
+
+    Examples
+    --------
+    >>> print(code_text(["10", "00"]))
+    ██████
+    ██▄███
+    ██████
+    """
+    width = len(code[0]) + 4
+    rows = ["0" * width] * 2 + [f"00{row}00" for row in code] + ["0" * width] * 2
+    rows += ["1" * width] * (len(rows) % 2)
+    signs = {"00": "█", "01": "▀", "10": "▄", "11": " "}
+    pairs = zip(rows[::2], rows[1::2], strict=True)
+    return "\n".join(
+        "".join(signs[a + b] for a, b in zip(above, below, strict=True)).rstrip()
+        for above, below in pairs
+    )
+
+
+def _code(address: str) -> list[str]:
+    import segno
+
+    code = segno.make_qr(address, error="m", boost_error=False)
+    return ["".join(str(bit) for bit in row) for row in code.matrix]
+
+
+def _is_loopback(host: str) -> bool:
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:  # a name, such as localhost
+        return host.casefold() == "localhost"
+
+
+def _own_hosts(*, with_six: bool) -> list[str]:
+    """Return this machine's addresses, that of the way to other networks first."""
+    import psutil
+
+    families = [socket.AF_INET, *([socket.AF_INET6] if with_six else [])]
+    first = [_way_out(family) for family in families]
+    up = {name for name, one in psutil.net_if_stats().items() if one.isup}
+    found = [
+        one.address
+        for family in families
+        for name, own in psutil.net_if_addrs().items()
+        if name in up
+        for one in own
+        if one.family == family
+        and not ipaddress.ip_address(one.address.partition("%")[0]).is_link_local
+    ]
+    known = [one for one in first if one in found]
+    return [*known, *(one for one in found if one not in known)]
+
+
+def _way_out(family: socket.AddressFamily) -> str | None:
+    """Return the address from which this machine would send to another network; none is sent."""
+    outside = _OUTSIDE[family == socket.AF_INET6]
+    with contextlib.suppress(OSError), socket.socket(family, socket.SOCK_DGRAM) as trying:
+        trying.connect((outside, 9))
+        return str(trying.getsockname()[0])
+    return None

@@ -1,0 +1,108 @@
+/** "Use this as a ball's bounce": what a file tells of one ball goes into that ball's contact. */
+
+import { h, write } from "./dom.js";
+import { withValue } from "./drops.js";
+import { choice } from "./fields.js";
+import { asBounced } from "./laws.js";
+import { formatMeasured } from "./quantity.js";
+import { ballName, capital, contactName } from "./words.js";
+
+/** Return `{element, offer(answer), follow()}`: `offer` takes the answer to a file, or null. */
+export function bounceUse(store, api) {
+  const says = h("p");
+  const choose = h("div");
+  const status = h("p", { class: "note", role: "status" });
+  const problem = h("p", { class: "field-error", role: "alert", hidden: true });
+  const use = h("button", { type: "button", class: "primary", text: "Use this as the ball’s bounce", onclick: () => apply() });
+  const see = h("button", { type: "button", text: "See it in Play", hidden: true, onclick: () => play() });
+  const element = h(
+    "section",
+    { class: "measure-card bounce-use", "aria-labelledby": "bounce-title", hidden: true },
+    h("h2", { id: "bounce-title", text: "Put it into the stack" }),
+    says,
+    choose,
+    h("div", { class: "fit-buttons" }, use, see),
+    status,
+    problem,
+  );
+  let answer = null;
+  let chosen = "";
+  let names = "";
+
+  const offer = (next) => {
+    answer = next?.bounce ? next : null;
+    element.hidden = !answer;
+    see.hidden = true;
+    problem.hidden = true;
+    write(status, "");
+    if (!answer) return;
+    write(says, known(answer));
+    offerBalls();
+  };
+  /** Offer the balls of the stack; of several none is guessed. */
+  const offerBalls = () => {
+    const { drop } = store.get();
+    names = JSON.stringify(drop.balls.map((_, ball) => ballName(drop, ball)));
+    const balls = drop.balls.map((_, ball) => [String(ball), capital(ballName(drop, ball))]);
+    chosen = balls.length === 1 ? "0" : "";
+    use.disabled = chosen === "";
+    const set = (value) => {
+      chosen = value;
+      use.disabled = value === "";
+    };
+    const none = balls.length === 1 ? [] : [["", "Choose a ball"]];
+    choose.replaceChildren(choice({ label: "Which ball bounced?", key: "bounced", groups: [["", [...none, ...balls]]], value: chosen, set }));
+  };
+  const follow = () => {
+    const { drop } = store.get();
+    if (answer && names !== JSON.stringify(drop.balls.map((_, ball) => ballName(drop, ball)))) offerBalls();
+  };
+  const apply = async () => {
+    problem.hidden = true;
+    write(status, "");
+    const ball = Number(chosen);
+    const { drop } = store.get();
+    try {
+      const contact = await asBounced(api, await api.catalogue(), drop, ball, answer.bounce);
+      const notes = [];
+      notes[ball] = source(answer.file, ball);
+      store.set({ drop: withValue(drop, `contacts.${ball}`, contact), notes });
+      write(status, `${capital(contactName(drop, ball))} is set: ${lawInWords(contact)}. ${ball > 0 ? ALONE : ""}`.trim());
+      see.hidden = false;
+    } catch (error) {
+      write(problem, error.message);
+      problem.hidden = false;
+    }
+  };
+  const play = () => {
+    const { replay } = store.get();
+    store.set({ view: "play", t: null, replay: replay + 1 });
+  };
+  return { element, offer, follow };
+}
+
+const ALONE = "It is the bounce of this ball alone: that the ball below gives way, too, is left out.";
+
+function source(file, ball) {
+  return `As measured: ${file}. ${ball > 0 ? ALONE : ""}`.trim();
+}
+
+/** Return what a file tells of a bounce, as a sentence. */
+function known({ file, bounce }) {
+  const { restitution, contact_time: time, impact_speed: speed, contact } = bounce;
+  if (contact) return `${file} tells how stiff a ball is when it is pressed slowly: ${lawInWords(contact)}. In a bounce a ball is often stiffer.`;
+  const parts = [
+    restitution === null ? null : `a restitution of ${formatMeasured(restitution, null, "")}`,
+    time === null ? null : `a contact time of ${formatMeasured(time, null, "s")}`,
+    speed === null ? null : `an impact speed of ${formatMeasured(speed, null, "m/s")}`,
+  ];
+  return `${file} gives ${parts.filter(Boolean).join(", ")}. If one ball bounced alone on the floor, this can be its bounce in the stack.`;
+}
+
+function lawInWords({ law, ...numbers }) {
+  const units = { stiffness: numbers.exponent === undefined || numbers.exponent === 1 ? "N/m" : "" };
+  const parts = Object.entries(numbers)
+    .filter(([, value]) => typeof value === "number")
+    .map(([name, value]) => `${name.replaceAll("_", " ")} ${formatMeasured(value, null, units[name] ?? "")}`);
+  return `${law}, ${parts.join(", ")}`;
+}

@@ -1,0 +1,67 @@
+"""The paper's page as the explorer serves it: a way back, and figures that can be played."""
+
+import re
+from urllib.parse import parse_qsl
+
+import pytest
+
+from stackbounce import cross2007
+from stackbounce.cross2007 import paper, report
+from stackbounce.cross2007.bench import Bench
+from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007.playable import link_figures
+from stackbounce.cross2007.stacks import better_fit
+from stackbounce.model import Drop
+
+FEW = ("7", "9")
+
+
+@pytest.fixture
+def short(monkeypatch):
+    """Leave the report one section and two figures."""
+    monkeypatch.setattr(paper, "SECTIONS", paper.SECTIONS[:1])
+    monkeypatch.setattr(paper, "FIGURES", {name: paper.FIGURES[name] for name in FEW})
+    monkeypatch.setattr(report, "FIGURES", paper.FIGURES)
+
+
+def written(folder, **options):
+    cross2007.write(folder, **options)
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    return [address.replace("&amp;", "&") for address in re.findall(r'href="([^"]+)"', page)]
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("short")
+def test_the_page_by_itself_leads_to_no_explorer(tmp_path):
+    assert not [address for address in written(tmp_path) if "view=" in address or "../" in address]
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("short")
+def test_the_page_of_the_explorer_leads_back_and_plays_the_figures(tmp_path):
+    links = written(tmp_path, explorer="../")
+    assert links[0] == "../"
+    assert [address for address in links if "view=play" in address] == [
+        link_figures("../")["9"][0].address
+    ]
+
+
+def test_a_link_has_the_drop_of_its_figure():
+    [link] = link_figures("../")["9"]
+    drop = {"balls": [{}, {}], "contacts": [{}, {}], "gaps": [0.0]}
+    for path, text in parse_qsl(link.address.partition("#")[2]):
+        name, _, rest = path.partition(".")
+        value = float(text) if re.fullmatch(r"[\d.e+-]+", text) else text
+        if name in ("balls", "contacts"):
+            drop[name][int(rest[0])][rest[2:]] = value
+        elif name != "view":
+            drop |= {name: [value] if name == "gaps" else value}
+    fitted = better_fit(Bench(PAPER))
+    found = Drop.from_mapping(drop)
+    assert (found.contacts, found.impact_speed) == (fitted.contacts, fitted.impact_speed)
+    assert [ball.mass for ball in found.balls] == [ball.mass for ball in fitted.balls]
+
+
+def test_every_drop_of_the_paper_has_a_link():
+    links = link_figures("")
+    assert sorted(set(paper.FIGURES) - set(links)) == ["7"]  # a press curve

@@ -1,0 +1,53 @@
+"""The server is away for a while: what is opened meanwhile comes to life when it is back."""
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+SHIFTS = """() => new Promise((tell) => {
+  let sum = 0;
+  new PerformanceObserver((list) => list.getEntries().forEach(({ value }) => (sum += value)))
+    .observe({ type: 'layout-shift', buffered: false });
+  const { store } = window.stackbounce;
+  store.set({ error: { detail: 'The server does not answer.', offline: true } });
+  setTimeout(() => tell(sum), 300);
+})"""
+
+
+@pytest.fixture
+def address(address_of_server):
+    return address_of_server
+
+
+def test_a_view_opened_while_the_server_is_away_comes_to_life(visit):
+    page = visit.open()
+    page.evaluate("() => window.stackbounce.whole.then(() => null)")
+    page.context.set_offline(True)
+    page.get_by_role("tab", name="Measure").click()
+    page.locator("#measure .field-error").filter(has_text="The server does not answer").wait_for()
+    page.context.set_offline(False)
+    page.get_by_role("button", name="Choose a file").wait_for()  # by itself
+    assert page.locator("#measure .unopened").count() == 0
+    visit.complaints.clear()  # Chromium logs the requests that failed
+
+
+def test_the_banner_moves_nothing(visit):
+    page = visit.open()
+    before = page.locator("#stage").bounding_box()
+    assert page.evaluate(SHIFTS) == 0
+    assert page.locator("#banner").is_visible()
+    assert page.locator("#stage").bounding_box() == before
+
+
+def test_a_result_of_other_numbers_is_dimmed(visit):
+    page = visit.open()
+    body = page.locator("body")
+    field = page.locator("[data-path='balls.1.mass']")
+    field.fill("-3 g")
+    field.press("Enter")
+    page.locator("body.stale").wait_for()
+    assert float(page.locator("#stage").evaluate("(one) => getComputedStyle(one).opacity")) < 1
+    field.fill("50 g")
+    field.press("Enter")
+    visit.ready()
+    assert "stale" not in (body.get_attribute("class") or "").split()

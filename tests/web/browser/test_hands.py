@@ -1,0 +1,82 @@
+"""Hands on the stage: balls are dragged to change the height, the gap, the order and the size."""
+
+import pytest
+
+import stackbounce as sb
+from stackbounce.model.catalogue import stack
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def address(address_of_server):
+    return address_of_server
+
+
+def body(page, ball):
+    """Return the middle of a ball on the stage and its radius, in px."""
+    box = page.locator(f"#stage [data-ball='{ball}'] .ball-body").bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, box["width"] / 2
+
+
+def drag(page, start, end):
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(start[0] + (end[0] - start[0]) / 4, start[1] + (end[1] - start[1]) / 4)
+    page.wait_for_timeout(150)  # the drop is shown from its begin, and measured there
+    page.mouse.move(*end, steps=4)
+    page.mouse.up()
+
+
+def opened(visit):
+    page = visit.open(
+        "#t=-0.001&height=0.5"
+        + "".join(
+            f"&balls.{i}.mass={mass}&balls.{i}.diameter={size}&balls.{i}.name={name}"
+            f"&contacts.{i}.law=Spring&contacts.{i}.stiffness={stiffness}"
+            for i, (name, mass, size, stiffness) in enumerate(
+                [("basketball", 0.15, 0.16, 2500), ("tennis", 0.057, 0.066, 1000)]
+            )
+        )
+    )
+    page.locator("#stage [data-ball='1'] .ball-body").wait_for()
+    return page
+
+
+def test_the_lowest_ball_is_lifted_with_the_stack(visit):
+    page = opened(visit)
+    x, y, _ = body(page, 0)
+    drag(page, (x, y), (x, y - 60))
+    assert visit.state("drop.height") > 0.51
+    assert visit.state("drop.gaps") == [0]
+    visit.ready()
+    page.get_by_role("button", name="Undo", exact=True).click()
+    assert visit.state("drop.height") == 0.5  # the whole movement is one step
+
+
+def test_an_upper_ball_is_lifted_off_and_put_below(visit):
+    page = opened(visit)
+    x, y, _ = body(page, 1)
+    drag(page, (x, y), (x, y - 30))
+    gap = visit.state("drop.gaps[0]")
+    assert 0.001 < gap < 0.2
+    visit.ready()
+    page.get_by_role("button", name="Undo", exact=True).click()
+    visit.ready()
+    page.evaluate("() => { const { clock } = window.stackbounce; clock.pause(); }")
+    page.wait_for_timeout(200)
+    x, y, _ = body(page, 1)
+    drag(page, (x, y), (x, y + 260))
+    page.wait_for_function("() => window.stackbounce.store.get().drop.balls[0].name === 'tennis'")
+    turned = sb.Drop.from_mapping(visit.state("drop"))
+    assert turned.contacts == stack(["tennis", "basketball"]).contacts
+
+
+def test_the_edge_of_a_ball_changes_its_size_alone(visit):
+    page = opened(visit)
+    x, y, radius = body(page, 0)
+    drag(page, (x + 0.93 * radius, y), (x + 1.3 * radius, y))
+    balls = visit.state("drop.balls")
+    assert balls[0]["diameter"] > 0.18
+    assert balls[0]["mass"] == 0.15
+    assert visit.state("drop.height") == 0.5

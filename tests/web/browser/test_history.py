@@ -1,0 +1,131 @@
+"""Undo, redo, reset, and the browser's Back."""
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+FIRST_MASS = 0.057
+
+
+@pytest.fixture
+def address(address_of_server):
+    """Open the page of the server: the other forms have the same modules."""
+    return address_of_server
+
+
+def mass(visit):
+    return visit.state("drop.balls[1].mass")
+
+
+def drag(page, slider, share):
+    """Drag a slider to a share of its width, in many small movements."""
+    box = page.locator(slider).bounding_box()
+    y = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + box["width"] / 2, y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + share * box["width"], y, steps=8)
+    page.mouse.up()
+
+
+def test_one_movement_of_a_slider_is_one_step(visit):
+    page = visit.open()
+    undo, redo = (page.get_by_role("button", name=name, exact=True) for name in ("Undo", "Redo"))
+    assert undo.is_disabled()
+    assert redo.is_disabled()
+    drag(page, "[data-slider='balls.1.mass']", 0.8)
+    first = mass(visit)
+    assert first != FIRST_MASS
+    drag(page, "[data-slider='balls.1.mass']", 0.2)
+    second = mass(visit)
+    assert second != first
+    undo.click()
+    assert mass(visit) == first
+    undo.click()
+    assert mass(visit) == FIRST_MASS
+    assert page.locator("[data-path='balls.1.mass']").input_value() == "57"
+    assert undo.is_disabled()
+    redo.click()
+    redo.click()
+    assert mass(visit) == second
+    assert redo.is_disabled()
+    page.get_by_label("Remove tennis").click()
+    visit.ready()
+    page.keyboard.press("Control+z")
+    assert mass(visit) == second
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Control+y")
+    page.keyboard.press("Control+Shift+Z")
+    assert len(visit.state("drop.balls")) == 1
+
+
+def test_keys_in_a_field_are_the_fields_own(visit):
+    page = visit.open()
+    field = page.locator("[data-path='balls.1.mass']")
+    field.fill("60 g")
+    field.press("Enter")
+    assert mass(visit) == 0.06
+    field.press("Control+z")
+    assert mass(visit) == 0.06
+
+
+def test_a_reset_can_be_undone(visit):
+    page = visit.open()
+    page.get_by_label("Remove tennis").click()
+    page.wait_for_function("() => window.stackbounce.store.get().drop.balls.length === 1")
+    page.get_by_role("button", name="Reset").click()
+    assert len(visit.state("drop.balls")) == 2
+    page.get_by_role("button", name="Undo", exact=True).click()
+    assert len(visit.state("drop.balls")) == 1
+
+
+def test_back_undoes_views_and_examples_and_keeps_the_drop(visit):
+    page = visit.open()
+    page.get_by_role("tab", name="Map").click()
+    visit.page.evaluate(
+        """() => { const { store } = window.stackbounce; const { drop } = store.get();
+             const balls = [drop.balls[0], { ...drop.balls[1], mass: 0.07 }];
+             store.set({ drop: { ...drop, balls } }); }"""
+    )
+    page.go_back()
+    page.wait_for_function("() => window.stackbounce.store.get().view === 'play'")
+    assert mass(visit) == 0.07  # changed after the view that Back undid
+    page.get_by_label("Example").select_option("figure-5")
+    assert visit.state("drop.balls.length") == 2
+    assert mass(visit) != 0.07
+    page.get_by_role("tab", name="Line").click()
+    page.go_back()
+    page.wait_for_function("() => window.stackbounce.store.get().view === 'play'")
+    assert mass(visit) != 0.07
+    page.go_back()
+    page.wait_for_function("() => window.stackbounce.store.get().drop.balls[1].mass === 0.07")
+    page.go_forward()
+    page.wait_for_function("() => window.stackbounce.store.get().drop.balls[1].mass !== 0.07")
+    page.keyboard.press("Control+z")
+    assert mass(visit) == 0.07
+
+
+def test_a_law_that_is_chosen_again_has_its_numbers(visit):
+    page = visit.open()
+    law = page.locator("[data-key=law-0]")
+
+    def choose(name):
+        law.select_option(name)
+        page.wait_for_function(
+            f"() => window.stackbounce.store.get().drop.contacts[0].law === '{name}'"
+        )
+
+    field = page.locator("[data-path='contacts.0.stiffness']")
+    field.fill("3.3")
+    field.press("Enter")
+    choose("Rigid")
+    choose("Spring")
+    assert [one["stiffness"] for one in visit.state("drop.contacts")] == [3300, 1000]
+    choose("Rigid")
+    field = page.locator("[data-path='contacts.0.restitution']")
+    field.fill("0.9")
+    field.press("Enter")
+    choose("Spring")
+    assert [one["stiffness"] for one in visit.state("drop.contacts")] == [3300, 1000]
+    choose("none")
+    choose("Spring")
+    assert visit.state("drop.contacts[0].stiffness") == 3300

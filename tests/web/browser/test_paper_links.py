@@ -1,0 +1,26 @@
+"""The links of the paper's page open the drops and lines of its figures."""
+
+import pytest
+
+from stackbounce.cross2007.playable import link_figures
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def address(address_of_server):
+    return address_of_server
+
+
+def test_figures_are_played_and_lines_opened(visit):
+    links = link_figures("")
+    visit.open(links["11b"][0].address)
+    assert (visit.state("view"), visit.state("notice")) == ("play", None)
+    assert visit.state("drop.gaps[0]") == pytest.approx(0.024, abs=1e-4)
+    assert visit.state("result.intervals.length") > 9
+    page = visit.page
+    page.goto(f"{visit.address}{links['6'][1].address}")
+    page.wait_for_function("() => window.stackbounce.store.get().view === 'line'")
+    assert visit.state("line.x.path") == "stiffness_ratio"
+    assert visit.state("drop.balls[1].name") == "B2"
+    assert visit.state("notice") is None
