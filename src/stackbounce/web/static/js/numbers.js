@@ -2,7 +2,7 @@
 
 import { h, renew } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
-import { formatMeasured, withSpread } from "./quantity.js";
+import { withSpread } from "./quantity.js";
 import { fixed, format } from "./units.js";
 import { ballName, capital, contactName, count, highest, percent, setUp, shortContact } from "./words.js";
 
@@ -64,16 +64,17 @@ function ballTable(result, until, prediction) {
 /** The columns of an impact, of the drop itself or of its separate collisions; `fall`: with heights in terms of the fall. */
 function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratios, rebound_heights: heights }, prediction, fall = true) {
   const known = (name, ball) => prediction?.values?.[`${name}.${ball}`];
-  const { unit, write } = heightsIn(heights);
+  const { unit, factor, write } = heightsIn(heights);
   const rise = (ball) => {
     const { value, error } = known("rebound_heights", ball) ?? {};
-    return error > 0 ? formatMeasured(value, error, "m") : write(heights[ball]);
+    return withSpread({ value: value * factor, error: error * factor }) ?? write(heights[ball]);
   };
+  const multiples = fall && !prediction?.values; // there is no room for both
   const fallen = speedOf(drop) ** 2 / 2 / GRAVITY;
   return [
     { name: "m/s", cell: (ball) => withSpread(known("rebound_speeds", ball)) ?? fixed(speeds[ball], 2) },
     { name: "v / v₀", cell: (ball) => withSpread(known("rebound_ratios", ball)) ?? fixed(ratios[ball], 3) },
-    { name: [`rises ${unit}`, fall ? wide(" (× drop)") : null], cell: (ball) => [rise(ball), fall ? times(heights[ball], fallen) : null] },
+    { name: [`rises ${unit}`, multiples ? wide(" (× drop)") : null], cell: (ball) => [rise(ball), multiples ? times(heights[ball], fallen) : null] },
   ];
 }
 
@@ -90,7 +91,7 @@ function heightsIn(heights) {
   const most = Math.max(0, ...heights.filter(Number.isFinite));
   const [unit, factor, decimals] = most < 0.1 ? ["mm", 1e3, 1] : ["m", 1, most < 1 ? 3 : 2];
   const write = (value) => (Number.isFinite(value) ? fixed(Math.max(value, 0) * factor, decimals) : "–");
-  return { unit, write };
+  return { unit, factor, write };
 }
 
 /** Return how many times the height of the drop a ball comes up, to stand behind the height. */
@@ -129,7 +130,7 @@ function facts(result, until, prediction) {
   set.classList.add("print-only");
   list.prepend(set);
   if (result.separate?.error) list.append(pair("Textbook", result.separate.error));
-  const said = errorWords(prediction);
+  const said = errorWords(prediction, drop);
   if (said) list.append(pair("Errors", said));
   const asked = until !== null && result.status === "TIME_REACHED";
   if (result.status !== "FINISHED" && !asked) list.append(pair("Note", capital(result.advice)));
@@ -144,12 +145,25 @@ function impulses({ drop, intervals }) {
 }
 
 /** How the errors were found, and what to measure better, in sentences. */
-function errorWords(prediction) {
+function errorWords(prediction, drop) {
   if (!prediction) return "";
   if (prediction.problem) return capital(prediction.problem);
   const { how, advice, notes } = prediction;
   const words = [how, advice, ...notes, "bands show one standard deviation"].filter(Boolean);
-  return words.map((text) => `${capital(text)}.`).join(" ");
+  return words.map((text) => `${capital(inWords(text, drop))}.`).join(" ");
+}
+
+/** Return a text in which paths, such as `rebound_speeds.1` or `contacts.0.stiffness`, are words. */
+function inWords(text, drop) {
+  const named = (_, name, index, number) => {
+    if (name === "gaps") return `gap below ${ballName(drop, Number(index) + 1)}`;
+    const who = name === "balls" || name.startsWith("rebound_") ? ballName : shortContact;
+    return `${number ?? name} of ${who(drop, Number(index))}`;
+  };
+  return text
+    .replace(/\b([a-z_]+)\.(\d)(?:\.([a-z_]+))?/g, named)
+    .replace(/\bcontact (\d)\b/g, (_, contact) => shortContact(drop, Number(contact)))
+    .replaceAll("_", " ");
 }
 
 /** The table of the contact intervals. */
