@@ -88,7 +88,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     const said = words(scene, clock, view);
     write(time, said.time);
     write(scale, said.note);
-    if (!clock.playing) put(svg, "aria-label", spoken(scene, clock.time, now));
+    if (!clock.playing || !svg.hasAttribute("aria-label")) put(svg, "aria-label", spoken(scene, clock.time, now));
   };
 
   const showParts = () => {
