@@ -15,7 +15,7 @@ export function contactName(drop, contact) {
 
 /** Return a ball's name as short as a legend of many needs it: its place, whose colour stands beside it. */
 export function shortBall(drop, ball) {
-  return drop.balls.length > 3 ? String(ball) : ballName(drop, ball);
+  return drop.balls.length > 4 ? String(ball) : ballName(drop, ball);
 }
 
 /** Return a contact's name, short where there are many. */
