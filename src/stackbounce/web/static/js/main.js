@@ -7,6 +7,7 @@ import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
 import { h, write } from "./dom.js";
 import { takeFiles } from "./dropped.js";
+import { mountEmbed } from "./embed.js";
 import { direct } from "./film_director.js";
 import { mountGuess } from "./guess.js";
 import { mountHands } from "./hands.js";
@@ -49,6 +50,7 @@ mountNumbers({ root: place("numbers"), table: place("intervals") }, store);
 mountShare(place("share"), store, api);
 mountHistory(place("history"), store);
 mountHands(place("stage"), store, clock, api);
+mountEmbed(place("transport"), store);
 const loadLine = () => import("./line.js");
 const loadMap = () => import("./map.js");
 mountTabs(store, {
