@@ -93,3 +93,21 @@ def test_the_one_file_has_the_same_form(page, one_file):
     link = page.get_by_role("link", name="Open the explorer").get_attribute("href")
     assert link.startswith(f"{one_file.as_uri()}#view=play&balls.0.mass=0.15")
     assert "centre=1" in link
+
+
+def test_full_screen_shows_the_film_larger(visit, address_of_server):
+    visit.address = address_of_server
+    page = visit.open()
+    size = "() => parseFloat(getComputedStyle(document.querySelector('.scene-time')).fontSize)"
+    before = page.evaluate(size)
+    page.get_by_role("button", name="Full screen").click()
+    leave = page.get_by_role("button", name="Leave full screen")
+    leave.wait_for()
+    assert page.evaluate(size) > 1.5 * before
+    assert page.locator(".sentence-lead").is_visible()
+    assert not page.locator("#controls").is_visible()
+    assert not page.locator(".results").is_visible()
+    leave.click()
+    page.get_by_role("button", name="Full screen", exact=True).wait_for()
+    assert page.locator("#controls").is_visible()
+    assert page.evaluate(size) == before

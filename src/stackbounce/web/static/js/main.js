@@ -9,6 +9,7 @@ import { h, write } from "./dom.js";
 import { takeFiles } from "./dropped.js";
 import { mountEmbed } from "./embed.js";
 import { direct } from "./film_director.js";
+import { mountFullScreen } from "./full_screen.js";
 import { mountGuess } from "./guess.js";
 import { mountHands } from "./hands.js";
 import { mountHistory } from "./history.js";
@@ -51,6 +52,7 @@ mountShare(place("share"), store, api);
 mountHistory(place("history"), store);
 mountHands(place("stage"), store, clock, api);
 mountEmbed(place("transport"), store);
+mountFullScreen(place("play"), place("stage"));
 const loadLine = () => import("./line.js");
 const loadMap = () => import("./map.js");
 mountTabs(store, {
