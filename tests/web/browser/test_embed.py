@@ -111,3 +111,40 @@ def test_full_screen_shows_the_film_larger(visit, address_of_server):
     page.get_by_role("button", name="Full screen", exact=True).wait_for()
     assert page.locator("#controls").is_visible()
     assert page.evaluate(size) == before
+
+
+def cursor_places(page):
+    """Return how far the cursor is from the left of each plot, in px."""
+    return page.evaluate(
+        """() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() =>
+             done([...document.querySelectorAll('.plot .cursor-line')].map((line) =>
+               parseFloat(/translateX\\(([-\\d.]+)px/.exec(line.style.transform)[1]))))))"""
+    )
+
+
+def test_plots_zoom_together_and_follow_the_cursor(visit, address_of_server):
+    visit.address = address_of_server
+    page = visit.open("#view=play&t=0.01")
+    longer, shorter, whole = (
+        page.get_by_role("button", name=name)
+        for name in ("Show a longer time", "Show a shorter time", "Show the whole time")
+    )
+    assert longer.is_disabled()
+    assert whole.is_disabled()
+    width = page.locator(".plot .u-over").first.bounding_box()["width"]
+    seek = "(time) => window.stackbounce.clock.seek(time)"
+    before = cursor_places(page)
+    for _ in range(3):
+        shorter.click()
+    assert cursor_places(page) == pytest.approx([width / 2] * 3, abs=1.0)
+    page.evaluate(seek, 0.011)
+    moved = cursor_places(page)
+    page.evaluate(seek, 0.03)  # outside: the range follows
+    assert cursor_places(page) == pytest.approx([0.1 * width] * 3, abs=1.0)
+    whole.click()
+    page.evaluate(seek, 0.01)
+    assert cursor_places(page) == pytest.approx(before, abs=0.5)
+    page.evaluate(seek, 0.011)
+    step = cursor_places(page)[0] - before[0]
+    assert moved[0] - width / 2 == pytest.approx(8 * step, abs=1.5)
+    assert whole.is_disabled()
