@@ -7,11 +7,18 @@ pytestmark = pytest.mark.slow
 STUB = """
 window.contexts = 0;
 window.knocks = [];
-class Node { constructor(context, options) { Object.assign(this, options);
-    if ('gain' in options) this.gain = { value: options.gain, setValueAtTime() {}, exponentialRampToValueAtTime() {} }; }
+class Node {
+  constructor(context, { frequency, gain }) {
+    Object.assign(this, { frequency });
+    this.gain = { value: gain, setValueAtTime() {}, exponentialRampToValueAtTime() {} };
+  }
   connect(other) { this.to = other; return other; }
-  start() { knocks.push({ reel: stackbounce.clock.reel, pitch: this.frequency, gain: this.to.gain.value }); }
-  stop() {} }
+  start() {
+    const { reel } = stackbounce.clock;
+    knocks.push({ reel, pitch: this.frequency, gain: this.to.gain.value });
+  }
+  stop() {}
+}
 window.OscillatorNode = window.GainNode = Node;
 window.AudioContext = class { constructor() { contexts += 1; this.currentTime = 0; } resume() {} };
 """
