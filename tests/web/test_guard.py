@@ -70,6 +70,7 @@ def test_every_answer_has_the_headers(server, path):
     assert "default-src 'none'" in headers["content-security-policy"]
     assert "frame-ancestors 'none'" in headers["content-security-policy"]
     assert headers["x-content-type-options"] == "nosniff"
+    assert headers["permissions-policy"] == "camera=(), geolocation=(), microphone=(self)"
     assert headers["cross-origin-resource-policy"] == "same-origin"
     assert headers["referrer-policy"] == "no-referrer"
     assert "set-cookie" not in headers

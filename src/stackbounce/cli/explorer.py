@@ -54,11 +54,23 @@ def run(
             show_default=False,
         ),
     ] = None,
+    embed: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="ORIGIN",
+            help="A site that may show the page in a frame, such as https://moodle.school.example; "
+            "may be repeated. By default none may.",
+            show_default=False,
+        ),
+    ] = None,
     as_json: AsJson = False,
 ) -> None:
     """Open the explorer in the browser: the bounce in slow motion."""
+    from stackbounce.web.framing import read_origin
+
+    framed_by = [read_origin(one) for one in embed or ()]
     if export is not None:
-        _export(export, as_json)
+        _export(export, framed_by, as_json)
         return
     import dataclasses
 
@@ -79,7 +91,7 @@ def run(
     by_default = min(max((os.cpu_count() or 1) // 2, 2), 4)
     count = by_default if workers is None else whole("--workers", workers, 1, 64)
     limits = dataclasses.replace(LIMITS, workers=count)
-    serve(host, port, limits, browser=browser, tell=tell)
+    serve(host, port, limits, browser=browser, tell=tell, framed_by=framed_by)
 
 
 def _tell_others(others: "list[Place]") -> None:
@@ -102,10 +114,11 @@ def _tell_others(others: "list[Place]") -> None:
         typer.secho(line.ljust(width), fg="bright_white", bg="black")
 
 
-def _export(path: str, as_json: bool) -> None:
-    """Write the explorer as one file or as a folder, and tell its size."""
+def _export(path: str, framed_by: list[str], as_json: bool) -> None:
+    """Write the explorer as one file or as a folder, and tell its size and who may frame it."""
     from stackbounce.errors import InvalidValue
     from stackbounce.version import __version__
+    from stackbounce.web.framing import frame_rule
 
     if not path:  # Path("") is the current folder
         raise InvalidValue("--export must name a file that ends in .html, or a folder, got ''")
@@ -113,9 +126,18 @@ def _export(path: str, as_json: bool) -> None:
     sizes = _write_file(Path(path)) if is_file else _write_folder(Path(path))
     size = sum(sizes)
     kind = "file" if is_file else "folder"
-    told = json_text({"stackbounce": __version__, kind: path, "bytes": size})
+    header = f"Content-Security-Policy: {frame_rule(framed_by)}" if framed_by else None
+    if as_json:
+        known = {} if header is None else {"header": header}
+        typer.echo(json_text({"stackbounce": __version__, kind: path, "bytes": size, **known}))
+        return
     files = "" if is_file else f" in {len(sizes)} files"
-    typer.echo(told if as_json else f"{path}: the explorer{files}, {size / 1e3:.0f} kB")
+    typer.echo(f"{path}: the explorer{files}, {size / 1e3:.0f} kB")
+    if header is not None:
+        typer.echo(
+            "A browser takes the sites that may frame a page from the web server alone. "
+            f"Let yours send this header with the page:\n{header}"
+        )
 
 
 def _write_file(path: Path) -> list[int]:

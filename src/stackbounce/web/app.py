@@ -92,7 +92,7 @@ ROUTES = (
 """All addresses that take and return JSON; a new one is a line here."""
 
 
-def create_app(limits: Limits, others: Sequence[Place] = ()) -> Any:
+def create_app(limits: Limits, others: Sequence[Place] = (), framed_by: Sequence[str] = ()) -> Any:
     """Return the explorer's server, an ASGI application.
 
     Parameters
@@ -101,6 +101,8 @@ def create_app(limits: Limits, others: Sequence[Place] = ()) -> Any:
         Of the server as a whole; those of a single request are always `LIMITS`.
     others : sequence of Place
         The addresses that others can type, for the page to show.
+    framed_by : sequence of str
+        The origins of the sites that may show the page in a frame.
 
     Returns
     -------
@@ -139,7 +141,7 @@ def create_app(limits: Limits, others: Sequence[Place] = ()) -> Any:
     _add_queries(app, workers, limits, others)
     _add_files(app, workers)
     _add_pages(app)
-    return Guard(app, limits)
+    return Guard(app, limits, framed_by)
 
 
 def _json(text: str) -> Response:

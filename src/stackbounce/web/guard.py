@@ -11,9 +11,10 @@ import json
 import re
 import socket
 import threading
-from collections.abc import Awaitable, Callable, MutableMapping
+from collections.abc import Awaitable, Callable, MutableMapping, Sequence
 from typing import Any
 
+from stackbounce.web.framing import frame_rule
 from stackbounce.web.limits import Limits
 from stackbounce.web.page.policy import PAGE
 from stackbounce.web.shares import AGAIN_SECONDS, Busy, Shares, client_of
@@ -25,7 +26,7 @@ _Receive = Callable[[], Awaitable[_Message]]
 _Send = Callable[[_Message], Awaitable[None]]
 _App = Callable[[_Message, _Receive, _Send], Awaitable[None]]
 
-_PAGE = f"{PAGE}; frame-ancestors 'none'"
+_FRAMED = ("/", "/index.html")  # the addresses of the page, which other sites may frame if asked
 PAPER = (
     "default-src 'none'; style-src 'self' 'unsafe-inline'; img-src 'self' data:; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
@@ -39,7 +40,7 @@ _HEADERS = {
     "cross-origin-opener-policy": "same-origin",
     "cross-origin-resource-policy": "same-origin",
     "cross-origin-embedder-policy": "require-corp",
-    "permissions-policy": "camera=(), geolocation=(), microphone=()",
+    "permissions-policy": "camera=(), geolocation=(), microphone=(self)",
     "cache-control": "no-cache",
 }
 _HOST = re.compile(r"(\[[0-9A-Fa-f:.]+\]|[\w.-]+)(?::\d{1,5})?", re.ASCII)
@@ -67,6 +68,8 @@ class Guard:
         The ASGI application that answers admitted requests.
     limits : Limits
         Limits of the size of a request and of the time in which it must arrive.
+    framed_by : sequence of str
+        The origins of the sites that may show the page in a frame.
 
     Examples
     --------
@@ -74,8 +77,8 @@ class Guard:
     >>> guard = Guard(None, LIMITS)
     """
 
-    def __init__(self, app: Any, limits: Limits) -> None:
-        self._app, self._limits = app, limits
+    def __init__(self, app: Any, limits: Limits, framed_by: Sequence[str] = ()) -> None:
+        self._app, self._limits, self._framed_by = app, limits, framed_by
         self._held = Shares("too much data", limits.held_bytes, limits.client_bytes)
         self._names = _find_names()
 
@@ -87,7 +90,7 @@ class Guard:
         headers = {
             key.decode("latin-1"): value.decode("latin-1") for key, value in scope["headers"]
         }
-        answer = _Answer(send, scope["path"])
+        answer = _Answer(send, scope["path"], self._framed_by)
         coming = _Coming(receive)
         body = bytearray()
         try:
@@ -221,14 +224,15 @@ def _replay(body: bytes, leaving: asyncio.Future[_Message]) -> _Receive:
 class _Answer:
     """An answer that is being sent, with the security headers."""
 
-    def __init__(self, send: _Send, path: str) -> None:
+    def __init__(self, send: _Send, path: str, framed_by: Sequence[str]) -> None:
         self._send = send
         self._paper = path.startswith("/paper")
-        policy = PAPER if self._paper else _PAGE
-        self._own = [
-            (name.encode(), value.encode())
-            for name, value in (_HEADERS | {"content-security-policy": policy}).items()
-        ]
+        origins = framed_by if path in _FRAMED else ()
+        policy = PAPER if self._paper else f"{PAGE}; {frame_rule(origins)}"
+        headers = _HEADERS | {"content-security-policy": policy}
+        if origins:
+            del headers["x-frame-options"]  # it knows no list of sites
+        self._own = [(name.encode(), value.encode()) for name, value in headers.items()]
         self._started = False
         self.complete = False
 

@@ -9,7 +9,7 @@ import socket
 import threading
 import time
 import webbrowser
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from stackbounce.errors import FileError, InvalidValue, whole
@@ -35,6 +35,7 @@ def serve(
     *,
     browser: bool,
     tell: Callable[[str, list[Place]], None],
+    framed_by: Sequence[str] = (),
 ) -> None:
     """Serve the explorer until it is interrupted.
 
@@ -52,6 +53,8 @@ def serve(
     tell : callable
         Called with the address of the page on this machine, and with those for others, once the
         server has started.
+    framed_by : sequence of str
+        The origins of the sites that may show the page in a frame.
 
     Raises
     ------
@@ -76,7 +79,7 @@ def serve(
         port = listening.getsockname()[1]
         address, others = url(_own_host(host), port), list_places(host, port)
         config = uvicorn.Config(
-            create_app(limits, others),
+            create_app(limits, others, framed_by),
             http=make_protocol(limits),
             ws="none",
             log_level="error",  # what clients do wrong, they are told

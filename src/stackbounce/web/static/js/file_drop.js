@@ -2,6 +2,7 @@
 
 import { h } from "./dom.js";
 import { EXAMPLES } from "./examples.js";
+import { microphone } from "./microphone.js";
 
 /** Return the element; `take` hears each file, and the drop of an example. */
 export function fileDrop(root, take) {
@@ -56,6 +57,7 @@ export function fileDrop(root, take) {
       h("span", { text: "or drop it here" }),
       input,
     ),
+    microphone(take),
     h(
       "details",
       { class: "examples", open: true },

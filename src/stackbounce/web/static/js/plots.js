@@ -5,15 +5,25 @@ import { between, locate } from "./clock.js";
 import { describePanel, panels } from "./curves.js";
 import { h, write } from "./dom.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
+import { PlotZoom } from "./plot_zoom.js";
 import { format } from "./units.js";
 
 /** Draw the plots into `root` and keep their cursor at the clock's time. */
 export function mountPlots(root, store, clock) {
   let shown = [];
+  let extent = [0, 1]; // s, of what is plotted
+  const redraw = () => {
+    for (const one of shown) one.plot.setData(one.data());
+    clock.touch();
+  };
+  const zoom = new PlotZoom(clock, () => extent, redraw);
+  zoom.element.hidden = true;
+  root.before(zoom.element);
   const build = () => {
     const { result, until, overlays, prediction, view } = store.get();
     if (!result || view !== "play") return;
     const wanted = panels(result, until !== null, overlays, prediction);
+    extent = [result.frames.time[0], result.frames.time.at(-1)];
     const same = shown.length > 0 && wanted.every((panel, i) => shown[i].key === keyOf(panel));
     if (same) {
       wanted.forEach((panel, i) => shown[i].update(panel));
@@ -21,8 +31,9 @@ export function mountPlots(root, store, clock) {
       for (const one of shown) one.remove();
       const colors = palette();
       root.replaceChildren();
-      shown = wanted.map((panel) => new Panel(root, panel, colors, clock));
+      shown = wanted.map((panel) => new Panel(root, panel, colors, clock, zoom));
     }
+    zoom.element.hidden = false;
     clock.touch();
   };
   const repaint = () => {
@@ -48,9 +59,10 @@ function keyOf({ what, unit, timeUnit, lines, overlays }) {
 
 /** One plot with its heading and legend. */
 class Panel {
-  constructor(root, panel, colors, clock) {
+  constructor(root, panel, colors, clock, zoom) {
     this.key = keyOf(panel);
     this.colors = colors;
+    this.zoom = zoom;
     this.values = panel.lines.map(() => h("span", { class: "legend-value" }));
     const items = panel.lines.map((line, i) => this.legendItem(line, this.values[i]));
     this.host = h("div", { class: "plot-canvas", role: "img" });
@@ -145,7 +157,7 @@ class Panel {
       legend: { show: false },
       cursor: { show: false },
       scales: {
-        x: { time: false, range: () => [this.panel.times[0], this.panel.times.at(-1)] },
+        x: { time: false, range: () => this.zoom.range().map((time) => time * this.panel.scale) },
         y: { range: (_, low, high) => this.range(low, high) },
       },
       axes: [

@@ -26,6 +26,7 @@ export const FIRST = {
   arrows: true, // velocities on the stage
   momentum: false, // bars below it
   centre: false, // of mass
+  sound: false, // a knock at each contact
   speed: 1, // of the film
   loop: false,
   predict: false, // first a guess, then the film

@@ -129,6 +129,7 @@ const SHOWN = [
   ["arrows", "Velocities"],
   ["momentum", "Momentum"],
   ["centre", "Centre of mass"],
+  ["sound", "Sound"],
 ];
 
 /** Return the row of what the stage shows. */

@@ -1,0 +1,150 @@
+"""The page in a frame of another site's page, and in full screen."""
+
+import functools
+import http.server
+import subprocess
+import sys
+import threading
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_):
+        pass
+
+
+@pytest.fixture(scope="module")
+def school(tmp_path_factory):
+    """Serve a page of another site, which frames the address after its question mark."""
+    folder = tmp_path_factory.mktemp("school")
+    (folder / "index.html").write_text(
+        "<!doctype html><title>School</title><iframe width=640 height=480></iframe><script>"
+        "document.querySelector('iframe').src = decodeURIComponent(location.search.slice(1))"
+        "</script>"
+    )
+    handler = functools.partial(Quiet, directory=folder)
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.05,))
+        thread.start()
+        yield f"http://127.0.0.1:{server.server_port}"
+        server.shutdown()
+        thread.join()
+
+
+@pytest.fixture(scope="module")
+def open_to(school):
+    """Serve the explorer where the school's pages may frame it; yield its address."""
+    command = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--port", "0"]
+    command += ["--workers", "1", "--embed", school]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
+        try:
+            yield process.stdout.readline().split()[2]
+        finally:
+            process.terminate()
+
+
+@pytest.fixture
+def page(browser):
+    """Open a page whose complaints are not looked at: a browser logs what a policy refuses."""
+    page = browser.new_page(viewport={"width": 900, "height": 640})
+    page.set_default_timeout(30_000)
+    yield page
+    page.close()
+
+
+def frame_of(page, school, address):
+    page.goto(f"{school}/?{address.replace('#', '%23')}")
+    return page.frame_locator("iframe")
+
+
+def test_a_site_that_may_frames_the_page_and_its_link_opens_the_whole(page, school, open_to):
+    frame = frame_of(page, school, f"{open_to}?embed#view=map&centre=1")
+    frame.locator(".sentence-lead").get_by_text("tennis").wait_for()
+    frame.locator("#stage .ball").first.wait_for()
+    assert frame.get_by_role("button", name="Replay").is_visible()
+    for hidden in (".top", ".results", "#controls", "#map"):
+        assert not frame.locator(hidden).is_visible(), hidden
+    with page.context.expect_page() as opened:
+        frame.get_by_role("link", name="Open the explorer").click()
+    whole = opened.value
+    whole.locator("#controls [data-path='gaps.0']").wait_for()
+    assert whole.url.startswith(f"{open_to}#view=play&")
+    assert "centre=1" in whole.url
+    assert whole.locator(".top").is_visible()
+    whole.close()
+
+
+def test_a_site_that_may_not_is_refused(page, school, address_of_server):
+    refused = []
+    page.on("console", lambda message: refused.append(message.text))
+    frame = frame_of(page, school, f"{address_of_server}?embed")
+    page.wait_for_timeout(500)
+    assert frame.locator("#stage").count() == 0
+    assert "frame-ancestors 'none'" in " ".join(refused)
+
+
+def test_the_one_file_has_the_same_form(page, one_file):
+    page.goto(f"{one_file.as_uri()}?embed#view=map&centre=1")
+    page.locator("#stage .ball").first.wait_for()
+    assert not page.locator(".top").is_visible()
+    link = page.get_by_role("link", name="Open the explorer").get_attribute("href")
+    assert link.startswith(f"{one_file.as_uri()}#view=play&balls.0.mass=0.15")
+    assert "centre=1" in link
+
+
+def test_full_screen_shows_the_film_larger(visit, address_of_server):
+    visit.address = address_of_server
+    page = visit.open()
+    size = "() => parseFloat(getComputedStyle(document.querySelector('.scene-time')).fontSize)"
+    before = page.evaluate(size)
+    page.get_by_role("button", name="Full screen").click()
+    leave = page.get_by_role("button", name="Leave full screen")
+    leave.wait_for()
+    assert page.evaluate(size) > 1.5 * before
+    assert page.locator(".sentence-lead").is_visible()
+    assert not page.locator("#controls").is_visible()
+    assert not page.locator(".results").is_visible()
+    leave.click()
+    page.get_by_role("button", name="Full screen", exact=True).wait_for()
+    assert page.locator("#controls").is_visible()
+    assert page.evaluate(size) == before
+
+
+def cursor_places(page):
+    """Return how far the cursor is from the left of each plot, in px."""
+    return page.evaluate(
+        """() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() =>
+             done([...document.querySelectorAll('.plot .cursor-line')].map((line) =>
+               parseFloat(/translateX\\(([-\\d.]+)px/.exec(line.style.transform)[1]))))))"""
+    )
+
+
+def test_plots_zoom_together_and_follow_the_cursor(visit, address_of_server):
+    visit.address = address_of_server
+    page = visit.open("#view=play&t=0.01")
+    longer, shorter, whole = (
+        page.get_by_role("button", name=name)
+        for name in ("Show a longer time", "Show a shorter time", "Show the whole time")
+    )
+    assert longer.is_disabled()
+    assert whole.is_disabled()
+    width = page.locator(".plot .u-over").first.bounding_box()["width"]
+    seek = "(time) => window.stackbounce.clock.seek(time)"
+    before = cursor_places(page)
+    for _ in range(3):
+        shorter.click()
+    assert cursor_places(page) == pytest.approx([width / 2] * 3, abs=1.0)
+    page.evaluate(seek, 0.011)
+    moved = cursor_places(page)
+    page.evaluate(seek, 0.03)  # outside: the range follows
+    assert cursor_places(page) == pytest.approx([0.1 * width] * 3, abs=1.0)
+    whole.click()
+    page.evaluate(seek, 0.01)
+    assert cursor_places(page) == pytest.approx(before, abs=0.5)
+    page.evaluate(seek, 0.011)
+    step = cursor_places(page)[0] - before[0]
+    assert moved[0] - width / 2 == pytest.approx(8 * step, abs=1.5)
+    assert whole.is_disabled()
