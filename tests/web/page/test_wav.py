@@ -1,4 +1,4 @@
-"""The WAV file that the page makes of a recording: Python's own reader and stackbounce's read it."""
+"""The WAV file that the page makes of a recording, read by Python and by stackbounce."""
 
 import subprocess
 import wave
