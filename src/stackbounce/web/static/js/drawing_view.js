@@ -4,6 +4,8 @@ import { h } from "./dom.js";
 import { t } from "./language.js";
 import { capital } from "./words.js";
 
+const NAMES = { line: t("line"), map: t("map") };
+
 /**
  * Return the elements of a view by what they are.
  * @param {string} name "line" or "map", with which their classes begin @param {string} keysText what the keys do
@@ -17,8 +19,8 @@ export function drawingView(name, keysText, drawing, marks) {
       class: named("board"),
       tabindex: "0",
       role: "application",
-      "aria-roledescription": t(name),
-      "aria-label": capital(t(name)),
+      "aria-roledescription": NAMES[name],
+      "aria-label": capital(NAMES[name]),
       "aria-describedby": `${named("keys")} ${named("summary")}`,
     },
     drawing,
@@ -33,7 +35,7 @@ export function drawingView(name, keysText, drawing, marks) {
   const summary = h("p", { class: "note", id: named("summary") });
   const keys = h("p", { class: "quiet", id: named("keys"), text: keysText });
   const box = h("div", { class: named("box") }, board, h("div", { class: named("over") }, message, again));
-  const figure = h("section", { class: named("figure"), "aria-label": capital(t(name)) }, title, readout, play, box, keys, live);
+  const figure = h("section", { class: named("figure"), "aria-label": capital(NAMES[name]) }, title, readout, play, box, keys, live);
   const stage = h("div", { class: `stage ${named("stage")}` });
   const told = h("p", { class: named("told") });
   return { stage, told, figure, drawing, marks, board, title, readout, play, live, message, again, summary };

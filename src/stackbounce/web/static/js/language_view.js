@@ -9,7 +9,8 @@ import { LANGUAGES, language } from "./language_choice.js";
 export function mountLanguage(root, store) {
   const options = LANGUAGES.map(([code, name]) => h("option", { value: code, lang: code, text: name, selected: code === language }));
   const set = (event) => store.set({ lang: event.target.value });
-  root.replaceChildren(h("select", { "aria-label": t("Language"), "data-key": "language", onchange: set }, options));
+  const select = h("select", { "aria-label": t("Language"), "data-key": "language", onchange: set }, options);
+  root.replaceChildren(h("span", { class: "language-code", "aria-hidden": "true", text: language.toUpperCase() }), select);
   store.subscribe(({ lang }, before) => {
     if (lang === before.lang || lang === language) return;
     history.replaceState(history.state, "", `#${addressOf(store.get())}`);
