@@ -17,6 +17,8 @@ function filled(text, values) {
   return values ? text.replace(/\{(\w+)\}/g, (whole, name) => values[name] ?? whole) : text;
 }
 
+let own = null; // sentences of the page, in its language
+
 /** Return whether an English text has a translation, be it the same text. */
 export function isTranslated(text) {
   return language === "en" || !text || toldAs(text) !== null;
@@ -27,10 +29,11 @@ export function translated(text) {
   return language === "en" || !text ? text : (toldAs(text) ?? text);
 }
 
-/** Write such a text; it is marked as English where it has no translation. */
+/** Write such a text, or a sentence of the page; it is marked as English where it has no translation. */
 export function writeTold(element, text) {
   write(element, translated(text));
-  if (isTranslated(text)) element.removeAttribute("lang");
+  own ??= new Set(Object.values(sentences));
+  if (isTranslated(text) || own.has(text)) element.removeAttribute("lang");
   else put(element, "lang", "en");
 }
 

@@ -46,8 +46,8 @@ export function summary(answer) {
   const [least, most] = [outcome(answer, low.value), outcome(answer, high.value)];
   const name = label[0].toUpperCase() + label.slice(1);
   if (least === most) return `${t("{name}: {value} everywhere.", { name, value: least })}${open}`;
-  const values = { name, low: least, where: place(answer, low.at), high: most, there: place(answer, high.at) };
-  return `${t("{name}: smallest {low} at {where}; largest {high} at {there}.", values)}${open}`;
+  const ends = { name, low: least, where: place(answer, low.at), high: most, there: place(answer, high.at) };
+  return `${t("{name}: smallest {low} at {where}; largest {high} at {there}.", ends)}${open}`;
 }
 
 /** For each ratio: the number that it sets, and the number that it refers to. */
