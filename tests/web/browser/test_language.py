@@ -1,4 +1,4 @@
-"""The page in the reader's language: from the browser, from the address, by the choice in the head."""
+"""The page in the reader's language: of the browser, of the address, or chosen in the head."""
 
 import pytest
 
