@@ -1,6 +1,8 @@
 /** The state in the address: a link shows again what it was copied from. */
 
 import { complete, isDrop } from "./drops.js";
+import { t } from "./language.js";
+import { isLanguage } from "./language_choice.js";
 import { FIRST, VIEWS } from "./store.js";
 
 const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height", "gravity"];
@@ -18,6 +20,7 @@ const REST = 300; // ms without a change
 /** Return a state as the text of a fragment: a drop by the paths of its numbers, as sweeps name them. */
 export function write(state) {
   const pairs = [["view", state.view]];
+  if (state.lang !== FIRST.lang) pairs.push(["lang", state.lang]);
   flatten("", state.drop, pairs);
   for (const [path, error] of Object.entries(state.errors)) pairs.push([`error.${path}`, error]);
   if (state.until !== FIRST.until) pairs.push(["until", state.until]);
@@ -52,12 +55,16 @@ export function read(fragment) {
     if (!taken) unknown.push(key.slice(0, LONGEST));
   }
   if (isDrop(drop)) Object.assign(patch, { drop: complete(drop), errors });
-  else if (Object.keys(drop).length) patch.notice = "The link holds no whole drop: this is what was here.";
+  else if (Object.keys(drop).length) patch.notice = t("The link holds no whole drop: this is what was here.");
   Object.assign(patch, settings);
   if (unknown.length) {
-    const more = unknown.length > NAMED ? ` and ${unknown.length - NAMED} more` : "";
     const names = unknown.slice(0, NAMED).map((name) => `“${name}”`).join(", ");
-    patch.notice = [patch.notice, `This page does not understand ${names}${more} in the link, and left it out.`].filter(Boolean).join(" ");
+    const values = { names, more: unknown.length - NAMED };
+    const left =
+      values.more > 0
+        ? t("This page does not understand {names} and {more} more in the link, and left it out.", values)
+        : t("This page does not understand {names} in the link, and left it out.", values);
+    patch.notice = [patch.notice, left].filter(Boolean).join(" ");
   }
   return patch;
 }
@@ -97,7 +104,7 @@ export function follow(store) {
   addEventListener("popstate", ({ state }) => {
     if (typeof state?.way !== "string") return; // a link was followed
     const [from, to] = [way, state.way].sort((one, other) => one.length - other.length);
-    const found = read(location.hash);
+    const { lang: _lang, ...found } = read(location.hash); // Back undoes no choice of a language
     way = state.way;
     written = location.hash;
     if (to.slice(from.length).includes(EXAMPLE)) show({ ...FIRST_SHOWN, ...found });
@@ -165,6 +172,7 @@ function readOne(patch, key, text) {
   const finite = typeof value === "number" && Number.isFinite(value);
   const takes = {
     view: () => VIEWS.includes(text) && [text],
+    lang: () => isLanguage(text) && [text],
     t: () => finite && [value],
   };
   for (const name of SWITCHES) takes[name] = () => [text !== "0"];

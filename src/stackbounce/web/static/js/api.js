@@ -2,6 +2,7 @@
 
 import { Client } from "./engine/client.js";
 import { pictureOf } from "./export_picture.js";
+import { t } from "./language.js";
 import { hasServer, loadParts, startWorker } from "./origin/served.js";
 
 let loaded = null;
@@ -52,13 +53,13 @@ async function ask(path, options) {
   try {
     response = await fetch(path, options);
   } catch {
-    throw Object.assign(new Error("The server does not answer."), { offline: true });
+    throw Object.assign(new Error(t("The server does not answer.")), { offline: true });
   }
   if (!response.ok) {
     const body = await response.json().catch(() => ({}));
     const detail = typeof body.detail === "string" ? body.detail : response.statusText;
     const busy = response.status >= 500 || response.status === 429;
-    throw Object.assign(new Error(detail || `The server answered ${response.status}.`), { offline: busy });
+    throw Object.assign(new Error(detail || t("The server answered {status}.", { status: response.status })), { offline: busy });
   }
   return response.json();
 }
@@ -71,7 +72,7 @@ export const fit = (form) => ask("api/fit", { method: "POST", body: form });
 
 /** Return what follows of the errors of a drop's numbers. */
 export async function predict(drop, errors, until = null) {
-  if (!hasServer) throw new Error("To carry errors forward needs stackbounce itself: “stackbounce app” opens a page that does");
+  if (!hasServer) throw new Error(t("To carry errors forward needs stackbounce itself: “stackbounce app” opens a page that does"));
   return ask("api/predict", {
     method: "POST",
     headers: { "Content-Type": "application/json" },

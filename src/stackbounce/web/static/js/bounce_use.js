@@ -3,9 +3,10 @@
 import { h, write } from "./dom.js";
 import { withValue } from "./drops.js";
 import { choice } from "./fields.js";
+import { t, translated, writeTold } from "./language.js";
 import { asBounced } from "./laws.js";
 import { formatMeasured } from "./quantity.js";
-import { ballName, capital, contactName } from "./words.js";
+import { ballName, capital, contactName, lawName } from "./words.js";
 
 /** Return `{element, offer(answer), follow()}`: `offer` takes the answer to a file, or null. */
 export function bounceUse(store, api) {
@@ -13,12 +14,12 @@ export function bounceUse(store, api) {
   const choose = h("div");
   const status = h("p", { class: "note", role: "status" });
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
-  const use = h("button", { type: "button", class: "primary", text: "Use this as the ball’s bounce", onclick: () => apply() });
-  const see = h("button", { type: "button", text: "See it in Play", hidden: true, onclick: () => play() });
+  const use = h("button", { type: "button", class: "primary", text: t("Use this as the ball’s bounce"), onclick: () => apply() });
+  const see = h("button", { type: "button", text: t("See it in Play"), hidden: true, onclick: () => play() });
   const element = h(
     "section",
     { class: "measure-card bounce-use", "aria-labelledby": "bounce-title", hidden: true },
-    h("h2", { id: "bounce-title", text: "Put it into the stack" }),
+    h("h2", { id: "bounce-title", text: t("Put it into the stack") }),
     says,
     choose,
     h("div", { class: "fit-buttons" }, use, see),
@@ -50,8 +51,8 @@ export function bounceUse(store, api) {
       chosen = value;
       use.disabled = value === "";
     };
-    const none = balls.length === 1 ? [] : [["", "Choose a ball"]];
-    choose.replaceChildren(choice({ label: "Which ball bounced?", key: "bounced", groups: [["", [...none, ...balls]]], value: chosen, set }));
+    const none = balls.length === 1 ? [] : [["", t("Choose a ball")]];
+    choose.replaceChildren(choice({ label: t("Which ball bounced?"), key: "bounced", groups: [["", [...none, ...balls]]], value: chosen, set }));
   };
   const follow = () => {
     const { drop } = store.get();
@@ -67,10 +68,11 @@ export function bounceUse(store, api) {
       const notes = [];
       notes[ball] = source(answer.file, ball);
       store.set({ drop: withValue(drop, `contacts.${ball}`, contact), notes });
-      write(status, `${capital(contactName(drop, ball))} is set: ${lawInWords(contact)}. ${ball > 0 ? ALONE : ""}`.trim());
+      const values = { contact: capital(contactName(drop, ball)), law: lawInWords(contact) };
+      write(status, `${t("{contact} is set: {law}.", values)} ${ball > 0 ? ALONE : ""}`.trim());
       see.hidden = false;
     } catch (error) {
-      write(problem, error.message);
+      writeTold(problem, error.message);
       problem.hidden = false;
     }
   };
@@ -81,28 +83,32 @@ export function bounceUse(store, api) {
   return { element, offer, follow };
 }
 
-const ALONE = "It is the bounce of this ball alone: that the ball below gives way, too, is left out.";
+const ALONE = t("It is the bounce of this ball alone: that the ball below gives way, too, is left out.");
 
 function source(file, ball) {
-  return `As measured: ${file}. ${ball > 0 ? ALONE : ""}`.trim();
+  return `${t("As measured: {file}.", { file })} ${ball > 0 ? ALONE : ""}`.trim();
 }
 
 /** Return what a file tells of a bounce, as a sentence. */
 function known({ file, bounce }) {
   const { restitution, contact_time: time, impact_speed: speed, contact } = bounce;
-  if (contact) return `${file} tells how stiff a ball is when it is pressed slowly: ${lawInWords(contact)}. In a bounce a ball is often stiffer.`;
+  if (contact) {
+    const values = { file, law: lawInWords(contact) };
+    return t("{file} tells how stiff a ball is when it is pressed slowly: {law}. In a bounce a ball is often stiffer.", values);
+  }
   const parts = [
-    restitution === null ? null : `a restitution of ${formatMeasured(restitution, null, "")}`,
-    time === null ? null : `a contact time of ${formatMeasured(time, null, "s")}`,
-    speed === null ? null : `an impact speed of ${formatMeasured(speed, null, "m/s")}`,
+    restitution === null ? null : t("a restitution of {value}", { value: formatMeasured(restitution, null, "") }),
+    time === null ? null : t("a contact time of {value}", { value: formatMeasured(time, null, "s") }),
+    speed === null ? null : t("an impact speed of {value}", { value: formatMeasured(speed, null, "m/s") }),
   ];
-  return `${file} gives ${parts.filter(Boolean).join(", ")}. If one ball bounced alone on the floor, this can be its bounce in the stack.`;
+  const values = { file, numbers: parts.filter(Boolean).join(", ") };
+  return t("{file} gives {numbers}. If one ball bounced alone on the floor, this can be its bounce in the stack.", values);
 }
 
 function lawInWords({ law, ...numbers }) {
   const units = { stiffness: numbers.exponent === undefined || numbers.exponent === 1 ? "N/m" : "" };
   const parts = Object.entries(numbers)
     .filter(([, value]) => typeof value === "number")
-    .map(([name, value]) => `${name.replaceAll("_", " ")} ${formatMeasured(value, null, units[name] ?? "")}`);
-  return `${law}, ${parts.join(", ")}`;
+    .map(([name, value]) => `${translated(name.replaceAll("_", " "))} ${formatMeasured(value, null, units[name] ?? "")}`);
+  return `${lawName(law)}, ${parts.join(", ")}`;
 }

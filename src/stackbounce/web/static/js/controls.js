@@ -3,24 +3,24 @@
 import { h, write } from "./dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
 import { choice, numberField } from "./fields.js";
+import { t, translated, writeTold } from "./language.js";
 import { asMeasured, changeLaw, lawMemory } from "./laws.js";
 import { withError } from "./prediction.js";
 import { restacked } from "./restack.js";
 import { withExample } from "./store.js";
-import { capital } from "./words.js";
 import { shapeOf, towerOf, withChosen } from "./tower.js";
 
 const INCIDENCE = [
-  ["height", "Height"],
-  ["impact_speed", "Speed"],
-  ["velocities", "Per ball"],
+  ["height", t("Height")],
+  ["impact_speed", t("Speed")],
+  ["velocities", t("Per ball")],
 ];
 
 /** Build the controls into `root`; they change the store's drop and follow it. */
 export function mountControls(root, store, api, catalogue) {
   const said = h("p", { class: "note", id: "preset-says" });
   const drops = h("fieldset", { class: "incidence" });
-  const tower = h("section", { class: "tower-box", "aria-label": "Tower" });
+  const tower = h("section", { class: "tower-box", "aria-label": t("Tower") });
   const general = h("p", { class: "field-error", role: "alert", hidden: true });
   let fields = [];
   let shape = "";
@@ -98,7 +98,7 @@ export function mountControls(root, store, api, catalogue) {
 
   let example = null;
   const presets = presetChoice(catalogue, (preset) => {
-    write(said, preset.says);
+    writeTold(said, preset.says);
     example = complete(preset.drop);
     store.set(withExample(store.get(), example));
   });
@@ -119,10 +119,13 @@ function placed(contact, note) {
 }
 
 function presetChoice({ presets }, use) {
-  const groups = new Map([["", [["", "Choose an example"]]]]);
-  for (const { group, name, title } of presets) groups.set(group, [...(groups.get(group) ?? []), [name, title]]);
+  const groups = new Map([["", [["", t("Choose an example")]]]]);
+  for (const { group, name, title } of presets) {
+    const own = translated(group);
+    groups.set(own, [...(groups.get(own) ?? []), [name, translated(title)]]);
+  }
   return choice({
-    label: "Example",
+    label: t("Example"),
     key: "preset",
     groups: [...groups],
     value: "",
@@ -152,9 +155,9 @@ function incidence(box, drop, until, { set, errorAt, change, drop: current }) {
     ),
   );
   const fields = [];
-  if (kind === "height") fields.push(numberField({ path: "height", label: "falls from", unit: "m", large: true, low: 0.02, high: 10, set, errorAt }));
-  if (kind === "impact_speed") fields.push(numberField({ path: "impact_speed", label: "comes in at", unit: "m/s", low: 0.1, high: 15, set, errorAt }));
-  if (until !== null) fields.push(numberField({ path: "until", label: "shown for", unit: "s", large: true, low: 0.2, high: 20, set }));
+  if (kind === "height") fields.push(numberField({ path: "height", label: t("falls from"), unit: "m", large: true, low: 0.02, high: 10, set, errorAt }));
+  if (kind === "impact_speed") fields.push(numberField({ path: "impact_speed", label: t("comes in at"), unit: "m/s", low: 0.1, high: 15, set, errorAt }));
+  if (until !== null) fields.push(numberField({ path: "until", label: t("shown for"), unit: "s", large: true, low: 0.2, high: 20, set }));
   for (const field of fields) field.update(field.path === "until" ? until : drop[field.path]);
   const gravity = h("input", {
     type: "checkbox",
@@ -163,10 +166,10 @@ function incidence(box, drop, until, { set, errorAt, change, drop: current }) {
     onchange: (event) => set("gravity", event.target.checked ? GRAVITY : 0),
   });
   box.replaceChildren(
-    h("legend", { text: "The drop" }),
+    h("legend", { text: t("The drop") }),
     h("div", { class: "segments" }, radios),
     ...fields.map((field) => field.element),
-    h("label", { class: "check" }, gravity, "gravity during the impact"),
+    h("label", { class: "check" }, gravity, t("gravity during the impact")),
   );
   return fields;
 }
@@ -175,9 +178,9 @@ function incidence(box, drop, until, { set, errorAt, change, drop: current }) {
 function showError(fields, general, error) {
   const detail = error && !error.offline ? error.detail : null;
   const named = detail && fields.filter(({ path }) => mentions(detail, path)).sort((a, b) => b.path.length - a.path.length)[0];
-  for (const field of fields) field.fail(field === named ? capital(detail.slice(field.path.length).trim()) : null);
+  for (const field of fields) field.fail(field === named ? detail.slice(field.path.length).trim() : null);
   general.hidden = !detail || Boolean(named);
-  write(general, general.hidden ? "" : detail);
+  writeTold(general, general.hidden ? "" : detail);
 }
 
 function mentions(detail, path) {

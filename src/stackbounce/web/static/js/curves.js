@@ -1,5 +1,6 @@
 /** The three panels of curves of a result, in convenient units. */
 
+import { t } from "./language.js";
 import { format } from "./units.js";
 import { shortBall, shortContact } from "./words.js";
 
@@ -48,14 +49,14 @@ function positions({ drop, frames }, whole) {
     index,
     values: scaled(values, factor),
   }));
-  return { what: "position", title: "Position", unit: whole ? "m from the touch" : "mm from the touch", factor, lines };
+  return { what: "position", title: t("Position"), unit: whole ? t("m from the touch") : t("mm from the touch"), factor, lines };
 }
 
 function forces({ drop, frames }) {
   const lines = frames.force
     .map((values, index) => ({ label: shortContact(drop, index), index, values }))
     .filter((_, index) => drop.contacts[index]?.law !== "none");
-  return { what: "force", title: "Force", unit: "N", factor: 1, floor: 0, lines };
+  return { what: "force", title: t("Force"), unit: "N", factor: 1, floor: 0, lines };
 }
 
 /** A rigid collision has an impulse and no finite force. */
@@ -64,7 +65,7 @@ function impulses({ drop, intervals }, scale) {
   const met = [...new Set(stems.map(({ index }) => index))].sort();
   const lines = met.map((index) => ({ label: shortContact(drop, index), index, values: null }));
   const most = stems.reduce((most, { impulse }) => Math.max(most, impulse), 0);
-  return { what: "impulse", title: "Impulse", unit: "N s", floor: 0, ceiling: most || 1, lines, stems };
+  return { what: "impulse", title: t("Impulse"), unit: "N s", floor: 0, ceiling: most || 1, lines, stems };
 }
 
 function energies({ drop, frames }) {
@@ -72,16 +73,16 @@ function energies({ drop, frames }) {
   const most = Math.max(...total.filter(Number.isFinite), 0);
   const factor = most < 1 ? 1e3 : 1;
   const lines = [
-    { label: "total", index: null, values: scaled(total, factor) },
+    { label: t("total"), index: null, values: scaled(total, factor) },
     ...kinetic.map((values, index) => ({ label: shortBall(drop, index), index, values: scaled(values, factor) })),
   ];
   if (stored.some((value) => value > 1e-9 * most)) {
-    lines.push({ label: "in contacts", index: null, dash: [5, 4], values: scaled(stored, factor) });
+    lines.push({ label: t("in contacts"), index: null, dash: [5, 4], values: scaled(stored, factor) });
   }
   if (drop.gravity > 0) {
-    lines.push({ label: "potential", index: null, dash: [1, 3], values: scaled(potential, factor) });
+    lines.push({ label: t("potential"), index: null, dash: [1, 3], values: scaled(potential, factor) });
   }
-  return { what: "energy", title: "Energy", unit: factor === 1 ? "J" : "mJ", factor, lines };
+  return { what: "energy", title: t("Energy"), unit: factor === 1 ? "J" : "mJ", factor, lines };
 }
 
 /** Describe a panel in words, for screen readers. */
@@ -90,11 +91,11 @@ export function describePanel(panel) {
   const ranges = lines.map(({ label, index, values }) => {
     if (!values) {
       const own = stems.filter((stem) => stem.index === index).map((stem) => stem.impulse);
-      return `${label} ${own.length} times, up to ${format(Math.max(...own), 3)} ${unit}`;
+      return t("{name} {count} times, up to {most} {unit}", { name: label, count: own.length, most: format(Math.max(...own), 3), unit });
     }
     const low = values.reduce((a, b) => Math.min(a, b), Infinity);
     const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
-    return `${label} from ${format(low, 3)} to ${format(high, 3)} ${unit}`;
+    return t("{name} from {low} to {high} {unit}", { name: label, low: format(low, 3), high: format(high, 3), unit });
   });
-  return `${title} against time: ${ranges.join("; ")}.`;
+  return t("{what} against time: {ranges}.", { what: title, ranges: ranges.join("; ") });
 }

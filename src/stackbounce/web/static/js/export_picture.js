@@ -1,6 +1,7 @@
 /** The curves of a drop as a picture, SVG or PNG, that needs no server. */
 
 import { panels } from "./curves.js";
+import { t } from "./language.js";
 import { ticks } from "./map_axes.js";
 import { colorOf, paperPalette } from "./palette.js";
 import { format } from "./units.js";
@@ -29,7 +30,7 @@ function writeSvg(result, whole) {
   const colors = paperPalette();
   const paint = (index) => (index === null ? colors.text : colorOf(colors, index));
   const parts = found.map((panel, i) => drawPanel(panel, PANEL.top + i * PANEL.step, paint));
-  const title = result.drop.balls.map((_, ball) => ballName(result.drop, ball)).reverse().join(" on ");
+  const title = result.drop.balls.map((_, ball) => ballName(result.drop, ball)).reverse().reduce((upper, lower) => t("{upper} on {lower}", { upper, lower }));
   return [
     `<?xml version="1.0" encoding="utf-8"?>`,
     `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${WIDTH} ${heightOf(found.length)}" width="${WIDTH}" height="${heightOf(found.length)}">`,
@@ -75,7 +76,7 @@ function drawPanel(panel, top, paint) {
     ...marks,
     `<rect x="${PANEL.left}" y="${top}" width="${PANEL.width}" height="${PANEL.height}" fill="none" stroke="#888"/>`,
     ...clock,
-    `<text x="${PANEL.left + PANEL.width}" y="${bottom + 30}" font-size="11" text-anchor="end" ${FONT}>time in ${timeUnit}</text>`,
+    `<text x="${PANEL.left + PANEL.width}" y="${bottom + 30}" font-size="11" text-anchor="end" ${FONT}>${escaped(t("time in {unit}", { unit: timeUnit }))}</text>`,
     ...curves,
     ...blows,
     `<text x="${PANEL.left + 6}" y="${top - 6}" font-size="12" ${FONT}>${escaped(title)}, ${escaped(unit)}</text>`,

@@ -1,7 +1,9 @@
 /** One number of the drop: a label, a slider and a field that reads "57 g". */
 
-import { h } from "./dom.js";
+import { h, write } from "./dom.js";
+import { t, writeTold } from "./language.js";
 import { clean, format, numeric, pretty, read, shownUnit, splitError } from "./units.js";
+import { capital } from "./words.js";
 
 const STEPS = 1000; // of a slider
 
@@ -13,7 +15,7 @@ const STEPS = 1000; // of a slider
 export function numberField(spec) {
   const { path, unit, low, high } = spec;
   const label = spec.term ? `${spec.label} (${spec.term})` : spec.label;
-  const spoken = spec.of ? `${label} of ${spec.of}` : label;
+  const spoken = spec.of ? t("{number} of {place}", { number: label, place: spec.of }) : label;
   const shown = shownUnit(unit, spec.large);
   const id = `field-${path.replaceAll(".", "-")}`;
   const ladder = scaleOf(low, high);
@@ -35,7 +37,7 @@ export function numberField(spec) {
     max: STEPS,
     step: 1,
     "data-slider": path,
-    "aria-label": `${spoken}, slider`,
+    "aria-label": t("{number}, slider", { number: spoken }),
   });
   const error = h("p", { class: "field-error", id: `${id}-error`, hidden: true });
   const help = spec.says ? explanation(spec.says, spec.term ?? spec.label, `${id}-says`) : null;
@@ -108,7 +110,8 @@ export function numberField(spec) {
     spec.set(path, value);
   });
   const fail = (message) => {
-    error.textContent = message ?? "";
+    writeTold(error, message ?? "");
+    write(error, capital(error.textContent));
     error.hidden = !message;
     input.setAttribute("aria-invalid", message ? "true" : "false");
   };
@@ -122,7 +125,7 @@ function explanation(says, what, id) {
     text.hidden = !text.hidden;
     button.setAttribute("aria-expanded", String(!text.hidden));
   };
-  const about = { class: "explain", "aria-label": `What is ${what}?`, "aria-expanded": "false", "aria-controls": id };
+  const about = { class: "explain", "aria-label": t("What is {what}?", { what }), "aria-expanded": "false", "aria-controls": id };
   const button = h("button", { type: "button", ...about, text: "?", onclick: toggle });
   return { button, text };
 }

@@ -2,6 +2,7 @@
 
 import { h } from "./dom.js";
 import { EXAMPLES } from "./examples.js";
+import { t } from "./language.js";
 import { microphone } from "./microphone.js";
 
 /** Return the element; `take` hears each file, and the drop of an example. */
@@ -19,7 +20,7 @@ export function fileDrop(root, take) {
     problem.hidden = true;
     try {
       const answer = await fetch(`examples/${file}`);
-      if (!answer.ok) throw new Error(`${file} could not be loaded.`);
+      if (!answer.ok) throw new Error(t("{file} could not be loaded.", { file }));
       take(new File([await answer.blob()], file, { type: "text/csv" }), drop);
     } catch (error) {
       problem.textContent = error.message;
@@ -43,25 +44,26 @@ export function fileDrop(root, take) {
   return h(
     "div",
     { class: "file-drop" },
-    h("h2", { id: "measure-title", text: "Bring your own measurement" }),
+    h("h2", { id: "measure-title", text: t("Bring your own measurement") }),
     h(
       "p",
       { class: "note" },
-      "A sound, a force, a video’s track, an acceleration, times or heights of bounces, or a press curve, ",
-      "as Tracker, ImageJ, phyphox, oscilloscopes or spreadsheets write it. It stays on this machine.",
+      t(
+        "A sound, a force, a video’s track, an acceleration, times or heights of bounces, or a press curve, as Tracker, ImageJ, phyphox, oscilloscopes or spreadsheets write it. It stays on this machine.",
+      ),
     ),
     h(
       "div",
       { class: "drop-zone" },
-      h("button", { type: "button", class: "primary", text: "Choose a file", onclick: () => input.click() }),
-      h("span", { text: "or drop it here" }),
+      h("button", { type: "button", class: "primary", text: t("Choose a file"), onclick: () => input.click() }),
+      h("span", { text: t("or drop it here") }),
       input,
     ),
     microphone(take),
     h(
       "details",
       { class: "examples", open: true },
-      h("summary", { text: "Or try an example" }),
+      h("summary", { text: t("Or try an example") }),
       EXAMPLES.map((one) =>
         h(
           "div",

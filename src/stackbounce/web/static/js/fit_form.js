@@ -3,19 +3,21 @@
 import { h, write } from "./dom.js";
 import { choice } from "./fields.js";
 import { describeFit } from "./fit_words.js";
+import { t, translated, writeTold } from "./language.js";
 import { converted, lossOf } from "./laws.js";
+import { pointed } from "./units.js";
 import { ballName, capital, contactName } from "./words.js";
 
 const BY_BALL = {
-  rebound_ratios: "rebound speed over v₀",
-  rebound_speeds: "rebound speed",
-  rebound_heights: "rebound height",
+  rebound_ratios: t("rebound speed over v₀"),
+  rebound_speeds: t("rebound speed"),
+  rebound_heights: t("rebound height"),
 };
 const BY_CONTACT = {
-  durations: "contact time",
-  first_touch: "first touch",
-  last_release: "last release",
-  collisions: "collisions",
+  durations: t("contact time"),
+  first_touch: t("first touch"),
+  last_release: t("last release"),
+  collisions: t("collisions"),
 };
 const UNLIKELY = 1e-3; // the p-value below which a fit is called poor
 const START = 0.75; // the restitution that a fit begins with where the law lost no energy
@@ -38,31 +40,31 @@ export function fitForm(store, api, fitted) {
   const vary = h("fieldset", { class: "fit-vary" });
   const rows = h("ul", { class: "fit-rows" });
   const alonePlace = h("div");
-  const aloneButton = h("button", { type: "button", text: "Drop this ball alone", onclick: () => dropAlone() });
+  const aloneButton = h("button", { type: "button", text: t("Drop this ball alone"), onclick: () => dropAlone() });
   let aloneBall = "";
   const alone = h(
     "div",
     { class: "fit-alone", hidden: true },
-    h("p", { text: "The file is of one ball alone; the drop is a stack." }),
+    h("p", { text: t("The file is of one ball alone; the drop is a stack.") }),
     alonePlace,
     aloneButton,
   );
   const status = h("p", { class: "note", role: "status" });
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
-  const button = h("button", { type: "submit", class: "primary", text: "Fit" });
-  const undo = h("button", { type: "button", text: "Back to the drop before", hidden: true });
+  const button = h("button", { type: "submit", class: "primary", text: t("Fit") });
+  const undo = h("button", { type: "button", text: t("Back to the drop before"), hidden: true });
   const outcome = h("div", { class: "fit-outcome" });
   const element = h(
     "form",
     { class: "fit", "aria-labelledby": "fit-title", autocomplete: "off" },
-    h("h2", { id: "fit-title", text: "Fit the drop to it" }),
+    h("h2", { id: "fit-title", text: t("Fit the drop to it") }),
     h(
       "fieldset",
       {},
-      h("legend", { text: "What was measured" }),
+      h("legend", { text: t("What was measured") }),
       alone,
       rows,
-      h("button", { type: "button", text: "Add a measured value", onclick: () => addRow().querySelector("select").focus() }),
+      h("button", { type: "button", text: t("Add a measured value"), onclick: () => addRow().querySelector("select").focus() }),
     ),
     vary,
     h("div", { class: "fit-buttons" }, button, undo),
@@ -88,13 +90,13 @@ export function fitForm(store, api, fitted) {
       readonly: channel,
       spellcheck: "false",
       placeholder: EXAMPLES[own.split(".")[0]],
-      "aria-label": channel ? "Channel of the file" : "Value with its error",
+      "aria-label": channel ? t("Channel of the file") : t("Value with its error"),
     });
     const row = h(
       "li",
       { class: "fit-row" },
       choice({
-        label: "Quantity",
+        label: t("Quantity"),
         quiet: true,
         groups: [["", names]],
         value: own,
@@ -105,7 +107,7 @@ export function fitForm(store, api, fitted) {
         type: "button",
         class: "icon",
         text: "×",
-        "aria-label": "Leave this out",
+        "aria-label": t("Leave this out"),
         onclick: () => row.remove(),
       }),
     );
@@ -136,14 +138,14 @@ export function fitForm(store, api, fitted) {
       aloneBall = value;
       aloneButton.disabled = value === "";
     };
-    alonePlace.replaceChildren(choice({ label: "Which ball?", key: "alone", groups: [["", [["", "Choose a ball"], ...balls]]], value: "", set }));
+    alonePlace.replaceChildren(choice({ label: t("Which ball?"), key: "alone", groups: [["", [["", t("Choose a ball")], ...balls]]], value: "", set }));
   };
   const dropAlone = async () => {
     problem.hidden = true;
     try {
       store.set({ drop: await aloneDrop(api, await catalogue(), store.get().drop, Number(aloneBall)) });
     } catch (error) {
-      write(problem, error.message);
+      writeTold(problem, error.message);
       problem.hidden = false;
     }
   };
@@ -155,13 +157,13 @@ export function fitForm(store, api, fitted) {
     const own = paths.filter(({ path }) => !path.endsWith("_ratio"));
     const clocks = [...rows.querySelectorAll("select")].some(({ value }) => /^(force|dur|first|last)/.test(value));
     shape = shapeOf(drop);
-    labels = { touch: "First touch on the record’s clock" };
-    for (const { path, label } of own) labels[path] = capital(label);
+    labels = { touch: t("First touch on the record’s clock") };
+    for (const { path, label } of own) labels[path] = capital(translated(label));
     vary.replaceChildren(
-      h("legend", { text: "Parameters to vary" }),
-      ...own.map(({ path, label }) => {
+      h("legend", { text: t("Parameters to vary") }),
+      ...own.map(({ path }) => {
         const box = h("input", { type: "checkbox", name: "vary", value: path, checked: isLikely(laws, path, drop, clocks) });
-        return h("label", { class: "check" }, box, capital(label));
+        return h("label", { class: "check" }, box, labels[path]);
       }),
     );
   };
@@ -174,7 +176,7 @@ export function fitForm(store, api, fitted) {
     const { drop } = store.get();
     button.disabled = true;
     problem.hidden = true;
-    write(status, "Fitting …");
+    write(status, t("Fitting …"));
     try {
       const answer = await api.fit(request(drop));
       before = drop;
@@ -184,7 +186,7 @@ export function fitForm(store, api, fitted) {
       fitted(answer);
     } catch (error) {
       write(status, "");
-      write(problem, error.message);
+      writeTold(problem, error.message);
       problem.hidden = false;
     }
     button.disabled = false;
@@ -193,19 +195,19 @@ export function fitForm(store, api, fitted) {
     store.set({ drop: before });
     undo.hidden = true;
     outcome.replaceChildren();
-    write(status, "The drop is as it was.");
+    write(status, t("The drop is as it was."));
     button.focus();
   });
 
   const request = (drop) => {
     const form = new FormData();
-    const typed = (row) => [row.querySelector("select").value, row.querySelector("input").value.trim()];
+    const typed = (row) => [row.querySelector("select").value, pointed(row.querySelector("input").value.trim())];
     const used = [...rows.children].map(typed).filter(([, value]) => value !== "");
-    if (used.length === 0) throw new Error("Type what was measured, with its error, such as 1.72 ± 0.03 m.");
+    if (used.length === 0) throw new Error(t("Type what was measured, with its error, such as 1.72 ± 0.03 m."));
     const twice = used.find(([name], i) => used.findIndex(([other]) => other === name) < i);
-    if (twice) throw new Error(`Two values are of the same quantity, ${twice[0]}.`);
+    if (twice) throw new Error(t("Two values are of the same quantity, {name}.", { name: twice[0] }));
     const chosen = [...vary.querySelectorAll("input:checked")].map(({ value }) => value);
-    if (chosen.length === 0) throw new Error("Choose at least one parameter to vary.");
+    if (chosen.length === 0) throw new Error(t("Choose at least one parameter to vary."));
     form.append("drop", JSON.stringify(drop));
     form.append("vary", JSON.stringify(chosen));
     form.append("measured", JSON.stringify(Object.fromEntries(used)));
@@ -225,8 +227,8 @@ export function fitForm(store, api, fitted) {
 
 /** Return one sentence on how well the fitted drop describes the measurement. */
 function describeVerdict({ probability }) {
-  if (probability === null || probability > UNLIKELY) return "Fitted: the drop is now the best one.";
-  return "Fitted, but not well: the drop is now the nearest one, and it does not describe what was measured.";
+  if (probability === null || probability > UNLIKELY) return t("Fitted: the drop is now the best one.");
+  return t("Fitted, but not well: the drop is now the nearest one, and it does not describe what was measured.");
 }
 
 /** Return a drop of one ball alone; its law can lose energy, as one ball alone is measured for its loss. */
@@ -244,15 +246,15 @@ function shapeOf({ balls, contacts }) {
 }
 
 function forces(drop) {
-  return drop.balls.map((_, i) => [`force.${i}`, `Force of ${contactName(drop, i)}`]);
+  return drop.balls.map((_, i) => [`force.${i}`, t("Force of {contact}", { contact: contactName(drop, i) })]);
 }
 
 function quantities(drop) {
   const each = (names, of) =>
     Object.entries(names).flatMap(([name, says]) =>
-      drop.balls.map((_, i) => [`${name}.${i}`, `${capital(says)} of ${of(drop, i)}`]),
+      drop.balls.map((_, i) => [`${name}.${i}`, capital(t("{number} of {place}", { number: says, place: of(drop, i) }))]),
     );
-  return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", "Kinetic energy retained"]];
+  return [...each(BY_BALL, ballName), ...each(BY_CONTACT, contactName), ["energy_retained", t("Kinetic energy retained")]];
 }
 
 /** Return whether a number is usually unknown: losses are; stiffnesses are where times were measured, else only their ratio matters. */

@@ -1,6 +1,7 @@
 /** "Predict first": a mark on the ruler that is dragged to where the highest ball is thought to rise, then let go. */
 
 import { h, put, s, write } from "./dom.js";
+import { t } from "./language.js";
 import { metres } from "./words.js";
 
 const ABOVE = 60; // px above the highest mark
@@ -10,11 +11,11 @@ const STEP = 0.02; // of what the ruler shows, for one press of an arrow
 export function mountGuess(root, store, clock) {
   const text = s("text", { class: "guess-text", x: 8, y: -6 });
   const grip = s("circle", { class: "guess-grip", r: 9 });
-  const mark = s("g", { class: "guess-mark", tabindex: 0, role: "slider", "aria-label": "Your guess of how high the ball flies", "aria-valuemin": 0 });
+  const mark = s("g", { class: "guess-mark", tabindex: 0, role: "slider", "aria-label": t("Your guess of how high the ball flies"), "aria-valuemin": 0 });
   mark.append(s("line", { class: "guess-area" }), s("line", { class: "guess-line" }), grip, text);
   const svg = s("svg", { class: "guess", width: "100%", height: "100%" }, mark);
-  const go = h("button", { type: "button", class: "guess-go", text: "Let go", onclick: letGo });
-  const again = h("button", { type: "button", class: "guess-go", text: "Guess again", onclick: () => store.set({ guess: null }) });
+  const go = h("button", { type: "button", class: "guess-go", text: t("Let go"), onclick: letGo });
+  const again = h("button", { type: "button", class: "guess-go", text: t("Guess again"), onclick: () => store.set({ guess: null }) });
   root.append(svg, go, again);
   let height = null; // m, where the mark is
   let place = null; // of the ruler in px: {zero, scale, width}, as the stage has it
@@ -45,7 +46,7 @@ export function mountGuess(root, store, clock) {
     if (!place || !isAsked()) return;
     height ??= 0.5 * place.fallen;
     put(mark, "transform", `translate(0 ${(place.zero - place.scale * height).toFixed(1)})`);
-    write(text, `your guess: ${metres(height)}`);
+    write(text, t("your guess: {height}", { height: metres(height) }));
     put(mark, "aria-valuemax", most().toFixed(3));
     put(mark, "aria-valuenow", height.toFixed(3));
     put(mark, "aria-valuetext", metres(height));

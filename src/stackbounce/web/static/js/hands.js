@@ -2,6 +2,7 @@
 
 import { h, write } from "./dom.js";
 import { GRAVITY, gapsOf, incidenceOf, speedOf, withSwap, withValue } from "./drops.js";
+import { t } from "./language.js";
 import { restacked } from "./restack.js";
 import { radii } from "./shape.js";
 import { clean, format, numeric } from "./units.js";
@@ -87,31 +88,32 @@ function actOf(store, api, { ball, edge, far, x }, group) {
     if (!below && !above) return part(store, ball, way);
     swapped = true;
     swap(store, api, drop, below ? ball - 1 : ball);
-    return `${capital(ballName(drop, ball))} is now ${below ? "below" : "above"} ${ballName(drop, below ? ball - 1 : ball + 1)}.`;
+    const values = { ball: capital(ballName(drop, ball)), other: ballName(drop, below ? ball - 1 : ball + 1) };
+    return below ? t("{ball} is now below {other}.", values) : t("{ball} is now above {other}.", values);
   };
 }
 
 function lift(store, drop, up) {
-  if (incidenceOf(drop) === "velocities") return "Each ball has a speed of its own: change it in the set-up.";
+  if (incidenceOf(drop) === "velocities") return t("Each ball has a speed of its own: change it in the set-up.");
   const gravity = numeric(drop.gravity ?? 0, "m/s**2") || GRAVITY;
   const height = rounded(speedOf(drop) ** 2 / 2 / gravity + up, HEIGHTS);
   const isHeight = incidenceOf(drop) === "height";
   const value = isHeight ? height : clean(Number(Math.sqrt(2 * gravity * height).toPrecision(4)));
   change(store, isHeight ? "height" : "impact_speed", value);
-  return `Dropped from ${format(height, 3)} m.`;
+  return t("Dropped from {height} m.", { height: format(height, 3) });
 }
 
 function part(store, ball, way) {
   const { drop } = store.get();
   const gap = rounded(way, GAPS);
   change(store, `gaps.${ball - 1}`, gap);
-  return `${capital(ballName(drop, ball))} is ${format(gap * 1e3, 3)} mm above ${ballName(drop, ball - 1)}.`;
+  return t("{ball} is {gap} mm above {other}.", { ball: capital(ballName(drop, ball)), gap: format(gap * 1e3, 3), other: ballName(drop, ball - 1) });
 }
 
 function resize(store, ball, diameter) {
   const size = rounded(diameter, SIZES);
   change(store, `balls.${ball}.diameter`, size);
-  return `${capital(ballName(store.get().drop, ball))} has a diameter of ${format(size * 1e3, 3)} mm. Its mass stays.`;
+  return t("{ball} has a diameter of {size} mm. Its mass stays.", { ball: capital(ballName(store.get().drop, ball)), size: format(size * 1e3, 3) });
 }
 
 async function swap(store, api, drop, lower) {
@@ -137,6 +139,8 @@ function rounded(value, [low, high]) {
 }
 
 function hint(drop, ball) {
-  const own = ball === 0 ? "to change the height" : "to change the gap or the order";
-  return `Drag ${ballName(drop, ball)} ${own}, its edge to change its size.`;
+  const values = { ball: ballName(drop, ball) };
+  return ball === 0
+    ? t("Drag {ball} to change the height, its edge to change its size.", values)
+    : t("Drag {ball} to change the gap or the order, its edge to change its size.", values);
 }

@@ -1,6 +1,7 @@
 /** Undo and redo of the drop's numbers: one movement of a slider is one step. */
 
 import { h } from "./dom.js";
+import { t } from "./language.js";
 import { FIRST_DROP, withExample } from "./store.js";
 
 const KEPT = ["drop", "errors", "until", "notes"]; // of the state, in a step
@@ -13,9 +14,9 @@ export function mountHistory(root, store) {
   const steps = record(store);
   const anew = () => store.set(withExample(store.get(), FIRST_DROP));
   const button = (text, key, act) => h("button", { type: "button", class: "small", text, "data-key": key, "aria-keyshortcuts": KEYS[key], onclick: act });
-  const undo = button("Undo", "undo", steps.undo);
-  const redo = button("Redo", "redo", steps.redo);
-  root.replaceChildren(undo, redo, button("Reset", "anew", anew));
+  const undo = button(t("Undo"), "undo", steps.undo);
+  const redo = button(t("Redo"), "redo", steps.redo);
+  root.replaceChildren(undo, redo, button(t("Reset"), "anew", anew));
   const show = () => {
     enable(undo, steps.canUndo(), redo);
     enable(redo, steps.canRedo(), undo);

@@ -1,8 +1,10 @@
 /** Changing the law of a contact, or calibrating it from a measured bounce. */
 
 import { contactMass, speedOf, withValue } from "./drops.js";
+import { t } from "./language.js";
 import { areAlike } from "./restack.js";
 import { clean } from "./units.js";
+import { lawName } from "./words.js";
 
 const NONE = { fields: [], loss_fields: [], rigid: false, exact: true }; // what "no floor" is among laws
 
@@ -62,7 +64,7 @@ export async function changeLaw(api, laws, drop, contact, name, memory) {
   for (const place of places) {
     next = withValue(next, `contacts.${place}`, await recalled(api, laws, drop, place, name, memory));
   }
-  const all = places.length > 1 ? `All contacts are ${name} now: rigid contacts and others cannot be mixed. ` : "";
+  const all = places.length > 1 ? `${t("All contacts are {law} now: rigid contacts and others cannot be mixed.", { law: lawName(name) })} ` : "";
   return { drop: next, note: all + kept(laws, one.law, name) };
 }
 
@@ -89,10 +91,12 @@ function pairAt({ balls }, contact) {
 /** Return a sentence on what was kept when the law of a contact was changed. */
 function kept(laws, before, name) {
   if (before === "none") return "";
-  if (lawOf(laws, name).rigid) return "Restitution kept.";
-  const time = lawOf(laws, before).rigid ? "A contact now lasts 5 ms" : "Contact time kept";
-  const loss = loses(laws, name) ? "restitution kept" : `${name} loses no energy`;
-  return `${time}, ${loss}.`;
+  if (lawOf(laws, name).rigid) return t("Restitution kept.");
+  const law = { law: lawName(name) };
+  if (lawOf(laws, before).rigid) {
+    return loses(laws, name) ? t("A contact now lasts 5 ms, restitution kept.") : t("A contact now lasts 5 ms, {law} loses no energy.", law);
+  }
+  return loses(laws, name) ? t("Contact time kept, restitution kept.") : t("Contact time kept, {law} loses no energy.", law);
 }
 
 function loses(laws, name) {
@@ -112,7 +116,7 @@ function tidied(contact) {
   return Object.fromEntries(entries.map(([name, value]) => [name, typeof value === "number" ? clean(value) : value]));
 }
 
-const MIXED = "A rigid contact and others cannot be mixed: choose another law for the rigid one first.";
+const MIXED = t("A rigid contact and others cannot be mixed: choose another law for the rigid one first.");
 
 /**
  * Return the contact of a ball, at the floor or on the ball below, with what was measured of its bounce alone: `restitution`,
@@ -129,7 +133,7 @@ export async function asBounced(api, { laws, lossy_law: lossy }, drop, place, bo
   const kept = restitution === null ? null : Math.min(restitution, 1);
   const law = own.law === "none" || (kept !== null && kept < 1 && !loses(laws, own.law)) ? lossy : own.law;
   if (time === null) return converted(api, law, drop, place, kept);
-  if (lawOf(laws, law).rigid) throw new Error("A rigid contact has no contact time: choose another law in the set-up first.");
+  if (lawOf(laws, law).rigid) throw new Error(t("A rigid contact has no contact time: choose another law in the set-up first."));
   if (areRigid) throw new Error(MIXED);
   const alone = { mass: contactMass({ balls: [drop.balls[place]] }, 0), impact_speed: speed ?? speedOf(drop) };
   return tidied((await api.like({ contact: own, to: law, ...alone, restitution: kept, contact_time: time })).contact);
@@ -142,5 +146,5 @@ export async function asMeasured(api, { laws, lossy_law: lossy }, drop, place, {
   const request = { law, mass: contactMass(drop, place), impact_speed: speedOf(drop), restitution };
   if (!lawOf(laws, law).rigid) request.contact_time = contactTime;
   if (exponent !== undefined) request.exponent = exponent;
-  return { contact: tidied((await api.law(request)).contact), note: law === own ? "As measured." : `As measured; ${own} loses no energy, so it is ${law} now.` };
+  return { contact: tidied((await api.law(request)).contact), note: law === own ? t("As measured.") : t("As measured; {before} loses no energy, so it is {law} now.", { before: lawName(own), law: lawName(law) }) };
 }

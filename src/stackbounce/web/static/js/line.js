@@ -3,6 +3,7 @@
 import { h, renew, s, write } from "./dom.js";
 import { drawingView } from "./drawing_view.js";
 import { complete } from "./drops.js";
+import { t, translated, writeTold } from "./language.js";
 import { drawLine, drawLineMarks } from "./line_draw.js";
 import { lineForm } from "./line_form.js";
 import { liner } from "./line_request.js";
@@ -19,8 +20,7 @@ import { withExample } from "./store.js";
 const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
 const STILL = 4; // px that a mouse may move in a click
 const STEP = 1 / 100; // of the side, for one press of an arrow
-const KEYS =
-  "Left and right arrow move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there.";
+const KEYS = t("Left and right arrow move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there.");
 
 /** Build the view into `root`. */
 export async function mount(root, store, api, clock) {
@@ -49,7 +49,7 @@ export async function mount(root, store, api, clock) {
 
   const requests = liner(api, (news) => {
     parts.figure.classList.toggle("stale", Boolean(news.problem));
-    write(parts.message, news.problem ?? "");
+    writeTold(parts.message, news.problem ?? "");
     parts.again.hidden = !news.problem;
     if (news.problem) return;
     ({ answer, paths } = news);
@@ -59,7 +59,7 @@ export async function mount(root, store, api, clock) {
   const refresh = () => {
     const { drop, line } = store.get();
     asked = { drop, line };
-    if (!answer) write(parts.message, "Computing …");
+    if (!answer) write(parts.message, t("Computing …"));
     requests.ask(drop, line);
   };
   const measured = () => figureOf(figures, answer)?.measured ?? [];
@@ -70,9 +70,9 @@ export async function mount(root, store, api, clock) {
     drawing = drawLine(answer, { width, height }, colors, measured());
     renew(parts.drawing, drawing.svg);
     const shows = SHOWS.get(answer.show);
-    write(parts.title, `${shows} against ${brief(answer.x.label)}`);
+    write(parts.title, t("{what} against {number}", { what: shows, number: brief(translated(answer.x.label)) }));
     write(parts.summary, summary(answer));
-    parts.board.setAttribute("aria-label", `Line: ${shows}; across, ${answer.x.label}`);
+    parts.board.setAttribute("aria-label", t("Line: {what}; across, {number}", { what: shows, number: translated(answer.x.label) }));
     mark();
   };
   const drawSoon = () => {
@@ -87,8 +87,8 @@ export async function mount(root, store, api, clock) {
     const values = (part) => answer.curves.map((curve) => ({ index: curve.index, value: valueAt(answer, curve, part) }));
     const spot = (part, present) => (part === null || !inside(part) ? [] : [{ part, values: values(part), present }]);
     drawLineMarks(parts.marks, drawing, [...spot(there, true), ...spot(pointed, false)], palette());
-    const where = inside(there) ? "The dots are the present drop." : "The present drop lies outside of this line.";
-    const how = `${where} ${hovers.matches ? "Drag to move it; choose" : "Choose"} a point to play its drop.`;
+    const where = inside(there) ? t("The dots are the present drop.") : t("The present drop lies outside of this line.");
+    const how = `${where} ${hovers.matches ? t("Drag to move it; choose a point to play its drop.") : t("Choose a point to play its drop.")}`;
     write(parts.readout, pointed === null ? how : told(answer, pointed));
   };
   /** Return the place of the present drop, as a part of the side. */

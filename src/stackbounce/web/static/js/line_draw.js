@@ -1,6 +1,7 @@
 /** Draws a line as SVG, which is also the picture that is saved: axes, curves, and names at their ends. */
 
 import { s } from "./dom.js";
+import { t, translated } from "./language.js";
 import { nameOf } from "./line_words.js";
 import { sideOf, ticks } from "./map_axes.js";
 import { fitting, marks } from "./map_draw.js";
@@ -11,7 +12,7 @@ const FONT = "system-ui, sans-serif";
 const WIDE = 560; // px from which names stand at the ends of the curves
 const ROW = 16; // px of a name
 const LONGEST = 18; // letters of a name
-const TEXTBOOK = "textbook";
+const TEXTBOOK = t("textbook");
 const NOISE = 1e-9; // of a value: rounding
 const APART = 55; // px between two marks of the values, about
 
@@ -67,7 +68,7 @@ function scaleOf({ curves, show }, measured, most) {
 
 function drawAcross(answer, frame, place, colors) {
   const bottom = frame.top + frame.height;
-  const { title, ticks: found } = marks(answer.x, answer.x, Math.max(Math.floor(frame.width / 80), 2));
+  const { title, ticks: found } = marks(answer.x, { ...answer.x, label: translated(answer.x.label) }, Math.max(Math.floor(frame.width / 80), 2));
   const lines = found.flatMap(({ part, text }) => [
     text === null ? rule(place.x(part), bottom, place.x(part), bottom + 3, colors.muted) : rule(place.x(part), frame.top, place.x(part), bottom + 5, colors.line),
     text === null ? null : s("text", { x: place.x(part), y: bottom + 19, "text-anchor": "middle", text }),
@@ -102,7 +103,7 @@ function drawMeasured({ show }, measured, frame, place, colors) {
   return measured.flatMap(({ value, error }, ball) => {
     const [top, bottom] = [place.y(value + error), place.y(value - error)];
     const color = colorOf(colors, ball);
-    const text = `measured ${format(value, 3)} ± ${format(error, 2)}`;
+    const text = t("measured {what}", { what: `${format(value, 3)} ± ${format(error, 2)}` });
     const band = { x: frame.left, width: frame.width, y: top.toFixed(1), height: Math.max(bottom - top, 2).toFixed(1), fill: color, opacity: 0.22 };
     const halo = { stroke: colors.card, "stroke-width": 3, "paint-order": "stroke" };
     const written = s("text", { x: frame.left + 8, y: (top - 5).toFixed(1), fill: color, ...halo, text });

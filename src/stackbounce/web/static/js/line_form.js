@@ -2,6 +2,7 @@
 
 import { h, write } from "./dom.js";
 import { choice } from "./fields.js";
+import { t, translated } from "./language.js";
 import { SHOWS } from "./line_words.js";
 import { patient, sideForm } from "./side_form.js";
 
@@ -10,12 +11,12 @@ import { patient, sideForm } from "./side_form.js";
  * @param {object[]} figures the paper's lines @param {object} heard `set(settings)`, `use(figure)` and `save(kind)`
  */
 export function lineForm(figures, { set, use, save }) {
-  const element = h("form", { class: "view-form line-form", "aria-label": "What the line shows", autocomplete: "off" });
+  const element = h("form", { class: "view-form line-form", "aria-label": t("What the line shows"), autocomplete: "off" });
   const says = h("p", { class: "note" });
   element.addEventListener("submit", (event) => event.preventDefault());
   let shown = "";
   const update = ({ settings, paths, unfit, figure }) => {
-    write(says, [wordsOf(unfit), figure?.says].filter(Boolean).join(" "));
+    write(says, [wordsOf(unfit), translated(figure?.says)].filter(Boolean).join(" "));
     const now = JSON.stringify([settings, paths.map(({ path, label }) => [path, label]), figure?.name]);
     if (now === shown) return;
     shown = now;
@@ -28,22 +29,22 @@ export function lineForm(figures, { set, use, save }) {
     };
     element.replaceChildren(
       choice({
-        label: "Curves of the paper",
+        label: t("Curves of the paper"),
         key: "line-figure",
-        groups: [["", [["", "Choose a figure"], ...figures.map(({ name, title }) => [name, title])]]],
+        groups: [["", [["", t("Choose a figure")], ...figures.map(({ name, title }) => [name, translated(title)])]]],
         value: figure?.name ?? "",
         set: (name) => use(figures.find((one) => one.name === name)),
       }),
       says,
       choice({
-        label: "Shown",
+        label: t("Shown"),
         key: "line-show",
         groups: [["", [...SHOWS]]],
         value: settings.show,
         set: (show) => change({ show }),
       }),
-      sideForm("line-x", "Across", () => latest.x, paths, (x) => change({ x })),
-      h("div", { class: "line-save", role: "group", "aria-label": "Save the line" }, KINDS.map(([kind, text]) => saver(kind, text, save))),
+      sideForm("line-x", t("Across"), () => latest.x, paths, (x) => change({ x })),
+      h("div", { class: "line-save", role: "group", "aria-label": t("Save the line") }, KINDS.map(([kind, text]) => saver(kind, text, save))),
     );
     if (focused?.startsWith("line-")) element.querySelector(`[data-key="${CSS.escape(focused)}"]`)?.focus();
   };
@@ -51,7 +52,7 @@ export function lineForm(figures, { set, use, save }) {
 }
 
 const KINDS = [
-  ["csv", "Save CSV"],
+  ["csv", t("Save CSV")],
   ["svg", "SVG"],
   ["png", "PNG"],
 ];
@@ -63,6 +64,6 @@ function saver(kind, text, save) {
 /** Name what the wanted settings have that this drop has not. */
 function wordsOf(unfit) {
   if (!unfit.length) return "";
-  const names = unfit.map((name) => `“${name.slice(0, 40)}”`).join(" and ");
-  return `This drop has no ${names}: something else is shown.`;
+  const names = unfit.map((name) => `“${name.slice(0, 40)}”`).join(", ");
+  return t("This drop has no {names}: something else is shown.", { names });
 }

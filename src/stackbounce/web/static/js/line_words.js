@@ -1,5 +1,6 @@
 /** A line in words: what it shows, its values at a place, and as a whole. */
 
+import { t, translated } from "./language.js";
 import { sideOf } from "./map_axes.js";
 import { brief, quantity } from "./map_words.js";
 import { format } from "./units.js";
@@ -9,15 +10,15 @@ const FEW = 3; // curves whose textbook is told, too
 
 /** What a line can show, and what its axis is called. */
 export const SHOWS = new Map([
-  ["rebound_ratio", "Rebound speeds over v₀"],
-  ["rebound_height", "Rebound heights"],
-  ["energy_retained", "Kinetic energy retained"],
-  ["collisions", "Collisions of each contact"],
+  ["rebound_ratio", t("Rebound speeds over v₀")],
+  ["rebound_height", t("Rebound heights")],
+  ["energy_retained", t("Kinetic energy retained")],
+  ["collisions", t("Collisions of each contact")],
 ]);
 
 /** Return what a curve is of: a ball, a contact, or all. */
 export function nameOf({ drop, show }, { index }) {
-  if (index === null) return "energy";
+  if (index === null) return t("energy");
   return show === "collisions" ? contactName(drop, index) : ballName(drop, index);
 }
 
@@ -38,24 +39,28 @@ export function valueAt({ x, show }, { values, jumps }, part) {
 export function told(answer, part) {
   const { x, show, curves } = answer;
   const each = [...curves].reverse().map((curve) => outcome(answer, curve, part));
-  const ending = show === "rebound_ratio" ? " the impact speed" : "";
-  return `${capital(brief(x.label))} ${quantity(sideOf(x).value(part), x.unit)}: ${each.join(", ")}${ending}.`;
+  const values = { number: capital(brief(translated(x.label))), value: quantity(sideOf(x).value(part), x.unit), each: each.join(", ") };
+  return show === "rebound_ratio" ? t("{number} {value}: {each} the impact speed.", values) : t("{number} {value}: {each}.", values);
 }
 
 function outcome(answer, curve, part) {
   const own = valueAt(answer, curve, part);
   const name = nameOf(answer, curve);
   const theirs = answer.curves.length <= FEW && curve.textbook && valueAt(answer, curve.textbook, part);
-  const beside = typeof theirs === "number" ? ` (textbook ${written(answer.show, theirs, false)})` : "";
-  const said = own === null ? "not finished" : written(answer.show, own) + beside;
-  if (answer.show === "energy_retained") return `${said} of the kinetic energy retained`;
-  if (answer.show === "rebound_height") return `${name} rises ${said}`;
+  const beside = typeof theirs === "number" ? ` (${t("textbook {value}", { value: written(answer.show, theirs, false) })})` : "";
+  const said = own === null ? t("not finished") : written(answer.show, own) + beside;
+  if (answer.show === "energy_retained") return t("{share} of the kinetic energy retained", { share: said });
+  if (answer.show === "rebound_height") return t("{ball} rises {height}", { ball: name, height: said });
   return `${name} ${said}`;
+}
+
+function timesOf(value, times) {
+  return times ? t("{times} times", { times: value }) : value;
 }
 
 /** Return a value as it is read. */
 function written(show, value, times = true) {
-  if (show === "rebound_ratio") return `${format(Math.abs(value) < 5e-4 ? 0 : value, 3)}${times ? " times" : ""}`;
+  if (show === "rebound_ratio") return timesOf(format(Math.abs(value) < 5e-4 ? 0 : value, 3), times);
   if (show === "rebound_height") return height(value);
   return show === "collisions" ? count(value) : percent(value);
 }
@@ -63,17 +68,17 @@ function written(show, value, times = true) {
 /** Return a line as a whole in words: the smallest and the largest value of each curve, and where they are. */
 export function summary(answer) {
   const { x, show, curves, unfinished } = answer;
-  if (!curves.length) return "This drop has no contact.";
+  if (!curves.length) return t("This drop has no contact.");
   const sentences = [...curves].reverse().map((curve) => {
     const [low, high] = extremes(curve.values, show);
     const name = capital(nameOf(answer, curve));
-    if (low === null) return `${name}: no point could be finished.`;
+    if (low === null) return t("{name}: no point could be finished.", { name });
     const said = (i) => written(show, curve.values[i]);
-    if (said(low) === said(high)) return `${name}: ${said(low)} everywhere.`;
+    if (said(low) === said(high)) return t("{name}: {value} everywhere.", { name, value: said(low) });
     const at = (i) => quantity(x.values[i], x.unit) || "0";
-    return `${name}: smallest ${said(low)} at ${at(low)}, largest ${said(high)} at ${at(high)}.`;
+    return t("{name}: smallest {low} at {where}, largest {high} at {there}.", { name, low: said(low), where: at(low), high: said(high), there: at(high) });
   });
-  const open = unfinished ? ` ${unfinished} of ${x.values.length} points could not be finished: there the curves have gaps.` : "";
+  const open = unfinished ? ` ${t("{some} of {all} points could not be finished: there the curves have gaps.", { some: unfinished, all: x.values.length })}` : "";
   return `${sentences.join(" ")}${open}`;
 }
 

@@ -13,6 +13,8 @@ import { mountFullScreen } from "./full_screen.js";
 import { mountGuess } from "./guess.js";
 import { mountHands } from "./hands.js";
 import { mountHistory } from "./history.js";
+import { t, translated, translatePage, writeTold } from "./language.js";
+import { mountLanguage } from "./language_view.js";
 import { mountMomentum } from "./momentum.js";
 import { mountNumbers } from "./numbers.js";
 import { hasServer, loadMeasure } from "./origin/served.js";
@@ -37,6 +39,7 @@ const clock = new Clock(() => reduced.matches);
 window.stackbounce = { store, clock };
 if (typeof WebAssembly === "object" && typeof Worker === "function") place("old").remove();
 
+translatePage();
 address.follow(store);
 mountLooks(store);
 const runner = run(store, api);
@@ -51,6 +54,7 @@ mountTransport(place("transport"), store, clock);
 mountPlots(place("plots"), store, clock);
 mountNumbers({ root: place("numbers"), table: place("intervals") }, store);
 mountShare(place("share"), store, api);
+mountLanguage(place("language"), store);
 mountHistory(place("history"), store);
 mountHands(place("stage"), store, clock, api);
 mountEmbed(place("transport"), store);
@@ -82,7 +86,7 @@ const catalogueAgain = loadCatalogue();
 /** Build a view from its own module when it is first opened; while that fails, say so and try again. */
 function open(load, section) {
   const said = h("p", { class: "field-error", role: "alert" });
-  const button = h("button", { type: "button", class: "small", text: "Try again", onclick: () => again() });
+  const button = h("button", { type: "button", class: "small", text: t("Try again"), onclick: () => again() });
   const unopened = h("div", { class: "unopened", hidden: true }, said, button);
   section.append(unopened);
   const again = retry(
@@ -94,7 +98,7 @@ function open(load, section) {
     },
     (error) => {
       unopened.hidden = false;
-      write(said, `This view could not be opened yet: ${error.message}`);
+      write(said, t("This view could not be opened yet: {reason}", { reason: translated(error.message) }));
     },
   );
 }
@@ -105,7 +109,7 @@ async function loaded(load) {
     return await load();
   } catch {
     const { ok } = await fetch("icon.svg", { cache: "no-store" }).catch(() => ({ ok: false }));
-    if (!ok) throw new Error("The server does not answer.");
+    if (!ok) throw new Error(t("The server does not answer."));
     return load().catch((error) => {
       const [{ type }] = performance.getEntriesByType("navigation");
       if (type !== "reload") location.reload(); // the address holds what is shown
@@ -127,11 +131,11 @@ function explain(section) {
     h(
       "div",
       { class: "prose" },
-      h("h2", { text: "Measure and fit" }),
+      h("h2", { text: t("Measure and fit") }),
       h("p", {
-        text:
-          "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation " +
-          "says, and start “stackbounce app”, which opens this page with both.",
+        text: t(
+          "Reading a measurement and fitting a drop to it need stackbounce itself: install it as its documentation says, and start “stackbounce app”, which opens this page with both.",
+        ),
       }),
     ),
   );
@@ -160,7 +164,7 @@ function showBanner() {
   });
   const show = ({ error, busy }) => {
     place("banner").hidden = !error?.offline;
-    write(text, error?.offline ? error.detail : "");
+    writeTold(text, error?.offline ? error.detail : "");
     document.body.classList.toggle("busy", busy);
   };
   store.subscribe(show);

@@ -3,6 +3,7 @@
 import { scaleOfColors } from "./colors.js";
 import { h, write } from "./dom.js";
 import { drawingView } from "./drawing_view.js";
+import { t, translated, writeTold } from "./language.js";
 import { sideOf } from "./map_axes.js";
 import { drawMap, drawMarks, frameOf } from "./map_draw.js";
 import { mapForm } from "./map_form.js";
@@ -16,8 +17,7 @@ import { capital } from "./words.js";
 const hovers = matchMedia("(hover: hover)"); // a mouse, which can drag; a finger scrolls
 const STILL = 4; // px that a mouse may move in a click
 const STEP = 1 / 60; // of a side, for one press of an arrow
-const KEYS =
-  "Arrow keys move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there.";
+const KEYS = t("Arrow keys move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there.");
 
 /** Build the view into `root`. */
 export function mount(root, store, api, clock) {
@@ -35,14 +35,14 @@ export function mount(root, store, api, clock) {
   const requests = mapper(api, (news) => {
     if (news.settings) form.update(news);
     if (news.answer) {
-      answer = { ...news.answer, settings: news.settings, paths: news.paths };
+      answer = { ...inOurLanguage(news.answer), settings: news.settings, paths: news.paths };
       write(parts.message, "");
       parts.again.hidden = true;
       drawSoon();
     }
     parts.figure.classList.toggle("stale", Boolean(news.problem));
     if (news.problem) {
-      write(parts.message, news.problem);
+      writeTold(parts.message, news.problem);
       parts.again.hidden = false;
     }
   });
@@ -54,7 +54,7 @@ export function mount(root, store, api, clock) {
       return;
     }
     asked = [drop, map];
-    if (!answer) write(parts.message, "Computing …");
+    if (!answer) write(parts.message, t("Computing …"));
     requests.ask(drop, map);
   };
   const tell = ({ result, until }) => write(parts.told, result ? storyOf(result, until).lead : "");
@@ -63,7 +63,7 @@ export function mount(root, store, api, clock) {
     const whole = answer.show.startsWith("collisions");
     drawMap(parts.drawing, answer, answer.settings, scaleOfColors(answer.values, whole), palette());
     write(parts.summary, inWords(answer));
-    parts.board.setAttribute("aria-label", `Map: ${answer.label}; across, ${answer.x.label}; up, ${answer.y.label}`);
+    parts.board.setAttribute("aria-label", t("Map: {what}; across, {x}; up, {y}", { what: answer.label, x: answer.x.label, y: answer.y.label }));
     write(parts.title, capital(answer.label));
     mark();
   };
@@ -76,8 +76,9 @@ export function mount(root, store, api, clock) {
   const mark = () => {
     const there = present();
     drawMarks(parts.marks, inside(there) ? there : null, pointed, palette());
-    const where = inside(there) ? "The cross is the present drop." : "The present drop lies outside of this map.";
-    write(parts.readout, pointed ? told(pointed) : `${where} ${hovers.matches ? "Drag to move it; choose" : "Choose"} a point to play its drop.`);
+    const where = inside(there) ? t("The cross is the present drop.") : t("The present drop lies outside of this map.");
+    const how = hovers.matches ? t("Drag to move it; choose a point to play its drop.") : t("Choose a point to play its drop.");
+    write(parts.readout, pointed ? told(pointed) : `${where} ${how}`);
   };
   /** Return the place of the present drop, as fractions of the sides. */
   const present = () => {
@@ -184,6 +185,12 @@ export function mount(root, store, api, clock) {
   });
   tell(store.get());
   refresh();
+}
+
+/** Return a map with its labels, which the engine has in English, in the page's language. */
+function inOurLanguage(answer) {
+  const side = (one) => ({ ...one, label: translated(one.label) });
+  return { ...answer, label: translated(answer.label), x: side(answer.x), y: side(answer.y) };
 }
 
 function inside(spot) {

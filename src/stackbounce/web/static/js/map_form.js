@@ -2,13 +2,14 @@
 
 import { h } from "./dom.js";
 import { choice } from "./fields.js";
+import { t, translated } from "./language.js";
 import { depends } from "./map_words.js";
 import { patient, sideForm } from "./side_form.js";
 import { capital } from "./words.js";
 
 /** Return `{element, update({settings, paths, shows})}`; `set` hears the new settings. */
 export function mapForm(set) {
-  const element = h("form", { class: "map-form view-form", "aria-label": "What the map shows", autocomplete: "off" });
+  const element = h("form", { class: "map-form view-form", "aria-label": t("What the map shows"), autocomplete: "off" });
   element.addEventListener("submit", (event) => event.preventDefault());
   let shown = "";
   const update = ({ settings, paths, shows }) => {
@@ -23,17 +24,17 @@ export function mapForm(set) {
     const side = (name, title) => sideForm(`map-${name}`, title, () => latest[name], free(name), (next) => change({ [name]: next }));
     element.replaceChildren(
       choice({
-        label: "Colour shows",
+        label: t("Colour shows"),
         key: "map-show",
-        groups: [["", shows.map(({ show, label }) => [show, capital(label)])]],
+        groups: [["", shows.map(({ show, label }) => [show, capital(translated(label))])]],
         value: settings.show,
         set: (show) => change({ show }),
       }),
-      side("x", "Across"),
-      side("y", "Up"),
+      side("x", t("Across")),
+      side("y", t("Up")),
       h("button", {
         type: "button",
-        text: "Swap sides",
+        text: t("Swap sides"),
         "data-key": "map-swap",
         onclick: () => change({ x: latest.y, y: latest.x }),
       }),

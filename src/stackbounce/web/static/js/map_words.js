@@ -1,6 +1,7 @@
 /** A map in words, and the drop that a point of it stands for. */
 
 import { complete, gapsOf, valueAt, withValue } from "./drops.js";
+import { t } from "./language.js";
 import { clean, format, pretty, shownUnit } from "./units.js";
 import { count } from "./words.js";
 
@@ -17,7 +18,7 @@ export function brief(label) {
 
 /** Return what an outcome is at a point, in words. */
 export function outcome({ show, unit }, value) {
-  if (value === null) return "not finished";
+  if (value === null) return t("not finished");
   return show.startsWith("collisions") ? count(value) : quantity(value, unit);
 }
 
@@ -40,12 +41,13 @@ export function summary(answer) {
     }),
   );
   const total = values.length * values[0].length;
-  const open = answer.unfinished ? ` ${answer.unfinished} of ${total} points, hatched, could not be finished.` : "";
-  if (!low) return `No point of this map could be finished.`;
+  const open = answer.unfinished ? ` ${t("{some} of {all} points, hatched, could not be finished.", { some: answer.unfinished, all: total })}` : "";
+  if (!low) return t("No point of this map could be finished.");
   const [least, most] = [outcome(answer, low.value), outcome(answer, high.value)];
   const name = label[0].toUpperCase() + label.slice(1);
-  if (least === most) return `${name}: ${least} everywhere.${open}`;
-  return `${name}: smallest ${least} at ${place(answer, low.at)}; largest ${most} at ${place(answer, high.at)}.${open}`;
+  if (least === most) return `${t("{name}: {value} everywhere.", { name, value: least })}${open}`;
+  const ends = { name, low: least, where: place(answer, low.at), high: most, there: place(answer, high.at) };
+  return `${t("{name}: smallest {low} at {where}; largest {high} at {there}.", ends)}${open}`;
 }
 
 /** For each ratio: the number that it sets, and the number that it refers to. */

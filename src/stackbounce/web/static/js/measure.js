@@ -4,6 +4,7 @@ import { h, write } from "./dom.js";
 import { bounceUse } from "./bounce_use.js";
 import { fitForm } from "./fit_form.js";
 import { fileDrop } from "./file_drop.js";
+import { t, writeTold } from "./language.js";
 import { describeFile, listFindings } from "./measure_found.js";
 import { measureForm } from "./measure_form.js";
 import { Overlay } from "./overlay.js";
@@ -14,10 +15,10 @@ export async function mount(root, store, api) {
   const { options: offered } = await api.measureOptions();
   const said = h("div", { class: "recognised", role: "status" });
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
-  const found = h("section", { class: "measure-card", "aria-label": "What was found", hidden: true });
-  const plot = h("section", { class: "measure-card", "aria-label": "The record and the drop", hidden: true });
+  const found = h("section", { class: "measure-card", "aria-label": t("What was found"), hidden: true });
+  const plot = h("section", { class: "measure-card", "aria-label": t("The record and the drop"), hidden: true });
   const press = pressPlot();
-  const pressed = h("section", { class: "measure-card", "aria-label": "The press curve", hidden: true }, press.element);
+  const pressed = h("section", { class: "measure-card", "aria-label": t("The press curve"), hidden: true }, press.element);
   const use = bounceUse(store, api);
   const overlay = new Overlay(plot, store, api, (index) => fit.retarget(index));
   let file = null;
@@ -31,7 +32,7 @@ export async function mount(root, store, api) {
     newest += 1;
     const mine = newest;
     if (!file) return;
-    write(said, `Reading ${file.name} …`);
+    write(said, t("Reading {file} …", { file: file.name }));
     problem.hidden = true;
     try {
       const options = form.options();
@@ -52,7 +53,7 @@ export async function mount(root, store, api) {
     } catch (error) {
       if (mine !== newest) return;
       write(said, "");
-      write(problem, error.message);
+      writeTold(problem, error.message);
       problem.hidden = false;
       unsaid.open = true;
       found.hidden = true;
@@ -72,7 +73,7 @@ export async function mount(root, store, api) {
   const away = h("button", {
     type: "button",
     class: "small",
-    text: "Take the record away",
+    text: t("Take the record away"),
     onclick: () => {
       newest += 1;
       file = null;
@@ -92,7 +93,7 @@ export async function mount(root, store, api) {
   const unsaid = h(
     "details",
     { class: "measure-card", open: matchMedia("(min-width: 900px)").matches },
-    h("summary", {}, h("h2", { text: "What the file does not say" })),
+    h("summary", {}, h("h2", { text: t("What the file does not say") })),
     form.element,
   );
   root.replaceChildren(

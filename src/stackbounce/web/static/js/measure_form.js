@@ -2,6 +2,7 @@
 
 import { h } from "./dom.js";
 import { choice } from "./fields.js";
+import { t, translated } from "./language.js";
 
 /**
  * Return `{element, options(), files()}` of a list of `{name, form, label, example, says, rare, choices}`;
@@ -20,9 +21,9 @@ export function measureForm(options, changed) {
   const fieldsOf = (rare) => options.filter((one) => one.rare === rare).map(field);
   const element = h(
     "form",
-    { class: "measure-options", "aria-label": "What the file does not say", autocomplete: "off" },
+    { class: "measure-options", "aria-label": t("What the file does not say"), autocomplete: "off" },
     fieldsOf(false),
-    h("details", {}, h("summary", { text: "More" }), h("div", { class: "measure-options" }, fieldsOf(true))),
+    h("details", {}, h("summary", { text: t("More") }), h("div", { class: "measure-options" }, fieldsOf(true))),
   );
   element.addEventListener("submit", (event) => event.preventDefault());
   const given = (isFile) =>
@@ -33,8 +34,8 @@ export function measureForm(options, changed) {
 const FIELDS = { flag: checkField, file: fileField };
 
 function chooseField({ name, label, example, choices }, set) {
-  const others = choices.filter((one) => one !== example).map((one) => [one, one]);
-  return choice({ label, groups: [["", [["", example], ...others]]], value: "", set, key: `option-${name}` });
+  const others = choices.filter((one) => one !== example).map((one) => [one, translated(one)]);
+  return choice({ label: translated(label), groups: [["", [["", translated(example)], ...others]]], value: "", set, key: `option-${name}` });
 }
 
 function textField(option, set) {
@@ -51,5 +52,5 @@ function fileField(option, set) {
 }
 
 function labelledInput({ name, label, says }, attributes) {
-  return h("label", { class: "option", title: says }, h("span", { text: label }), h("input", { name, ...attributes }));
+  return h("label", { class: "option", title: translated(says) }, h("span", { text: translated(label) }), h("input", { name, ...attributes }));
 }

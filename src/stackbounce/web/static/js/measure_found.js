@@ -2,15 +2,16 @@
 
 import { h } from "./dom.js";
 import { table } from "./fit_words.js";
+import { t, translated } from "./language.js";
 import { formatMeasured } from "./quantity.js";
 import { capital } from "./words.js";
 
 /** Return the kind and format of a file, the evidence for them, and a doubt if there is one. */
 export function describeFile({ file, format, why, doubt, holds }) {
   return [
-    h("p", {}, h("b", { text: file }), ` holds a ${holds} (${format}).`),
-    h("p", { class: "note", text: sentence(why) }),
-    doubt ? h("p", { class: "doubt", text: `Unsure: ${doubt}.` }) : null,
+    h("p", { text: t("{file} holds a {kind} ({format}).", { file, kind: translated(holds), format: translated(format) }) }),
+    h("p", { class: "note", text: sentence(translated(why)) }),
+    doubt ? h("p", { class: "doubt", text: t("Unsure: {doubt}.", { doubt: translated(doubt) }) }) : null,
   ].filter(Boolean);
 }
 
@@ -21,11 +22,11 @@ export function listFindings({ found, notes }, store) {
     const { height, velocities, ...drop } = store.get().drop;
     store.set({ drop: { ...drop, impact_speed: Number(speed.value.toPrecision(4)) } });
   };
-  const rows = found.map(({ name, value, error, unit }) => [capital(name), formatMeasured(value, error, unit)]);
-  const parts = [h("h2", { text: "Found" }), table("What was found", ["What", "Value"], rows)];
-  if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((note) => h("li", { text: sentence(note) }))));
+  const rows = found.map(({ name, value, error, unit }) => [capital(translated(name)), formatMeasured(value, error, unit)]);
+  const parts = [h("h2", { text: t("Found") }), table(t("What was found"), [t("What"), t("Value")], rows)];
+  if (notes.length) parts.push(h("ul", { class: "notes" }, notes.map((note) => h("li", { text: sentence(translated(note)) }))));
   if (speed) {
-    const text = `Drop at its impact speed, ${formatMeasured(speed.value, speed.error, "m/s")}`;
+    const text = t("Drop at its impact speed, {speed}", { speed: formatMeasured(speed.value, speed.error, "m/s") });
     parts.push(h("button", { type: "button", text, onclick: take }));
   }
   return parts;

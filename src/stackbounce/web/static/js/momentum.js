@@ -1,6 +1,7 @@
 /** Bars of momentum below the stage: each ball's and their sum, now, before and after the impact. */
 
 import { h, put, s, write } from "./dom.js";
+import { t } from "./language.js";
 import { fixed } from "./units.js";
 import { shortBall } from "./words.js";
 
@@ -10,8 +11,8 @@ const VALUES = 78; // px for the numbers at the right
 
 /** Draw the bars into `root` while the state asks for them, at the clock's time. */
 export function mountMomentum(root, store, clock) {
-  const svg = s("svg", { class: "momentum-bars", role: "img", "aria-label": "Momentum of each ball and of all, up is to the right" });
-  root.append(h("p", { class: "note", text: "Momentum in kg m/s: up to the right. Thin marks: before (│) and after (┃) the impact." }), svg);
+  const svg = s("svg", { class: "momentum-bars", role: "img", "aria-label": t("Momentum of each ball and of all, up is to the right") });
+  root.append(h("p", { class: "note", text: t("Momentum in kg m/s: up to the right. Thin marks: before (│) and after (┃) the impact.") }), svg);
   let bars = null;
   let width = 0;
 
@@ -68,7 +69,7 @@ function barsOf(drop, film, width) {
     if (ball !== undefined) bar.style.setProperty("--ball", `var(--ball-${ball % 6})`);
     const mark = (value, name) => s("line", { class: name, x1: zero + value * scale, x2: zero + value * scale, y1: y + 1, y2: y + ROW - 1 });
     const value = s("text", { x: width - 2, y: y + 13, "text-anchor": "end" });
-    const name = s("text", { x: 0, y: y + 13, text: ball === undefined ? "sum" : shortBall(drop, ball).slice(0, 13) });
+    const name = s("text", { x: 0, y: y + 13, text: ball === undefined ? t("sum") : shortBall(drop, ball).slice(0, 13) });
     const axis = s("line", { class: "momentum-zero", x1: zero, x2: zero, y1: y, y2: y + ROW });
     return { bar, value, elements: [name, bar, axis, mark(before[row], "momentum-before"), mark(after[row], "momentum-after"), value] };
   });

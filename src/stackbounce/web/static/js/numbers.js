@@ -2,6 +2,7 @@
 
 import { h, renew } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
+import { t, translated } from "./language.js";
 import { withSpread } from "./quantity.js";
 import { fixed, format } from "./units.js";
 import { ballName, capital, contactName, count, highest, percent, setUp, shortContact } from "./words.js";
@@ -17,7 +18,7 @@ export function mountNumbers({ root, table }, store) {
   const show = () => {
     const { result, until, prediction, kept } = store.get();
     if (!result) return;
-    const compared = kept && until === null ? [h("h3", { class: "kept-title", text: "Kept to compare" }), ballTable(kept, null, null)] : [];
+    const compared = kept && until === null ? [h("h3", { class: "kept-title", text: t("Kept to compare") }), ballTable(kept, null, null)] : [];
     renew(root, ballTable(result, until, prediction), facts(result, until, prediction), ...compared);
     showIntervals();
   };
@@ -48,15 +49,15 @@ function ballTable(result, until, prediction) {
   const own = until === null ? impactColumns(result, result, prediction) : wholeColumns(result, result.frames.position);
   const theirs = separate && (until === null ? impactColumns(result, separate, null, false).slice(1) : wholeColumns(result, separate.position));
   const all = [...own, ...(theirs ?? [])];
-  const when = until === null ? "After the impact" : `Within ${format(until)} s`;
+  const when = until === null ? t("After the impact") : t("Within {time} s", { time: format(until) });
   const groups = [h("td"), h("th", { scope: "colgroup", colspan: own.length, text: when })];
-  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: "Textbook" }));
+  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: t("Textbook") }));
   const rows = drop.balls.map((_, ball) => row(ballName(drop, ball), ball, ...all.map(({ cell }) => cell(ball))));
   return h(
     "table",
     { class: until === null ? "numbers-table" : "numbers-table whole" },
-    h("caption", { class: "quiet", text: "Speeds and heights of the balls, the highest ball first" }),
-    h("thead", {}, h("tr", { class: "groups" }, groups), columns("Ball", ...all.map(({ name }) => name))),
+    h("caption", { class: "quiet", text: t("Speeds and heights of the balls, the highest ball first") }),
+    h("thead", {}, h("tr", { class: "groups" }, groups), columns(t("Ball"), ...all.map(({ name }) => name))),
     h("tbody", {}, rows.reverse()),
   );
 }
@@ -74,7 +75,7 @@ function impactColumns({ drop }, { rebound_speeds: speeds, rebound_ratios: ratio
   return [
     { name: "m/s", cell: (ball) => withSpread(known("rebound_speeds", ball)) ?? fixed(speeds[ball], 2) },
     { name: "v / v₀", cell: (ball) => withSpread(known("rebound_ratios", ball)) ?? fixed(ratios[ball], 3) },
-    { name: [`rises ${unit}`, multiples ? wide(" (× drop)") : null], cell: (ball) => [rise(ball), multiples ? times(heights[ball], fallen) : null] },
+    { name: [t("rises {unit}", { unit }), multiples ? wide(` ${t("(× drop)")}`) : null], cell: (ball) => [rise(ball), multiples ? times(heights[ball], fallen) : null] },
   ];
 }
 
@@ -83,7 +84,7 @@ function wholeColumns({ drop, frames }, positions) {
   const fallen = speedOf(drop) ** 2 / 2 / (drop.gravity || GRAVITY);
   const tops = positions.map((path) => highest(frames.time, path));
   const { unit, write } = heightsIn(tops);
-  return [{ name: [`highest so far ${unit}`, wide(" (× drop)")], cell: (ball) => [write(tops[ball]), times(tops[ball], fallen)] }];
+  return [{ name: [t("highest so far {unit}", { unit }), wide(` ${t("(× drop)")}`)], cell: (ball) => [write(tops[ball]), times(tops[ball], fallen)] }];
 }
 
 /** Return the one unit of a column of heights in m, and what writes them in it; a ball that goes down has none. */
@@ -109,31 +110,31 @@ function facts(result, until, prediction) {
   const { drop } = result;
   const separate = textbook(result);
   const pair = (name, own, other) => {
-    const beside = other === undefined ? null : h("small", { text: ` textbook ${other}` });
+    const beside = other === undefined ? null : h("small", { text: ` ${t("textbook {value}", { value: other })}` });
     return h("div", {}, h("dt", { text: name }), h("dd", {}, own, beside));
   };
-  const list = h("dl", { class: "facts" }, pair("Impact speed", `${format(result.reference_speed, 3)} m/s`));
+  const list = h("dl", { class: "facts" }, pair(t("Impact speed"), `${format(result.reference_speed, 3)} m/s`));
   if (until === null) {
     const theirs = separate ? percent(separate.energy_retained) : undefined;
     const { value, error } = prediction?.values?.energy_retained ?? {};
     const own = withSpread({ value: 100 * value, error: 100 * error });
-    list.append(pair("Energy retained", own ? `${own} %` : percent(result.energy_retained), theirs));
+    list.append(pair(t("Energy retained"), own ? `${own} %` : percent(result.energy_retained), theirs));
   }
   const met = drop.contacts
     .map((_, contact) => contact)
     .filter((contact) => drop.contacts[contact]?.law !== "none")
     .map((contact) => `${shortContact(drop, contact)}: ${count(result.collisions[contact])}`);
   const theirs = separate?.collisions.map(count).join(", ");
-  list.append(pair("Collisions", met.join(", "), theirs));
-  list.append(pair("Impulse", impulses(result)));
-  const set = pair("Set-up", setUp(drop));
+  list.append(pair(t("Collisions"), met.join(", "), theirs));
+  list.append(pair(t("Impulse"), impulses(result)));
+  const set = pair(t("Set-up"), setUp(drop));
   set.classList.add("print-only");
   list.prepend(set);
-  if (result.separate?.error) list.append(pair("Textbook", result.separate.error));
+  if (result.separate?.error) list.append(pair(t("Textbook"), translated(result.separate.error)));
   const said = errorWords(prediction, drop);
-  if (said) list.append(pair("Errors", said));
+  if (said) list.append(pair(t("Errors"), said));
   const asked = until !== null && result.status === "TIME_REACHED";
-  if (result.status !== "FINISHED" && !asked) list.append(pair("Note", capital(result.advice)));
+  if (result.status !== "FINISHED" && !asked) list.append(pair(t("Note"), capital(translated(result.advice))));
   return list;
 }
 
@@ -147,24 +148,26 @@ function impulses({ drop, intervals }) {
 /** How the errors were found, and what to measure better, in sentences. */
 function errorWords(prediction, drop) {
   if (!prediction) return "";
-  if (prediction.problem) return capital(prediction.problem);
+  if (prediction.problem) return capital(translated(prediction.problem));
   const { how, advice, notes } = prediction;
-  const words = [how, advice, ...notes, "bands show one standard deviation"].filter(Boolean);
-  return words.map((text) => `${capital(inWords(text, drop))}.`).join(" ");
+  const words = [how, advice, ...notes, t("bands show one standard deviation")].filter(Boolean);
+  return words.map((text) => `${capital(inWords(translated(text), drop))}.`).join(" ");
 }
 
 /** Return a text in which paths, such as `rebound_speeds.1` or `contacts.0.stiffness`, are words. */
 function inWords(text, drop) {
   const named = (_, name, index, number) => {
-    if (name === "gaps") return `gap below ${ballName(drop, Number(index) + 1)}`;
+    if (name === "gaps") return t("gap below {name}", { name: ballName(drop, Number(index) + 1) });
     const who = name === "balls" || name.startsWith("rebound_") ? ballName : shortContact;
-    return `${number ?? name} of ${who(drop, Number(index))}`;
+    return t("{number} of {place}", { number: number ?? name, place: who(drop, Number(index)) });
   };
   return text
     .replace(/\b([a-z_]+)\.(\d)(?:\.([a-z_]+))?/g, named)
     .replace(/\bcontact (\d)\b/g, (_, contact) => shortContact(drop, Number(contact)))
     .replaceAll("_", " ");
 }
+
+const HEADS = () => [t("Contact"), t("from ms"), t("to ms"), t("for ms"), t("peak force N"), t("compression mm"), t("impulse N s")];
 
 /** The table of the contact intervals. */
 function intervalTable({ drop, intervals }) {
@@ -181,12 +184,12 @@ function intervalTable({ drop, intervals }) {
       format(one.impulse, 4),
     ),
   );
-  const more = intervals.length > rows.length ? ` The first ${rows.length} of ${intervals.length}.` : "";
+  const more = intervals.length > rows.length ? ` ${t("The first {some} of {all}.", { some: rows.length, all: intervals.length })}` : "";
   return h(
     "table",
     {},
-    h("caption", { text: `Each time a contact was closed.${more}` }),
-    h("thead", {}, columns("Contact", "from ms", "to ms", "for ms", "peak force N", "compression mm", "impulse N s")),
+    h("caption", { text: `${t("Each time a contact was closed.")}${more}` }),
+    h("thead", {}, columns(...HEADS())),
     h("tbody", {}, rows),
   );
 }

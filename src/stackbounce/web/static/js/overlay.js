@@ -2,12 +2,13 @@
 
 import { h, write } from "./dom.js";
 import { choice } from "./fields.js";
+import { t, translated } from "./language.js";
 import { bestShift, laid, lines, matched, shifted } from "./record.js";
 import { recordPlot } from "./record_plot.js";
 import { ballName, capital, contactName } from "./words.js";
 
 const GRAVITY = 9.80665;
-const ASK = { force: "The record is of one contact. Which?", position: "The record is of one ball. Which?" };
+const ASK = { force: t("The record is of one contact. Which?"), position: t("The record is of one ball. Which?") };
 const LONGEST = 10; // s of a track that are simulated
 
 /** Draws into `card`, and hands the store's `overlays` to the play view; `moved` hears over what a record is to lie. */
@@ -79,14 +80,14 @@ export class Overlay {
         this.follow();
       };
       const asked = choice({ label: ASK[curves[0].what], key: "over", groups: [["", places]], value: String(curves[0].index), set });
-      const note = h("p", { class: "note", text: "It lies over the drop of the whole stack. The record of a ball that bounced alone fits a drop of that ball alone." });
+      const note = h("p", { class: "note", text: t("It lies over the drop of the whole stack. The record of a ball that bounced alone fits a drop of that ball alone.") });
       if (this.asking !== JSON.stringify([places, curves[0].index])) this.over.replaceChildren(asked, note);
       this.asking = JSON.stringify([places, curves[0].index]);
       return;
     }
     this.asking = "";
     const said = h("p", { class: "note" });
-    write(said, `It lies over ${curves.map(({ what, index }) => this.place(what, index)).join(" and ")}.`);
+    write(said, t("It lies over {places}.", { places: curves.map(({ what, index }) => this.place(what, index)).join(", ") }));
     this.over.replaceChildren(said);
   }
 
@@ -138,13 +139,13 @@ export class Overlay {
     });
     this.notes.replaceChildren(...put.notes.map((text) => h("p", { text: capital(text) })));
     if (settled && result) {
-      this.store.set({ overlays: put.curves.map((one) => ({ ...one, label: `measured ${one.label}` })) });
+      this.store.set({ overlays: put.curves.map((one) => ({ ...one, label: t("measured {what}", { what: translated(one.label) }) })) });
     }
   }
 
   name({ what, index, label }) {
     const { drop } = this.store.get();
-    if (!this.result) return label;
-    return what === "force" ? contactName(drop, index) : label;
+    if (!this.result) return translated(label);
+    return what === "force" ? contactName(drop, index) : translated(label);
   }
 }

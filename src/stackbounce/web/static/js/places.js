@@ -1,6 +1,7 @@
 /** Where others find this page: its addresses in the network, with a QR code for phones. */
 
 import { h, s } from "./dom.js";
+import { t } from "./language.js";
 
 const BORDER = 3; // modules of white around a code
 
@@ -15,7 +16,7 @@ export function placesBox(api) {
       const places = await api.places();
       if (places.length === 0) return;
       element.replaceChildren(
-        h("p", { class: "note", text: "Others on the same network can open:" }),
+        h("p", { class: "note", text: t("Others on the same network can open:") }),
         ...places.map(({ address }) => h("p", { class: "place", text: address })),
         picture(places[0]),
       );
@@ -31,7 +32,7 @@ export function placesBox(api) {
 function picture({ address, code }) {
   const side = code.length + 2 * BORDER;
   const squares = code.flatMap((row, y) => [...row].map((bit, x) => (bit === "1" ? `M${x + BORDER} ${y + BORDER}h1v1h-1z` : "")));
-  const svg = s("svg", { class: "code", role: "img", viewBox: `0 0 ${side} ${side}`, "aria-label": `QR code of ${address}` });
+  const svg = s("svg", { class: "code", role: "img", viewBox: `0 0 ${side} ${side}`, "aria-label": t("QR code of {address}", { address }) });
   svg.append(s("rect", { width: side, height: side, fill: "#fff" }), s("path", { d: squares.join(""), fill: "#000", "shape-rendering": "crispEdges" }));
   return svg;
 }

@@ -2,6 +2,7 @@
 
 import uPlot from "../vendor/uplot/uPlot.esm.js";
 import { h } from "./dom.js";
+import { t, translated } from "./language.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
 import { format, shownUnit } from "./units.js";
 
@@ -11,7 +12,7 @@ const MM = 1e-3; // m
 export function pressPlot() {
   const host = h("div", { class: "record-canvas", role: "img" });
   const legend = h("ul", { class: "legend" });
-  const title = h("h3", { text: "Force over compression" });
+  const title = h("h3", { text: t("Force over compression") });
   const element = h("figure", { class: "record", hidden: true }, h("figcaption", {}, title, legend), host);
   let branches = [];
   let plot = null;
@@ -84,7 +85,7 @@ function legendItems(branches) {
   return branches.map(({ label }, i) => {
     const swatch = h("span", { class: "swatch", "aria-hidden": "true" });
     swatch.style.setProperty("--ball", colorOf(colors, i));
-    return h("li", {}, swatch, `${label}: points, and the fitted line`);
+    return h("li", {}, swatch, t("{name}: points, and the fitted line", { name: translated(label) }));
   });
 }
 
@@ -93,7 +94,7 @@ function described(branches) {
   const told = branches.map(({ label, compression, force }) => {
     const { unit, size } = shownUnit("m");
     const deepest = format(Math.max(...compression) / size, 3);
-    return `${label}: ${force.length} points, up to ${format(Math.max(...force), 3)} N at ${deepest} ${unit}`;
+    return t("{name}: {points} points, up to {most} N at {deepest} {unit}", { name: translated(label), points: force.length, most: format(Math.max(...force), 3), deepest, unit });
   });
-  return `Force over compression. ${told.join("; ")}.`;
+  return `${t("Force over compression")}. ${told.join("; ")}.`;
 }

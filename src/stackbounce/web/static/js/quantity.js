@@ -1,6 +1,6 @@
 /** Format measured numbers with their error, rounded to its digits, in a unit of suitable size. */
 
-import { format, pretty } from "./units.js";
+import { format, localized, pretty } from "./units.js";
 
 /** For each SI unit: the units that are shown, the largest first, with size and symbol. */
 const LADDERS = {
@@ -41,7 +41,7 @@ function rounded(value, error) {
   const write = (number) => {
     const step = 10 ** -decimals;
     const text = decimals > 0 ? number.toFixed(decimals) : String(Math.round(number / step) * step);
-    return text.replace("-", "−");
+    return localized(text.replace("-", "−"));
   };
   return [write(value), write(error)];
 }

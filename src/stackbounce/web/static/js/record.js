@@ -1,5 +1,7 @@
 /** A record laid over a simulated drop: the same clock, the same zero of height, the same unit. */
 
+import { t, translated } from "./language.js";
+
 const GRAVITY = 9.80665;
 const TRIES = 160; // shifts of the clock that are tried
 const FALLING = 60; // points of the fall before the impact
@@ -47,14 +49,19 @@ export function matched(curves, simulated) {
     const line = simulated[i];
     if (one.what === "force" && one.unit !== "N") {
       const scale = most(line.values) / (most(one.values) || 1);
-      notes.push(`${one.label} is in ${one.unit || "no unit"}: its scale is chosen so that its peak is the simulated one.`);
+      const values = { what: translated(one.label), unit: one.unit || t("no unit") };
+      notes.push(t("{what} is in {unit}: its scale is chosen so that its peak is the simulated one.", values));
       return { ...one, unit: "N", values: one.values.map((value) => value * scale) };
     }
     if (one.what !== "position") return one;
     const offset = mean(differences(one, line, { until: 0 }));
     if (!Number.isFinite(offset)) return one;
-    const moved = `${(Math.abs(offset) * 1e3).toFixed(0)} mm ${offset > 0 ? "lower" : "higher"}`;
-    if (Math.abs(offset) > 5e-4) notes.push(`${one.label} is drawn ${moved} than tracked, to lie on the simulated ball.`);
+    const values = { what: translated(one.label), size: (Math.abs(offset) * 1e3).toFixed(0) };
+    const [lower, higher] = [
+      t("{what} is drawn {size} mm lower than tracked, to lie on the simulated ball.", values),
+      t("{what} is drawn {size} mm higher than tracked, to lie on the simulated ball.", values),
+    ];
+    if (Math.abs(offset) > 5e-4) notes.push(offset > 0 ? lower : higher);
     return { ...one, values: one.values.map((value) => value - offset) };
   });
   return { curves: found, notes };

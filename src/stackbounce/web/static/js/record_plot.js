@@ -2,6 +2,7 @@
 
 import uPlot from "../vendor/uplot/uPlot.esm.js";
 import { h, write } from "./dom.js";
+import { t } from "./language.js";
 import { colorOf, onRepaint, palette } from "./palette.js";
 import { format, shownUnit } from "./units.js";
 
@@ -14,16 +15,16 @@ export function recordPlot() {
   const title = h("h3");
   const slider = h("input", { type: "range", id: "record-shift", min: -SLIDER, max: SLIDER, step: 1 });
   const moved = h("output", { for: "record-shift", class: "record-moved" });
-  const best = h("button", { type: "button", text: "Lay on" });
+  const best = h("button", { type: "button", text: t("Lay on") });
   const whole = h("input", { type: "checkbox" });
   const clock = h(
     "div",
     { class: "record-clock" },
-    h("label", { for: "record-shift", text: "Record’s clock" }),
+    h("label", { for: "record-shift", text: t("Record’s clock") }),
     slider,
     moved,
     best,
-    h("label", { class: "check" }, whole, "whole record"),
+    h("label", { class: "check" }, whole, t("whole record")),
   );
   const element = h("figure", { class: "record" }, h("figcaption", {}, title, legend), host, clock);
   let content = null;
@@ -55,7 +56,7 @@ export function recordPlot() {
     content = next;
     if (other) whole.checked = next.whole;
     clock.hidden = !next.simulated;
-    write(title, headings[next.curves[0].what] ?? "Record");
+    write(title, headings[next.curves[0].what] ?? t("Record"));
     legend.replaceChildren(...legendItems(next));
     if (next.simulated) place();
     draw();
@@ -63,7 +64,7 @@ export function recordPlot() {
   return { element, show };
 }
 
-const headings = { force: "Force, measured and simulated", position: "Position, measured and simulated" };
+const headings = { force: t("Force, measured and simulated"), position: t("Position, measured and simulated") };
 
 function scales({ curves, simulated, window }, whole) {
   const [begin, end] = whole || !simulated ? ends(curves) : window;
@@ -169,7 +170,7 @@ function legendItems({ curves, simulated, names }) {
     return h("li", {}, swatch, text);
   };
   const lines = curves.map(({ index }, i) => item("", colorOf(colors, index), names[i]));
-  return simulated ? [item("measured", colors.text, "measured"), ...lines] : lines;
+  return simulated ? [item("measured", colors.text, t("measured")), ...lines] : lines;
 }
 
 /** Return the plot in words. */
@@ -178,8 +179,9 @@ function described({ curves, simulated, names }) {
   return curves
     .map((one, i) => {
       const { unit, size } = shownUnit(one.unit, Math.abs(peak(one)) > 0.3);
-      const own = `${names[i]}: ${one.values.length} points, at most ${format(peak(one) / size, 3)} ${unit}`;
-      return simulated ? `${own}; simulated at most ${format(peak(simulated[i]) / size, 3)} ${unit}` : own;
+      const values = { name: names[i], points: one.values.length, most: format(peak(one) / size, 3), unit };
+      const own = t("{name}: {points} points, at most {most} {unit}", values);
+      return simulated ? t("{own}; simulated at most {most} {unit}", { own, unit, most: format(peak(simulated[i]) / size, 3) }) : own;
     })
     .join(". ");
 }

@@ -1,9 +1,10 @@
 /** Contacts belong to the balls that make them: what becomes of them where balls come, go or change places. */
 
 import { gapsOf } from "./drops.js";
+import { t } from "./language.js";
 
-const BY_HAND = "Kept: this was set by hand.";
-const UNKNOWN = "Kept from the balls that were here: nothing is known of these two.";
+const BY_HAND = t("Kept: this was set by hand.");
+const UNKNOWN = t("Kept from the balls that were here: nothing is known of these two.");
 
 /**
  * Return `[drop, notes]` of a drop whose balls were put in another order: contacts and gaps that the catalogue has for the

@@ -1,5 +1,6 @@
 /** What happened in a drop, what the textbook says, and why they differ: in sentences that are true for every drop. */
 
+import { isTranslated, t, translated } from "./language.js";
 import { fixed, format } from "./units.js";
 import { capital, highest, metres } from "./words.js";
 
@@ -15,14 +16,18 @@ export function storyOf(result, until = null) {
   const { drop, status, advice } = result;
   if (until !== null) return wholeOutcome(result, until);
   if (!ENDED.includes(status)) {
-    return { lead: "The film ends before the balls have parted, so that their last speeds are not known.", more: `${capital(advice)}.` };
+    return { lead: t("The film ends before the balls have parted, so that their last speeds are not known."), more: `${capital(translated(advice))}.` };
   }
   const top = drop.balls.length - 1;
-  if (!result.intervals.length) return { lead: "Nothing touches, so that no speed changes.", more: "" };
-  if (status === "SETTLED") return { lead: top ? "The balls come to rest and do not bounce." : `${capital(called(drop, 0))} comes to rest and does not bounce.`, more: "" };
+  if (!result.intervals.length) return { lead: t("Nothing touches, so that no speed changes."), more: "" };
+  if (status === "SETTLED") {
+    const one = { ball: capital(called(drop, 0)) };
+    return { lead: top ? t("The balls come to rest and do not bounce.") : t("{ball} comes to rest and does not bounce.", one), more: "" };
+  }
   const own = result.rebound_ratios;
   const theirs = textbookOf(result);
-  const lead = theirs && top > 0 ? `${motion(drop, top, own[top])}, ${compared(own[top], theirs[top])}.` : `${motion(drop, top, own[top])}.`;
+  const how = motion(drop, top, own[top]);
+  const lead = theirs && top > 0 ? `${how}, ${compared(own[top], theirs[top])}.` : `${how}.`;
   return { lead, more: more(result, own, theirs, top) };
 }
 
@@ -31,21 +36,21 @@ export function called(drop, ball) {
   const name = drop.balls[ball].name;
   const count = drop.balls.length;
   if (!name) {
-    if (count === 1) return "the ball";
-    if (ball === count - 1) return count === 2 ? "the upper ball" : "the highest ball";
-    if (ball === 0) return count === 2 ? "the lower ball" : "the lowest ball";
-    return `ball ${ball + 1} from below`;
+    if (count === 1) return t("the ball");
+    if (ball === count - 1) return count === 2 ? t("the upper ball") : t("the highest ball");
+    if (ball === 0) return count === 2 ? t("the lower ball") : t("the lowest ball");
+    return t("ball {place} from below", { place: ball + 1 });
   }
-  if (WITH_BALL.has(name)) return `the ${name} ball`;
-  return /^\p{Ll}[\p{Ll} -]*$/u.test(name) ? `the ${name}` : name;
+  const said = WITH_BALL.has(name) ? `the ${name} ball` : /^\p{Ll}[\p{Ll} -]*$/u.test(name) ? `the ${name}` : name;
+  return isTranslated(said) ? translated(said) : name;
 }
 
 function wholeOutcome({ drop, frames }, until) {
   const top = drop.balls.length - 1;
   const reached = highest(frames.time, frames.position[top]);
-  const name = capital(called(drop, top));
-  const rise = reached > 0 ? `rises to ${metres(reached)} above where it lay` : "does not rise above where it lay";
-  return { lead: `${name} ${rise} within ${format(until)} s.`, more: "" };
+  const values = { ball: capital(called(drop, top)), height: metres(reached), time: format(until) };
+  const rises = t("{ball} rises to {height} above where it lay within {time} s.", values);
+  return { lead: reached > 0 ? rises : t("{ball} does not rise above where it lay within {time} s.", values), more: "" };
 }
 
 function textbookOf({ separate }) {
@@ -54,25 +59,28 @@ function textbookOf({ separate }) {
 
 /** Return a sentence without its end: how a ball moves after the impact, in terms of the speed of the impact. */
 function motion(drop, ball, ratio) {
-  const name = capital(called(drop, ball));
-  if (Math.abs(ratio) < NOTHING) return `${name} stands still after the impact`;
-  const way = ratio > 0 ? "flies up" : "goes down";
-  if (Math.abs(Math.abs(ratio) - 1) <= 0.005) return `${name} ${way} as fast as the drop came in`;
-  return `${name} ${way} at ${factor(ratio)} times the speed of the impact`;
+  const values = { ball: capital(called(drop, ball)), times: factor(ratio) };
+  if (Math.abs(ratio) < NOTHING) return t("{ball} stands still after the impact", values);
+  const alike = Math.abs(Math.abs(ratio) - 1) <= 0.005;
+  if (ratio > 0) {
+    return alike ? t("{ball} flies up as fast as the drop came in", values) : t("{ball} flies up at {times} times the speed of the impact", values);
+  }
+  return alike ? t("{ball} goes down as fast as the drop came in", values) : t("{ball} goes down at {times} times the speed of the impact", values);
 }
 
 /** Return how a rebound ratio compares with the textbook's. */
 function compared(own, theirs) {
-  const value = `${factor(theirs)}${theirs < -NOTHING ? " times, downwards" : ""}`;
+  const value = theirs < -NOTHING ? t("{times} times, downwards", { times: factor(theirs) }) : factor(theirs);
   const apart = Math.abs(own - theirs);
   const larger = Math.max(Math.abs(own), Math.abs(theirs));
-  if (apart <= NOTHING || apart <= SAME * larger) return "as the textbook says";
-  if (apart <= NEARLY * larger) return `nearly the textbook’s ${value}`;
-  if (Math.abs(theirs) < NOTHING) return "where the textbook has it stand still";
-  if (Math.abs(own) < NOTHING || own * theirs < 0) return `unlike the textbook’s ${value}`;
+  if (apart <= NOTHING || apart <= SAME * larger) return t("as the textbook says");
+  if (apart <= NEARLY * larger) return t("nearly the textbook’s {value}", { value });
+  if (Math.abs(theirs) < NOTHING) return t("where the textbook has it stand still");
+  if (Math.abs(own) < NOTHING || own * theirs < 0) return t("unlike the textbook’s {value}", { value });
   const times = own / theirs;
-  if (times >= MUCH) return `${times >= 10 ? format(times, 2) : fixed(times, 1)} times as fast as the textbook’s ${value}`;
-  return times > 1 ? `faster than the textbook’s ${value}` : `slower than the textbook’s ${value}`;
+  const much = { value, times: times >= 10 ? format(times, 2) : fixed(times, 1) };
+  if (times >= MUCH) return t("{times} times as fast as the textbook’s {value}", much);
+  return times > 1 ? t("faster than the textbook’s {value}", { value }) : t("slower than the textbook’s {value}", { value });
 }
 
 function factor(ratio) {
@@ -83,8 +91,8 @@ function factor(ratio) {
 function more(result, own, theirs, top) {
   const { drop, separate } = result;
   if (top === 0) return "";
-  if (!separate) return "These are the textbook’s collisions: one after the other, each in no time.";
-  if (!theirs) return separate.error ? `The textbook’s way has no answer here: ${separate.error}.` : "";
+  if (!separate) return t("These are the textbook’s collisions: one after the other, each in no time.");
+  if (!theirs) return separate.error ? t("The textbook’s way has no answer here: {reason}.", { reason: translated(separate.error) }) : "";
   const apart = own.map((ratio, ball) => Math.abs(ratio - theirs[ball]));
   const differs = (ball) => apart[ball] > Math.max(NOTHING, SAME * Math.max(Math.abs(own[ball]), Math.abs(theirs[ball])));
   const other = apart.reduce((most, one, ball) => (ball !== top && (most < 0 || one > apart[most]) ? ball : most), -1);
@@ -93,10 +101,17 @@ function more(result, own, theirs, top) {
 }
 
 function reason({ balls }, together, differs) {
-  const all = balls.length === 2 ? "both contacts push" : "several contacts push";
-  if (differs && together) return `The textbook lets the balls collide one after the other; here ${all} at the same time.`;
-  if (differs) return "The textbook lets the balls collide one after the other, each time at once; here each contact takes time.";
-  return together ? `The textbook’s collisions come one after the other; here ${all} at the same time, and yet it comes out alike.` : "The contacts come one after the other, as in the textbook.";
+  const two = balls.length === 2;
+  if (differs && together) {
+    return two
+      ? t("The textbook lets the balls collide one after the other; here both contacts push at the same time.")
+      : t("The textbook lets the balls collide one after the other; here several contacts push at the same time.");
+  }
+  if (differs) return t("The textbook lets the balls collide one after the other, each time at once; here each contact takes time.");
+  if (!together) return t("The contacts come one after the other, as in the textbook.");
+  return two
+    ? t("The textbook’s collisions come one after the other; here both contacts push at the same time, and yet it comes out alike.")
+    : t("The textbook’s collisions come one after the other; here several contacts push at the same time, and yet it comes out alike.");
 }
 
 /** Return whether two contacts are closed at the same time. */

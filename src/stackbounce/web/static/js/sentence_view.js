@@ -2,6 +2,7 @@
 
 import { h, put, write } from "./dom.js";
 import { filmOf } from "./film.js";
+import { t } from "./language.js";
 import { called, storyOf } from "./sentence.js";
 import { metres } from "./words.js";
 
@@ -32,7 +33,7 @@ export function mountSentence(root, live, store) {
 
 function question({ drop }) {
   const name = called(drop, drop.balls.length - 1);
-  return { lead: `How high will ${name} fly?`, more: "Drag the mark on the ruler to where you think it goes, then let the balls go." };
+  return { lead: t("How high will {ball} fly?", { ball: name }), more: t("Drag the mark on the ruler to where you think it goes, then let the balls go.") };
 }
 
 /** Return how far off a guess in m was, beside what the film's ruler shows. */
@@ -41,6 +42,8 @@ function judged(result, guess) {
   const top = drop.balls.length - 1;
   const reached = filmOf(result).tops[top]?.height ?? Math.max(0, heights[top] ?? 0);
   const off = guess - reached;
-  const how = Math.abs(off) < 0.005 ? "just there" : `${metres(Math.abs(off))} too ${off > 0 ? "high" : "low"}`;
-  return `You thought ${metres(guess)}; ${called(drop, top)} rises ${metres(reached)}: ${how}.`;
+  const values = { guess: metres(guess), ball: called(drop, top), height: metres(reached), apart: metres(Math.abs(off)) };
+  if (Math.abs(off) < 0.005) return t("You thought {guess}; {ball} rises {height}: just there.", values);
+  if (off > 0) return t("You thought {guess}; {ball} rises {height}: {apart} too high.", values);
+  return t("You thought {guess}; {ball} rises {height}: {apart} too low.", values);
 }

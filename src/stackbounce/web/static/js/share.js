@@ -2,18 +2,18 @@
 
 import { write as addressOf } from "./address.js";
 import { h, write } from "./dom.js";
+import { t, writeTold } from "./language.js";
 import { placesBox } from "./places.js";
 
 const FILES = [
-  ["csv", "Table (CSV)", "csv"],
-  ["png", "Picture (PNG)", "png"],
-  ["svg", "Picture (SVG)", "svg"],
-  ["toml", "Scenario (TOML)", "toml"],
-  ["python", "Python lines", "py"],
+  ["csv", t("Table (CSV)"), "csv"],
+  ["png", t("Picture (PNG)"), "png"],
+  ["svg", t("Picture (SVG)"), "svg"],
+  ["toml", t("Scenario (TOML)"), "toml"],
+  ["python", t("Python lines"), "py"],
 ];
 
-const STATE_COPIED =
-  "The state is copied: whoever has this file puts it behind the file’s address, after “.html”, and sees the same.";
+const STATE_COPIED = t("The state is copied: whoever has this file puts it behind the file’s address, after “.html”, and sees the same.");
 
 /** Build the share menu into `root`. */
 export function mountShare(root, store, api) {
@@ -23,10 +23,10 @@ export function mountShare(root, store, api) {
     const state = `#${addressOf(store.get())}`;
     try {
       await navigator.clipboard.writeText(shared ? location.href.split("#")[0] + state : state);
-      write(said, shared ? "The link is copied: it opens this view again." : STATE_COPIED);
+      write(said, shared ? t("The link is copied: it opens this view again.") : STATE_COPIED);
     } catch {
       location.hash = state;
-      write(said, "Copying is not allowed here; the address of this page is the link.");
+      write(said, t("Copying is not allowed here; the address of this page is the link."));
     }
   };
   const save = async (kind, ending) => {
@@ -35,7 +35,7 @@ export function mountShare(root, store, api) {
       const { drop, until, errors } = store.get();
       download(await api.exportFile(kind, drop, until, errors), `stackbounce.${ending}`);
     } catch (error) {
-      write(said, error.message);
+      writeTold(said, error.message);
     }
   };
   const button = (text, act) => h("button", { type: "button", class: "small", text, onclick: act });
@@ -43,13 +43,13 @@ export function mountShare(root, store, api) {
   const list = h(
     "div",
     { class: "share-list" },
-    button(shared ? "Copy link" : "Copy state", copy),
+    button(shared ? t("Copy link") : t("Copy state"), copy),
     FILES.map(([kind, text, ending]) => button(text, () => save(kind, ending))),
-    button("Print", () => print()),
+    button(t("Print"), () => print()),
     said,
     places.element,
   );
-  const box = h("details", { class: "share" }, h("summary", { text: "Share" }), list);
+  const box = h("details", { class: "share" }, h("summary", { text: t("Share") }), list);
   box.addEventListener("toggle", () => box.open && places.load());
   box.addEventListener("keydown", (event) => {
     if (event.key !== "Escape") return;

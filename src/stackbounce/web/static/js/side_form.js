@@ -2,6 +2,7 @@
 
 import { h, write } from "./dom.js";
 import { choice } from "./fields.js";
+import { t, translated } from "./language.js";
 import { firstSide, isSide } from "./map_axes.js";
 import { clean, format, pretty, read, shownUnit } from "./units.js";
 import { capital } from "./words.js";
@@ -45,20 +46,20 @@ export function sideForm(key, title, current, paths, set) {
     {},
     h("legend", { text: title }),
     choice({
-      label: `${title}: parameter`,
+      label: t("{side}: parameter", { side: title }),
       quiet: true,
       key,
-      groups: [["", paths.map(({ path, label }) => [path, capital(label)])]],
+      groups: [["", paths.map(({ path, label }) => [path, capital(translated(label))])]],
       value: side.path,
       set: (path) => set(firstSide(paths.find((one) => one.path === path))),
     }),
     h(
       "div",
       { class: "side-ends" },
-      end("low", "from"),
-      end("high", "to"),
+      end("low", t("from")),
+      end("high", t("to")),
       h("span", { class: "unit", text: pretty(shown.unit) }),
-      h("label", { class: "check" }, log, "logarithmic"),
+      h("label", { class: "check" }, log, t("logarithmic")),
     ),
     error,
   );
@@ -78,7 +79,7 @@ export function patient(form, update) {
 
 function problemOf(side) {
   const text = [side.low, side.high].find((end) => typeof end !== "number");
-  if (text !== undefined) return `“${text}” is not a number.`;
-  if (side.low === side.high) return "The two ends must differ.";
-  return isSide(side) ? null : "A logarithmic axis needs limits above 0.";
+  if (text !== undefined) return t("“{text}” is not a number.", { text });
+  if (side.low === side.high) return t("The two ends must differ.");
+  return isSide(side) ? null : t("A logarithmic axis needs limits above 0.");
 }

@@ -3,6 +3,7 @@
 import { h, put, s, write } from "./dom.js";
 import { filmOf, pieceAt } from "./film.js";
 import { cameraOf } from "./film_camera.js";
+import { t } from "./language.js";
 import { radii, stacked } from "./shape.js";
 import { ballGroup, ghostGroup, height as heightAt, keptGroups, moveBalls, moveGhosts, moveKept } from "./stage_balls.js";
 import { drawRuler } from "./stage_ruler.js";
@@ -13,7 +14,7 @@ const FOOT = 30; // px below the floor line
 const HEAD = 64; // px above the highest ball, for the time
 const MIDDLE = 0.46; // of the width, where the balls are
 const PAIR = [0.27, 0.68]; // the same of two drops side by side
-const PHASES = { fall: "fall, ", leap: "leap, ", before: "", impact: "impact, ", between: "between contacts, ", after: "", whole: "" };
+const PHASES = { fall: t("fall, "), leap: t("leap, "), before: "", impact: t("impact, "), between: t("between contacts, "), after: "", whole: "" };
 const GUESSED = 5; // times the drop height that can be guessed, at least
 const NEARLY = 1e-9; // of the film's time: at an event
 
@@ -35,7 +36,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
   const centre = s("path", { class: "mass-centre", d: "M-9 0H9M0 -9V9M-5 0A5 5 0 0 0 5 0A5 5 0 0 0 -5 0" });
   svg.append(shading(light), ruler, ground, trails, kept, balls, ghosts, centre, time, scale);
   root.append(svg);
-  const nothing = h("p", { class: "stage-empty note", text: "Computing the first drop …" });
+  const nothing = h("p", { class: "stage-empty note", text: t("Computing the first drop …") });
   root.append(nothing);
   let scene = null;
   let size = null; // of the stage in px; asked for at each change, it would have the whole page laid out
@@ -160,9 +161,9 @@ function words({ film, camera, result }, clock, view) {
   const event = clock.playing ? null : film.events.find(({ time }) => Math.abs(time - clock.time) <= NEARLY * (film.end - film.begin));
   const speed = pace(length / (to - from) / clock.speed);
   const magnified = view.near > 0.5 && camera.times > 1;
-  const scale = magnified ? `, movement shown ×${format(camera.times, 2)}` : "";
+  const scale = magnified ? t(", movement shown ×{times}", { times: format(camera.times, 2) }) : "";
   const now = moment(clock.time, film.whole);
-  const lies = result.drop.balls.some((_, ball) => film.lies(ball, clock.time)) ? "; its next bounce is not shown" : "";
+  const lies = result.drop.balls.some((_, ball) => film.lies(ball, clock.time)) ? t("; its next bounce is not shown") : "";
   return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note: `${PHASES[phase]}${speed}${scale}${lies}` };
 }
 
@@ -170,11 +171,11 @@ function words({ film, camera, result }, clock, view) {
 function spoken({ result, film }, time, { position, velocity }) {
   const { drop } = result;
   const balls = drop.balls.map((_, ball) => {
-    const way = velocity[ball] > 0 ? "up" : "down";
+    const way = velocity[ball] > 0 ? t("up") : t("down");
     const [place, unit] = film.whole ? [position[ball], "m"] : [position[ball] * 1e3, "mm"];
-    return `${ballName(drop, ball)} at ${format(place, 3)} ${unit}, ${format(Math.abs(velocity[ball]), 3)} m/s ${way}`;
+    return t("{ball} at {place} {unit}, {speed} m/s {way}", { ball: ballName(drop, ball), place: format(place, 3), unit, speed: format(Math.abs(velocity[ball]), 3), way });
   });
-  return `The stack at ${moment(time, film.whole)}, from below: ${balls.join("; ")}.`;
+  return t("The stack at {time}, from below: {balls}.", { time: moment(time, film.whole), balls: balls.join("; ") });
 }
 
 function shading(id) {

@@ -2,6 +2,7 @@
 
 import { inksOf, patternOf, squash } from "./ball_looks.js";
 import { put, s, write } from "./dom.js";
+import { t } from "./language.js";
 import { clamp, flattening, outline } from "./shape.js";
 import { fixed } from "./units.js";
 import { ballName } from "./words.js";
@@ -66,7 +67,7 @@ function arrowPath(x, length) {
 /** Return the outlines of the textbook's balls, and the name of the highest. */
 export function ghostGroup(drop) {
   const circles = drop.balls.map((_, ball) => s("circle", { class: "ghost", "data-ghost": ball }));
-  return [...circles, s("text", { class: "ghost-name", text: "textbook" })];
+  return [...circles, s("text", { class: "ghost-name", text: t("textbook") })];
 }
 
 /** Move the textbook's balls to their positions in m; without positions they are hidden. */
@@ -81,7 +82,7 @@ export function moveGhosts(group, positions, { view, floor, middle }) {
   });
   const top = positions.length - 1;
   const y = Number(height(view, floor, top, positions[top])) - view.radius[top] - 5;
-  write(label, y < 0 ? "textbook ↑" : "textbook");
+  write(label, y < 0 ? t("textbook ↑") : t("textbook"));
   put(label, "transform", `translate(${middle} ${Math.max(14, y).toFixed(1)})`);
 }
 
@@ -93,7 +94,7 @@ export function keptGroups(drop) {
     body.style.setProperty("--ball", inks[ball] ?? `var(--place-${ball % 6})`);
     return body;
   });
-  return [...bodies, s("text", { y: 18, text: "kept" })];
+  return [...bodies, s("text", { y: 18, text: t("kept") })];
 }
 
 /** Move the balls of a kept drop. */

@@ -1,6 +1,7 @@
 /** The ruler beside the balls: heights of the highest ball above where it lay, and marks at the tops of all. */
 
 import { put, s } from "./dom.js";
+import { t } from "./language.js";
 import { format } from "./units.js";
 import { ballName, metres } from "./words.js";
 
@@ -23,7 +24,7 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
   const count = film.floor ? Math.floor(room / (step * camera.far.move)) : 0;
   const lines = Array.from({ length: count }, (_, i) => line(step * (i + 1), "tick", `${format(step * (i + 1), 4)} m`));
   const fallen = film.whole ? 0 : film.at(film.begin).position[0]; // the highest ball has the gaps to fall, too
-  if (fallen > 0) lines.push(line(fallen, "mark drop-mark", `dropped from ${metres(fallen)}`));
+  if (fallen > 0) lines.push(line(fallen, "mark drop-mark", t("dropped from {height}", { height: metres(fallen) })));
   const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(drop, ball, found, width, middle) }).filter(Boolean);
   root.replaceChildren(...lines.map(({ group }) => group), ...marks.map(({ group }) => group));
   return (view, time) => {

@@ -20,6 +20,7 @@ export const FIRST_DROP = {
 
 export const FIRST = {
   view: "play",
+  lang: null, // the code of the language that was chosen by hand
   drop: FIRST_DROP,
   until: null, // s of the whole drop, or null for the impact alone
   ghosts: true,

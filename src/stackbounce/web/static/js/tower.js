@@ -3,10 +3,11 @@
 import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
 import { h, write } from "./dom.js";
 import { choice, numberField } from "./fields.js";
+import { t, translated } from "./language.js";
 import { firstContact } from "./laws.js";
 import { isOfCatalogue } from "./restack.js";
 import { format } from "./units.js";
-import { ballName, contactName } from "./words.js";
+import { ballName, contactName, lawName } from "./words.js";
 
 const OWN = "";
 
@@ -36,7 +37,7 @@ export function towerOf(drop, tools, notes) {
     class: "small",
     "data-key": "add",
     disabled: full,
-    text: "Add a ball on top",
+    text: t("Add a ball on top"),
     onclick: () => tools.arrange((now) => withBall(now, firstContact(tools.catalogue.laws))),
   });
   return { element: h("div", {}, add, h("ol", { class: "tower" }, items)), fields };
@@ -57,12 +58,12 @@ function ballCard(drop, ball, tools, field) {
       onclick: () => tools.arrange(act),
     });
   const entries = (lossy) =>
-    tools.catalogue.balls.filter((one) => one.lossy === lossy).map((one) => [one.name, `${one.name}, ${format(one.mass * 1e3)} g`]);
+    tools.catalogue.balls.filter((one) => one.lossy === lossy).map((one) => [one.name, `${translated(one.name)}, ${format(one.mass * 1e3)} g`]);
   const choose = choice({
-    label: `Ball ${ball}`,
+    label: t("Ball {place}", { place: ball }),
     quiet: true,
     key: `ball-${ball}`,
-    groups: [["", [[OWN, "another ball"]]], ["Balls a class owns", entries(true)], ["Balls of the paper", entries(false)]],
+    groups: [["", [[OWN, t("another ball")]]], [t("Balls a class owns"), entries(true)], [t("Balls of the paper"), entries(false)]],
     value: OWN,
     set: (chosen) => tools.choose(ball, chosen),
   });
@@ -72,17 +73,17 @@ function ballCard(drop, ball, tools, field) {
     { class: "card-head" },
     swatch(ball),
     choose,
-    button("↑", `Move ${name} up`, "up", ball === last, (now) => withSwap(now, ball)),
-    button("↓", `Move ${name} down`, "down", ball === 0, (now) => withSwap(now, ball - 1)),
-    button("×", `Remove ${name}`, "remove", last === 0, (now) => withoutBall(now, ball)),
+    button("↑", t("Move {ball} up", { ball: name }), "up", ball === last, (now) => withSwap(now, ball)),
+    button("↓", t("Move {ball} down", { ball: name }), "down", ball === 0, (now) => withSwap(now, ball - 1)),
+    button("×", t("Remove {ball}", { ball: name }), "remove", last === 0, (now) => withoutBall(now, ball)),
   );
   const naming = namer(choose.querySelector("select"), changed, drop, ball, tools);
-  const rows = [field({ path: `balls.${ball}.mass`, label: "mass", of: name, unit: "kg", low: 1e-3, high: 2 }, naming)];
+  const rows = [field({ path: `balls.${ball}.mass`, label: t("mass"), of: name, unit: "kg", low: 1e-3, high: 2 }, naming)];
   if (incidenceOf(drop) === "velocities") {
-    rows.push(field({ path: `velocities.${ball}`, label: "velocity", of: name, unit: "m/s", low: -10, high: 10, says: "Up is positive, down negative." }));
+    rows.push(field({ path: `velocities.${ball}`, label: t("velocity"), of: name, unit: "m/s", low: -10, high: 10, says: t("Up is positive, down negative.") }));
   }
-  const size = { path: `balls.${ball}.diameter`, label: "size", term: "diameter", of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
-  const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: "Size" }), field({ ...size, says: "For the picture only: it changes nothing of the bounce." }));
+  const size = { path: `balls.${ball}.diameter`, label: t("size"), term: t("diameter"), of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
+  const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: t("Size") }), field({ ...size, says: t("For the picture only: it changes nothing of the bounce.") }));
   return h("li", { class: "card ball-card" }, header, rows, changed, more);
 }
 
@@ -93,10 +94,11 @@ function namer(select, note, drop, ball, { catalogue }) {
   return (mass) => {
     const known = isOfCatalogue(catalogue, { name: own.name, mass });
     select.value = known ? own.name : OWN;
-    write(select.options[0], known ? "another ball" : entry ? `${own.name}, changed` : ballName(drop, ball));
+    write(select.options[0], known ? t("another ball") : entry ? t("{ball}, changed", { ball: translated(own.name) }) : ballName(drop, ball));
     note.hidden = known || !entry;
     if (note.hidden) return;
-    write(note, `The ${own.name} of the catalogue has ${format(entry.mass * 1e3)} g. Stiffnesses do not follow the mass.`);
+    const values = { ball: translated(own.name), mass: format(entry.mass * 1e3) };
+    write(note, t("The {ball} of the catalogue has {mass} g. Stiffnesses do not follow the mass.", values));
   };
 }
 
@@ -108,8 +110,8 @@ function swatch(index) {
 
 function contactCard(drop, contact, tools, field, note) {
   const law = tools.catalogue.laws.find((one) => one.law === drop.contacts[contact].law);
-  const laws = tools.catalogue.laws.map((one) => [one.law, spaced(one.law)]);
-  if (contact === 0) laws.push(["none", "no floor"]);
+  const laws = tools.catalogue.laws.map((one) => [one.law, lawName(one.law)]);
+  if (contact === 0) laws.push(["none", t("no floor")]);
   const header = h(
     "div",
     { class: "card-head" },
@@ -123,17 +125,12 @@ function contactCard(drop, contact, tools, field, note) {
   );
   const rows = law ? lawFields(drop, contact, law, field) : [];
   if (contact > 0) {
-    const gap = { path: `gaps.${contact - 1}`, label: "air between", term: "gap", unit: "m", low: 0, high: 0.03 };
-    rows.push(field({ ...gap, of: contactName(drop, contact), says: "How far the two are apart while they fall. 0: they touch." }));
+    const gap = { path: `gaps.${contact - 1}`, label: t("air between"), term: t("gap"), unit: "m", low: 0, high: 0.03 };
+    rows.push(field({ ...gap, of: contactName(drop, contact), says: t("How far the two are apart while they fall. 0: they touch.") }));
   }
-  if (note) rows.push(h("p", { class: "note", text: note }));
+  if (note) rows.push(h("p", { class: "note", text: translated(note) }));
   const more = law ? measuredBox(contact, law, tools) : null;
   return h("li", { class: "card contact-card" }, header, rows, more);
-}
-
-/** Return the name of a law in words. */
-function spaced(name) {
-  return name.replace(/([a-z])([A-Z])/g, "$1 $2");
 }
 
 /** The fields of a law: those it needs, and of the others those that the contact has. */
@@ -144,8 +141,8 @@ function lawFields(drop, contact, law, field) {
     .map((one) => {
       const unit = one.unit === "N/m**exponent" && own.exponent === 1 ? "N/m" : one.unit;
       const { name, low, high, words, says, explains } = one;
-      const term = says === words ? undefined : says;
-      const spec = { label: words ?? says, term, of: contactName(drop, contact), unit, low, high, says: explains };
+      const term = says === words ? undefined : translated(says);
+      const spec = { label: translated(words ?? says), term, of: contactName(drop, contact), unit, low, high, says: translated(explains) };
       return field({ path: `contacts.${contact}.${name}`, ...spec });
     });
 }
@@ -158,19 +155,19 @@ function measuredBox(contact, law, tools) {
     one.update(values[spec.name]);
     return one;
   };
-  const boxes = [local({ name: "restitution", label: "how bouncy", term: "restitution", unit: "", low: 0.05, high: 1 })];
-  if (!law.rigid) boxes.push(local({ name: "contact_time", label: "contact time", unit: "s", low: 5e-4, high: 5e-2 }));
+  const boxes = [local({ name: "restitution", label: t("how bouncy"), term: t("restitution"), unit: "", low: 0.05, high: 1 })];
+  if (!law.rigid) boxes.push(local({ name: "contact_time", label: t("contact time"), unit: "s", low: 5e-4, high: 5e-2 }));
   const apply = h("button", {
     type: "button",
     class: "small",
-    text: "Same bounce as measured",
+    text: t("Same bounce as measured"),
     onclick: () => tools.measured(contact, { restitution: values.restitution, contactTime: values.contact_time }),
   });
-  const about = h("p", { class: "note", text: `${law.formula} – ${law.says} (${law.source})` });
+  const about = h("p", { class: "note", text: `${law.formula} – ${translated(law.says)} (${law.source})` });
   return h(
     "details",
     { "data-key": `measured-${contact}` },
-    h("summary", { text: "What is this law? Or a measured bounce" }),
+    h("summary", { text: t("What is this law? Or a measured bounce") }),
     about,
     boxes.map((one) => one.element),
     apply,

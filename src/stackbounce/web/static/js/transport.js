@@ -3,6 +3,7 @@
 import { h, put, write } from "./dom.js";
 import { GRAVITY } from "./drops.js";
 import { choice } from "./fields.js";
+import { t } from "./language.js";
 import { format } from "./units.js";
 import { moment } from "./words.js";
 
@@ -13,7 +14,7 @@ const SPEEDS = { min: -3, max: 2, step: 0.25 }; // the film's, as powers of two
 
 /** Build the transport into `root`; it drives the clock, and follows it. */
 export function mountTransport(root, store, clock) {
-  const play = h("button", { type: "button", class: "play", "aria-label": "Play", onclick: toggle });
+  const play = h("button", { type: "button", class: "play", "aria-label": t("Play"), onclick: toggle });
   const cursor = h("input", {
     type: "range",
     class: "cursor",
@@ -21,7 +22,7 @@ export function mountTransport(root, store, clock) {
     max: STEPS,
     step: "any",
     value: 0,
-    "aria-label": "Time",
+    "aria-label": t("Time"),
     "aria-describedby": "keys",
     oninput: () => {
       clock.pause();
@@ -62,7 +63,7 @@ export function mountTransport(root, store, clock) {
   clock.subscribe(() => {
     cursor.value = (STEPS * clock.reel) / (clock.film?.length || 1);
     if (!clock.playing) put(cursor, "aria-valuetext", moment(clock.time, store.get().until !== null));
-    put(play, "aria-label", clock.playing ? "Pause" : "Play");
+    put(play, "aria-label", clock.playing ? t("Pause") : t("Play"));
     play.classList.toggle("playing", clock.playing);
     if (played && !clock.playing) keep(store, clock);
     played = clock.playing;
@@ -109,27 +110,27 @@ function actions(store, clock) {
     slider.value = Math.log2(speed);
     loop.checked = again;
     write(told, `×${format(speed, 2)}`);
-    put(slider, "aria-valuetext", `${format(speed, 2)} times`);
+    put(slider, "aria-valuetext", t("{times} times", { times: format(speed, 2) }));
   };
   store.subscribe((state, before) => (state.speed !== before.speed || state.loop !== before.loop) && show());
   show();
   return h(
     "div",
     { class: "actions" },
-    button("Replay", replay),
-    button("Previous event", step(false)),
-    button("Next event", step(true)),
-    h("label", { class: "check" }, loop, "Loop"),
-    h("span", { class: "film-speed" }, h("label", { for: "film-speed", text: "Speed of the film" }), slider, told),
+    button(t("Replay"), replay),
+    button(t("Previous event"), step(false)),
+    button(t("Next event"), step(true)),
+    h("label", { class: "check" }, loop, t("Loop")),
+    h("span", { class: "film-speed" }, h("label", { for: "film-speed", text: t("Speed of the film") }), slider, told),
   );
 }
 
 const SHOWN = [
-  ["ghosts", "Textbook’s balls"],
-  ["arrows", "Velocities"],
-  ["momentum", "Momentum"],
-  ["centre", "Centre of mass"],
-  ["sound", "Sound"],
+  ["ghosts", t("Textbook’s balls")],
+  ["arrows", t("Velocities")],
+  ["momentum", t("Momentum")],
+  ["centre", t("Centre of mass")],
+  ["sound", t("Sound")],
 ];
 
 /** Return the row of what the stage shows. */
@@ -139,23 +140,23 @@ function switches(store) {
   const parts = SHOWN.filter(([name]) => name !== "ghosts" || hasTextbook).map(([name, text]) =>
     check(text, store.get()[name], (on) => store.set({ [name]: on })),
   );
-  parts.push(check("Whole drop", until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
+  parts.push(check(t("Whole drop"), until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
   if (until === null) {
-    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((one) => [one, `×${one}`]);
+    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((one) => [one, `×${format(one, 3)}`]);
     const set = (value) => store.set({ magnify: value === "" ? null : Number(value) });
     parts.push(
-      check("Predict first", predict, (on) => store.set({ predict: on, guess: null })),
+      check(t("Predict first"), predict, (on) => store.set({ predict: on, guess: null })),
       h("button", {
         type: "button",
         class: "small",
-        text: kept ? "Let go what was kept" : "Keep this one to compare",
+        text: kept ? t("Let go what was kept") : t("Keep this one to compare"),
         onclick: () => store.set({ kept: kept ? null : store.get().result }),
       }),
-      choice({ label: "Movement", groups: [["", [["", "auto"], ...sizes]]], value: magnify ?? "", set }),
+      choice({ label: t("Movement"), groups: [["", [["", t("auto")], ...sizes]]], value: magnify ?? "", set }),
     );
   }
   if (until === null && overlays.some(({ what }) => what === "position")) {
-    parts.push(h("p", { class: "note", text: "The measured track is of the whole drop: show that to see it." }));
+    parts.push(h("p", { class: "note", text: t("The measured track is of the whole drop: show that to see it.") }));
   }
   return parts;
 }

@@ -1,5 +1,7 @@
 /** Units on screen: numbers are SI everywhere else. */
 
+import { language } from "./language_choice.js";
+
 /** For each SI unit what people use, and how many SI units one of it is. */
 const SHOWN = {
   kg: ["g", 1e-3],
@@ -20,6 +22,9 @@ const WRITTEN = {
   "N s/m": { "N s/m": 1, "N*s/m": 1, "Ns/m": 1 },
   "s/m": { "s/m": 1 },
 };
+
+/** Whether the page's language has decimal commas. */
+const COMMA = ["de", "es", "fr"].includes(language);
 
 const QUANTITY = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i;
 
@@ -55,9 +60,14 @@ export function fixed(value, decimals) {
   return tidy(Number(text) === 0 ? text.replace("-", "") : text);
 }
 
+/** Return a written number with the decimal mark of the page's language; no thousands are parted. */
+export function localized(text) {
+  return COMMA ? text.replace(".", ",") : text;
+}
+
 /** Write ASCII's minus as a minus, and drop zeros of a mantissa. */
 function tidy(text) {
-  return text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−");
+  return localized(text.replace(/\.?0+e/, "e").replace("e+", "e").replaceAll("-", "−"));
 }
 
 /**
@@ -66,11 +76,11 @@ function tidy(text) {
  */
 export function read(text, unit, shown) {
   const found = QUANTITY.exec(pointed(text.trim().replaceAll("−", "-")));
-  if (!found) return text.trim();
+  if (!found) return COMMA ? pointed(text.trim()) : text.trim();
   const number = Number(found[1]);
   if (found[2] === "") return clean(number * shown.size);
   const size = WRITTEN[unit]?.[found[2]];
-  return size === undefined ? text.trim() : clean(number * size);
+  return size !== undefined ? clean(number * size) : COMMA ? pointed(text.trim()) : text.trim();
 }
 
 /** Split "63 ± 1 cm" into `{value, error}`, each with the unit that only one has; without ± the error is null. */
@@ -83,8 +93,12 @@ export function splitError(text) {
   return { value: whole(value), error: whole(error) };
 }
 
-/** Return a text with a decimal point for a decimal comma; 1,000 could be either and stays as it is. */
-function pointed(text) {
+/**
+ * Return a text with decimal points for decimal commas. Where the page's language has points, 1,000 could be either and stays
+ * as it is.
+ */
+export function pointed(text) {
+  if (COMMA) return text.replace(/(\d|^|[\s+-]),(?=\d)/g, "$1.");
   return /^[+-]?[1-9]\d{0,2},\d{3}(?!\d)/.test(text) ? text : text.replace(/^([+-]?\d*),(\d+)/, "$1.$2");
 }
 

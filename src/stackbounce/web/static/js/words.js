@@ -1,15 +1,17 @@
 /** What balls, contacts and numbers are called on screen. */
 
+import { t, translated } from "./language.js";
 import { fixed, format } from "./units.js";
 
 /** Return a ball's name, or its place. */
 export function ballName(drop, ball) {
-  return drop.balls[ball]?.name || `ball ${ball}`;
+  const { name } = drop.balls[ball] ?? {};
+  return name ? translated(name) : t("ball {place}", { place: ball });
 }
 
 /** Return what a contact lies between, such as "floor – tennis". */
 export function contactName(drop, contact) {
-  const lower = contact === 0 ? "floor" : ballName(drop, contact - 1);
+  const lower = contact === 0 ? t("floor") : ballName(drop, contact - 1);
   return `${lower} – ${ballName(drop, contact)}`;
 }
 
@@ -21,12 +23,12 @@ export function shortBall(drop, ball) {
 /** Return a contact's name, short where there are many. */
 export function shortContact(drop, contact) {
   if (drop.balls.length <= 3) return contactName(drop, contact);
-  return contact === 0 ? "floor–0" : `${contact - 1}–${contact}`;
+  return contact === 0 ? t("floor–0") : `${contact - 1}–${contact}`;
 }
 
 /** Return how often a contact met. */
 export function count(collisions) {
-  return collisions < 0 ? "infinitely many" : String(collisions);
+  return collisions < 0 ? t("infinitely many") : String(collisions);
 }
 
 /** Return a height in mm or m, whichever reads better; a ball that goes down has none. */
@@ -47,16 +49,17 @@ export function moment(time, whole) {
 
 /** Return how fast a film shows what happens: `slow` times slower than it is. */
 export function pace(slow) {
-  if (Math.abs(slow - 1) < 0.02) return "in real time";
-  return slow > 1 ? `slowed ${format(slow, 2)} times` : `${format(1 / slow, 2)} times as fast as it is`;
+  if (Math.abs(slow - 1) < 0.02) return t("in real time");
+  return slow > 1 ? t("slowed {times} times", { times: format(slow, 2) }) : t("{times} times as fast as it is", { times: format(1 / slow, 2) });
 }
 
 /** Return what happens at an event of a film. */
 export function happening(drop, { what, contact, ball }) {
-  if (what === "begin") return "the begin";
-  if (what === "end") return "the end of the film";
-  if (what === "top") return `top of ${ballName(drop, ball)}`;
-  return `${contactName(drop, contact)} ${what === "touch" ? "touch" : "part"}`;
+  if (what === "begin") return t("the begin");
+  if (what === "end") return t("the end of the film");
+  if (what === "top") return t("top of {ball}", { ball: ballName(drop, ball) });
+  const values = { contact: contactName(drop, contact) };
+  return what === "touch" ? t("{contact} touch", values) : t("{contact} part", values);
 }
 
 /** Return a share of the energy as percent. */
@@ -69,16 +72,21 @@ export function percent(share) {
 export function setUp(drop) {
   const parts = drop.balls.map((ball, i) => {
     const { law, ...numbers } = drop.contacts[i];
-    const given = Object.entries(numbers).map(([name, value]) => `${name.replaceAll("_", " ")} ${typeof value === "number" ? format(value) : value}`);
-    const gap = i > 0 && drop.gaps?.[i - 1] ? `, gap ${format(drop.gaps[i - 1] * 1e3)} mm` : "";
-    return `${law === "none" ? "no floor" : `${law} (${given.join(", ")})${gap}`}; ${ballName(drop, i)} ${format(ball.mass * 1e3)} g`;
+    const given = Object.entries(numbers).map(([name, value]) => `${translated(name.replaceAll("_", " "))} ${typeof value === "number" ? format(value) : value}`);
+    const gap = i > 0 && drop.gaps?.[i - 1] ? t(", gap {gap} mm", { gap: format(drop.gaps[i - 1] * 1e3) }) : "";
+    return `${law === "none" ? t("no floor") : `${lawName(law)} (${given.join(", ")})${gap}`}; ${ballName(drop, i)} ${format(ball.mass * 1e3)} g`;
   });
-  return `${parts.join("; ")}; in SI units from the floor up.`;
+  return t("{parts}; in SI units from the floor up.", { parts: parts.join("; ") });
 }
 
 /** Return how high a path comes once the floor has been touched. */
 export function highest(times, path) {
   return path.reduce((most, value, i) => (times[i] > 0 ? Math.max(most, value) : most), 0);
+}
+
+/** Return the name of a law in words. */
+export function lawName(law) {
+  return translated(law.replace(/([a-z])([A-Z])/g, "$1 $2"));
 }
 
 /** Return a text with a capital first letter. */

@@ -1,11 +1,12 @@
 /** Questions to a worker: each is answered, or stopped when it takes too long or a newer one takes its place. */
 
+import { t } from "../language.js";
+
 const LONGEST = 10_000; // ms of a question
 const PATIENCE = 250; // ms of one whose place a newer one takes
 
-const TOO_LONG =
-  "This takes longer than 10 s to compute, so it was stopped: fewer balls, softer contacts or a shorter time take less.";
-const NO_WORKER = "The browser does not let this page start a worker, which it needs to compute.";
+const TOO_LONG = t("This takes longer than 10 s to compute, so it was stopped: fewer balls, softer contacts or a shorter time take less.");
+const NO_WORKER = t("The browser does not let this page start a worker, which it needs to compute.");
 
 /** A worker, started when it is first asked, and anew after a question had to be stopped. */
 export class Client {

@@ -1,5 +1,6 @@
 /** Where the page comes from: a folder of files on any web server, which the browser keeps for when it is offline. */
 
+export { sentences } from "../languages/all.js";
 export { loadParts } from "./parts.js";
 
 export const hasServer = false;

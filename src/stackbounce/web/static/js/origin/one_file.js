@@ -1,5 +1,7 @@
 /** Where the page comes from: the one file, which holds all that it needs, and no server. */
 
+export { sentences } from "../languages/all.js";
+
 export const hasServer = false;
 
 /** There is no view that measures and fits: that is for a server to do. */

@@ -1,7 +1,18 @@
 /** Where the page comes from: a server of stackbounce, which also measures and fits. In other forms of the page, folder.js
  * or one_file.js takes its place. */
 
+import { language } from "../language_choice.js";
+
 export { loadParts } from "./parts.js";
+
+const TABLES = {
+  de: () => import("../languages/de.js"),
+  es: () => import("../languages/es.js"),
+  fr: () => import("../languages/fr.js"),
+};
+
+/** The sentences of the page's language by the English ones: loaded before the page is built, and none in English itself. */
+export const sentences = language in TABLES ? await TABLES[language]().then(({ table }) => table, () => ({})) : {};
 
 export const hasServer = true;
 
