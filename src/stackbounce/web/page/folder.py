@@ -15,7 +15,7 @@ _HEAD = """\
   <link rel="manifest" href="explorer.webmanifest">
   <script defer src="explorer.js"></script>
 </head>"""
-_OLD = '<p id="old" class="banner">'  # it is shown until the script runs, from a disk for good
+_OLD = '<p id="old" class="banner" data-t>'  # shown until the script runs, from a disk for good
 _DISK = (
     "As a folder the explorer opens from a web server only. “stackbounce app --export "
     "explorer.html” writes it as one file, which opens from a disk. "
