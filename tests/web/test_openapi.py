@@ -21,6 +21,7 @@ CHECKS = [
 ]
 OPERATIONS = [
     ("GET", "/api/status"),
+    ("GET", "/api/places"),
     ("GET", "/api/catalogue"),
     ("POST", "/api/stack"),
     ("POST", "/api/law"),

@@ -2,6 +2,7 @@
 
 import { write as addressOf } from "./address.js";
 import { h } from "./dom.js";
+import { t } from "./language.js";
 
 /** Whether the address asks for that. */
 export const embedded = new URLSearchParams(location.search).has("embed");
@@ -10,7 +11,7 @@ export const embedded = new URLSearchParams(location.search).has("embed");
 export function mountEmbed(root, store) {
   if (!embedded) return;
   document.body.classList.add("embedded");
-  const link = h("a", { class: "embed-link", target: "_blank", rel: "noopener", text: "Open the explorer in a new tab" });
+  const link = h("a", { class: "embed-link", target: "_blank", rel: "noopener", text: t("Open the explorer in a new tab") });
   const aim = () => link.setAttribute("href", `${location.href.split(/[?#]/)[0]}#${addressOf(store.get())}`);
   for (const name of ["focus", "pointerenter", "pointerdown", "click"]) link.addEventListener(name, aim);
   const stay = ({ view }) => view !== "play" && store.set({ view: "play" }); // the others have no room

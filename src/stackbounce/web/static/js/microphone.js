@@ -1,6 +1,7 @@
 /** The microphone as a source of a measurement: at most 30 s, which become a WAV file in the page. */
 
 import { h, write } from "./dom.js";
+import { t } from "./language.js";
 import { download } from "./share.js";
 import { wavOf } from "./wav.js";
 
@@ -13,16 +14,14 @@ export function microphone(take) {
   if (!window.isSecureContext || !navigator.mediaDevices?.getUserMedia) {
     return h("p", {
       class: "note",
-      text:
-        "To record a bounce here, open the page on the machine that runs stackbounce: browsers give the microphone only to " +
-        "pages of the same machine or with an address that begins with https://.",
+      text: t("To record a bounce here, open the page on the machine that runs stackbounce: browsers give the microphone only to pages of the same machine or with an address that begins with https://."),
     });
   }
   const said = h("p", { class: "note", role: "status" });
   const problem = h("p", { class: "field-error", role: "alert", hidden: true });
-  const level = h("meter", { class: "level", min: 0, max: 1, high: CLIPPED, value: 0, "aria-label": "Loudness", hidden: true });
-  const button = h("button", { type: "button", text: "Record a bounce", onclick: () => (recording ? stop() : start()) });
-  const save = h("button", { type: "button", class: "small", text: "Save the recording", hidden: true, onclick: () => download(file, file.name) });
+  const level = h("meter", { class: "level", min: 0, max: 1, high: CLIPPED, value: 0, "aria-label": t("Loudness"), hidden: true });
+  const button = h("button", { type: "button", text: t("Record a bounce"), onclick: () => (recording ? stop() : start()) });
+  const save = h("button", { type: "button", class: "small", text: t("Save the recording"), hidden: true, onclick: () => download(file, file.name) });
   let recording = null;
   let file = null;
 
@@ -31,10 +30,10 @@ export function microphone(take) {
     problem.hidden = true;
     try {
       recording = await record(heard);
-      write(button, "Stop");
+      write(button, t("Stop"));
       level.hidden = false;
       save.hidden = true;
-      write(said, `Recording, for ${LONGEST} s at most: let the ball bounce near the microphone.`);
+      write(said, t("Recording, for {seconds} s at most: let the ball bounce near the microphone.", { seconds: LONGEST }));
     } catch (error) {
       write(problem, whyNot(error));
       problem.hidden = false;
@@ -48,10 +47,10 @@ export function microphone(take) {
   const stop = () => {
     const { samples, rate, loudest } = recording.end();
     recording = null;
-    write(button, "Record a bounce");
+    write(button, t("Record a bounce"));
     level.hidden = true;
     const clipped = loudest >= CLIPPED;
-    write(said, clipped ? "The recording was too loud, so that its peaks are cut off. Record it again from further away." : "The recording stays on this machine.");
+    write(said, clipped ? t("The recording was too loud, so that its peaks are cut off. Record it again from further away.") : t("The recording stays on this machine."));
     file = new File([wavOf(samples, rate)], "recording.wav", { type: "audio/wav" });
     save.hidden = false;
     take(file);
@@ -95,7 +94,7 @@ async function record(heard) {
 }
 
 function whyNot({ name, message }) {
-  if (name === "NotAllowedError") return "The browser does not let this page use the microphone. Allow it beside the page’s address, then try again.";
-  if (name === "NotFoundError") return "No microphone was found.";
+  if (name === "NotAllowedError") return t("The browser does not let this page use the microphone. Allow it beside the page’s address, then try again.");
+  if (name === "NotFoundError") return t("No microphone was found.");
   return message;
 }

@@ -1,6 +1,7 @@
 /** The range of time that all plots show: the whole, or a part around the cursor. */
 
 import { h } from "./dom.js";
+import { t } from "./language.js";
 
 const MOST = 64; // times larger than the whole
 const STEP = 2;
@@ -11,10 +12,10 @@ export class PlotZoom {
   constructor(clock, extent, redraw) {
     Object.assign(this, { clock, extent, redraw, times: 1, from: null });
     const button = (text, label, act) => h("button", { type: "button", class: "small", text, "aria-label": label, onclick: act });
-    this.out = button("−", "Show a longer time in the plots", () => this.set(this.times / STEP));
-    this.in = button("+", "Show a shorter time in the plots, around the cursor", () => this.set(this.times * STEP));
-    this.all = button("Whole", "Show the whole time in the plots", () => this.set(1));
-    this.element = h("div", { class: "plot-zoom", role: "group", "aria-label": "Time in the plots" }, h("span", { text: "Time in the plots" }), this.out, this.in, this.all);
+    this.out = button("−", t("Show a longer time in the plots"), () => this.set(this.times / STEP));
+    this.in = button("+", t("Show a shorter time in the plots, around the cursor"), () => this.set(this.times * STEP));
+    this.all = button(t("Whole"), t("Show the whole time in the plots"), () => this.set(1));
+    this.element = h("div", { class: "plot-zoom", role: "group", "aria-label": t("Time in the plots") }, h("span", { text: t("Time in the plots") }), this.out, this.in, this.all);
     clock.subscribe(() => this.follow());
     this.show();
   }
