@@ -224,7 +224,7 @@ export const table = {
   "As measured; {before} loses no energy, so it is {law} now.": "Wie gemessen; „{before}“ verliert keine Energie, darum gilt jetzt „{law}“.",
   "Left and right arrow move a crosshair, with Shift in larger steps, Home goes to the present drop. Enter plays the drop there.": "Die Pfeiltasten links und rechts bewegen ein Fadenkreuz, mit Umschalt in größeren Schritten; Pos1 führt zum jetzigen Fall. Eingabe spielt den Fall dort ab.",
   "Computing …": "Berechnung läuft …",
-  "{what} against {number}": "{what} über: {number}",
+  "{what} against {number}": "{what} gegen {number}",
   "Line: {what}; across, {number}": "Kurve: {what}; waagerecht {number}",
   "The dots are the present drop.": "Die Punkte sind der jetzige Fall.",
   "The present drop lies outside of this line.": "Der jetzige Fall liegt außerhalb dieser Kurve.",
