@@ -26,7 +26,7 @@ def opened(visit):
 
 def tried(page, title):
     page.get_by_role("button", name=title).click()
-    page.locator(".recognised b").wait_for()
+    page.locator(".recognised button").wait_for()
 
 
 def fitted(page):
@@ -178,7 +178,7 @@ def test_a_dropped_file_is_read(visit):
              document.querySelector('.measure-out').dispatchEvent(event); }""",
         "Height (m)\n1.00\n0.62\n0.39\n0.24\n",
     )
-    page.locator(".recognised b").wait_for()
+    page.locator(".recognised button").wait_for()
     assert "heights.csv holds a table" in page.locator(".recognised").inner_text()
     assert "The file is of one ball alone" in page.locator(".fit").inner_text()
 
@@ -188,7 +188,7 @@ LAB = Path(__file__).parents[3] / "docs/lab"
 
 def given(page, name):
     page.locator(".file-drop input[type=file]").set_input_files(LAB / name)
-    page.locator(".recognised b").filter(has_text=name).wait_for()
+    page.locator(".recognised").filter(has_text=name).locator("button").wait_for()
 
 
 def test_a_sound_becomes_the_bounce_of_the_ball_that_is_chosen(visit):

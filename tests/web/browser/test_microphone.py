@@ -54,7 +54,7 @@ def test_a_recorded_bounce_is_measured_and_can_be_saved(visit, tmp_path):
     page.get_by_role("meter", name="Loudness").wait_for()
     page.wait_for_timeout(2200)
     page.get_by_role("button", name="Stop").click()
-    page.locator(".recognised b").wait_for()
+    page.locator(".recognised button").wait_for()
     content = visit.saved(lambda: page.get_by_role("button", name="Save the recording").click())
     file = tmp_path / "recording.wav"
     file.write_bytes(content)
