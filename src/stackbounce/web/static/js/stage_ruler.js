@@ -7,6 +7,7 @@ import { ballName, metres } from "./words.js";
 
 const APART = 44; // px between two lines, at least
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1e3, 1e4];
+const NARROW = 320; // px, below which the words of marks would lie over the balls
 const BESIDE = 56; // px from the right edge: marks have their words left of the ruler's
 
 /** Fill a group with the lines of a film's ruler; returns `move(view, time)`. */
@@ -24,7 +25,8 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
   const count = film.floor ? Math.floor(room / (step * camera.far.move)) : 0;
   const lines = Array.from({ length: count }, (_, i) => line(step * (i + 1), "tick", `${format(step * (i + 1), 4)} m`));
   const fallen = film.whole ? 0 : film.at(film.begin).position[0]; // the highest ball has the gaps to fall, too
-  if (fallen > 0) lines.push(line(fallen, "mark drop-mark", t("dropped from {height}", { height: metres(fallen) })));
+  const dropped = width < NARROW ? "" : t("dropped from {height}", { height: metres(fallen) });
+  if (fallen > 0) lines.push(line(fallen, "mark drop-mark", dropped));
   const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(drop, ball, found, width, middle) }).filter(Boolean);
   root.replaceChildren(...lines.map(({ group }) => group), ...marks.map(({ group }) => group));
   return (view, time) => {
@@ -44,7 +46,7 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
 function topMark(drop, ball, { height }, width, middle) {
   const group = s("g", { class: "mark top-mark" });
   group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
-  const text = `${ballName(drop, ball)} ${metres(height)}`;
+  const text = width < NARROW ? "" : `${ballName(drop, ball)} ${metres(height)}`;
   group.append(s("line", { x1: middle, x2: width }), s("text", { x: width - BESIDE, y: -4, "text-anchor": "end", text }));
   return group;
 }
