@@ -49,3 +49,18 @@ def test_a_number_is_called_by_a_word_and_its_term_and_explained(visit):
     assert ask.get_attribute("aria-expanded") == "true"
     ask.click()
     assert not says.is_visible()
+
+
+def test_on_a_phone_the_ball_and_the_number_that_changes_it_are_on_one_screen(visits):
+    page = visits(viewport={"width": 390, "height": 844}).open()
+    top = "(one) => one.getBoundingClientRect().y + scrollY"
+    place = page.locator("#transport").evaluate(top)
+    slider = page.locator("[data-slider='balls.0.mass']")
+    slider.scroll_into_view_if_needed()
+    slider.focus()
+    page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y === 0")
+    assert page.locator("#transport").evaluate(top) == pytest.approx(place, abs=1.0)
+    stage, number = page.locator("#stage").bounding_box(), slider.bounding_box()
+    assert stage["y"] + stage["height"] <= number["y"] <= 844 - number["height"]
+    slider.evaluate("(one) => one.blur()")
+    page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y < 0")
