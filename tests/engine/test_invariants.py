@@ -52,7 +52,8 @@ def drops(draw, kinds=("spring",), largest=4):
     masses = [draw(powers(-1, 1)) for _ in range(size)]
     if draw(st.booleans()):
         return sb.Drop([sb.Ball(m) for m in masses], contacts, gaps, impact_speed=1.0)
-    velocities = [-1.0, *[draw(st.floats(-2.0, 0.5)) for _ in masses[1:]]]
+    upper = st.floats(-2.0, 0.5, allow_subnormal=False)  # else digits are lost in the scaling
+    velocities = [-1.0, *[draw(upper) for _ in masses[1:]]]
     return sb.Drop([sb.Ball(m) for m in masses], contacts, gaps, velocities=velocities)
 
 
@@ -280,7 +281,8 @@ def test_split_run_equals_the_whole(drop, fraction):
         if event not in open_ended or (relaxing[event[1]] and event in known)
     ]
     unfinished = part.intervals[np.isinf(part.intervals["end"])]
-    assert {event[1] for event in open_ended} <= set(unfinished["contact"].tolist())
+    unknown = {event[1] for event in open_ended if event not in known}
+    assert unknown <= set(unfinished["contact"].tolist())
 
 
 @given(drops(EVERY))
