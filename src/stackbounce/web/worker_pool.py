@@ -87,7 +87,9 @@ class _Worker:
         If this is cancelled, nobody waits for the result: then `abandoned` is the limit in s.
         """
         try:
-            await asyncio.shield(asyncio.wrap_future(self._prepared))
+            prepared = asyncio.wrap_future(self._prepared)
+            prepared.add_done_callback(_forget)  # this may be cancelled before it ends
+            await asyncio.shield(prepared)
             computing = asyncio.get_running_loop().run_in_executor(self._executor, job)
             computing.add_done_callback(_forget)
             await self._wait(computing, seconds, abandoned)

@@ -567,8 +567,7 @@ def test_a_drop_that_takes_too_long_is_stopped_and_told(visit):
                                             contacts: balls.map(() => contact) } }); }""",
         endless,
     )
-    page.wait_for_timeout(300)
-    assert visit.state("busy")
+    page.wait_for_function("() => window.stackbounce.store.get().busy")
     page.clock.fast_forward(11_000)
     told = page.locator("#controls [role=alert]").filter(has_text="longer than 10 s")
     told.wait_for(state="visible")
