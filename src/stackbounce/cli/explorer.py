@@ -75,23 +75,29 @@ def run(
     import dataclasses
 
     from stackbounce.errors import whole
-    from stackbounce.version import __version__
     from stackbounce.web import LIMITS
     from stackbounce.web.serve import serve
 
     def tell(address: str, others: "list[Place]") -> None:
-        if as_json:
-            known = {"address": address, "others": [one.address for one in others]}
-            typer.echo(json_text({"stackbounce": __version__, **known}))
-            return
-        typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
-        if others or host in ("0.0.0.0", "::"):
-            _tell_others(others)
+        _tell(address, others, bool(others) or host in ("0.0.0.0", "::"), as_json)
 
     by_default = min(max((os.cpu_count() or 1) // 2, 2), 4)
     count = by_default if workers is None else whole("--workers", workers, 1, 64)
     limits = dataclasses.replace(LIMITS, workers=count)
     serve(host, port, limits, browser=browser, tell=tell, framed_by=framed_by)
+
+
+def _tell(address: str, others: "list[Place]", for_others: bool, as_json: bool) -> None:
+    """Print where the explorer is, for the user and for others."""
+    if as_json:
+        from stackbounce.version import __version__
+
+        known = {"address": address, "others": [one.address for one in others]}
+        typer.echo(json_text({"stackbounce": __version__, **known}))
+        return
+    typer.echo(f"The explorer: {address} (Ctrl+C ends it)")
+    if for_others:
+        _tell_others(others)
 
 
 def _tell_others(others: "list[Place]") -> None:

@@ -568,9 +568,11 @@ def test_a_drop_that_takes_too_long_is_stopped_and_told(visit):
         endless,
     )
     page.wait_for_function("() => window.stackbounce.store.get().busy")
-    page.clock.fast_forward(11_000)
     told = page.locator("#controls [role=alert]").filter(has_text="longer than 10 s")
+    assert not told.is_visible()
+    page.clock.fast_forward(11_000)
     told.wait_for(state="visible")
+    assert not visit.state("busy")
     page.locator("#controls select").first.select_option("figure-9")
     page.wait_for_function("() => window.stackbounce.store.get().result.drop.balls.length === 2")
     told.wait_for(state="hidden")
