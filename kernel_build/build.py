@@ -10,12 +10,13 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
-from kernel_build.targets import TARGETS
+from kernel_build.targets import TARGETS, Target
 from stackbounce.engine.native import MANIFEST, digest_of_sources
 
 __all__ = ["build", "is_up_to_date"]
 
 _HALF = ("run_drop", "run_batch")  # entries that take as long to compile as all others
+_SLOWER = "v4"  # the level at which these are slower than one below, which then serves
 
 
 def build(names: list[str], folder: Path) -> None:
@@ -81,16 +82,22 @@ def compile_entries(entries: list[str], names: list[str]) -> list[list[bytes]]:
             )
             for ir in as_completed(lowered)
             for name in names
-            for level in TARGETS[name].levels
+            for level in _levels(TARGETS[name], halves[lowered[ir]])
         }
         return [
             [
                 parts[name, half, level].result()
                 for half in range(len(halves))
-                for level in TARGETS[name].levels
+                for level in _levels(TARGETS[name], halves[half])
             ]
             for name in names
         ]
+
+
+def _levels(target: Target, entries: list[str]) -> list[str]:
+    """Return the levels that entries are compiled for."""
+    slower = any(entry in _HALF for entry in entries)
+    return [level for level in target.levels if not (slower and level == _SLOWER)]
 
 
 def _lower(entries: list[str]) -> str:

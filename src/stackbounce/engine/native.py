@@ -73,11 +73,20 @@ def compiled(entry: str) -> Callable[..., Any]:
     found = _library()
     if isinstance(found, str):
         raise RuntimeError(found)  # noqa: TRY004 - no wrong type: it says why there is none
-    function = found.library[f"{entry}_{found.level}" if found.level else entry]
+    function = _function(found, entry)
     function.argtypes = [_KINDS[kind] for kind in found.entries[entry]]
     function.restype = ctypes.c_int64
     result: Callable[..., Any] = function
     return result
+
+
+def _function(found: "_Library", entry: str) -> Any:
+    """Return an entry for the processor's level, or for the highest below it that it has."""
+    if not found.level:
+        return found.library[entry]
+    below = range(int(found.level[1:]), 0, -1)
+    names = (f"{entry}_v{number}" for number in below)
+    return next(found.library[name] for name in names if hasattr(found.library, name))
 
 
 class _Library(NamedTuple):

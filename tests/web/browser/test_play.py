@@ -554,7 +554,7 @@ def test_an_engine_that_cannot_be_loaded_is_told_and_tried_again(visit):
 
 
 def test_a_drop_that_takes_too_long_is_stopped_and_told(visit):
-    """The worker never sees the question; the clock of the page runs fast, so that nobody waits ten seconds."""
+    """The question never reaches the worker, and the clock of the page runs fast."""
     page = visit.page
     page.add_init_script(
         """const { postMessage } = Worker.prototype;
