@@ -23,6 +23,7 @@ export function between(values, { index, fraction }) {
 
 const JUMP = 900; // ms between two stops where motion is reduced
 const LINGER = 1200; // ms at the end of a film that is repeated
+const READABLE = 100; // ms that a number stands while a film plays: nobody reads sixty in a second
 const LONGEST = 100; // ms of one frame: a tab that was hidden goes on where it was
 
 export class Clock {
@@ -39,6 +40,8 @@ export class Clock {
     this.listeners = new Set();
     this.asked = 0;
     this.last = null;
+    this.legible = true; // whether numbers are written in this frame
+    this.written = -Infinity; // ms, when they were
   }
 
   get begin() {
@@ -106,6 +109,8 @@ export class Clock {
   frame(now) {
     this.asked = 0;
     if (this.playing) this.advance(now);
+    this.legible = !this.playing || now - this.written >= READABLE;
+    if (this.legible) this.written = now;
     for (const listener of this.listeners) listener(this);
     if (this.playing) this.touch();
   }

@@ -34,7 +34,7 @@ export function mountMomentum(root, store, clock) {
       const length = now[row] * bars.scale;
       put(bar, "x", (bars.zero + Math.min(0, length)).toFixed(1));
       put(bar, "width", Math.abs(length).toFixed(1));
-      write(value, fixed(now[row], 3));
+      if (clock.legible) write(value, fixed(now[row], 3));
     });
   };
   store.subscribe((state, before) => {

@@ -19,6 +19,7 @@ export function mountPlots(root, store, clock) {
   const zoom = new PlotZoom(clock, () => extent, redraw);
   zoom.element.hidden = true;
   root.before(zoom.element);
+  let fresh = false; // whether the plots have data that are not drawn
   const build = () => {
     const { result, until, overlays, prediction, view } = store.get();
     if (!result || view !== "play") return;
@@ -26,7 +27,8 @@ export function mountPlots(root, store, clock) {
     extent = [result.frames.time[0], result.frames.time.at(-1)];
     const same = shown.length > 0 && wanted.every((panel, i) => shown[i].key === keyOf(panel));
     if (same) {
-      wanted.forEach((panel, i) => shown[i].update(panel));
+      wanted.forEach((panel, i) => shown[i].take(panel));
+      fresh = true;
     } else {
       for (const one of shown) one.remove();
       const colors = palette();
@@ -44,7 +46,11 @@ export function mountPlots(root, store, clock) {
   store.subscribe((state, before) => {
     if (["result", "overlays", "prediction", "view"].some((name) => state[name] !== before[name])) build();
   });
+  // A canvas that is given a text lays out the page: all that changes the page's layout comes before.
   clock.subscribe(() => {
+    for (const one of shown) if (clock.legible || fresh) one.tell(clock.time);
+    for (const one of shown) if (fresh) one.redraw();
+    fresh = false;
     for (const one of shown) one.follow(clock.time);
   });
   onRepaint(repaint);
@@ -87,10 +93,14 @@ class Panel {
     this.plot.destroy();
   }
 
-  update(panel) {
+  /** Take the data that the next `redraw` draws. */
+  take(panel) {
     this.panel = panel;
-    this.plot.setData(this.data());
+  }
+
+  redraw() {
     this.describe();
+    this.plot.batch(() => this.plot.setData(this.data()));
   }
 
   describe() {
@@ -104,7 +114,17 @@ class Panel {
     clock.touch();
   }
 
-  /** Move the cursor, its dots and the legend's values to a time in s. */
+  /** Write the legend's values at a time in s. */
+  tell(time) {
+    const place = locate(this.panel.times, time * this.panel.scale);
+    this.panel.lines.forEach(({ values }, i) => {
+      if (!values) return;
+      const value = between(values, place);
+      write(this.values[i], format(Math.abs(value) < 1e-9 ? 0 : value, 3));
+    });
+  }
+
+  /** Move the cursor and its dots to a time in s. */
   follow(time) {
     const at = time * this.panel.scale;
     const place = locate(this.panel.times, at);
@@ -112,10 +132,8 @@ class Panel {
     this.line.style.transform = `translateX(${left.toFixed(1)}px)`;
     this.panel.lines.forEach(({ values }, i) => {
       if (!values) return;
-      const value = between(values, place);
-      const top = this.plot.valToPos(value, "y");
+      const top = this.plot.valToPos(between(values, place), "y");
       this.dots[i].style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
-      write(this.values[i], format(Math.abs(value) < 1e-9 ? 0 : value, 3));
     });
   }
 

@@ -64,8 +64,8 @@ export function mountStage(root, store, clock, onRuler = () => null) {
       balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));
       trails.replaceChildren(...result.drop.balls.map((_, ball) => trail(ball)));
     }
+    if (names !== stack || Boolean(film.ghosts) !== ghosts.hasChildNodes()) ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));
     stack = names;
-    ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));
     kept.replaceChildren(...(also ? keptGroups(other.drop) : []));
     if (also) scene.keptRadius = radii(other.drop);
     clock.touch();
@@ -76,7 +76,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     const { film, camera, floor, middle } = scene;
     const now = film.at(clock.time);
     const view = camera.at(clock.time, now.position);
-    moveBalls([...balls.children], now, { ...scene, view, lies: (ball) => film.lies(ball, clock.time) });
+    moveBalls([...balls.children], now, { ...scene, view, legible: clock.legible, lies: (ball) => film.lies(ball, clock.time) });
     if (film.ghosts) moveGhosts(ghosts, film.ghosts.at(clock.time), { view, floor, middle });
     if (scene.also) {
       const beside = { ...view, ...stacked(scene.keptRadius, view.scale) };
@@ -86,9 +86,11 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     moveCentre(centre, scene, view, now);
     scene.moveRuler(view, clock.time);
     onRuler(rulerPlace(scene, view));
-    const said = words(scene, clock, view);
-    write(time, said.time);
-    write(scale, said.note);
+    if (clock.legible) {
+      const said = words(scene, clock, view);
+      write(time, said.time);
+      write(scale, said.note);
+    }
     if (!clock.playing || !svg.hasAttribute("aria-label")) put(svg, "aria-label", spoken(scene, clock.time, now));
   };
 

@@ -31,7 +31,7 @@ function shortened(name) {
 }
 
 /** Move the groups of a drop's balls to where `moment` has them in a view. */
-export function moveBalls(groups, moment, { view, floor, middle, fastest, lies }) {
+export function moveBalls(groups, moment, { view, floor, middle, fastest, legible, lies }) {
   const flat = flattening(moment.compression, view);
   groups.forEach((group, ball) => {
     const [body, pattern, light, arrow, name, speed] = group.children;
@@ -46,7 +46,7 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, lies }
     put(arrow, "d", arrowPath((side + 17).toFixed(1), (-ARROW * velocity) / fastest));
     put(name, "x", (-side - 10).toFixed(1));
     put(speed, "x", (side + 28).toFixed(1));
-    write(speed, lies(ball) ? "" : `${fixed(velocity, 2)} m/s`);
+    if (legible) write(speed, lies(ball) ? "" : `${fixed(velocity, 2)} m/s`);
     put(group, "class", lies(ball) ? "ball lies" : "ball");
   });
 }

@@ -1,6 +1,6 @@
 /** The ruler beside the balls: heights of the highest ball above where it lay, and marks at the tops of all. */
 
-import { put, s } from "./dom.js";
+import { put, s, write } from "./dom.js";
 import { t } from "./language.js";
 import { format } from "./units.js";
 import { ballName, metres } from "./words.js";
@@ -10,15 +10,14 @@ const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1e3, 1
 const NARROW = 320; // px, below which the words of marks would lie over the balls
 const BESIDE = 56; // px from the right edge: marks have their words left of the ruler's
 
-/** Fill a group with the lines of a film's ruler; returns `move(view, time)`. */
+/** Fill a group with the lines of a film's ruler; returns `move(view, time)`. Lines that are there are used again. */
 export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
+  const present = [...root.children];
   const top = drop.balls.length - 1;
   const base = ({ lift, rest, radius }) => floor - lift - rest[top] + radius[top];
   const line = (height, name, text) => {
-    const group = s("g", { class: name });
-    const x = name === "tick" ? width - 8 : width - BESIDE;
-    group.append(s("line", { x1: name === "tick" ? 0 : middle, x2: width }), s("text", { x, y: -4, "text-anchor": "end", text }));
-    return { group, height, ball: top };
+    const [x, x1] = name === "tick" ? [width - 8, 0] : [width - BESIDE, middle];
+    return { group: lineOf(present, { name, x, x1, width, text }), height, ball: top };
   };
   const step = STEPS.find((one) => one * camera.far.move >= APART) ?? 1e5;
   const room = floor - camera.far.rest[top] + camera.far.radius[top] - 30;
@@ -27,8 +26,9 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
   const fallen = film.whole ? 0 : film.at(film.begin).position[0]; // the highest ball has the gaps to fall, too
   const dropped = width < NARROW ? "" : t("dropped from {height}", { height: metres(fallen) });
   if (fallen > 0) lines.push(line(fallen, "mark drop-mark", dropped));
-  const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(drop, ball, found, width, middle) }).filter(Boolean);
-  root.replaceChildren(...lines.map(({ group }) => group), ...marks.map(({ group }) => group));
+  const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(present, drop, ball, found, width, middle) }).filter(Boolean);
+  root.append(...[...lines, ...marks].map(({ group }) => group).filter((group) => group.parentNode !== root));
+  for (const left of present) left.remove();
   return (view, time) => {
     const shown = Math.max(0, 1 - 4 * view.near);
     put(root, "opacity", shown.toFixed(2));
@@ -43,10 +43,21 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
   };
 }
 
-function topMark(drop, ball, { height }, width, middle) {
-  const group = s("g", { class: "mark top-mark" });
-  group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+function topMark(present, drop, ball, { height }, width, middle) {
   const text = width < NARROW ? "" : `${ballName(drop, ball)} ${metres(height)}`;
-  group.append(s("line", { x1: middle, x2: width }), s("text", { x: width - BESIDE, y: -4, "text-anchor": "end", text }));
+  const group = lineOf(present, { name: "mark top-mark", x: width - BESIDE, x1: middle, width, text });
+  group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+  return group;
+}
+
+/** Return a line with its words: one of its kind that is present, which is then no longer listed there, or a new one. */
+function lineOf(present, { name, x, x1, width, text }) {
+  const found = present.findIndex((group) => group.getAttribute("class") === name);
+  const [group] = found < 0 ? [s("g", { class: name }, s("line"), s("text", { y: -4, "text-anchor": "end" }))] : present.splice(found, 1);
+  const [line, words] = group.children;
+  put(line, "x1", x1);
+  put(line, "x2", width);
+  put(words, "x", x);
+  write(words, text);
   return group;
 }
