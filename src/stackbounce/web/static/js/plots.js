@@ -19,7 +19,6 @@ export function mountPlots(root, store, clock) {
   const zoom = new PlotZoom(clock, () => extent, redraw);
   zoom.element.hidden = true;
   root.before(zoom.element);
-  let fresh = false; // whether the plots have data that are not drawn
   const build = () => {
     const { result, until, overlays, prediction, view } = store.get();
     if (!result || view !== "play") return;
@@ -28,7 +27,6 @@ export function mountPlots(root, store, clock) {
     const same = shown.length > 0 && wanted.every((panel, i) => shown[i].key === keyOf(panel));
     if (same) {
       wanted.forEach((panel, i) => shown[i].take(panel));
-      fresh = true;
     } else {
       for (const one of shown) one.remove();
       const colors = palette();
@@ -46,11 +44,8 @@ export function mountPlots(root, store, clock) {
   store.subscribe((state, before) => {
     if (["result", "overlays", "prediction", "view"].some((name) => state[name] !== before[name])) build();
   });
-  // A canvas that is given a text lays out the page: all that changes the page's layout comes before.
   clock.subscribe(() => {
-    for (const one of shown) if (clock.legible || fresh) one.tell(clock.time);
-    for (const one of shown) if (fresh) one.redraw();
-    fresh = false;
+    for (const one of shown) if (clock.legible) one.tell(clock.time);
     for (const one of shown) one.follow(clock.time);
   });
   onRepaint(repaint);
@@ -96,11 +91,8 @@ class Panel {
   /** Take the data that the next `redraw` draws. */
   take(panel) {
     this.panel = panel;
-  }
-
-  redraw() {
+    this.plot.setData(this.data());
     this.describe();
-    this.plot.batch(() => this.plot.setData(this.data()));
   }
 
   describe() {
