@@ -5,7 +5,7 @@ import { t, translated } from "./language.js";
 import { nameOf } from "./line_words.js";
 import { sideOf, ticks } from "./map_axes.js";
 import { fitting, marks } from "./map_draw.js";
-import { colorOf } from "./palette.js";
+import { colorOf, LETTERS, SMALL } from "./palette.js";
 import { clean, format, pretty } from "./units.js";
 
 const FONT = "system-ui, sans-serif";
@@ -24,7 +24,7 @@ const pen = document.createElement("canvas").getContext("2d");
  * @param {object[]} measured `{value, error}` of each ball; empty for none
  */
 export function drawLine(answer, { width, height }, colors, measured) {
-  pen.font = `12px ${FONT}`;
+  pen.font = LETTERS;
   const names = listNames(answer, colors);
   const room = Math.max(0, ...names.map(({ text }) => pen.measureText(text).width));
   const beside = width >= WIDE;
@@ -37,7 +37,7 @@ export function drawLine(answer, { width, height }, colors, measured) {
     x: (part) => frame.left + part * frame.width,
     y: (value) => frame.top + (1 - y.part(value)) * frame.height,
   };
-  const svg = s("svg", { width, height, viewBox: `0 0 ${width} ${height}`, "font-size": 12, "font-family": FONT, fill: colors.text });
+  const svg = s("svg", { width, height, viewBox: `0 0 ${width} ${height}`, "font-size": SMALL, "font-family": FONT, fill: colors.text });
   svg.append(
     ...drawAcross(answer, frame, place, colors),
     ...drawUp(answer, ticks(y.low, y.high, false, most), frame, place, colors),

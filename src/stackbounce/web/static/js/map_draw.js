@@ -3,9 +3,9 @@
 import { MANY, colorAt, css, isLight } from "./colors.js";
 import { contour, labelPlace } from "./contours.js";
 import { sideOf, ticks } from "./map_axes.js";
+import { LETTERS } from "./palette.js";
 import { clean, format, pretty, shownUnit } from "./units.js";
 
-const FONT = "12px system-ui, sans-serif";
 const KEY = { top: 4, height: 12 }; // of the colours
 const LABEL_ROOM = 26; // px around the label of a line
 
@@ -23,7 +23,7 @@ export function prepared(canvas) {
   canvas.height = Math.round(height * ratio);
   const ctx = canvas.getContext("2d");
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
-  ctx.font = FONT;
+  ctx.font = LETTERS;
   return { ctx, width, height };
 }
 

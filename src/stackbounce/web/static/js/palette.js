@@ -1,4 +1,7 @@
-/** The colours of the page for canvases, read from style.css, where they are defined. */
+/** The letters and colours of the page for canvases; colours are read from style.css, where they are defined. */
+
+export const SMALL = 13; // px, as --type-small there
+export const LETTERS = `${SMALL}px system-ui, sans-serif`;
 
 const NAMES = ["text", "muted", "line", "paper", "card", "ball-0", "ball-1", "ball-2", "ball-3", "ball-4", "ball-5"];
 

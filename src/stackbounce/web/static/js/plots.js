@@ -4,7 +4,7 @@ import uPlot from "../vendor/uplot/uPlot.esm.js";
 import { between, locate } from "./clock.js";
 import { describePanel, panels } from "./curves.js";
 import { h, write } from "./dom.js";
-import { colorOf, onRepaint, palette } from "./palette.js";
+import { colorOf, LETTERS, onRepaint, palette } from "./palette.js";
 import { PlotZoom } from "./plot_zoom.js";
 import { format } from "./units.js";
 
@@ -156,7 +156,7 @@ class Panel {
     const { colors } = this;
     const axis = {
       stroke: colors.muted,
-      font: "11px system-ui, sans-serif",
+      font: LETTERS,
       grid: { stroke: colors.line, width: 1 },
       ticks: { show: false },
     };

@@ -3,7 +3,7 @@
 import uPlot from "../vendor/uplot/uPlot.esm.js";
 import { h } from "./dom.js";
 import { t, translated } from "./language.js";
-import { colorOf, onRepaint, palette } from "./palette.js";
+import { colorOf, LETTERS, onRepaint, palette } from "./palette.js";
 import { format, shownUnit } from "./units.js";
 
 const MM = 1e-3; // m
@@ -43,7 +43,7 @@ function options(host, branches) {
     const air = 0.04 * (high - low);
     return [low - air, high + air];
   };
-  const axis = { stroke: colors.muted, font: "11px system-ui, sans-serif", grid: { stroke: colors.line, width: 1 }, ticks: { show: false } };
+  const axis = { stroke: colors.muted, font: LETTERS, grid: { stroke: colors.line, width: 1 }, ticks: { show: false } };
   const label = (unit) => (_, ticks) => ticks.map((tick, i) => format(tick, 4) + (i === ticks.length - 1 ? ` ${unit}` : ""));
   return {
     width: host.clientWidth,

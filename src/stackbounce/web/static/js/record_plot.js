@@ -3,7 +3,7 @@
 import uPlot from "../vendor/uplot/uPlot.esm.js";
 import { h, write } from "./dom.js";
 import { t } from "./language.js";
-import { colorOf, onRepaint, palette } from "./palette.js";
+import { colorOf, LETTERS, onRepaint, palette } from "./palette.js";
 import { format, shownUnit } from "./units.js";
 
 const SLIDER = 400; // steps to either side
@@ -94,7 +94,7 @@ function options(host, content, whole) {
   const color = ({ index }) => colorOf(colors, index);
   const axis = {
     stroke: colors.muted,
-    font: "11px system-ui, sans-serif",
+    font: LETTERS,
     grid: { stroke: colors.line, width: 1 },
     ticks: { show: false },
   };

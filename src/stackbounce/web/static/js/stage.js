@@ -16,6 +16,7 @@ const MIDDLE = 0.46; // of the width, where the balls are
 const PAIR = [0.27, 0.68]; // the same of two drops side by side
 const PHASES = { fall: t("fall, "), leap: t("leap, "), before: "", impact: t("impact, "), between: t("between contacts, "), after: "", whole: "" };
 const GUESSED = 5; // times the drop height that can be guessed, at least
+const WORDY = 320; // px, from which there is room for a whole sentence
 const NEARLY = 1e-9; // of the film's time: at an event
 
 let stages = 0;
@@ -158,14 +159,15 @@ function moveCentre(mark, { result, floor, middle }, view, { position }) {
 }
 
 /** Return the words on the stage: the time, or the event at it, how fast the film is, and the scale. */
-function words({ film, camera, result }, clock, view) {
+function words({ film, camera, result, width }, clock, view) {
   const { phase, from, to, length } = pieceAt(film, clock.time);
   const event = clock.playing ? null : film.events.find(({ time }) => Math.abs(time - clock.time) <= NEARLY * (film.end - film.begin));
   const speed = pace(length / (to - from) / clock.speed);
   const magnified = view.near > 0.5 && camera.times > 1;
   const scale = magnified ? t(", movement shown ×{times}", { times: format(camera.times, 2) }) : "";
   const now = moment(clock.time, film.whole);
-  const lies = result.drop.balls.some((_, ball) => film.lies(ball, clock.time)) ? t("; its next bounce is not shown") : "";
+  const some = width >= WORDY && result.drop.balls.some((_, ball) => film.lies(ball, clock.time));
+  const lies = some ? t("; its next bounce is not shown") : "";
   return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note: `${PHASES[phase]}${speed}${scale}${lies}` };
 }
 

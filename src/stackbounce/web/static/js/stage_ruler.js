@@ -8,6 +8,7 @@ import { ballName, metres } from "./words.js";
 const APART = 44; // px between two lines, at least
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1e3, 1e4];
 const NARROW = 320; // px, below which the words of marks would lie over the balls
+const SLIM = 480; // px, below which the highest ball's words would lie over its speed if they stood above their line
 const BESIDE = 56; // px from the right edge: marks have their words left of the ruler's
 
 /** Fill a group with the lines of a film's ruler; returns `move(view, time)`. Lines that are there are used again. */
@@ -45,19 +46,21 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
 
 function topMark(present, drop, ball, { height }, width, middle) {
   const text = width < NARROW ? "" : `${ballName(drop, ball)} ${metres(height)}`;
-  const group = lineOf(present, { name: "mark top-mark", x: width - BESIDE, x1: middle, width, text });
+  const below = width < SLIM && ball === drop.balls.length - 1;
+  const group = lineOf(present, { name: "mark top-mark", x: width - BESIDE, x1: middle, width, text, y: below ? 14 : -4 });
   group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
   return group;
 }
 
 /** Return a line with its words: one of its kind that is present, which is then no longer listed there, or a new one. */
-function lineOf(present, { name, x, x1, width, text }) {
+function lineOf(present, { name, x, x1, width, text, y = -4 }) {
   const found = present.findIndex((group) => group.getAttribute("class") === name);
-  const [group] = found < 0 ? [s("g", { class: name }, s("line"), s("text", { y: -4, "text-anchor": "end" }))] : present.splice(found, 1);
+  const [group] = found < 0 ? [s("g", { class: name }, s("line"), s("text", { "text-anchor": "end" }))] : present.splice(found, 1);
   const [line, words] = group.children;
   put(line, "x1", x1);
   put(line, "x2", width);
   put(words, "x", x);
+  put(words, "y", y);
   write(words, text);
   return group;
 }
