@@ -80,3 +80,56 @@ def test_the_edge_of_a_ball_changes_its_size_alone(visit):
     assert balls[0]["diameter"] > 0.18
     assert balls[0]["mass"] == 0.15
     assert visit.state("drop.height") == 0.5
+
+
+PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "is_mobile": True}
+
+
+def touch(page, start, up, rest=0):
+    """Put a finger down, leave it for `rest` ms, move it up by so many px, and lift it."""
+    fingers = page.context.new_cdp_session(page)
+
+    def send(kind, *points):
+        places = [{"x": x, "y": y} for x, y in points]
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": places})
+
+    x, y = start
+    send("touchStart", (x, y))
+    page.wait_for_timeout(rest)
+    for step in range(1, 11):
+        send("touchMove", (x, y - up * step / 10))
+        page.wait_for_timeout(16)
+    send("touchEnd")
+    page.wait_for_timeout(300)
+
+
+@pytest.fixture
+def phone(visits, in_firefox):
+    if in_firefox:
+        pytest.skip("Playwright sends no touches by WebDriver BiDi")
+    return visits(**PHONE)
+
+
+def test_a_finger_that_swipes_over_a_ball_scrolls_and_one_that_rests_on_it_drags(phone):
+    page = opened(phone)
+    x, y, _ = body(page, 1)
+    touch(page, (x, y), 80)
+    assert phone.state("drop.gaps") == [0]
+    assert page.evaluate("() => scrollY") > 20
+    page.evaluate("() => scrollTo(0, 0)")
+    x, y, _ = body(page, 1)
+    touch(page, (x, y), 30, rest=400)
+    assert phone.state("drop.gaps")[0] > 0.0
+    assert page.evaluate("() => scrollY") == 0
+
+
+def test_a_guess_is_dragged_by_a_finger(phone):
+    page = opened(phone)
+    page.evaluate("() => window.stackbounce.store.set({ predict: true })")
+    mark = page.get_by_role("slider", name="Your guess")
+    mark.wait_for()
+    before = float(mark.get_attribute("aria-valuenow"))
+    grip = page.locator(".guess-grip").bounding_box()
+    touch(page, (grip["x"] + 9, grip["y"] + 9), 100)
+    assert float(mark.get_attribute("aria-valuenow")) > before + 0.3
+    assert page.evaluate("() => scrollY") == 0

@@ -179,7 +179,7 @@ def test_a_dropped_file_is_read(visit):
         "Height (m)\n1.00\n0.62\n0.39\n0.24\n",
     )
     page.locator(".recognised button").wait_for()
-    assert "heights.csv holds a table" in page.locator(".recognised").inner_text()
+    assert "heights.csv: table" in page.locator(".recognised").inner_text()
     assert "The file is of one ball alone" in page.locator(".fit").inner_text()
 
 

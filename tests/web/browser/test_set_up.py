@@ -62,5 +62,9 @@ def test_on_a_phone_the_ball_and_the_number_that_changes_it_are_on_one_screen(vi
     assert page.locator("#transport").evaluate(top) == pytest.approx(place, abs=1.0)
     stage, number = page.locator("#stage").bounding_box(), slider.bounding_box()
     assert stage["y"] + stage["height"] <= number["y"] <= 844 - number["height"]
+    page.evaluate("() => scrollTo(0, 0)")  # the number is out of view, and the stage where it was
+    page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y > 100")
+    slider.scroll_into_view_if_needed()
+    page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y === 0")
     slider.evaluate("(one) => one.blur()")
     page.wait_for_function("() => document.querySelector('#stage').getBoundingClientRect().y < 0")

@@ -118,7 +118,8 @@ def track(
     fitted = _bouncing(found, up, fitted, gravity if comparable(data) else None, notes)
     level = None if floor is None else ruler * finite("floor", floor, "metres")
     units = units_of(data)
-    balls = [_track(name, *one, level, units) for name, one in fitted]
+    alone = len(fitted) == 1
+    balls = [_track(name, *one, level, units, alone=alone) for name, one in fitted]
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
     if gains := no_gain(balls[0].restitutions, balls[0].impact_times):
@@ -219,6 +220,8 @@ def _track(
     bounces: list[int],
     floor: float | None,
     units: TrackUnits,
+    *,
+    alone: bool,
 ) -> Track:
     """Return a ball's bounces from its parabolas."""
     from uncertainties import ufloat
@@ -270,7 +273,7 @@ def _track(
             *uneven(name, shape),
             *notes_of(name, times, fit, bounces, moments[0], impacts[0] / fall, units.time),
             *(
-                stays_long(name, times, fit, bounces[0], impacts[0], fall)
+                stays_long(name, times, fit, bounces[0], impacts[0], fall, alone=alone)
                 if floor is None and units.known
                 else ()
             ),

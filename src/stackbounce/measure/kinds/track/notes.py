@@ -51,7 +51,14 @@ def notes_of(
 
 
 def stays_long(
-    name: str, times: Array, fit: Flights, bounce: int, impact: Any, fall: Any
+    name: str,
+    times: Array,
+    fit: Flights,
+    bounce: int,
+    impact: Any,
+    fall: Any,
+    *,
+    alone: bool,
 ) -> tuple[str, ...]:
     """Return a note where a long contact biases the speeds at the touch."""
     before, after = fit.flights[bounce].last, fit.flights[bounce + 1].first
@@ -59,14 +66,18 @@ def stays_long(
     excess = 0.5 * fall.nominal_value * lasts
     if excess < _NOTICED * impact.std_dev:
         return ()
-    note = Said(
-        f"{name} is on the floor for {1e3 * lasts:.0f} ms or more: its speeds, where the flights "
+    biased = (
+        f"{name} is in contact for {1e3 * lasts:.0f} ms or more: its speeds, where the flights "
         f"before and after meet, are too high by {excess:.2g} m/s or more, beyond their "
-        "errors, and so are its heights; ",
-        Hint({"floor": None}),
-        " tells the floor's level, for those at the touch",
+        "errors, and so are its heights"
     )
-    return (note,)
+    if not alone:
+        return (f"{biased}; what is fitted to them is off by as much",)
+    return (
+        Said(
+            f"{biased}; ", Hint({"floor": None}), " tells the floor's level, for those at the touch"
+        ),
+    )
 
 
 def uneven(name: str, shape: Shape) -> tuple[str, ...]:

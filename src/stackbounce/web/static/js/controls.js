@@ -103,6 +103,7 @@ export function mountControls(root, store, api, catalogue) {
     store.set(withExample(store.get(), example));
   });
   root.replaceChildren(presets, said, general, drops, tower);
+  new IntersectionObserver(([{ isIntersecting }]) => root.classList.toggle("seen", isIntersecting)).observe(root);
   store.subscribe((state, before) => {
     if (state.notice !== before.notice) write(said, state.notice ?? "");
     const touched = ["drop", "error", "errors", "until", "notes"].some((name) => state[name] !== before[name]);

@@ -85,6 +85,8 @@ function energies({ drop, frames }) {
   return { what: "energy", title: t("Energy"), unit: factor === 1 ? "J" : "mJ", factor, lines };
 }
 
+const NOTHING = 1e-9; // in the units of a panel: what rounding leaves of zero
+
 /** Describe a panel in words, for screen readers. */
 export function describePanel(panel) {
   const { title, unit, lines, stems } = panel;
@@ -93,8 +95,7 @@ export function describePanel(panel) {
       const own = stems.filter((stem) => stem.index === index).map((stem) => stem.impulse);
       return t("{name} {count} times, up to {most} {unit}", { name: label, count: own.length, most: format(Math.max(...own), 3), unit });
     }
-    const low = values.reduce((a, b) => Math.min(a, b), Infinity);
-    const high = values.reduce((a, b) => Math.max(a, b), -Infinity);
+    const [low, high] = [Math.min, Math.max].map((end) => values.reduce((a, b) => end(a, b))).map((one) => (Math.abs(one) < NOTHING ? 0 : one));
     return t("{name} from {low} to {high} {unit}", { name: label, low: format(low, 3), high: format(high, 3), unit });
   });
   return t("{what} against time: {ranges}.", { what: title, ranges: ranges.join("; ") });

@@ -74,6 +74,7 @@ export function mountGuess(root, store, clock) {
     mark.setPointerCapture(event.pointerId);
     drag(event);
   });
+  mark.addEventListener("touchstart", (event) => isOpen() && event.preventDefault(), { passive: false }); // the page stays
   mark.addEventListener("pointermove", (event) => mark.hasPointerCapture(event.pointerId) && drag(event));
   mark.addEventListener("keydown", (event) => {
     const moves = { ArrowUp: STEP, ArrowRight: STEP, ArrowDown: -STEP, ArrowLeft: -STEP, PageUp: 5 * STEP, PageDown: -5 * STEP };

@@ -9,6 +9,8 @@ import { clean, format, numeric } from "./units.js";
 import { ballName, capital } from "./words.js";
 
 const STILL = 4; // px that a pointer may move in a click
+const HOLD = 300; // ms that a finger rests on a ball before it drags it: before, it scrolls the page
+const WIPE = 10; // px that it may move meanwhile
 const EDGE = 0.78; // of the radius, from where it is the edge that is dragged
 const SMALL = 20; // px, the radius below which a ball has no edge to drag
 const HEIGHTS = [0.02, 10]; // m, as the sliders have them
@@ -19,7 +21,7 @@ const SIZES = [0.01, 0.4];
 export function mountHands(root, store, clock, api) {
   const says = h("p", { class: "hands-says", hidden: true });
   root.append(says);
-  let held = null; // {pointer, ball, x, y, act}
+  let held = null; // {pointer, ball, x, y, act, waits}
 
   const tell = (text) => {
     write(says, text ?? "");
@@ -38,8 +40,14 @@ export function mountHands(root, store, clock, api) {
       }),
     );
   };
+  /** Let a finger that has rested on a ball drag it. */
+  const grasp = () => {
+    held.waits = 0;
+    begin(root.querySelector(`[data-ball="${held.ball}"]`));
+  };
   const letGo = () => {
     const moved = held?.act;
+    clearTimeout(held?.waits);
     held = null;
     tell(null);
     if (moved) store.set({ replay: store.get().replay + 1 });
@@ -53,12 +61,14 @@ export function mountHands(root, store, clock, api) {
     held = { pointer: event.pointerId, ball: Number(group.dataset.ball), x: dx, y: event.clientY, far: Math.hypot(dx, dy), act: null };
     held.edge = width / 2 >= SMALL && held.far > EDGE * (width / 2);
     held.sideways = event.clientX;
+    if (event.pointerType === "touch") held.waits = setTimeout(grasp, HOLD);
     root.setPointerCapture(event.pointerId);
   });
   root.addEventListener("pointermove", (event) => {
     if (!held || event.pointerId !== held.pointer) return;
     const [right, up] = [event.clientX - held.sideways, held.y - event.clientY];
-    if (!held.act && Math.hypot(right, up) < STILL) return;
+    if (held.waits && Math.hypot(right, up) > WIPE) letGo();
+    if (!held || held.waits || (!held.act && Math.hypot(right, up) < STILL)) return;
     if (!held.act) begin(root.querySelector(`[data-ball="${held.ball}"]`));
     const text = held.act({ right, up });
     if (text) tell(text);
@@ -66,6 +76,7 @@ export function mountHands(root, store, clock, api) {
   for (const name of ["pointerup", "pointercancel"]) {
     root.addEventListener(name, (event) => held?.pointer === event.pointerId && letGo());
   }
+  root.addEventListener("touchmove", (event) => held?.act && event.preventDefault(), { passive: false }); // the page stays
   root.addEventListener("pointerover", (event) => !held && tell(ballAt(event) ? hint(store.get().drop, Number(ballAt(event).dataset.ball)) : null));
   root.addEventListener("pointerleave", () => !held && tell(null));
 }

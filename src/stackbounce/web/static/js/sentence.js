@@ -4,7 +4,7 @@ import { isTranslated, t, translated } from "./language.js";
 import { fixed, format } from "./units.js";
 import { capital, highest, metres } from "./words.js";
 
-const SAME = 0.02; // part of the larger of two speeds by which they may differ and still be called the same
+const SAME = 0.005; // part of the larger of two speeds by which they may differ and still be called the same
 const NEARLY = 0.1;
 const MUCH = 1.5; // times as fast, from which on it is told how many times
 const NOTHING = 5e-4; // a rebound ratio that is none

@@ -8,6 +8,7 @@ import { fixed } from "./units.js";
 import { ballName } from "./words.js";
 
 const ARROW = 46; // px of the fastest ball's arrow
+const STILL = 0.005; // m/s, the speed below which none is written
 const LETTERS = 16; // of a name
 
 /** Return a group that shows a ball; `light` is the id of its shading. */
@@ -46,7 +47,7 @@ export function moveBalls(groups, moment, { view, floor, middle, fastest, legibl
     put(arrow, "d", arrowPath((side + 17).toFixed(1), (-ARROW * velocity) / fastest));
     put(name, "x", (-side - 10).toFixed(1));
     put(speed, "x", (side + 28).toFixed(1));
-    if (legible) write(speed, lies(ball) ? "" : `${fixed(velocity, 2)} m/s`);
+    if (legible) write(speed, lies(ball) || Math.abs(velocity) < STILL ? "" : `${fixed(velocity, 2)} m/s`);
     put(group, "class", lies(ball) ? "ball lies" : "ball");
   });
 }

@@ -9,6 +9,7 @@ const APART = 44; // px between two lines, at least
 const STEPS = [0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 1e3, 1e4];
 const NARROW = 320; // px, below which the words of marks would lie over the balls
 const SLIM = 480; // px, below which the highest ball's words would lie over its speed if they stood above their line
+const [ABOVE, BELOW] = [-4, 14]; // px, of words from their line
 const BESIDE = 56; // px from the right edge: marks have their words left of the ruler's
 
 /** Fill a group with the lines of a film's ruler; returns `move(view, time)`. Lines that are there are used again. */
@@ -17,8 +18,9 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
   const top = drop.balls.length - 1;
   const base = ({ lift, rest, radius }) => floor - lift - rest[top] + radius[top];
   const line = (height, name, text) => {
-    const [x, x1] = name === "tick" ? [width - 8, 0] : [width - BESIDE, middle];
-    return { group: lineOf(present, { name, x, x1, width, text }), height, ball: top };
+    const tick = name === "tick";
+    const [x, x1, y] = [width - (tick ? 8 : BESIDE), tick ? 0 : middle, !tick && width < SLIM ? BELOW : ABOVE];
+    return { group: lineOf(present, { name, x, x1, width, text, y }), height, ball: top };
   };
   const step = STEPS.find((one) => one * camera.far.move >= APART) ?? 1e5;
   const room = floor - camera.far.rest[top] + camera.far.radius[top] - 30;
@@ -46,14 +48,14 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
 
 function topMark(present, drop, ball, { height }, width, middle) {
   const text = width < NARROW ? "" : `${ballName(drop, ball)} ${metres(height)}`;
-  const below = width < SLIM && ball === drop.balls.length - 1;
-  const group = lineOf(present, { name: "mark top-mark", x: width - BESIDE, x1: middle, width, text, y: below ? 14 : -4 });
+  const y = width < SLIM && ball === drop.balls.length - 1 ? BELOW : ABOVE;
+  const group = lineOf(present, { name: "mark top-mark", x: width - BESIDE, x1: middle, width, text, y });
   group.style.setProperty("--ball", `var(--ball-${ball % 6})`);
   return group;
 }
 
 /** Return a line with its words: one of its kind that is present, which is then no longer listed there, or a new one. */
-function lineOf(present, { name, x, x1, width, text, y = -4 }) {
+function lineOf(present, { name, x, x1, width, text, y }) {
   const found = present.findIndex((group) => group.getAttribute("class") === name);
   const [group] = found < 0 ? [s("g", { class: name }, s("line"), s("text", { "text-anchor": "end" }))] : present.splice(found, 1);
   const [line, words] = group.children;

@@ -55,7 +55,7 @@ export function pace(slow) {
 
 /** Return what happens at an event of a film. */
 export function happening(drop, { what, contact, ball }) {
-  if (what === "begin") return t("the begin");
+  if (what === "begin") return t("the beginning");
   if (what === "end") return t("the end of the film");
   if (what === "top") return t("top of {ball}", { ball: ballName(drop, ball) });
   const values = { contact: contactName(drop, contact) };

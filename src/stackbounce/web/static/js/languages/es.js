@@ -87,7 +87,7 @@ export const table = {
   "in real time": "en tiempo real",
   "slowed {times} times": "ralentizado {times} veces",
   "{times} times as fast as it is": "{times} veces más rápido que la realidad",
-  "the begin": "el comienzo",
+  "the beginning": "el comienzo",
   "the end of the film": "el final de la película",
   "top of {ball}": "punto más alto: {ball}",
   "{contact} touch": "{contact} se tocan",

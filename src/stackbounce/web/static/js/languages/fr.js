@@ -87,7 +87,7 @@ export const table = {
   "in real time": "en temps réel",
   "slowed {times} times": "ralenti {times} fois",
   "{times} times as fast as it is": "{times} fois plus vite que la réalité",
-  "the begin": "le début",
+  "the beginning": "le début",
   "the end of the film": "la fin du film",
   "top of {ball}": "sommet : {ball}",
   "{contact} touch": "{contact} se touchent",
