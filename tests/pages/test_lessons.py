@@ -124,6 +124,8 @@ def test_the_gap():
         f"{ratio(cannon, 0.02):.2f} times its speed, for "
         f"{ratio(cannon, 0.02) ** 2:.0f} times the height",
     )
+    touching = result_of(CLASSROOM).intervals
+    says("gap", f"With the balls touching it is {1e3 * touching['end'][0]:.1f} ms")
     intervals = result_of(CLASSROOM, 0.03).intervals
     says(
         "gap",

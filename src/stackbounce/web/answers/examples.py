@@ -26,14 +26,14 @@ def list_examples() -> Iterator[Case]:
         "class-touching",
         _PAIRS,
         "Tennis ball on a basketball, touching",
-        "The tennis ball goes up at 1.36 times its speed, far from the textbook's 3.",
+        "The tennis ball goes up at 1.36 times its speed, far from the well-known three times.",
         _dropped(["big basketball", "tennis ball"], 0.0),
     )
     yield Case(
         "class-gap",
         _PAIRS,
         "The same, held 2 cm apart",
-        "A gap of 2 cm makes it 1.92 times: the balls now meet one after the other.",
+        "A gap of 2 cm makes it 1.92 times: most of the floor's push is over before the balls meet.",
         _dropped(["big basketball", "tennis ball"], 0.02),
     )
     yield Case(

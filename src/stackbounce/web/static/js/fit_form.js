@@ -226,8 +226,9 @@ export function fitForm(store, api, fitted) {
 }
 
 /** Return one sentence on how well the fitted drop describes the measurement. */
-function describeVerdict({ probability }) {
-  if (probability === null || probability > UNLIKELY) return t("Fitted: the drop is now the best one.");
+function describeVerdict({ probability, chi_squared: squared, degrees_of_freedom: freedom }) {
+  const poor = freedom < 1 ? squared > 1 : probability !== null && probability <= UNLIKELY;
+  if (!poor) return t("Fitted: the drop is now the best one.");
   return t("Fitted, but not well: the drop is now the nearest one, and it does not describe what was measured.");
 }
 

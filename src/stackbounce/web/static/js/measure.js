@@ -86,6 +86,8 @@ export async function mount(root, store, api) {
   const form = measureForm(offered, ask);
   const take = (given, known) => {
     file = given;
+    found.hidden = true; // it is of the file before
+    clear();
     if (known) store.set({ drop: known, until: null });
     ask();
   };

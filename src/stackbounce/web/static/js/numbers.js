@@ -97,7 +97,7 @@ function heightsIn(heights) {
 
 /** Return how many times the height of the drop a ball comes up, to stand behind the height. */
 function times(reached, fallen) {
-  return reached > 0.1 * fallen ? wide(` (${format(reached / fallen, 2)}×)`) : null;
+  return reached > 0.1 * fallen ? wide(` (${format(reached / fallen, 3)}×)`) : null;
 }
 
 /** Return a text that is hidden on a phone. */

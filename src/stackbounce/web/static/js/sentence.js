@@ -73,7 +73,7 @@ function compared(own, theirs) {
   const value = theirs < -NOTHING ? t("{times} times, downwards", { times: factor(theirs) }) : factor(theirs);
   const apart = Math.abs(own - theirs);
   const larger = Math.max(Math.abs(own), Math.abs(theirs));
-  if (apart <= NOTHING || apart <= SAME * larger) return t("as the textbook says");
+  if (apart <= NOTHING || apart <= SAME * larger || factor(own) === factor(theirs)) return t("as the textbook says");
   if (apart <= NEARLY * larger) return t("nearly the textbook’s {value}", { value });
   if (Math.abs(theirs) < NOTHING) return t("where the textbook has it stand still");
   if (Math.abs(own) < NOTHING || own * theirs < 0) return t("unlike the textbook’s {value}", { value });

@@ -1,7 +1,6 @@
 /** The sentence at the head of the play view, and the same for screen readers. */
 
 import { h, put, write } from "./dom.js";
-import { filmOf } from "./film.js";
 import { t } from "./language.js";
 import { called, storyOf } from "./sentence.js";
 import { metres } from "./words.js";
@@ -36,11 +35,11 @@ function question({ drop }) {
   return { lead: t("How high will {ball} fly?", { ball: name }), more: t("Drag the mark on the ruler to where you think it goes, then let the balls go.") };
 }
 
-/** Return how far off a guess in m was, beside what the film's ruler shows. */
+/** Return how far off a guess in m was. */
 function judged(result, guess) {
   const { drop, rebound_heights: heights } = result;
   const top = drop.balls.length - 1;
-  const reached = filmOf(result).tops[top]?.height ?? Math.max(0, heights[top] ?? 0);
+  const reached = Math.max(0, heights[top] ?? 0);
   const off = guess - reached;
   const values = { guess: metres(guess), ball: called(drop, top), height: metres(reached), apart: metres(Math.abs(off)) };
   if (Math.abs(off) < 0.005) return t("You thought {guess}; {ball} rises {height}: just there.", values);

@@ -59,7 +59,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
     const fastest = Math.max(1e-9, ...result.frames.velocity.flat().map(Math.abs));
     scene = { result, film, camera, fastest, floor: height - FOOT, middle, also, beside, width };
     drawGround(ground, scene, width);
-    scene.moveRuler = drawRuler(ruler, { ...scene, drop: result.drop, width });
+    scene.moveRuler = drawRuler(ruler, scene);
     const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
     if (names !== stack) {
       balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));

@@ -9,6 +9,7 @@ import { ballName } from "./words.js";
 
 const ARROW = 46; // px of the fastest ball's arrow
 const STILL = 0.005; // m/s, the speed below which none is written
+const HEAD = 58; // px from the top of the stage, below its title
 const LETTERS = 16; // of a name
 
 /** Return a group that shows a ball; `light` is the id of its shading. */
@@ -84,7 +85,7 @@ export function moveGhosts(group, positions, { view, floor, middle }) {
   const top = positions.length - 1;
   const y = Number(height(view, floor, top, positions[top])) - view.radius[top] - 5;
   write(label, y < 0 ? t("textbook ↑") : t("textbook"));
-  put(label, "transform", `translate(${middle} ${Math.max(14, y).toFixed(1)})`);
+  put(label, "transform", `translate(${middle} ${Math.max(HEAD, y).toFixed(1)})`);
 }
 
 /** Return what shows the balls of a kept drop, paler, and its name. */

@@ -13,7 +13,8 @@ const [ABOVE, BELOW] = [-4, 14]; // px, of words from their line
 const BESIDE = 56; // px from the right edge: marks have their words left of the ruler's
 
 /** Fill a group with the lines of a film's ruler; returns `move(view, time)`. Lines that are there are used again. */
-export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
+export function drawRuler(root, { film, camera, result, floor, width, middle }) {
+  const { drop } = result;
   const present = [...root.children];
   const top = drop.balls.length - 1;
   const base = ({ lift, rest, radius }) => floor - lift - rest[top] + radius[top];
@@ -29,7 +30,7 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
   const fallen = film.whole ? 0 : film.at(film.begin).position[0]; // the highest ball has the gaps to fall, too
   const dropped = width < NARROW ? "" : t("dropped from {height}", { height: metres(fallen) });
   if (fallen > 0) lines.push(line(fallen, "mark drop-mark", dropped));
-  const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(present, drop, ball, found, width, middle) }).filter(Boolean);
+  const marks = film.tops.map((found, ball) => found && { ...found, ball, group: topMark(present, drop, ball, film.whole ? found.height : result.rebound_heights[ball], width, middle) }).filter(Boolean);
   root.append(...[...lines, ...marks].map(({ group }) => group).filter((group) => group.parentNode !== root));
   for (const left of present) left.remove();
   return (view, time) => {
@@ -46,7 +47,8 @@ export function drawRuler(root, { film, camera, drop, floor, width, middle }) {
   };
 }
 
-function topMark(present, drop, ball, { height }, width, middle) {
+/** Return the mark of a ball's top, with the height that the table of the results has. */
+function topMark(present, drop, ball, height, width, middle) {
   const text = width < NARROW ? "" : `${ballName(drop, ball)} ${metres(height)}`;
   const y = width < SLIM && ball === drop.balls.length - 1 ? BELOW : ABOVE;
   const group = lineOf(present, { name: "mark top-mark", x: width - BESIDE, x1: middle, width, text, y });
