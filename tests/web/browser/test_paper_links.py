@@ -24,3 +24,15 @@ def test_figures_are_played_and_lines_opened(visit):
     assert visit.state("line.x.path") == "stiffness_ratio"
     assert visit.state("drop.balls[1].name") == "B2"
     assert visit.state("notice") is None
+
+
+def test_a_link_is_followed_though_the_page_writes_its_own_address_meanwhile(visit):
+    line = link_figures("")["6"][1].address.partition("#")[2]
+    page = visit.open()
+    page.evaluate(
+        """(link) => { const own = location.hash; location.hash = link;
+             history.replaceState(history.state, "", own || "#"); }""",
+        line,
+    )
+    page.wait_for_function("() => window.stackbounce.store.get().view === 'line'")
+    assert page.evaluate("() => location.hash").startswith("#view=line")

@@ -33,7 +33,7 @@ def list_examples() -> Iterator[Case]:
         "class-gap",
         _PAIRS,
         "The same, held 2 cm apart",
-        "A gap of 2 cm makes it 1.92 times: most of the floor's push is over before the balls meet.",
+        "A gap of 2 cm makes it 1.92 times: most of the floor's push is over when the balls meet.",
         _dropped(["big basketball", "tennis ball"], 0.02),
     )
     yield Case(

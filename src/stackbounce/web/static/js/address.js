@@ -95,6 +95,7 @@ export function follow(store) {
     }
   });
   let following = false;
+  let passed = ""; // the address that Back or Forward led to
   const show = (patch) => {
     following = true;
     store.set(patch);
@@ -106,14 +107,17 @@ export function follow(store) {
     const [from, to] = [way, state.way].sort((one, other) => one.length - other.length);
     const { lang: _lang, ...found } = read(location.hash); // Back undoes no choice of a language
     way = state.way;
-    written = location.hash;
+    passed = location.hash;
     if (to.slice(from.length).includes(EXAMPLE)) show({ ...FIRST_SHOWN, ...found });
     else show({ view: found.view ?? FIRST.view }); // the drop stays as it is now
   });
-  addEventListener("hashchange", () => {
-    if (location.hash === written || !location.hash.includes("=")) return;
+  addEventListener("hashchange", ({ newURL }) => {
+    const { hash } = new URL(newURL); // the page may have written its own address since
+    const known = hash === written || hash === passed || !hash.includes("=");
+    passed = "";
+    if (known) return;
     way += EXAMPLE;
-    show({ ...FIRST_SHOWN, ...read(location.hash) });
+    show({ ...FIRST_SHOWN, ...read(hash) });
   });
   if (!history.state) history.replaceState({ way }, "");
 }

@@ -480,7 +480,7 @@ export const table = {
   "Tennis ball on a basketball, touching": "Tennisball auf Basketball, sie berühren sich",
   "The tennis ball goes up at 1.36 times its speed, far from the well-known three times.": "Der Tennisball fliegt mit dem 1,36-Fachen seiner Geschwindigkeit nach oben, weit unter dem bekannten Dreifachen.",
   "The same, held 2 cm apart": "Dasselbe mit 2 cm Abstand",
-  "A gap of 2 cm makes it 1.92 times: most of the floor's push is over before the balls meet.": "Ein Abstand von 2 cm macht daraus das 1,92-Fache: der Boden hat fast ausgedrückt, bevor die Bälle sich treffen.",
+  "A gap of 2 cm makes it 1.92 times: most of the floor's push is over when the balls meet.": "Ein Abstand von 2 cm macht daraus das 1,92-Fache: der Boden hat fast ausgedrückt, bevor die Bälle sich treffen.",
   "Ping-pong ball on a superball, 5 mm apart": "Tischtennisball auf Flummi, 5 mm Abstand",
   "It goes up at 2.16 times its speed; close the gap, and see how little is left.": "Er fliegt mit dem 2,16-Fachen seiner Geschwindigkeit nach oben; ohne den Abstand bleibt davon wenig.",
   "Ping-pong ball on a golf ball, touching": "Tischtennisball auf Golfball, sie berühren sich",

@@ -387,7 +387,7 @@ export const table = {
   "Tennis ball on a basketball, touching": "Pelota de tenis sobre balón de baloncesto, en contacto",
   "The tennis ball goes up at 1.36 times its speed, far from the well-known three times.": "La pelota de tenis sube a 1,36 veces su velocidad, lejos del conocido triple.",
   "The same, held 2 cm apart": "Lo mismo, separadas 2 cm",
-  "A gap of 2 cm makes it 1.92 times: most of the floor's push is over before the balls meet.": "Una separación de 2 cm da 1,92 veces: casi todo el empuje del suelo ha pasado antes de que choquen las pelotas.",
+  "A gap of 2 cm makes it 1.92 times: most of the floor's push is over when the balls meet.": "Una separación de 2 cm da 1,92 veces: casi todo el empuje del suelo ha pasado antes de que choquen las pelotas.",
   "Ping-pong ball on a superball, 5 mm apart": "Pelota de ping-pong sobre superpelota, a 5 mm",
   "It goes up at 2.16 times its speed; close the gap, and see how little is left.": "Sube a 2,16 veces su velocidad; sin la separación queda poco de ello.",
   "Ping-pong ball on a golf ball, touching": "Pelota de ping-pong sobre pelota de golf, en contacto",

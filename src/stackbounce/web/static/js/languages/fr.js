@@ -387,7 +387,7 @@ export const table = {
   "Tennis ball on a basketball, touching": "Balle de tennis sur ballon de basket, en contact",
   "The tennis ball goes up at 1.36 times its speed, far from the well-known three times.": "La balle de tennis remonte à 1,36 fois sa vitesse, loin du triple bien connu.",
   "The same, held 2 cm apart": "Les mêmes, à 2 cm l’une de l’autre",
-  "A gap of 2 cm makes it 1.92 times: most of the floor's push is over before the balls meet.": "Un écart de 2 cm donne 1,92 fois : la poussée du sol est presque finie avant que les balles se touchent.",
+  "A gap of 2 cm makes it 1.92 times: most of the floor's push is over when the balls meet.": "Un écart de 2 cm donne 1,92 fois : la poussée du sol est presque finie avant que les balles se touchent.",
   "Ping-pong ball on a superball, 5 mm apart": "Balle de ping-pong sur superballe, écart de 5 mm",
   "It goes up at 2.16 times its speed; close the gap, and see how little is left.": "Elle remonte à 2,16 fois sa vitesse ; sans l’écart, il en reste peu.",
   "Ping-pong ball on a golf ball, touching": "Balle de ping-pong sur balle de golf, en contact",
