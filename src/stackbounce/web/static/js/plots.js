@@ -26,7 +26,7 @@ export function mountPlots(root, store, clock) {
     extent = [result.frames.time[0], result.frames.time.at(-1)];
     const same = shown.length > 0 && wanted.every((panel, i) => shown[i].key === keyOf(panel));
     if (same) {
-      wanted.forEach((panel, i) => shown[i].take(panel));
+      wanted.forEach((panel, i) => shown[i].update(panel));
     } else {
       for (const one of shown) one.remove();
       const colors = palette();
@@ -88,8 +88,8 @@ class Panel {
     this.plot.destroy();
   }
 
-  /** Take the data that the next `redraw` draws. */
-  take(panel) {
+  /** Draw other data of the same kind. */
+  update(panel) {
     this.panel = panel;
     this.plot.setData(this.data());
     this.describe();
