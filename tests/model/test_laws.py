@@ -36,6 +36,7 @@ EXAMPLES = [
     sb.Viscoelastic(2.0, 0.3),
     sb.HuntCrossley(2.0, 1.5, 0.3),
     sb.Hysteretic(2.0, restitution=0.5),
+    sb.HollowBall(2.0, 0.1, 0.3, 0.5),
 ]
 
 

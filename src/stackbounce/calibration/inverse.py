@@ -20,6 +20,8 @@ def calibrate(
     impact_speed: float | None = None,
     exponent: float | None = None,
     relaxation_time: float | None = None,
+    buckling_time: float | None = None,
+    buckling_share: float | None = None,
 ) -> _Law:
     """Return the contact law of a class that has a measured contact time and restitution.
 
@@ -42,6 +44,10 @@ def calibrate(
     relaxation_time : float, optional
         τ of a `StandardLinearSolid` in s, above 0, if it is known, as from the decay of the force
         at a constant compression.
+    buckling_time : float, optional
+        Of a `HollowBall`, in s, above 0: the time after the touch at which the force bends.
+    buckling_share : float, optional
+        Of a `HollowBall`, above 0 and at most 1: the force at that time over the peak force.
 
     Returns
     -------
@@ -59,16 +65,18 @@ def calibrate(
     Notes
     -----
     `Rigid` needs `restitution` only. All other laws need `mass` and `contact_time`. The lossy laws
-    (`Dashpot`, `StandardLinearSolid`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`) need
-    `restitution` as well.
-    `Viscoelastic`, `HuntCrossley` and any exponent other than 1 need `impact_speed` as well.
+    (`Dashpot`, `StandardLinearSolid`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`, `HollowBall`)
+    need `restitution` as well.
+    `Viscoelastic`, `HuntCrossley`, `HollowBall` and any exponent other than 1 need `impact_speed`
+    as well.
     Arguments that are not needed may be given, so that one measurement serves several classes. The
     contact time of a `Rigid` contact is 0, whatever is given.
 
     A `StandardLinearSolid` has one number more than these two tell. Unless `relaxation_time` is
     given, it is that at which a vibration with a half period of the contact time T loses most,
     ``T/(π sqrt(1 + Δ))``: nearly the weakest relaxation that explains the loss, and a restitution
-    that depends little on the mass.
+    that depends little on the mass. A `HollowBall` has two numbers more. Unless they are given, it
+    buckles after 4 % of the contact time, at half of the peak force.
 
     Examples
     --------
@@ -88,6 +96,10 @@ def calibrate(
     given = _checked(kind, mass, contact_time, restitution, impact_speed, exponent)
     if relaxation_time is not None:
         given["relaxation_time"] = positive("relaxation_time", relaxation_time, "seconds")
+    if buckling_time is not None:
+        given["buckling_time"] = positive("buckling_time", buckling_time, "seconds")
+    if buckling_share is not None:
+        given["buckling_share"] = fraction("buckling_share", buckling_share, zero=False)
     if not kind.loss and given.get("restitution", 1.0) != 1.0:
         raise InvalidValue(
             f"restitution must be 1 or left out for {kind.__name__}, which gives back all "

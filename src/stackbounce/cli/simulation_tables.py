@@ -19,6 +19,7 @@ from stackbounce.cli.tables import (
     percent,
     write_count,
 )
+from stackbounce.model import Tabulated
 from stackbounce.model.drop import STANDARD_GRAVITY
 from stackbounce.run.result import Result, Status
 
@@ -135,6 +136,7 @@ def _closing(console: Console, result: Result, textbook: Result | None) -> None:
         console.print(
             "Springs lose nothing. With losses: --contact 'Hysteretic stiffness=K restitution=E'"
         )
+    _beyond_tables(console, result)
     if textbook is not None:
         values = [law.restitution for law in textbook.drop.contacts if law is not None]
         listed = ", ".join(f"{value:.4g}" for value in values)
@@ -147,6 +149,18 @@ def _closing(console: Console, result: Result, textbook: Result | None) -> None:
     for title, one in (("Status", result), ("Status of the separate collisions", textbook)):
         if one is not None and one.status is not Status.FINISHED:
             console.print(f"{title}: {one.status.name}: {one.status.advice}")
+
+
+def _beyond_tables(console: Console, result: Result) -> None:
+    """Say which contacts were pressed beyond the table of their law."""
+    for i, law in enumerate(result.drop.contacts):
+        rows = result.intervals[result.intervals["contact"] == i]
+        peak = max(rows["peak_compression"], default=0.0)
+        if isinstance(law, Tabulated) and peak > law.compression[-1]:
+            console.print(
+                f"Contact {i} is pressed to {number(1e3 * peak)} mm, but its table ends at "
+                f"{number(1e3 * law.compression[-1])} mm: from there on the force rises straight."
+            )
 
 
 def _conditioning(console: Console, result: Result) -> None:

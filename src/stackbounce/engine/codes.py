@@ -15,13 +15,16 @@ ABSENT = 0  # no floor
 POWER = 1  # a power of the compression, loading and unloading alike
 HYSTERETIC = 2  # another power when unloading
 LOSSY = 3  # the same, with another one after each reloading
-PRODUCT = 4  # in the stack only: all forms from DASHPOT on but RIGID
+PRODUCT = 4  # in the stack only: all forms from DASHPOT to RELAXING but RIGID
 DASHPOT = 5
 VISCOELASTIC = 6
 HUNT_CROSSLEY = 7
 RIGID = 8
 HARDENING = 9
 RELAXING = 10
+PIECEWISE = 11  # in the stack only: TWO_STAGE and TABULATED
+TWO_STAGE = 12
+TABULATED = 13
 FORMS = {
     "ABSENT": ABSENT,
     "POWER": POWER,
@@ -32,6 +35,8 @@ FORMS = {
     "HUNT_CROSSLEY": HUNT_CROSSLEY,
     "HARDENING": HARDENING,
     "RELAXING": RELAXING,
+    "TWO_STAGE": TWO_STAGE,
+    "TABULATED": TABULATED,
     "RIGID": RIGID,
 }
 """Those that a law can have, by the names that it gives as its `form`."""
@@ -54,6 +59,7 @@ CURVED = 7  # the chord is replaced by the power law
 RELOADED = 8  # the compression comes back to its old peak
 CLIPPED = 9  # the force would begin to pull
 RESUMED = 10  # the force would stop pulling
+CROSSED = 12  # the compression passes from one piece of a curve into the next, see `pieces`
 JOINED = 11  # the balls at contacts CONTACT to START have come together, at UPPER_VELOCITY
 
 # the columns of the log of events

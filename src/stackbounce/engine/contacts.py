@@ -17,10 +17,12 @@ import math
 
 from stackbounce.engine.codes import (
     COMPRESSING,
+    CROSSED,
     DIP,
     LINEARISED,
     LOSSY,
     PEAK,
+    PIECEWISE,
     POWER,
     RELEASING,
     RELOADED,
@@ -30,6 +32,7 @@ from stackbounce.engine.codes import (
 from stackbounce.engine.elementary import exp, log, power
 from stackbounce.engine.forces import force, loaded_energy, stored_energy
 from stackbounce.engine.kernels import kernel
+from stackbounce.engine.pieces import cross_knot, find_piece, take_piece, unloading_factor
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
@@ -77,6 +80,8 @@ def _set_loading_curve(stack: Stack, i: int) -> None:
     stack.top[i] = math.inf
     if exponent == 1.0:
         stack.rate[i] = stack.stiffness[i]
+    if stack.law[i] == PIECEWISE:
+        find_piece(stack, i, stack.compression[i])
 
 
 @kernel
@@ -219,7 +224,10 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
     compression = max(stack.compression[i], _GRAZE * stack.scale[i])
     if kind == PEAK:
         stack.phase[i] = RELEASING
-        if stack.top[i] == math.inf:
+        if stack.law[i] == PIECEWISE:
+            if stack.top[i] == math.inf:
+                _turn_back(stack, i, compression)
+        elif stack.top[i] == math.inf:
             pressing = force(stack, i, compression, 0.0, 0.0)
             exponent = stack.unloading[i]
             if stack.base[i] > 0.0:
@@ -237,6 +245,8 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
             stack.base_energy[i] = _energy_to_return(stack, i, compression)
             stack.base[i] = compression
         _set_loading_curve(stack, i)
+    elif kind == CROSSED:
+        cross_knot(stack, i)
     elif kind == RESUMED:
         stack.phase[i] = COMPRESSING
     elif kind == LINEARISED:
@@ -246,6 +256,22 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
     else:
         stack.linearised[i] = 0
         stack.linearised_below[i] = min(stack.linearised_below[i], compression)
+
+
+@kernel
+def _turn_back(stack: Stack, i: int, compression: float) -> None:
+    """Give piecewise contact i the unloading curve from its peak, see `pieces`."""
+    if stack.unloading_pieces[i] > 0:
+        pressing = force(stack, i, compression, 0.0, 0.0)
+        _set_curve(stack, i, pressing, compression, 0.0)
+        stack.top[i] = compression
+        take_piece(stack, i, stack.unloading_pieces[i] - 1)
+        return
+    exponent = unloading_factor(stack, i, compression)
+    _set_curve(stack, i, stack.stiffness[i], compression, exponent)
+    if exponent == 1.0:
+        stack.rate[i] = stack.stiffness[i] / compression
+    stack.top[i] = compression
 
 
 @kernel

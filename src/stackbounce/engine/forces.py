@@ -18,6 +18,10 @@ HUNT_CROSSLEY max(0, k c^p (1 + z c'))                                    dissip
 HARDENING     k c^p (1 + (c/z)^2)                                         length
 RELAXING      max(0, k (c + z (c - u))), u' = (c - u)/w                   relaxation strength;
                                                                           w: relaxation time
+TWO_STAGE     k c, from z on k (z + w (c - z)); see `pieces`              z: length, w: softening,
+                                                                          p: share returned
+TABULATED     k (a + b c + s c^2) in pieces, see `pieces`                 z, w: numbers of pieces,
+                                                                          p: share returned
 RIGID         an instantaneous collision                                  restitution
 ============= =========================================================== ========================
 
@@ -33,6 +37,9 @@ A contact that creeps touches and opens at another compression than 0, that of i
 its force is 0, c = m u/b. While it is open its surface recovers freely, at the rate of `recovery`,
 and so does its creep: it begins the next interval with what is left.
 
+The last two are one form in the stack, too: a PIECEWISE contact is a product with q = 0 and d = 0
+in each piece, when it unloads times a power of c.
+
 A new form that is such a product needs a code (`codes`) and its numbers in `take_law`; any other
 one also a force, an energy, a static compression, and the terms of its power series (`find_terms`).
 """
@@ -47,13 +54,25 @@ from stackbounce.engine.codes import (
     HYSTERETIC,
     LOSSY,
     OPEN,
+    PIECEWISE,
     POWER,
     PRODUCT,
     RELAXING,
+    TABULATED,
+    TWO_STAGE,
     VISCOELASTIC,
 )
 from stackbounce.engine.elementary import power
 from stackbounce.engine.kernels import kernel
+from stackbounce.engine.pieces import (
+    compression_of_force,
+    compression_of_work,
+    curve_work,
+    energy_given_back,
+    has_one_curve,
+    take_table,
+    take_two_stages,
+)
 from stackbounce.engine.slots import GRAVITY
 from stackbounce.engine.stack import Stack, new_stack
 
@@ -75,6 +94,10 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: f
     if kind in (HYSTERETIC, LOSSY):
         stack.law[i] = kind
         stack.unloading[i] = z
+    elif kind == TWO_STAGE:
+        take_two_stages(stack, i, z, w, p)
+    elif kind == TABULATED:
+        take_table(stack, i, int(z), int(w), p)
     elif kind != POWER and z > 0.0:
         stack.law[i] = PRODUCT
         if kind == DASHPOT:  # k (c + z/k c')
@@ -111,7 +134,9 @@ def check_form(kind: int) -> None:
 
 @kernel
 def is_nonlinear(stack: Stack, i: int) -> bool:
-    """Tell whether the force of contact i can be nonlinear."""
+    """Tell whether the force of contact i can be nonlinear, but for straight pieces."""
+    if stack.law[i] == PIECEWISE:
+        return stack.unloading_pieces[i] == 0 and not has_one_curve(stack, i)
     if stack.law[i] == PRODUCT:
         return stack.factor_exponent[i] != 0.0
     return stack.unloading[i] != 1.0
@@ -120,7 +145,7 @@ def is_nonlinear(stack: Stack, i: int) -> bool:
 @kernel
 def is_linear(stack: Stack, i: int) -> bool:
     """Tell whether the force of a pressing contact is now a constant times its compression."""
-    if stack.law[i] == PRODUCT:
+    if stack.law[i] >= PRODUCT:
         return False
     return stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0
 
@@ -161,6 +186,8 @@ def typical_compression(stack: Stack, i: int, speed: float) -> float:
         k *= stack.gain_slope[i]  # before it relaxes
     if i > 0:
         mass = stack.mass[i - 1] * mass / (stack.mass[i - 1] + mass)
+    if stack.law[i] == PIECEWISE:
+        return compression_of_work(stack, i, 0.5 * mass * speed * speed)
     length = _length_of_energy(mass, speed, k, stack.exponent[i])
     if stack.gain_square[i] > 0.0:
         added = k * stack.gain_square[i]
@@ -194,7 +221,7 @@ def force(stack: Stack, i: int, compression: float, rate: float, creep: float) -
     else:
         ratio = max(0.0, compression / stack.curve_unit[i])
         pressing = stack.curve_force[i] * raised(ratio, exponent)
-    if stack.law[i] == PRODUCT:
+    if stack.law[i] >= PRODUCT:
         slope = stack.gain_slope[i] + stack.gain_square[i] * compression
         gain = stack.gain_constant[i] + slope * compression
         gain += stack.gain_rate[i] * rate
@@ -212,6 +239,9 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
         return 0.0
     if stack.law[i] == PRODUCT:
         return _elastic_work(stack, i, max(0.0, compression))
+    if stack.law[i] == PIECEWISE:
+        pressing = force(stack, i, compression, 0.0, 0.0)
+        return energy_given_back(stack, i, max(0.0, compression), pressing)
     if stack.law[i] == LOSSY and stack.top[i] == math.inf:
         return loaded_energy(stack, i, compression)
     exponent = stack.curve_exponent[i]
@@ -260,6 +290,8 @@ def potential(stack: Stack, i: int, compression: float) -> float:
     c = max(0.0, compression)
     if stack.law[i] == PRODUCT:
         return _elastic_work(stack, i, c)
+    if stack.law[i] == PIECEWISE:
+        return curve_work(stack, i, c)
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return 0.5 * stack.rate[i] * c * c
     exponent = stack.curve_exponent[i] + 1.0
@@ -270,6 +302,8 @@ def potential(stack: Stack, i: int, compression: float) -> float:
 @kernel
 def static_compression(stack: Stack, i: int, weight: float) -> float:
     """Return the compression of contact i at which it carries a weight."""
+    if stack.law[i] == PIECEWISE:
+        return compression_of_force(stack, i, weight)
     if stack.law[i] == PRODUCT:
         p, q, square = stack.exponent[i], stack.factor_exponent[i] + 2.0, stack.gain_square[i]
         rest = power(weight / stack.stiffness[i], 1.0 / p)
@@ -304,7 +338,7 @@ def power_needed(stack: Stack, i: int) -> float:
     p = stack.curve_exponent[i]
     if p == 0.0 or p == 1.0:
         return 0.0
-    if stack.law[i] == PRODUCT and stack.gain_constant[i] == 0.0 and stack.gain_square[i] == 0.0:
+    if stack.law[i] >= PRODUCT and stack.gain_constant[i] == 0.0 and stack.gain_square[i] == 0.0:
         return p + 1.0
     return p
 
@@ -314,7 +348,7 @@ def has_rare_terms(stack: Stack, low: int, high: int) -> bool:
     """Tell whether the gain of one of the contacts low..high-1 has a term in c^2 or a creep."""
     largest = 0.0
     for i in range(low, high):
-        largest = max(largest, stack.gain_square[i], stack.gain_creep[i])
+        largest = max(largest, abs(stack.gain_square[i]), stack.gain_creep[i])
     return largest > 0.0
 
 
@@ -356,7 +390,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
                     u[n] = part * total + part * (p * m * u[b]) * c[a + m]
                 else:
                     u[n] = raised(c[a] / curve_unit[i], p) if m == 0 else 0.0
-            if law[i] != PRODUCT:
+            if law[i] < PRODUCT:
                 force = curve_force[i] * u[k] if p > 0.0 else slope[i] * c[k]
             else:
                 gain = gains[i]

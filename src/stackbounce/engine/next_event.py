@@ -11,7 +11,8 @@ compressing the rate falls through 0     PEAK: releasing; a hysteretic contact o
             through its old peak
 releasing   c rises through its old peak RELOADED: compressing, on the loading curve
 ..          c falls through 0            RELEASE: open
-any above   the gain falls through 0     CLIPPED: unloaded; of a contact that creeps RELEASE: open
+any above   c passes a knot              CROSSED: the same, on the next piece of the curve
+..          the gain falls through 0     CLIPPED: unloaded; of a contact that creeps RELEASE: open
 releasing   the rate of a lossy contact  DIP: compressing
             rises through 0
 unloaded    the gain rises through 0     RESUMED: compressing
@@ -32,6 +33,7 @@ from stackbounce.engine.codes import (
     CHECK,
     CLIPPED,
     COMPRESSING,
+    CROSSED,
     CURVED,
     DIP,
     EPSILON,
@@ -39,6 +41,7 @@ from stackbounce.engine.codes import (
     LOSSY,
     OPEN,
     PEAK,
+    PIECEWISE,
     POWER,
     PRODUCT,
     RELEASE,
@@ -61,6 +64,7 @@ from stackbounce.engine.motion import (
     series_time,
     subtract_surface,
 )
+from stackbounce.engine.pieces import has_one_curve
 from stackbounce.engine.series import lower_bound, parabola_root, safe_step, shift, time_to_level
 from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
@@ -129,6 +133,7 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
         return
     plain = stack.law[i] == PRODUCT
     plain = plain or (stack.law[i] == POWER and stack.modal[stack.first[i]] == 0)
+    plain = plain or (stack.law[i] == PIECEWISE and has_one_curve(stack, i))
     if is_damped(stack, i):
         noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
         speed = stack.speed[i] + rate
@@ -141,9 +146,10 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
         kind = RELEASE
     elif plain or phase == RELEASING:
         left = min(wait, horizon)
-        other, there = _safe_wait(stack, a, order, power, tail, 0.0, 1.0, 0.0, band, left)
+        knot = stack.piece_low[i] if stack.law[i] == PIECEWISE else 0.0
+        other, there = _safe_wait(stack, a, order, power, tail, 0.0, 1.0, knot, band, left)
         if other < left or (there and other <= left < horizon):
-            wait, reached, kind = other, there, RELEASE
+            wait, reached, kind = other, there, CROSSED if knot > 0.0 else RELEASE
         level = _linearised_level(stack, i)
         # else the series is valid up to the release
         if level > 0.0 and (wait >= horizon or not reached):
@@ -214,6 +220,8 @@ def _upper_level(stack: Stack, i: int, plain: bool) -> tuple[float, int]:
         return level, kind
     if not plain and phase == (COMPRESSING if stack.law[i] == LOSSY else RELEASING):
         level, kind = stack.top[i], RELOADED
+    if stack.law[i] == PIECEWISE and stack.piece_high[i] < level:
+        level, kind = stack.piece_high[i], CROSSED
     if stack.linearised[i] == 1 and stack.linearised_below[i] < level:
         level, kind = stack.linearised_below[i], CURVED
     return level, kind

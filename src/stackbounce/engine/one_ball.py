@@ -1,6 +1,7 @@
 """One collision of one ball with the floor: restitution and contact time by simulation."""
 
 import math
+from collections.abc import Sequence
 
 from stackbounce.engine import codes
 from stackbounce.engine.motion import velocity_at
@@ -15,7 +16,10 @@ _ROWS = 64  # of the log
 
 
 def bounce(
-    numbers: tuple[int, float, float, float, float], mass: float, speed: float
+    numbers: tuple[int, float, float, float, float],
+    mass: float,
+    speed: float,
+    pieces: Sequence[float] = (),
 ) -> tuple[float, float]:
     """Return the restitution and the contact time in s of a ball on a floor, without gravity.
 
@@ -25,6 +29,8 @@ def bounce(
         A contact as in `prepare`: form of the force, stiffness, exponent and two law parameters.
     mass, speed : float
         In kg and m/s.
+    pieces : sequence of float, optional
+        The pieces of the curves of a contact that is a table.
 
     Raises
     ------
@@ -39,6 +45,7 @@ def bounce(
     """
     form, k, p, z, w = numbers
     stack = new_stack(1)
+    stack.pieces[: len(pieces)] = pieces
     log = [0.0] * (_ROWS * codes.LOG_COLUMNS)
     contact = [form], [k], [p], [z], [w]
     unit = prepare(stack, [mass], *contact, [0.0], [-speed], 0.0, _TOLERANCE)

@@ -17,9 +17,10 @@ stack is set to its static state at once.
 
 import math
 
-from stackbounce.engine.codes import COMPRESSING, POWER, PRODUCT
+from stackbounce.engine.codes import COMPRESSING, PIECEWISE, POWER, PRODUCT
 from stackbounce.engine.forces import arm_energy, creeps, is_damped, potential, static_compression
 from stackbounce.engine.kernels import kernel
+from stackbounce.engine.pieces import find_piece, has_one_curve
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
 from stackbounce.engine.stack import TERMS, Stack
 
@@ -54,7 +55,8 @@ def is_bound(stack: Stack) -> bool:
         opening = weight * rest - at_rest
         barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
         damped = damped or is_damped(stack, i)
-        if stack.law[i] not in (POWER, PRODUCT):
+        one_curve = stack.law[i] == PIECEWISE and has_one_curve(stack, i)
+        if stack.law[i] not in (POWER, PRODUCT) and not one_curve:
             if stack.top[i] == math.inf:
                 return False
             share = _HYSTERETIC if size > 1 else 1.0
@@ -70,6 +72,8 @@ def set_static_state(stack: Stack) -> None:
     for i in range(size - 1, -1, -1):
         weight += stack.mass[i] * stack.number[GRAVITY]
         stack.compression[i] = static_compression(stack, i, weight)
+        if stack.law[i] == PIECEWISE:
+            find_piece(stack, i, stack.compression[i])
         stack.velocity[i] = 0.0
         stack.creep[i] = stack.compression[i] if creeps(stack, i) else 0.0
         for k in range(TERMS):

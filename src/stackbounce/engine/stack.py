@@ -17,6 +17,8 @@ from stackbounce.engine.kernels import Floats, Integers, Rows
 MODES = 8  # the most linear contacts of a cluster that moves in normal modes
 WIDTH = MODES + 1  # balls of that cluster, without a floor
 TERMS = 40  # numbers of a power series
+MOST_PIECES = 64  # of the curves of a contact, see `pieces`
+PIECE_NUMBERS = 4  # numbers of a piece
 
 
 class Stack(NamedTuple):
@@ -52,6 +54,12 @@ class Stack(NamedTuple):
     base: Floats  # compression and energy of a lossy contact when it came onto its loading curve
     base_energy: Floats
     top: Floats  # compression at which unloading and loading curve meet; inf on the latter
+    loading_pieces: Integers  # number of them; 0 if the force is no curve of pieces
+    unloading_pieces: Integers
+    returned: Floats  # share of the work of loading that unloading returns; see `pieces`
+    piece: Integers  # the present one, and where it begins and ends
+    piece_low: Floats
+    piece_high: Floats
     linearised_below: Floats
     linearised: Integers  # 1 if the force follows the chord of its curve up to linearised_below
     linearised_impulse: Floats  # impulse exerted along that chord
@@ -104,6 +112,7 @@ class Stack(NamedTuple):
     changed: Floats
     counter: Integers  # see `slots`
     clock: Floats
+    pieces: Floats  # room for MOST_PIECES of PIECE_NUMBERS numbers for each contact
 
 
 class RigidStack(NamedTuple):
@@ -159,6 +168,7 @@ _SLOTS = {
 _PER_SERIES = {"scratch": TERMS, "watched": TERMS, "margin": TERMS, "changed": TERMS}
 _PER_SLOT = ("due", "event", "heap", "place")  # two slots for each ball
 _PER_MODE = ("shape", "rows")
+_KEPT = "pieces"  # the caller fills it before a run, which does not clear it
 _INTEGERS = {
     name
     for record in (Stack, RigidStack)
@@ -173,6 +183,7 @@ def new_stack(size: int) -> Stack:
     lengths = dict.fromkeys(Stack._fields, size)
     lengths |= dict.fromkeys(_PER_SLOT, 2 * size)
     lengths |= dict.fromkeys(_PER_MODE, size * WIDTH)
+    lengths[_KEPT] = size * MOST_PIECES * PIECE_NUMBERS
     lengths |= _SLOTS | _PER_SERIES
     rows = {name: [[0.0] * TERMS for _ in range(size)] for name in _ROWS}
     return Stack(**_zeros(Stack, lengths) | rows)
@@ -209,11 +220,13 @@ def as_arrays(record: Any) -> Any:
 def in_one_room(record: Any) -> tuple[Any, tuple[Any, Any]]:
     """Return a stack whose arrays are views of two arrays, and these two: floats and integers.
 
-    Such a stack is cleared by filling the two arrays.
+    Such a stack is cleared by filling the two arrays; its pieces are not among them, see `_KEPT`.
     """
     import numpy as np
 
     arrays = as_arrays(record)
+    kept = {name: array for name, array in arrays._asdict().items() if name == _KEPT}
+    arrays = arrays._replace(**dict.fromkeys(kept, np.zeros(0)))
     rooms: dict[Any, Any] = {}
     for kind in (np.float64, np.int64):
         sizes = [array.size for array in arrays if array.dtype == kind]
@@ -222,4 +235,4 @@ def in_one_room(record: Any) -> tuple[Any, tuple[Any, Any]]:
     views = type(record)(
         *(next(rooms[array.dtype.type][1]).reshape(array.shape) for array in arrays)
     )
-    return views, (rooms[np.float64][0], rooms[np.int64][0])
+    return views._replace(**kept), (rooms[np.float64][0], rooms[np.int64][0])

@@ -14,7 +14,7 @@ exponential, whatever its eigenvalues; the tolerance is then round-off, whatever
 
 import math
 
-from stackbounce.engine.codes import POWER, PRODUCT
+from stackbounce.engine.codes import HYSTERETIC, LOSSY, PRODUCT
 from stackbounce.engine.elementary import near_root
 from stackbounce.engine.forces import (
     creeps,
@@ -161,13 +161,13 @@ def _fastest(stack: Stack, low: int, high: int) -> float:
 def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
     """Update the peaks of contacts with one force curve from their series up to s."""
     for i in range(low, high):
-        if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] not in (POWER, PRODUCT):
+        if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] in (HYSTERETIC, LOSSY):
             continue
         first, order = stack.first[i], stack.order[i]
         root = stack.root[first]
         crest, at = _largest_value(stack.compression_series[i], order + root, s)
         pressing = stack.peak_force[i]
-        if stack.law[i] == PRODUCT:
+        if stack.law[i] >= PRODUCT:
             pressing, at = _largest_value(stack.force_series[i], order, s)
         elif crest > stack.peak_compression[i]:
             pressing = force(stack, i, crest, 0.0, 0.0)

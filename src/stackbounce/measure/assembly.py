@@ -119,7 +119,10 @@ def _usable(value: Any) -> Any:
 
 
 def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Combine measured contacts into one: a stiffness and a restitution make a `Hysteretic` one."""
+    """Combine measured contacts into one: a stiffness and a restitution make a `Hysteretic` one.
+
+    A table keeps its loading curve; its loss is that of the bounce, which is faster than a press.
+    """
     if not contacts:
         raise InvalidValue(
             "no contact was found, which needs a sound of three bounces, a track, a force waveform "
@@ -131,6 +134,9 @@ def _together(contacts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     sprung = [one for one in contacts if law_named(one["law"]).rate_free]
     if len(contacts) == 2 and len(rigid) == len(sprung) == 1:
         law = sprung[0]
+        if law["law"] == "Tabulated":
+            loading = {key: law[key] for key in ("law", "compression", "force")}
+            return loading | {"restitution": rigid[0]["restitution"]}
         return {
             "law": "Hysteretic",
             "stiffness": law["stiffness"],

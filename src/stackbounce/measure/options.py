@@ -168,6 +168,8 @@ _TABLE: dict[str, tuple[Option, ...]] = {
         Option("alone", "Force under the lower ball alone", "", form="file", rare=True,
                says="Force record of the lower ball alone from the same height: it gives the gap "
                "of the stack in the other record."),
+        Option("tabulated", "Press curve as a table", "", form="flag", default=False, rare=True,
+               says="Save a press curve as the table of its points, in place of a fitted law."),
         _number("time_constant", "Sensor's time constant", "0.1 s", unit="s", rare=True,
                 says="Time constant of a piezo sensor, such as 0.1s: its droop is corrected."),
         _number("gravity", "Gravity", "9.81 m/s^2", unit="m/s**2", rare=True,

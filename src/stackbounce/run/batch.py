@@ -18,7 +18,7 @@ import numpy as np
 from stackbounce.engine import codes
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.model import Drop
+from stackbounce.model import ContactLaw, Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
 from stackbounce.run.columns import Rows, base_rows, fill
 from stackbounce.run.engines import (
@@ -74,7 +74,7 @@ def solve(
     """
     count, balls = math.prod(shape), len(drop.balls)
     chosen = choose_compiled(compiled)
-    run: _Runner = functools.partial(_run_rows, choose_engine(drop))
+    run: _Runner = functools.partial(_run_rows, choose_engine(drop), drop.contacts)
     if suits_two_springs(drop, rows, options):
         run = _run_two_springs
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
@@ -127,22 +127,30 @@ def _run_two_springs(drops: Drops, out: Outcomes, options: Options, compiled: bo
     if len(asked):
         some = Drops._make(array[asked] for array in drops)
         answers = Outcomes._make(array[asked] for array in out)
-        _run_rows(FINITE, some, answers, options, compiled)
+        _run_rows(FINITE, (), some, answers, options, compiled)
         for array, answer in zip(out, answers, strict=True):
             array[asked] = answer
 
 
 def _run_rows(
-    engine: Engine, drops: Drops, out: Outcomes, options: Options, compiled: bool
+    engine: Engine,
+    laws: Sequence[ContactLaw | None],
+    drops: Drops,
+    out: Outcomes,
+    options: Options,
+    compiled: bool,
 ) -> None:
-    """Run drops by one engine."""
+    """Run drops by one engine; of their laws it needs the tables, which do not vary."""
     balls = drops.mass.shape[1]
     if compiled:
-        memory(engine, balls, compiled).run_batch(engine.run_batch, drops, options, out)
+        room = memory(engine, balls, compiled)
+        room.put_pieces(laws)
+        room.run_batch(engine.run_batch, drops, options, out)
         return
     run = kernel_named(engine.run_batch, compiled)
     for row in range(len(out.status)):
         room = memory(engine, balls, compiled)
+        room.put_pieces(laws)
         stack, space, _ = room.arguments
         one = Drops._make(array[row : row + 1].tolist() for array in drops)
         outcome = Outcomes._make(array[row : row + 1] for array in out)

@@ -131,6 +131,7 @@ def _run(
 
         numbers = disturbed(numbers, error, seed)
     room.put(numbers)
+    room.put_pieces(drop.contacts)
     samples = room.samples(times)
     run = room.run_with(samples)
     log: list[float] = []

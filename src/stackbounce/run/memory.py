@@ -10,8 +10,16 @@ import numpy as np
 from stackbounce.engine import codes
 from stackbounce.engine.records import AFTER, Drops, Outcomes, Workspace
 from stackbounce.engine.slots import LOG_ROWS
-from stackbounce.engine.stack import Samples, as_arrays, in_one_room, new_samples
+from stackbounce.engine.stack import (
+    MOST_PIECES,
+    PIECE_NUMBERS,
+    Samples,
+    as_arrays,
+    in_one_room,
+    new_samples,
+)
 from stackbounce.engine.tables import Table
+from stackbounce.model import ContactLaw
 from stackbounce.run.engines import Engine, Kernel, kernel_named
 from stackbounce.run.options import Options
 
@@ -38,6 +46,13 @@ class Memory(NamedTuple):
         """Set the parameters of the one drop."""
         for room, values in zip(self.drop, numbers, strict=True):
             room[0] = values
+
+    def put_pieces(self, laws: Sequence[ContactLaw | None]) -> None:
+        """Set the pieces of the curves of contacts that are given by tables."""
+        for i, law in enumerate(laws):
+            if law is not None and (numbers := law.pieces()):
+                at = i * MOST_PIECES * PIECE_NUMBERS
+                self.stack.pieces[at : at + len(numbers)] = numbers
 
     def run_with(self, samples: Samples) -> Kernel:
         """Return `run` with samples."""

@@ -18,6 +18,8 @@ from stackbounce.model.laws.standard_linear_solid import StandardLinearSolid
 from stackbounce.model.laws.viscoelastic import Viscoelastic
 from stackbounce.model.laws.hunt_crossley import HuntCrossley
 from stackbounce.model.laws.hysteretic import Hysteretic
+from stackbounce.model.laws.hollow_ball import HollowBall
+from stackbounce.model.laws.tabulated import Tabulated
 
 # isort: on
 from stackbounce.model.laws.law import STEEPEST, ContactLaw, contact_numbers
@@ -30,12 +32,14 @@ __all__ = [
     "ContactLaw",
     "Dashpot",
     "Hertz",
+    "HollowBall",
     "HuntCrossley",
     "Hysteretic",
     "PowerLaw",
     "Rigid",
     "Spring",
     "StandardLinearSolid",
+    "Tabulated",
     "Viscoelastic",
     "contact_numbers",
     "law_named",

@@ -224,6 +224,10 @@ class ContactLaw:
             second = varied.get(self.second_parameter, second)
         return codes.FORMS[self.form], stiffness, exponent, first, second
 
+    def pieces(self) -> list[float]:
+        """Return the pieces of the curves of a law that is a table, see `engine.pieces`."""
+        return []
+
     # one collision
 
     @property

@@ -65,6 +65,14 @@ _WORDS = {
         "how soon it gives way",
         "The time in which the additional force of a fast contact dies away.",
     ),
+    "buckling_compression": (
+        "where it buckles",
+        "How far the ball is pressed in when its wall gives way.",
+    ),
+    "stiffness_ratio": (
+        "how much softer then",
+        "The stiffness after the wall has buckled over that before: 1 does not buckle.",
+    ),
     "unloading_exponent": (
         "how it lets go",
         "The larger, the faster the force falls on the way back, and the more energy is lost.",

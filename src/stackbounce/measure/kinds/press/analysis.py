@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, non_negative, shown, whole
+from stackbounce.errors import InvalidType, InvalidValue, non_negative, shown, whole
 from stackbounce.measure.kinds.press.branches import Cycle, Record, cycles, record_of
 from stackbounce.measure.kinds.press.notes import sentences
 from stackbounce.measure.kinds.press.numbers import result_of, unloading_only
@@ -24,6 +24,7 @@ def press(
     compliance: Any = 0.0,
     sign: int | None = None,
     cycle: int | None = None,
+    tabulated: bool = False,
 ) -> Press:
     """Return stiffness, exponent and energy loss of a curve of force against compression.
 
@@ -40,6 +41,9 @@ def press(
     cycle : int, optional
         Which cycle, from 0; negative from the last. By default the last one that has a loading and
         an unloading, as the first cycles of a ball differ from later ones.
+    tabulated : bool, optional
+        Whether the contact of `Press.parts` is the table of the curve, a `Tabulated` law, in place
+        of the fitted one.
 
     Returns
     -------
@@ -83,9 +87,11 @@ def press(
     """
     if sign not in (None, 1, -1):
         raise InvalidValue(f"sign must be 1, -1 or None, got {shown(sign)}")
+    if not isinstance(tabulated, bool):
+        raise InvalidType(f"tabulated must be True or False, got {shown(tabulated)}")
     soft = measured("compliance", compliance, "m/N", non_negative)
     at = float(soft.nominal_value)
-    one = _press(record_of(data, at, sign), cycle)
+    one = replace(_press(record_of(data, at, sign), cycle), tabulated=tabulated)
     if soft.std_dev == 0.0:
         return one
     moved = _press(record_of(data, at + float(soft.std_dev), sign), one.cycle)

@@ -14,10 +14,10 @@ if TYPE_CHECKING:
 __all__ = ["PRESS"]
 
 
-def _analyse(data: "xr.Dataset") -> "Press":
+def _analyse(data: "xr.Dataset", *, tabulated: bool = False) -> "Press":
     from stackbounce.measure.kinds.press.analysis import press
 
-    return press(data)
+    return press(data, tabulated=tabulated)
 
 
 def _recognised(columns: "Sequence[Column]") -> bool:

@@ -5,7 +5,9 @@ from typing import Any, ClassVar
 
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.finding import Branch, Finding
+from stackbounce.measure.kinds.press.table import MOST_POINTS, fitted_table
 from stackbounce.measure.quantities import Array, Number, Row, known_rows, measured
+from stackbounce.model import Tabulated
 
 __all__ = ["Curve", "Press"]
 
@@ -84,6 +86,8 @@ class Press(Finding):
         (compression, force) of all points, on the scales of the curves.
     cycle, cycles : int
         Which cycle this is, from 0, and how many the record has.
+    tabulated : bool
+        Whether the contact is the table of the curve, see `parts`.
     others : tuple of Press
         The other cycles that have a loading.
     notes : tuple of str
@@ -113,6 +117,7 @@ class Press(Finding):
     unloading: Curve | None = None
     cycle: int = 0
     cycles: int = 1
+    tabulated: bool = False
     others: "tuple[Press, ...]" = ()
     notes: tuple[str, ...] = ()
 
@@ -176,13 +181,36 @@ class Press(Finding):
             if one is not None
         ]
 
+    def table(self, points: int = MOST_POINTS) -> Tabulated:
+        """Return the curve itself as a law: a `Tabulated` one, with as many points.
+
+        Parameters
+        ----------
+        points : int, optional
+            3 to 16, at equal distances from the contact to the peak.
+
+        Raises
+        ------
+        InvalidValue
+            If there is no loading, or it has too few points.
+        """
+        if self.loading is None:
+            raise InvalidValue("table must have a loading to read it from, got none")
+        back = self.unloading
+        return fitted_table(
+            (self.loading.compression, self.loading.force),
+            None if back is None else (back.compression, back.force),
+            points,
+        )
+
     def parts(self) -> dict[str, Any]:
         """Return the contact, as a drop's TOML has it.
 
         The exponent is 1 where it is 1 within two standard errors or below 1, which no law has; the
         stiffness then is that of the straight line. Without a significant loss (two standard
         errors), or without unloading, the law is `Spring`, or `PowerLaw` for another exponent.
-        Otherwise it is `Hysteretic`, with the restitution that the works give.
+        Otherwise it is `Hysteretic`, with the restitution that the works give. If `tabulated` is
+        true, the law is `Tabulated`.
 
         Returns
         -------
@@ -192,6 +220,8 @@ class Press(Finding):
         k, p, line, e = self.stiffness, self.exponent, self.linear_stiffness, self.restitution
         if k is None or p is None or line is None:
             return {}
+        if self.tabulated:
+            return {"contact": self.table().to_mapping()}
         as_spring = self.linear or p.nominal_value < 1.0
         contact: dict[str, object] = {"stiffness": float((line if as_spring else k).nominal_value)}
         if not as_spring:

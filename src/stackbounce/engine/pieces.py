@@ -1,0 +1,244 @@
+"""Contacts whose loading curve has several pieces, each a polynomial of the compression.
+
+A piece is told by four numbers: the compression x at which it begins, and the coefficients of
+
+    F = k (a + b c + s c^2).
+
+The last piece has no end. Unloading, which begins at the peak C with the force F, follows one of
+
+- the loading curve itself, if all energy is returned;
+- the loading curve times (c/C)^m, where m is such that a given share of the work is returned;
+- pieces of its own, F (a + b y + s y^2) with y = c/C, which begin at y = 0 and end with F at y = 1.
+
+In the first piece F(0) = 0. All pieces are continued by the next, so that the force is continuous.
+Where a compression passes from one piece into the next is an event (CROSSED): inside a piece the
+motion is analytic.
+"""
+
+import math
+
+from stackbounce.engine.codes import PIECEWISE
+from stackbounce.engine.elementary import power
+from stackbounce.engine.kernels import kernel
+from stackbounce.engine.stack import MOST_PIECES, PIECE_NUMBERS, Stack
+
+_BEGIN, _CONSTANT, _SLOPE, _SQUARE = 0, 1, 2, 3  # numbers of a piece
+_HALVINGS = 60
+_STEPS = 50  # of the search for an exponent, which takes about six
+_CLOSE = 1e-15  # of an exponent
+
+
+@kernel
+def take_two_stages(stack: Stack, i: int, knee: float, softening: float, returned: float) -> None:
+    """Give contact i a loading curve of two straight pieces: c up to ``knee``, then softer."""
+    _put_piece(stack, i, 0, 0.0, 0.0, 1.0, 0.0)
+    _put_piece(stack, i, 1, knee, knee * (1.0 - softening), softening, 0.0)
+    take_table(stack, i, 2, 0, returned)
+
+
+@kernel
+def take_table(stack: Stack, i: int, loading: int, unloading: int, returned: float) -> None:
+    """Give contact i the loading and unloading pieces that ``stack.pieces`` holds already."""
+    stack.law[i] = PIECEWISE
+    stack.loading_pieces[i] = loading
+    stack.unloading_pieces[i] = unloading
+    stack.returned[i] = returned
+    stack.exponent[i] = 1.0
+    stack.unloading[i] = 1.0
+    stack.factor_exponent[i] = 0.0
+    stack.curve_force[i] = stack.stiffness[i]
+    stack.curve_unit[i] = 1.0
+    stack.curve_exponent[i] = 0.0
+    stack.top[i] = math.inf
+    if unloading > 0:
+        stack.returned[i] = _sum_of_pieces(stack, i, loading, unloading, 1.0, 0.0, 1.0)
+    take_piece(stack, i, 0)
+
+
+@kernel
+def _put_piece(
+    stack: Stack, i: int, j: int, begin: float, constant: float, slope: float, square: float
+) -> None:
+    at = (i * MOST_PIECES + j) * PIECE_NUMBERS
+    stack.pieces[at + _BEGIN] = begin
+    stack.pieces[at + _CONSTANT] = constant
+    stack.pieces[at + _SLOPE] = slope
+    stack.pieces[at + _SQUARE] = square
+
+
+@kernel
+def has_one_curve(stack: Stack, i: int) -> bool:
+    """Tell whether piecewise contact i unloads along its loading curve."""
+    return stack.unloading_pieces[i] == 0 and stack.returned[i] >= 1.0
+
+
+@kernel
+def _own_pieces(stack: Stack, i: int) -> bool:
+    """Tell whether contact i is now on the pieces of its unloading curve."""
+    return stack.unloading_pieces[i] > 0 and stack.top[i] < math.inf
+
+
+@kernel
+def _range(stack: Stack, i: int) -> tuple[int, int, float]:
+    """Return the first piece of the present curve, their number, and the unit of their knots."""
+    if _own_pieces(stack, i):
+        return stack.loading_pieces[i], stack.unloading_pieces[i], stack.curve_unit[i]
+    return 0, stack.loading_pieces[i], 1.0
+
+
+@kernel
+def take_piece(stack: Stack, i: int, j: int) -> None:
+    """Set the gain of contact i to piece j of its present curve."""
+    first, count, unit = _range(stack, i)
+    at = (i * MOST_PIECES + first + j) * PIECE_NUMBERS
+    stack.piece[i] = j
+    stack.gain_constant[i] = stack.pieces[at + _CONSTANT]
+    stack.gain_slope[i] = stack.pieces[at + _SLOPE] / unit
+    stack.gain_square[i] = stack.pieces[at + _SQUARE] / unit / unit
+    stack.piece_low[i] = stack.pieces[at + _BEGIN] * unit
+    stack.piece_high[i] = math.inf
+    if j + 1 < count:
+        stack.piece_high[i] = stack.pieces[at + PIECE_NUMBERS + _BEGIN] * unit
+
+
+@kernel
+def find_piece(stack: Stack, i: int, compression: float) -> None:
+    """Set the gain of contact i to the piece of its present curve at a compression."""
+    j = 0
+    take_piece(stack, i, 0)
+    while compression >= stack.piece_high[i]:
+        j += 1
+        take_piece(stack, i, j)
+
+
+@kernel
+def cross_knot(stack: Stack, i: int) -> None:
+    """Pass from the present piece of contact i, anchored now, into that beyond the nearer knot."""
+    c = stack.compression[i]
+    up = abs(stack.piece_high[i] - c) < abs(c - stack.piece_low[i])
+    take_piece(stack, i, stack.piece[i] + 1 if up else max(0, stack.piece[i] - 1))
+
+
+@kernel
+def _sum_of_pieces(
+    stack: Stack, i: int, first: int, count: int, unit: float, m: float, c: float
+) -> float:
+    """Return the integral from 0 to c of (x/c)^m (a + b y + s y^2) dx, y being x/unit."""
+    total = 0.0
+    for j in range(count):
+        at = (i * MOST_PIECES + first + j) * PIECE_NUMBERS
+        low, high = stack.pieces[at + _BEGIN] * unit, c
+        if low >= c:
+            break
+        if j + 1 < count:
+            high = min(c, stack.pieces[at + PIECE_NUMBERS + _BEGIN] * unit)
+        constant = stack.pieces[at + _CONSTANT] / (m + 1.0)
+        slope = stack.pieces[at + _SLOPE] / unit / (m + 2.0)
+        square = stack.pieces[at + _SQUARE] / unit / unit / (m + 3.0)
+        part = high * (constant + high * (slope + high * square))
+        total += part if m == 0.0 else part * power(high / c, m)
+        if low > 0.0:
+            part = low * (constant + low * (slope + low * square))
+            total -= part if m == 0.0 else part * power(low / c, m)
+    return total
+
+
+@kernel
+def curve_work(stack: Stack, i: int, c: float) -> float:
+    """Return the integral from 0 to c of the force of contact i on its present curve."""
+    if c <= 0.0:
+        return 0.0
+    first, count, unit = _range(stack, i)
+    m = stack.curve_exponent[i]
+    work = stack.curve_force[i] * _sum_of_pieces(stack, i, first, count, unit, m, c)
+    return work if m == 0.0 else work * power(c / stack.curve_unit[i], m)
+
+
+@kernel
+def energy_given_back(stack: Stack, i: int, c: float, pressing: float) -> float:
+    """Return the energy that contact i, with the force ``pressing``, would now give back."""
+    if stack.top[i] < math.inf or has_one_curve(stack, i):
+        return curve_work(stack, i, c)
+    if stack.unloading_pieces[i] > 0:
+        return pressing * c * stack.returned[i]
+    return stack.returned[i] * curve_work(stack, i, c)
+
+
+@kernel
+def unloading_factor(stack: Stack, i: int, c: float) -> float:
+    """Return the exponent m of the factor (x/c)^m with which contact i unloads from its peak c.
+
+    The inverse of the share of the work that is returned grows almost linearly with m; for one
+    straight piece it is (m + 2)/2. The search is a secant method in this variable.
+    """
+    count = stack.loading_pieces[i]
+    work = _sum_of_pieces(stack, i, 0, count, 1.0, 0.0, c)
+    asked = 1.0 / stack.returned[i]
+    before, excess = 0.0, 1.0 - asked
+    m = 2.0 * asked - 2.0
+    for _ in range(_STEPS):
+        now = work / _sum_of_pieces(stack, i, 0, count, 1.0, m, c) - asked
+        if now == excess:
+            break
+        following = max(0.0, m - now * (m - before) / (now - excess))
+        before, excess = m, now
+        change = abs(following - m)
+        m = following
+        if change <= _CLOSE * m:
+            break
+    return m
+
+
+@kernel
+def compression_of_work(stack: Stack, i: int, work: float) -> float:
+    """Return about the compression at which contact i has taken up ``work`` along its curve."""
+    low, high = 0.0, 1.0
+    while curve_work(stack, i, high) > work and high > 0.0:
+        high *= 0.5
+    while curve_work(stack, i, high) < work and high < math.inf:
+        low, high = high, 2.0 * high
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if curve_work(stack, i, middle) < work:
+            low = middle
+        else:
+            high = middle
+    return high
+
+
+@kernel
+def compression_of_force(stack: Stack, i: int, pressing: float) -> float:
+    """Return the compression at which contact i, on its present curve, has a force."""
+    first, count, unit = _range(stack, i)
+    low, high, j = 0.0, math.inf, 0
+    while high == math.inf and j + 1 < count:
+        knot = stack.pieces[(i * MOST_PIECES + first + j + 1) * PIECE_NUMBERS] * unit
+        if _force_at(stack, i, knot, j) >= pressing:
+            high = knot
+        else:
+            low = knot
+            j += 1
+    if high == math.inf:
+        high = max(2.0 * low, stack.scale[i])
+        while _force_at(stack, i, high, j) < pressing and high < math.inf:
+            high *= 2.0
+    for _ in range(2 * _HALVINGS):
+        middle = 0.5 * (low + high)
+        if _force_at(stack, i, middle, j) < pressing:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)
+
+
+@kernel
+def _force_at(stack: Stack, i: int, c: float, j: int) -> float:
+    """Return the force of contact i at a compression on piece j of its present curve."""
+    first, _, unit = _range(stack, i)
+    at = (i * MOST_PIECES + first + j) * PIECE_NUMBERS
+    y = c / unit
+    gain = stack.pieces[at + _CONSTANT]
+    gain += y * (stack.pieces[at + _SLOPE] + y * stack.pieces[at + _SQUARE])
+    m = stack.curve_exponent[i]
+    factor = 1.0 if m == 0.0 else power(c / stack.curve_unit[i], m)
+    return stack.curve_force[i] * factor * gain

@@ -1,0 +1,286 @@
+"""A law from measured points: monotone splines of second order, loading and unloading.
+
+Between two points (x, y) and (x + h, y + h d), where the slopes are s and t, the spline has two
+parabolas that meet in the middle with the slope ``2 d - (s + t)/2``; one is enough if that lies on
+the line between s and t. It has no wiggles: the slope at a point is the harmonic mean of the slopes
+of the two chords that meet there, which is at most twice the smaller, so that no slope is negative.
+
+Source: L. L. Schumaker, SIAM J. Numer. Anal. 20, 853 (1983); F. N. Fritsch and J. Butland, SIAM J.
+Sci. Stat. Comput. 5, 300 (1984).
+"""
+
+import functools
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Annotated, Any, ClassVar
+
+from stackbounce.engine.codes import FORMS
+from stackbounce.errors import InvalidType, InvalidValue, finite, fraction, shown
+from stackbounce.model.laws.law import ContactLaw, EngineNumbers, Flank, Flanks
+from stackbounce.model.laws.registry import register_table
+from stackbounce.units import Unit
+
+__all__ = ["MOST_POINTS", "Tabulated", "monotone_spline"]
+
+MOST_POINTS = 16
+"""The largest number of points of a curve, with the one at 0: two pieces for each interval."""
+
+_ONE_PARABOLA = 1e-9  # of the slope: two parabolas are one
+_STEEPEST_FLANK = 6.0
+
+Piece = tuple[float, float, float, float]
+"""Where a piece begins, and a, b, s of ``a + b x + s x**2``."""
+
+
+@register_table
+@dataclass(frozen=True)
+class Tabulated(ContactLaw):
+    """A law from measured points, such as those of a press curve: force over compression.
+
+    Loading follows a smooth curve through the points that rises everywhere, and goes on straight
+    beyond the last one. Unloading follows
+
+    - the points of `unloading`, a curve of its own. It was measured from the peak of the table; for
+      another peak C with the force F it is the same curve in units of C and F;
+    - or the loading curve times ``(c/C)**m``, where m is such that the fraction `restitution`**2 of
+      the work is returned;
+    - or, if neither is given, the loading curve: no energy is lost.
+
+    If the contact is compressed again before it has opened, it follows its unloading curve back to
+    the old peak, and then the loading curve. Neither force nor loss depend on the rate.
+
+    Parameters
+    ----------
+    compression : sequence of float
+        In m, from 0 on, rising; 2 to 16 points.
+    force : sequence of float
+        In N, from 0 on, rising: the force at each compression in loading.
+    unloading : sequence of float, optional
+        In N: the force at each compression in unloading from the last one. It begins with 0, never
+        falls, is at most the force in loading, and ends with it.
+    restitution : float, optional
+        e, above 0 and at most 1, where the unloading curve is not known.
+
+    Raises
+    ------
+    InvalidValue
+        If the points do not rise, their numbers differ, or both `unloading` and `restitution` are
+        given.
+    InvalidType
+        If something is no number.
+
+    Notes
+    -----
+    Source: the points are the user's; the splines are those of `stackbounce.model.laws.tabulated`.
+
+    Examples
+    --------
+    >>> law = Tabulated([0.0, 1e-3, 2e-3], [0.0, 20.0, 60.0], unloading=[0.0, 10.0, 60.0])
+    >>> round(law.restitution_at(0.1, 1.0), 3), round(law.restitution_at(0.1, 0.1), 3)
+    (0.847, 0.76)
+    """
+
+    says = "A law from measured points of force over compression, in and out."
+    formula = "F = the monotone spline through the points"
+    source = "L. L. Schumaker, SIAM J. Numer. Anal. 20, 853 (1983)"
+    form = "TABULATED"
+    rate_free = True
+    loss = "restitution"
+    loss_depends_on = ("mass", "speed")
+
+    exponent: ClassVar[float] = 1.0
+    compression: Annotated[Sequence[float], Unit("m")]
+    force: Annotated[Sequence[float], Unit("N")]
+    unloading: Annotated[Sequence[float], Unit("N")] | None = None
+    restitution: float | None = None
+
+    def __post_init__(self) -> None:
+        lengths = _points("compression", self.compression, "metres")
+        forces = _points("force", self.force, "newtons", lengths)
+        object.__setattr__(self, "compression", lengths)
+        object.__setattr__(self, "force", forces)
+        if self.unloading is not None:
+            back = _points("unloading", self.unloading, "newtons", lengths, level=True)
+            if back[-1] != forces[-1]:
+                raise InvalidValue(
+                    f"unloading must end with the last force, {forces[-1]!r}, got {back[-1]!r}"
+                )
+            above = [i for i, (one, two) in enumerate(zip(back, forces, strict=True)) if one > two]
+            if above:
+                raise InvalidValue(
+                    f"unloading.{above[0]} must be at most force.{above[0]}, "
+                    f"{forces[above[0]]!r}, got {back[above[0]]!r}"
+                )
+            object.__setattr__(self, "unloading", back)
+        if self.restitution is not None:
+            if self.unloading is not None:
+                raise InvalidValue("unloading and restitution must not both be given, got both")
+            e = fraction("restitution", self.restitution, zero=False)
+            object.__setattr__(self, "restitution", e)
+
+    def to_mapping(self) -> dict[str, Any]:
+        """Return the law as plain values, with lists of points."""
+        plain = {
+            name: list(value) if isinstance(value, tuple) else value
+            for name, value in super().to_mapping().items()
+        }
+        return {name: value for name, value in plain.items() if value is not None}
+
+    def described(self) -> str:
+        """Return a description of the law for users."""
+        words = [
+            f"Tabulated, {len(self.compression)} points",
+            f"up to {1e3 * self.compression[-1]:.4g} mm and {self.force[-1]:.4g} N",
+        ]
+        if self.restitution is not None:
+            words.append(f"restitution {self.restitution:.4g}")
+        return ", ".join(words)
+
+    def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
+        """Return the law's numbers: those of its pieces, and the share of energy returned."""
+        loading, unloading = self._curves()
+        share = 1.0 if self.restitution is None else self.restitution**2
+        return FORMS[self.form], 1.0, share, float(len(loading)), float(len(unloading))
+
+    def pieces(self) -> list[float]:
+        """Return the numbers of the loading pieces, then of the unloading pieces."""
+        return [number for curve in self._curves() for piece in curve for number in piece]
+
+    def _curves(self) -> tuple[list[Piece], list[Piece]]:
+        back = None if self.unloading is None else tuple(self.unloading)
+        return _curves(tuple(self.compression), tuple(self.force), back)
+
+    def series_constants(self) -> dict[str, Any]:
+        """Raise an error: two tables in series are no table at the same points."""
+        raise InvalidValue(
+            "law_a and law_b must be laws with a formula, got Tabulated: give the table of both "
+            "together, as a press measures it with one ball on the other"
+        )
+
+    @property
+    def contact_time_depends_on(self) -> tuple[str, ...]:
+        """Mass and speed."""
+        return ("mass", "speed")
+
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Return the restitution of a mass in kg at a speed in m/s, by a simulation."""
+        return self._bounce(mass, speed)[0]
+
+    def contact_time_at(self, mass: float, speed: float) -> float:
+        """Return the contact time in s of a mass in kg at a speed in m/s, by a simulation."""
+        return self._bounce(mass, speed)[1]
+
+    def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
+        from stackbounce.engine.one_ball import bounce
+
+        return bounce(self.engine_numbers(), mass, speed, self.pieces())
+
+    @classmethod
+    def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
+        """Return the flanks: the force begins and ends with a power of the time."""
+        return Flank(1.0, _STEEPEST_FLANK), Flank(1.0, _STEEPEST_FLANK)
+
+
+def _points(
+    name: str,
+    values: object,
+    unit: str,
+    like: Sequence[float] | None = None,
+    *,
+    level: bool = False,
+) -> tuple[float, ...]:
+    """Return the points of a curve from 0 on; raise if they do not rise."""
+    given: Any = values
+    if isinstance(values, str | bytes | Mapping) or not hasattr(values, "__iter__"):
+        raise InvalidType(f"{name} must be a sequence of numbers, got {shown(values)}")
+    points = tuple(finite(f"{name}.{i}", value, unit) for i, value in enumerate(given))
+    if not 2 <= len(points) <= MOST_POINTS:
+        raise InvalidValue(
+            f"{name} must have from 2 to {MOST_POINTS} points, got {len(points)}: of more, "
+            "stackbounce.measure.press((compression, force)).table() makes a law"
+        )
+    if like is not None and len(points) != len(like):
+        raise InvalidValue(
+            f"{name} must have {len(like)} points, as compression, got {len(points)}"
+        )
+    if points[0] != 0.0:
+        raise InvalidValue(f"{name}.0 must be 0, where the ball is just touched, got {points[0]!r}")
+    for i, (one, two) in enumerate(pairwise(points)):
+        if two < one or (two == one and not level):
+            words = "at least" if level else "above"
+            raise InvalidValue(f"{name}.{i + 1} must be {words} {name}.{i}, {one!r}, got {two!r}")
+    return points
+
+
+@functools.lru_cache(maxsize=64)
+def _curves(
+    lengths: tuple[float, ...], forces: tuple[float, ...], back: tuple[float, ...] | None
+) -> tuple[list[Piece], list[Piece]]:
+    """Return the pieces of loading in m and N, and of unloading in units of the last point."""
+    loading = monotone_spline(lengths, forces)
+    if back is None:
+        return loading, []
+    most, peak = lengths[-1], forces[-1]
+    unit = [one / most for one in lengths]
+    return loading, monotone_spline(unit, [one / peak for one in back])[:-1]
+
+
+def monotone_spline(x: Sequence[float], y: Sequence[float]) -> list[Piece]:
+    """Return the pieces of a monotone spline of second order through points, and straight beyond.
+
+    Parameters
+    ----------
+    x, y : sequence of float
+        The points; x rises, and y never falls.
+
+    Returns
+    -------
+    list of tuple of float
+        For each piece, where it begins, and a, b, s of ``a + b x + s x**2``.
+
+    Examples
+    --------
+    >>> monotone_spline([0.0, 1.0, 2.0], [0.0, 1.0, 2.0])
+    [(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.0, 0.0), (2.0, 0.0, 1.0, 0.0)]
+    """
+    chords = [(y[i + 1] - y[i]) / (x[i + 1] - x[i]) for i in range(len(x) - 1)]
+    slopes = _slopes(x, chords)
+    pieces: list[Piece] = []
+    for i, chord in enumerate(chords):
+        low, high, width = slopes[i], slopes[i + 1], x[i + 1] - x[i]
+        if abs(low + high - 2.0 * chord) <= _ONE_PARABOLA * chord:
+            pieces.append(_piece(x[i], y[i], low, 0.5 * (high - low) / width))
+            continue
+        middle = 2.0 * chord - 0.5 * (low + high)
+        half = 0.5 * width
+        height = y[i] + 0.5 * (low + middle) * half
+        pieces.append(_piece(x[i], y[i], low, 0.5 * (middle - low) / half))
+        pieces.append(_piece(x[i] + half, height, middle, 0.5 * (high - middle) / half))
+    pieces.append(_piece(x[-1], y[-1], slopes[-1] if slopes[-1] > 0.0 else chords[-1], 0.0))
+    return pieces
+
+
+def _slopes(x: Sequence[float], chords: Sequence[float]) -> list[float]:
+    """Return the slopes at the points: weighted harmonic means; of a parabola at the ends."""
+    inner = []
+    for i in range(1, len(chords)):
+        left, right = chords[i - 1], chords[i]
+        if left <= 0.0 or right <= 0.0:
+            inner.append(0.0)
+            continue
+        near, far = x[i] - x[i - 1], x[i + 1] - x[i]
+        share = (near + 2.0 * far) / (3.0 * (near + far))
+        mean = left * right / (share * right + (1.0 - share) * left)
+        inner.append(min(mean, 2.0 * left, 2.0 * right))
+    if not inner:
+        return [chords[0], chords[0]]
+    first = min(max(2.0 * chords[0] - inner[0], 0.0), 2.0 * chords[0])
+    last = min(max(2.0 * chords[-1] - inner[-1], 0.0), 2.0 * chords[-1])
+    return [first, *inner, last]
+
+
+def _piece(begin: float, height: float, slope: float, square: float) -> Piece:
+    """Return a piece from its value and slope where it begins, and half its second derivative."""
+    constant = height - begin * (slope - begin * square)
+    return begin, constant, slope - 2.0 * begin * square, square
