@@ -108,7 +108,7 @@ def test_a_drop_beyond_the_table_says_so(tmp_path, capfd):
         path.write_text(drop.to_toml(), encoding="utf-8")
         assert main(["simulate", str(path)]) == 0
         told = " ".join(capfd.readouterr().out.split())
-        assert ("but its table ends at 4 mm" in told) == beyond
+        assert ("but its table ends at 4.000 mm" in told) == beyond
 
 
 def test_tables_are_not_pressed_in_series():
