@@ -16,6 +16,7 @@ release = version = __version__
 
 extensions = [
     "docs._extensions.explorer",
+    "docs._extensions.lesson",
     "docs._extensions.mathml",
     "docs._extensions.measure_options",
     "docs._extensions.offline",

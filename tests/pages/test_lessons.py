@@ -1,4 +1,7 @@
-"""The lessons: the numbers in them are those that the package computes, and their links work."""
+"""The lessons: the numbers in them are those that the package computes, and their links work.
+
+The German ones have the same parts, numbers and links as the English ones.
+"""
 
 import dataclasses
 import functools
@@ -7,12 +10,14 @@ import re
 from pathlib import Path
 
 import pytest
-from explorer import fragment
+from lesson import lesson_markdown
 
 import stackbounce as sb
+from stackbounce.json_values import plain
 from stackbounce.model.catalogue import catalogue_ball, stack
+from stackbounce.web.lessons import LANGUAGES, NAMES, explorer_fragment, read_lesson, split_links
 
-LESSONS = Path(__file__).parents[2] / "docs" / "lessons"
+PAGES = Path(__file__).parents[2] / "docs" / "lessons"
 BASKETBALL, TENNIS = "big basketball", "tennis ball"
 CLASSROOM = (BASKETBALL, TENNIS)
 GAPS = (0.0, 1e-3, 2e-3, 5e-3, 1e-2, 2e-2, 3e-2)
@@ -21,7 +26,7 @@ STIFFNESSES = (1e3, 5e3, 1e4, 2e4, 5e4, 2e5)
 
 @functools.cache
 def text(name):
-    return " ".join((LESSONS / f"{name}.md").read_text(encoding="utf-8").split())
+    return " ".join(lesson_markdown(read_lesson(name)).split())
 
 
 def drop_of(names, gap=0.0):
@@ -157,11 +162,68 @@ def test_measure_your_own_ball():
     )
 
 
-@pytest.mark.parametrize("page", sorted(LESSONS.glob("*.md")), ids=lambda page: page.stem)
-def test_links_to_the_explorer_are_drops(page):
-    found = re.findall(r"\{explorer\}`[^`<]*<([^>]*)>`", page.read_text(encoding="utf-8"))
-    assert found or page.stem == "index"
-    for what in found:
-        pairs = dict(pair.split("=", 1) for pair in fragment(what).split("&"))
+def texts_of(value):
+    """Return all texts of a lesson in their order."""
+    if isinstance(value, str):
+        return [value]
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return [text for part in parts for text in texts_of(part)]
+
+
+def links_of(lesson):
+    parts = [part for text in texts_of(plain(lesson)) for part in split_links(text)]
+    return [part for part in parts if not isinstance(part, str)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_links_to_the_explorer_are_drops(name, language):
+    links = links_of(read_lesson(name, language))
+    assert {link.to for link in links} >= {"explorer"}
+    for link in links:
+        if link.to == "lesson":
+            assert link.what in NAMES
+            continue
+        pairs = dict(pair.split("=", 1) for pair in explorer_fragment(link.what).split("&"))
         assert pairs["view"] in ("play", "line")
         assert "balls.1.mass" in pairs
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_minutes_of_the_steps_are_those_of_the_lesson(name):
+    lesson = read_lesson(name)
+    assert sum(step.minutes for step in lesson.steps) == lesson.minutes
+    assert 20 <= lesson.minutes <= 45
+    assert len(lesson.answers) == len(lesson.questions)
+
+
+def shape_of(value):
+    if isinstance(value, dict):
+        return {key: shape_of(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [shape_of(one) for one in value]
+    return bool(value) if isinstance(value, str) else value
+
+
+def numbers_of(text):
+    plain_text = "".join(
+        part if isinstance(part, str) else part.words for part in split_links(text)
+    )
+    return sorted(re.findall(r"\d+(?:\.\d+)?", re.sub(r"(?<=\d),(?=\d)", ".", plain_text)))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_german_has_the_same_parts_numbers_and_links(name):
+    english, german = (read_lesson(name, language) for language in ("en", "de"))
+    assert shape_of(plain(german)) == shape_of(plain(english))
+    assert [link[1:] for link in links_of(german)] == [link[1:] for link in links_of(english)]
+    pairs = zip(texts_of(plain(english)), texts_of(plain(german)), strict=True)
+    differing = [(one, other) for one, other in pairs if numbers_of(one) != numbers_of(other)]
+    assert not differing
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_each_lesson_is_a_page_of_the_documentation(name):
+    page = (PAGES / f"{name}.md").read_text("utf-8")
+    assert page.startswith(f"# {read_lesson(name).title}\n\n```{{lesson}} {name}\n```\n")
+    assert f"\n{name}\n" in (PAGES / "index.md").read_text("utf-8")

@@ -11,7 +11,7 @@ from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.lines import list_lines
 from stackbounce.model import Drop
 
-__all__ = ["Link", "link_figures"]
+__all__ = ["Link", "explorer_address", "link_figures"]
 
 _CASES = {  # of a figure, by the names of the explorer's examples
     "5": ("figure-5",),
@@ -52,25 +52,44 @@ def link_figures(explorer: str) -> dict[str, list[Link]]:
         texts = ["Play this drop", *(f"Play {cases[name].title}" for name in names[1:])]
         drops = [_as_drawn(number, cases[name].drop) for name in names]
         found[number] = [
-            Link(text, _address(explorer, drop)) for text, drop in zip(texts, drops, strict=True)
+            Link(text, explorer_address(explorer, drop, {}))
+            for text, drop in zip(texts, drops, strict=True)
         ]
     for line in list_lines():
         number = line.name.removeprefix("figure-").partition("-")[0]
-        view = {"line": {"x": asdict(line.across), "show": "rebound_ratio"}}
-        link = Link(f"Open as a line: {line.title}", _address(explorer, line.drop, view))
+        view = {"view": "line", "line": {"x": asdict(line.across), "show": "rebound_ratio"}}
+        address = explorer_address(explorer, line.drop, view)
+        link = Link(f"Open as a line: {line.title}", address)
         found.setdefault(number, []).append(link)
     return found
+
+
+def explorer_address(explorer: str, drop: Drop, settings: dict[str, Any]) -> str:
+    """Return the address of a drop in the explorer, with paths and values as in its own addresses.
+
+    Parameters
+    ----------
+    explorer : str
+        The address of the explorer.
+    drop : Drop
+        What it shows.
+    settings : dict
+        What its address says besides, by path or as dicts; the view is ``play`` by default.
+
+    Examples
+    --------
+    >>> from stackbounce import Ball, Drop, Spring
+    >>> drop = Drop([Ball(0.1)], [Spring(1e3)], impact_speed=1.0)
+    >>> explorer_address("../", drop, {"loop": 1})[:38]
+    '../#view=play&impact_speed=1.0&gravity'
+    """
+    state = {"view": "play", **drop.to_mapping(), **settings}
+    return f"{explorer}#{urlencode(list(_flatten('', state)))}"
 
 
 def _as_drawn(number: str, drop: Drop) -> Drop:
     """Return an example's drop as its figure has it: that of Fig. 10(b) has a gap."""
     return replace(drop, gaps=[Bench(PAPER)("superballs.gap")]) if number == "10b" else drop
-
-
-def _address(explorer: str, drop: Drop, view: dict[str, Any] | None = None) -> str:
-    """Return the address of a drop, with paths and values as the explorer's own addresses."""
-    state = {"view": "line" if view else "play", **drop.to_mapping(), **(view or {})}
-    return f"{explorer}#{urlencode(list(_flatten('', state)))}"
 
 
 def _flatten(path: str, value: Any) -> Iterator[tuple[str, str]]:

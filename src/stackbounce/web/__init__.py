@@ -13,6 +13,7 @@ worker_pool worker processes, with limits of time and memory for each job
 schema      the schema of requests and answers, in pydantic
 paper_pages the paper's pages, computed at the first request
 answers/    the functions that compute answers in the worker processes
+lessons/    the lessons, for the page and the documentation
 page/       what the page is made of besides static/: data, formulas, the one file
 static/     the page: HTML, CSS, plain ES modules, and uPlot
 =========== ================================================================

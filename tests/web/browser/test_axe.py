@@ -33,5 +33,12 @@ def test_axe_finds_nothing_to_change(browser, address_of_server, width, colors):
             found, passed = page.evaluate(VIOLATIONS)
             assert passed > 30, "axe has not seen the page"
             assert not found, view
+        page.locator("#tab-play").click()
+        for opens in ("#lessons-open", "[data-key=lesson-gap]"):
+            page.locator(opens).click()
+            page.evaluate(OPEN)
+            found, passed = page.evaluate(VIOLATIONS)
+            assert page.locator("#lesson").is_visible()
+            assert not found, opens
     finally:
         context.close()

@@ -2,7 +2,8 @@
 
 =========== ================================================================
 parts       all files that are made, by their names in the page
-data        laws, balls, cases, units and bounds, as JSON
+data        laws, balls, cases, lessons, units and bounds, as JSON
+lessons     the lessons, with links that the page can follow
 units       all units that the package reads, with their factors
 laws        the formulas of the contact laws, as JavaScript
 bounds      the numbers that a check lets through

@@ -14,6 +14,7 @@ from stackbounce.run.result import Status
 from stackbounce.units import examples
 from stackbounce.web.answers import catalogue, maps, play
 from stackbounce.web.limits import LIMITS
+from stackbounce.web.page.lessons import list_lessons
 from stackbounce.web.page.units import list_units
 
 __all__ = ["model_json"]
@@ -37,6 +38,7 @@ def model_json() -> str:
             "energy": maps.ENERGY,
             "gravity": STANDARD_GRAVITY,
             "kinds": examples(),
+            "lessons": list_lessons(),
             "lines": _list_lines(),
             "map_rtol": maps.RTOL,
             "outcomes": maps.OUTCOMES,

@@ -12,6 +12,7 @@ const SIDE = ["path", "low", "high", "log"];
 const SWITCHES = ["ghosts", "arrows", "momentum", "centre", "sound", "loop", "predict"];
 const GONE = ["slow"]; // what older links have, and no longer means anything
 const PART = /^[a-z]+(_[a-z]+)*$/;
+const LESSON = /^[a-z]+(-[a-z]+)*$/;
 const MOST = 16; // more members than any list of a drop may have
 const NAMED = 3; // parts of a link that are named
 const LONGEST = 30; // letters of each
@@ -21,6 +22,7 @@ const REST = 300; // ms without a change
 export function write(state) {
   const pairs = [["view", state.view]];
   if (state.lang !== FIRST.lang) pairs.push(["lang", state.lang]);
+  if (state.lesson !== null) pairs.push(["lesson", state.lesson]);
   flatten("", state.drop, pairs);
   for (const [path, error] of Object.entries(state.errors)) pairs.push([`error.${path}`, error]);
   if (state.until !== FIRST.until) pairs.push(["until", state.until]);
@@ -70,8 +72,8 @@ export function read(fragment) {
 }
 
 /**
- * Keep the address and the state in step: writes soon after a change, reads when a link is followed. Another view and
- * another example are places of their own in the browser's history: its Back undoes them.
+ * Keep the address and the state in step: writes soon after a change, reads when a link is followed. Another view, another
+ * lesson and another example are places of their own in the browser's history: its Back undoes them.
  */
 export function follow(store) {
   let timer = 0;
@@ -84,7 +86,8 @@ export function follow(store) {
     history[how]({ way }, "", written);
   };
   store.subscribe((state, before) => {
-    const step = state.visits !== before.visits ? EXAMPLE : state.view !== before.view ? VIEW : null;
+    const beside = state.view !== before.view || state.lesson !== before.lesson;
+    const step = state.visits !== before.visits ? EXAMPLE : beside ? VIEW : null;
     if (step && !following) {
       put(before);
       way += step;
@@ -108,8 +111,9 @@ export function follow(store) {
     const { lang: _lang, ...found } = read(location.hash); // Back undoes no choice of a language
     way = state.way;
     passed = location.hash;
-    if (to.slice(from.length).includes(EXAMPLE)) show({ ...FIRST_SHOWN, ...found });
-    else show({ view: found.view ?? FIRST.view }); // the drop stays as it is now
+    const { view = FIRST.view, lesson = FIRST.lesson } = found;
+    if (to.slice(from.length).includes(EXAMPLE)) show({ ...FIRST_SHOWN, ...found, lesson });
+    else show({ view, lesson }); // the drop stays as it is now
   });
   addEventListener("hashchange", ({ newURL }) => {
     const { hash } = new URL(newURL); // the page may have written its own address since
@@ -117,13 +121,13 @@ export function follow(store) {
     passed = "";
     if (known) return;
     way += EXAMPLE;
-    show({ ...FIRST_SHOWN, ...read(hash) });
+    show({ ...FIRST_SHOWN, ...read(hash), replay: store.get().replay + 1 }); // a lesson stays open
   });
   if (!history.state) history.replaceState({ way }, "");
 }
 
 const EXAMPLE = "e"; // an example was loaded, or a link followed
-const VIEW = "v";
+const VIEW = "v"; // another view, or another lesson
 
 const FIRST_SHOWN = Object.fromEntries(
   ["view", "until", ...SWITCHES, "guess", "speed", "magnify", "t", "notes", ...Object.keys(SETTINGS)].map((name) => [name, FIRST[name]]),
@@ -177,6 +181,7 @@ function readOne(patch, key, text) {
   const takes = {
     view: () => VIEWS.includes(text) && [text],
     lang: () => isLanguage(text) && [text],
+    lesson: () => LESSON.test(text) && [text],
     t: () => finite && [value],
   };
   for (const name of SWITCHES) takes[name] = () => [text !== "0"];

@@ -15,6 +15,7 @@ import { mountHands } from "./hands.js";
 import { mountHistory } from "./history.js";
 import { t, translated, translatePage, writeTold } from "./language.js";
 import { mountLanguage } from "./language_view.js";
+import { mountLessons } from "./lessons.js";
 import { mountMomentum } from "./momentum.js";
 import { mountNumbers } from "./numbers.js";
 import { hasServer, loadMeasure } from "./origin/served.js";
@@ -59,6 +60,7 @@ mountHistory(place("history"), store);
 mountHands(place("stage"), store, clock, api);
 mountEmbed(place("transport"), store);
 mountFullScreen(place("play"), place("stage"));
+const giveLessons = mountLessons({ root: place("lesson"), button: place("lessons-open") }, store);
 const loadLine = () => import("./line.js");
 const loadMap = () => import("./map.js");
 mountTabs(store, {
@@ -147,7 +149,9 @@ for (const one of document.querySelectorAll("[data-home]")) one.hidden = (one.da
 function loadCatalogue() {
   return retry(
     async () => {
-      mountControls(place("controls"), store, api, await api.catalogue());
+      const known = await api.catalogue();
+      mountControls(place("controls"), store, api, known);
+      giveLessons(known.lessons);
       if (store.get().error?.offline) runner.again();
     },
     ({ message }) => store.set({ error: { detail: message, offline: true } }),

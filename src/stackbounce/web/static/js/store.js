@@ -3,6 +3,9 @@
 /** The views, in the order of their tabs. */
 export const VIEWS = ["play", "line", "map", "measure", "paper"];
 
+/** The name of the list of lessons, in place of a lesson's. */
+export const LESSON_LIST = "all";
+
 /** The state at the start: the paper's basketball and tennis ball (Fig. 9). */
 export const FIRST_DROP = {
   balls: [
@@ -20,6 +23,7 @@ export const FIRST_DROP = {
 
 export const FIRST = {
   view: "play",
+  lesson: null, // the name of the lesson that is open
   lang: null, // the code of the language that was chosen by hand
   drop: FIRST_DROP,
   until: null, // s of the whole drop, or null for the impact alone

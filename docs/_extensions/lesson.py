@@ -1,0 +1,117 @@
+"""Sphinx extension: the lessons of `stackbounce.web.lessons`, which the explorer shows, too.
+
+On a page, a block ``{lesson} NAME`` stands for a whole lesson, and a block ``{lessons}`` for the
+table of all. They are replaced before Sphinx reads the page, as a lesson has sections.
+"""
+
+import re
+from collections.abc import Iterator
+from typing import Any
+
+from sphinx.application import Sphinx
+
+from stackbounce.web.lessons import NAMES, Item, Lesson, read_lesson, split_links
+
+_LINE = "______________________"
+_WIDTH, _HEIGHT, _STEP = 160, 90, 10
+_LINES = "".join(
+    [f"M{x} 0V{_HEIGHT}" for x in range(_STEP, _WIDTH + 1, _STEP)]
+    + [f"M0 {y}H{_WIDTH}" for y in range(0, _HEIGHT, _STEP)]
+)
+_GRID = f"""\
+```{{raw}} html
+<svg viewBox="0 0 {_WIDTH} {_HEIGHT}" role="img" aria-label="An empty grid" class="grid">
+  <path class="thin" d="{_LINES}"/>
+  <path d="M0 0V{_HEIGHT}H{_WIDTH}"/>
+</svg>
+```"""
+
+
+_BLOCK = re.compile(r"^```\{(lessons?)\} ?(.*)\n```$", re.MULTILINE)
+
+
+def setup(app: Sphinx) -> dict[str, Any]:
+    """Replace the blocks."""
+    app.connect("source-read", _replace)
+    return {"version": "1", "parallel_read_safe": True}
+
+
+def _replace(_app: Sphinx, _page: str, source: list[str]) -> None:
+    source[0] = _BLOCK.sub(_written, source[0])
+
+
+def _written(block: re.Match[str]) -> str:
+    return lesson_markdown(read_lesson(block[2])) if block[1] == "lesson" else _list_markdown()
+
+
+def _list_markdown() -> str:
+    rows = [["lesson", "for whom", "time", "what it is about"]]
+    for one in map(read_lesson, NAMES):
+        title = f"[{one.title}]({one.name}.md)"
+        rows.append([title, one.for_whom, f"{one.minutes} minutes", one.about])
+    return _table(rows)
+
+
+def lesson_markdown(lesson: Lesson) -> str:
+    """Return a lesson as the documentation has it."""
+    return "\n\n".join(_blocks(lesson)) + "\n"
+
+
+def _blocks(lesson: Lesson) -> Iterator[str]:
+    yield _table(
+        [
+            ["", ""],
+            ["for whom", lesson.for_whom],
+            ["time", f"{lesson.minutes} minutes"],
+            ["needs", lesson.needs],
+            ["misconception", lesson.misconception],
+        ]
+    )
+    yield "## Steps"
+    yield _listed([f"**{one.title} ({one.minutes} minutes).** {one.text}" for one in lesson.steps])
+    if lesson.example:
+        yield f"## An example\n\n{_linked(lesson.example)}"
+    yield f"## Questions\n\n{_listed(lesson.questions)}"
+    yield f"## Answers for the teacher\n\n{_listed(lesson.answers)}"
+    if lesson.table:
+        yield _table(lesson.table)
+    yield from map(_linked, lesson.remarks)
+    yield "## Worksheet"
+    yield "````{container} worksheet"
+    yield f"**{lesson.title}** Name: {_LINE} Date: ______________"
+    for i, item in enumerate(lesson.worksheet, 1):
+        yield from _item(i, item)
+    yield "````"
+
+
+def _item(number: int, item: Item) -> Iterator[str]:
+    yield f"{number}. {item.text}"
+    if item.table:
+        yield _table(item.table)
+    if item.grid:
+        yield _GRID
+    if item.after:
+        yield item.after
+
+
+def _listed(texts: list[str]) -> str:
+    return "\n".join(f"{i}. {_linked(text)}" for i, text in enumerate(texts, 1))
+
+
+def _linked(text: str) -> str:
+    """Return a text with its links as Markdown has them."""
+    return "".join(
+        part
+        if isinstance(part, str)
+        else f"[{part.words}]({part.what}.md)"
+        if part.to == "lesson"
+        else f"{{explorer}}`{part.words} <{part.what}>`"
+        for part in split_links(text)
+    )
+
+
+def _table(rows: list[list[str]]) -> str:
+    width = max(map(len, rows))
+    lines = [[*row, *[""] * (width - len(row))] for row in rows]
+    lines.insert(1, ["---"] * width)
+    return "\n".join(f"| {' | '.join(line)} |" for line in lines)
