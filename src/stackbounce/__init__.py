@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from stackbounce.measure import read
     from stackbounce.model import (
         Ball,
+        Bond,
         Dashpot,
         Drop,
         Hertz,
@@ -35,6 +36,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Ball",
+    "Bond",
     "Dashpot",
     "Drop",
     "Fit",

@@ -30,7 +30,8 @@ def separate(drop: Drop) -> Drop:
     InvalidType
         If `drop` is no Drop.
     InvalidValue
-        If the restitution of a contact cannot be computed in floating point.
+        If the restitution of a contact cannot be computed in floating point, or a contact is a
+        `Bond`, which has none.
 
     Notes
     -----

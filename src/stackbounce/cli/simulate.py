@@ -55,7 +55,9 @@ def run(
     errors = read_errors(chosen.drop, {**chosen.errors, **written}, error)
     prediction = predict(chosen.drop, errors, until=end, rtol=rtol) if errors else None
     result = simulate(chosen.drop, until=end, rtol=rtol)
-    textbook = None if chosen.drop.rigid else simulate(separate(chosen.drop))
+    laws = chosen.drop.contacts
+    joined = any(law is not None and law.pulls for law in laws)  # no collision of the textbook's
+    textbook = None if chosen.drop.rigid or joined else simulate(separate(chosen.drop))
     draw_picture(plot, "bounce", prediction or result)
     if as_json:
         print_json(summary(chosen, result, textbook, prediction))

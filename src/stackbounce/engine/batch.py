@@ -7,6 +7,7 @@ on that row only.
 import math
 
 from stackbounce.engine import codes
+from stackbounce.engine.bodies import body_velocity_at_end
 from stackbounce.engine.codes import LOG_COLUMNS
 from stackbounce.engine.kernels import Floats, Integers, kernel
 from stackbounce.engine.motion import velocity_at
@@ -23,7 +24,7 @@ from stackbounce.engine.records import (
 )
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
-from stackbounce.engine.slots import LAST_CHECK, LAST_EVENT, LOG_ROWS, RECORDS_PEAKS
+from stackbounce.engine.slots import BONDS, LAST_CHECK, LAST_EVENT, LOG_ROWS, RECORDS_PEAKS
 from stackbounce.engine.stack import RigidStack, Samples, Stack
 
 
@@ -69,6 +70,7 @@ def run_drop(
     status = advance_contacts(stack, until / unit, event_limit, space.log, samples)
     if status != codes.RUNNING:
         end = stack.clock[LAST_EVENT]
+        bonded = stack.setting[BONDS] > 0 and status == codes.FINISHED
         if status != codes.FINISHED:
             end = max(end, stack.clock[LAST_CHECK])
             if status == codes.TIME_REACHED:
@@ -77,7 +79,8 @@ def run_drop(
         space.after[END] = end * unit
         for b in range(size):
             known = status != codes.INVALID
-            space.after[AFTER + b] = velocity_at(stack, b, end) / unit if known else math.nan
+            after = body_velocity_at_end(stack, b) if bonded else velocity_at(stack, b, end)
+            space.after[AFTER + b] = after / unit if known else math.nan
         for k in range(len(samples.velocity)):
             samples.velocity[k] /= unit
             samples.force[k] /= unit * unit

@@ -15,7 +15,7 @@ ABSENT = 0  # no floor
 POWER = 1  # a power of the compression, loading and unloading alike
 HYSTERETIC = 2  # another power when unloading
 LOSSY = 3  # the same, with another one after each reloading
-PRODUCT = 4  # in the stack only: all forms from DASHPOT to RELAXING but RIGID
+PRODUCT = 4  # in the stack only: all forms from DASHPOT to RELAXING but RIGID, and BOND
 DASHPOT = 5
 VISCOELASTIC = 6
 HUNT_CROSSLEY = 7
@@ -25,6 +25,7 @@ RELAXING = 10
 PIECEWISE = 11  # in the stack only: TWO_STAGE and TABULATED
 TWO_STAGE = 12
 TABULATED = 13
+BOND = 14  # a spring and a dashpot that also pull: the contact never opens
 FORMS = {
     "ABSENT": ABSENT,
     "POWER": POWER,
@@ -37,6 +38,7 @@ FORMS = {
     "RELAXING": RELAXING,
     "TWO_STAGE": TWO_STAGE,
     "TABULATED": TABULATED,
+    "BOND": BOND,
     "RIGID": RIGID,
 }
 """Those that a law can have, by the names that it gives as its `form`."""

@@ -22,6 +22,7 @@ TWO_STAGE     k c, from z on k (z + w (c - z)); see `pieces`              z: len
                                                                           p: share returned
 TABULATED     k (a + b c + s c^2) in pieces, see `pieces`                 z, w: numbers of pieces,
                                                                           p: share returned
+BOND          k c + z c', which may pull; the contact never opens         damping
 RIGID         an instantaneous collision                                  restitution
 ============= =========================================================== ========================
 
@@ -37,8 +38,8 @@ A contact that creeps touches and opens at another compression than 0, that of i
 its force is 0, c = m u/b. While it is open its surface recovers freely, at the rate of `recovery`,
 and so does its creep: it begins the next interval with what is left.
 
-The last two are one form in the stack, too: a PIECEWISE contact is a product with q = 0 and d = 0
-in each piece, when it unloads times a power of c.
+TWO_STAGE and TABULATED are one form in the stack, too: a PIECEWISE contact is a product with q = 0
+and d = 0 in each piece, when it unloads times a power of c.
 
 A new form that is such a product needs a code (`codes`) and its numbers in `take_law`; any other
 one also a force, an energy, a static compression, and the terms of its power series (`find_terms`).
@@ -48,6 +49,7 @@ import math
 
 from stackbounce.engine.codes import (
     ABSENT,
+    BOND,
     COMPRESSING,
     DASHPOT,
     HUNT_CROSSLEY,
@@ -94,6 +96,12 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: f
     if kind in (HYSTERETIC, LOSSY):
         stack.law[i] = kind
         stack.unloading[i] = z
+    elif kind == BOND:
+        stack.law[i] = PRODUCT
+        stack.bonded[i] = 1
+        stack.factor_exponent[i] = 0.0
+        stack.gain_slope[i] = 1.0
+        stack.gain_rate[i] = z / k
     elif kind == TWO_STAGE:
         take_two_stages(stack, i, z, w, p)
     elif kind == TABULATED:
@@ -225,6 +233,8 @@ def force(stack: Stack, i: int, compression: float, rate: float, creep: float) -
         slope = stack.gain_slope[i] + stack.gain_square[i] * compression
         gain = stack.gain_constant[i] + slope * compression
         gain += stack.gain_rate[i] * rate
+        if stack.bonded[i] == 1:
+            return pressing * gain
         return pressing * max(0.0, gain - stack.gain_creep[i] * creep)
     return pressing
 
@@ -238,7 +248,8 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
     if stack.phase[i] == OPEN:
         return 0.0
     if stack.law[i] == PRODUCT:
-        return _elastic_work(stack, i, max(0.0, compression))
+        held = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
+        return _elastic_work(stack, i, held)
     if stack.law[i] == PIECEWISE:
         pressing = force(stack, i, compression, 0.0, 0.0)
         return energy_given_back(stack, i, max(0.0, compression), pressing)
@@ -287,7 +298,7 @@ def loaded_energy(stack: Stack, i: int, compression: float) -> float:
 @kernel
 def potential(stack: Stack, i: int, compression: float) -> float:
     """Return the integral from 0 of contact i's elastic force on the curve that it follows."""
-    c = max(0.0, compression)
+    c = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
     if stack.law[i] == PRODUCT:
         return _elastic_work(stack, i, c)
     if stack.law[i] == PIECEWISE:

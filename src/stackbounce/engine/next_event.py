@@ -19,6 +19,8 @@ unloaded    the gain rises through 0     RESUMED: compressing
 ..          c falls through 0            RELEASE: open since the force was clipped
 =========== ============================ =====================================================
 
+A bond has no events: it never opens, and its force has one formula.
+
 A lossless power-law contact in a cluster that is solved by Taylor series has no PEAK event:
 `record_series_peaks` finds the peak from the series.
 
@@ -81,6 +83,9 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
     size = len(stack.mass)
     phase = stack.phase[i]
     if stack.law[i] == ABSENT:
+        return
+    if stack.bonded[i] == 1:
+        schedule(stack.due, stack.heap, stack.place, i, math.inf)
         return
     if phase < COMPRESSING:
         align_anchors(stack, i)

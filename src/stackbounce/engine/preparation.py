@@ -17,6 +17,7 @@ from stackbounce.engine.forces import is_nonlinear, take_law, typical_compressio
 from stackbounce.engine.kernels import Floats, Integers, kernel
 from stackbounce.engine.series import ORDER
 from stackbounce.engine.slots import (
+    BONDS,
     GRAVITY,
     LINEARISED_WORK,
     NONLINEAR,
@@ -66,6 +67,7 @@ def prepare(
         stack.scale[i] = typical_compression(stack, i, speed)
         if stack.law[i] != codes.ABSENT:
             shortest = min(shortest, stack.scale[i] / speed)
+        stack.setting[BONDS] += stack.bonded[i]
         if is_nonlinear(stack, i):
             stack.setting[NONLINEAR] = 1
     unit = 1.0

@@ -53,7 +53,8 @@ def is_bound(stack: Stack) -> bool:
         excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
         excess += arm_energy(stack, i, c, stack.creep[i])
         opening = weight * rest - at_rest
-        barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
+        if stack.bonded[i] == 0:
+            barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
         damped = damped or is_damped(stack, i)
         one_curve = stack.law[i] == PIECEWISE and has_one_curve(stack, i)
         if stack.law[i] not in (POWER, PRODUCT) and not one_curve:

@@ -7,6 +7,7 @@ event changes the clusters beside it only.
 
 import math
 
+from stackbounce.engine.bodies import have_parted, load_floor
 from stackbounce.engine.codes import (
     ABSENT,
     CHECK,
@@ -68,6 +69,7 @@ from stackbounce.engine.next_event import schedule_next_event
 from stackbounce.engine.rest import is_bound, set_static_state
 from stackbounce.engine.slots import (
     APPROACHING,
+    BONDS,
     CHECKS,
     CLOSED,
     EVENTS,
@@ -97,6 +99,9 @@ def begin_contacts(stack: Stack) -> None:
         stack.curve_exponent[i] = 1.0
         stack.touching[i] = 0.0
         stack.pushed[i] = 0
+        if stack.bonded[i] == 1:
+            close_contact(stack, i, 0.0)
+    load_floor(stack)
     form_clusters(stack, 0, size - 1, 0.0)
     for i in range(size):
         schedule_next_event(stack, i, 0.0)
@@ -139,6 +144,8 @@ def advance_contacts(
                 set_static_state(stack)
                 _record_samples(stack, samples, math.inf)
                 return SETTLED
+            if stack.setting[BONDS] > 0 and until == math.inf and _is_over(stack, time, samples):
+                return _final_status(stack)
         elif stack.event[slot] == CHECK:
             stack.counter[CHECKS] += 1
             _reschedule(stack, slot, time)
@@ -148,6 +155,12 @@ def advance_contacts(
             if kind == RELEASE and until == math.inf and _all_separating(stack):
                 _record_samples(stack, samples, math.inf)
                 return _final_status(stack)
+
+
+@kernel
+def _is_over(stack: Stack, time: float, samples: Samples) -> bool:
+    """Tell whether bodies have parted for good; they are followed on to the last sample."""
+    return stack.counter[NEXT_SAMPLE] == len(samples.time) and have_parted(stack, time)
 
 
 @kernel
@@ -340,7 +353,7 @@ def _log_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> Non
 def log_unfinished(stack: Stack, time: float, log: Floats) -> None:
     """Log the contact intervals that have not ended at a time as releases at time infinity."""
     for i in range(len(stack.mass)):
-        if stack.phase[i] == OPEN:
+        if stack.phase[i] == OPEN or stack.bonded[i] == 1:
             continue
         if stack.phase[i] >= COMPRESSING:
             compression = compression_at(stack, i, time)

@@ -5,7 +5,7 @@ array      `Stack`       `RigidStack`  slots
 ========== ============= ============= =================================================
 `number`   6             6             GRAVITY, SPEED, TOLERANCE, LINEARISED_WORK, UNIT,
                                        KEPT_TIME
-`setting`  3                           SERIES_ORDER, NONLINEAR, RECORDS_PEAKS
+`setting`  4                           SERIES_ORDER, NONLINEAR, RECORDS_PEAKS, BONDS
 `counter`  6             6             LOG_ROWS, EVENTS, CHECKS, NEXT_SAMPLE, CLOSED,
                                        APPROACHING
 `clock`    2             2             LAST_EVENT, LAST_CHECK
@@ -28,7 +28,8 @@ NUMBERS = 6
 SERIES_ORDER = 0  # of the power series of nonlinear clusters
 NONLINEAR = 1  # 1 where some contact can be nonlinear
 RECORDS_PEAKS = 2  # 1 if peak forces, peak compressions and impulses are recorded
-SETTINGS = 3
+BONDS = 3  # number of contacts that never open
+SETTINGS = 4
 
 # `counter`: integers that a run changes
 LOG_ROWS = 0  # rows in the log

@@ -37,6 +37,7 @@ class Stack(NamedTuple):
     gain_rate: Floats  # d
     gain_creep: Floats  # m
     creep_rate: Floats  # 1/w, at which u follows c
+    bonded: Integers  # 1 if the contact also pulls, and never opens
     scale: Floats  # a typical compression of the contact
     number: Floats  # see `slots`
     setting: Integers

@@ -20,6 +20,7 @@ from stackbounce.model.laws.hunt_crossley import HuntCrossley
 from stackbounce.model.laws.hysteretic import Hysteretic
 from stackbounce.model.laws.hollow_ball import HollowBall
 from stackbounce.model.laws.tabulated import Tabulated
+from stackbounce.model.laws.bond import Bond
 
 # isort: on
 from stackbounce.model.laws.law import STEEPEST, ContactLaw, contact_numbers
@@ -29,6 +30,7 @@ from stackbounce.model.laws.series import series
 __all__ = [
     "LAWS",
     "STEEPEST",
+    "Bond",
     "ContactLaw",
     "Dashpot",
     "Hertz",

@@ -114,6 +114,8 @@ class ContactLaw:
     """The field that it takes as a second one, such as a relaxation time."""
     rigid: ClassVar[bool] = False
     """Whether collisions are instantaneous."""
+    pulls: ClassVar[bool] = False
+    """Whether the contact pulls as well and never opens, as inside a ball."""
     exact: ClassVar[bool] = False
     """Whether the motion is solved in closed form, so that a run is fast."""
     rate_free: ClassVar[bool] = False

@@ -6,15 +6,15 @@ from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model.laws.law import ContactLaw
 
-__all__ = ["LAWS", "TABLES", "law_named", "register", "register_table", "usual_laws"]
+__all__ = ["LAWS", "UNLISTED", "law_named", "register", "register_unlisted", "usual_laws"]
 
 _Law = TypeVar("_Law", bound=ContactLaw)
 
 LAWS: dict[str, type[ContactLaw]] = {}
 """The classes of all laws by their names, in the order of tables and menus."""
 
-TABLES: dict[str, type[ContactLaw]] = {}
-"""The classes of laws that are tables of points, which files and programs give and menus do not."""
+UNLISTED: dict[str, type[ContactLaw]] = {}
+"""The classes of laws that files and programs give, and menus do not: tables, and bonds."""
 
 
 def usual_laws() -> list[str]:
@@ -37,16 +37,16 @@ def register(law: type[_Law]) -> type[_Law]:
     return _registered(law, LAWS)
 
 
-def register_table(law: type[_Law]) -> type[_Law]:
-    """Add the class of a law that is a table to `TABLES`; see `register`."""
-    return _registered(law, TABLES)
+def register_unlisted(law: type[_Law]) -> type[_Law]:
+    """Add a law's class to `UNLISTED`; see `register`."""
+    return _registered(law, UNLISTED)
 
 
 def _registered(law: type[_Law], laws: dict[str, type[ContactLaw]]) -> type[_Law]:
     missing = [name for name in ("says", "formula", "source", "form") if not hasattr(law, name)]
     if missing:
         raise TypeError(f"{law.__name__} must set {', '.join(missing)}")
-    other = (LAWS | TABLES).get(law.__name__, law)
+    other = (LAWS | UNLISTED).get(law.__name__, law)
     if (other.__module__, other.__qualname__) != (law.__module__, law.__qualname__):
         raise TypeError(f"{law.__name__} is the name of a law in {other.__module__} already")
     if law.form not in FORMS:
@@ -63,7 +63,7 @@ def law_named(name: object) -> type[ContactLaw]:
     Parameters
     ----------
     name : str
-        A key of `LAWS` or `TABLES`; case, hyphens and underscores do not matter.
+        A key of `LAWS` or `UNLISTED`; case, hyphens and underscores do not matter.
 
     Returns
     -------
@@ -81,7 +81,7 @@ def law_named(name: object) -> type[ContactLaw]:
     ('Spring', 'HuntCrossley')
     """
     word = name.casefold().translate(_JOINED) if isinstance(name, str) else ""
-    for known, law in (LAWS | TABLES).items():
+    for known, law in (LAWS | UNLISTED).items():
         if word == known.casefold():
             return law
     raise InvalidValue(f"law must be a contact law, got {shown(name)}; {nearest(name, LAWS)}")

@@ -18,7 +18,7 @@ from typing import Annotated, Any, ClassVar
 from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidType, InvalidValue, finite, fraction, shown
 from stackbounce.model.laws.law import ContactLaw, EngineNumbers, Flank, Flanks
-from stackbounce.model.laws.registry import register_table
+from stackbounce.model.laws.registry import register_unlisted
 from stackbounce.units import Unit
 
 __all__ = ["MOST_POINTS", "Tabulated", "monotone_spline"]
@@ -33,7 +33,7 @@ Piece = tuple[float, float, float, float]
 """Where a piece begins, and a, b, s of ``a + b x + s x**2``."""
 
 
-@register_table
+@register_unlisted
 @dataclass(frozen=True)
 class Tabulated(ContactLaw):
     """A law from measured points, such as those of a press curve: force over compression.

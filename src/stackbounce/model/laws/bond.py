@@ -1,0 +1,79 @@
+"""A bond: what joins two parts of one body, or a body to the floor."""
+
+from dataclasses import dataclass
+from typing import Annotated, ClassVar
+
+from stackbounce.errors import InvalidValue, non_negative
+from stackbounce.model.laws.law import ContactLaw, Quantity, stiffness_in
+from stackbounce.model.laws.registry import register_unlisted
+
+__all__ = ["Bond"]
+
+
+@register_unlisted
+@dataclass(frozen=True)
+class Bond(ContactLaw):
+    """A spring and a dashpot that push and pull, and never open: two parts of one body.
+
+    ``F = k c + b ċ``, for compression and extension alike. Two balls with a bond between them are
+    one ball with an inner mode of vibration. A lowest ball with a bond below it is a floor of
+    finite mass on a spring: a table, or a force plate; with gravity it carries its own weight from
+    the start. There is no gap at a bond.
+
+    The rebound speed of a ball with bonds is that of the centre of its body, and 0 for a body that
+    is bonded to the floor: the vibration that is left is no motion of the body. It ends with the
+    run, once the bodies can no longer meet, however they vibrate. A bond has no contact intervals.
+
+    Parameters
+    ----------
+    stiffness : float
+        k, in N/m, above 0.
+    damping : float, optional
+        b, in N s/m, 0 or above; default 0.
+
+    Raises
+    ------
+    InvalidValue
+        If `stiffness` is not positive and finite, or `damping` is negative or not finite.
+    InvalidType
+        If one of them is no number.
+
+    Notes
+    -----
+    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), section II, which considers a rapid vibration of
+    the basketball's upper surface; the linear bond is the simplest body that has one.
+
+    Examples
+    --------
+    A ball of two halves loses speed to its vibration, though no energy is lost.
+
+    >>> from stackbounce.model import Ball, Drop, Spring
+    >>> from stackbounce.run.driver import simulate
+    >>> halves = [Ball(0.05), Ball(0.05)]
+    >>> drop = Drop(halves, [Spring(2e4), Bond(2e4)], impact_speed=1.0)
+    >>> [round(ratio, 4) for ratio in simulate(drop).rebound_ratios.tolist()]
+    [0.9738, 0.9738]
+    """
+
+    says = "A spring and a dashpot that push and pull, and never open: two parts of one body."
+    formula = "F = stiffness c + damping c'"
+    source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section II"
+    form = "BOND"
+    law_parameter = "damping"
+    pulls = True
+    loss = "damping"
+
+    exponent: ClassVar[float] = 1.0
+    stiffness: Annotated[float, stiffness_in("N/m")]
+    damping: Annotated[
+        float,
+        Quantity("N s/m", lambda n, v: non_negative(n, v, "N s/m"), (0.0, 0.0, 1e3)),
+    ] = 0.0
+
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Raise an error: a bond has no collision."""
+        raise InvalidValue("law must be that of a collision, got Bond, which never opens")
+
+    def contact_time_at(self, mass: float, speed: float) -> float:
+        """Raise an error: a bond has no collision."""
+        raise InvalidValue("law must be that of a collision, got Bond, which never opens")
