@@ -15,13 +15,15 @@ ABSENT = 0  # no floor
 POWER = 1  # a power of the compression, loading and unloading alike
 HYSTERETIC = 2  # another power when unloading
 LOSSY = 3  # the same, with another one after each reloading
-PRODUCT = 4  # in the stack only: all forms from DASHPOT on but RIGID
+PRODUCT = 4  # in the stack only: all forms from DASHPOT on but the rigid ones
 DASHPOT = 5
 VISCOELASTIC = 6
 HUNT_CROSSLEY = 7
 RIGID = 8
 HARDENING = 9
 RELAXING = 10
+RIGID_POWER = 11  # an instantaneous collision whose restitution is a power of the speed
+RIGID_LOSS = 12  # the same; its loss is a power of the speed
 FORMS = {
     "ABSENT": ABSENT,
     "POWER": POWER,
@@ -33,6 +35,8 @@ FORMS = {
     "HARDENING": HARDENING,
     "RELAXING": RELAXING,
     "RIGID": RIGID,
+    "RIGID_POWER": RIGID_POWER,
+    "RIGID_LOSS": RIGID_LOSS,
 }
 """Those that a law can have, by the names that it gives as its `form`."""
 

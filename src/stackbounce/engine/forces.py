@@ -19,6 +19,8 @@ HARDENING     k c^p (1 + (c/z)^2)                                         length
 RELAXING      max(0, k (c + z (c - u))), u' = (c - u)/w                   relaxation strength;
                                                                           w: relaxation time
 RIGID         an instantaneous collision                                  restitution
+RIGID_POWER   the same, with the restitution k v^-p at the speed v        scatter; w: seed
+RIGID_LOSS    the same, with the restitution 1 - k v^p                    scatter; w: seed
 ============= =========================================================== ========================
 
 Those from DASHPOT to RELAXING are one form in the stack, a PRODUCT of a power and a *gain*:
