@@ -1,4 +1,4 @@
-"""Rigid collisions whose restitution depends on the speed: against many digits, and how they end."""
+"""Rigid collisions whose restitution depends on the speed, against many digits."""
 
 from fractions import Fraction
 from random import Random

@@ -1,4 +1,4 @@
-"""Restitutions that scatter from collision to collision: the draws, and that they are reproducible."""
+"""Restitutions that scatter from collision to collision: the draws, and how runs end."""
 
 from random import Random
 

@@ -1,9 +1,10 @@
 """Rigid balls as a sequence of collisions (eqs 1 to 4), exactly or with many digits.
 
 A restitution is a number, or a function of the closing speed that is called once for each
-collision. With `fractions.Fraction` arguments everything is exact, ties included. With mpmath numbers,
-velocities that differ by less than `TINY` of their own size are equal; a run that comes to such a
-pair with restitutions below 1 is not finished, as it may be on its way to an inelastic collapse.
+collision. With `fractions.Fraction` arguments everything is exact, ties included. With mpmath
+numbers, velocities that differ by less than `TINY` of their own size are equal; a run that comes to
+such a pair with constant restitutions below 1 is not finished, as it may be on its way to an
+inelastic collapse.
 Several contacts closing at once: the lowest approaching one collides first.
 """
 

@@ -23,6 +23,7 @@ from stackbounce.engine.stack import RigidStack
 _WORD = 4294967295  # 32 bits, all 1
 _WORDS = 4294967296.0  # 2^32
 _OTHER = 2654435769  # a word by which the second of two random words is made to differ
+_TURN = 6.283185307179586  # 2 pi
 _CLIPPED = 0.39  # times the scatter: keeping e at most 1 costs at least so much on average
 
 
@@ -101,15 +102,13 @@ def _mean_restitution(kind: int, k: float, p: float, speed: float) -> float:
     """Return e at a speed in m/s, from 0 to 1."""
     if kind == RIGID_LOSS:
         return 1.0 - _power_loss(k, p, speed)
-    e = k * power(speed, -p)
-    return e if e < 1.0 else 1.0
+    return min(1.0, k * power(speed, -p)) if k > 0.0 else 0.0
 
 
 @kernel
 def _power_loss(k: float, p: float, speed: float) -> float:
     """Return k v^p at a speed in m/s, at most 1."""
-    loss = k * power(speed, p) if k > 0.0 else 0.0
-    return loss if loss < 1.0 else 1.0
+    return min(1.0, k * power(speed, p)) if k > 0.0 else 0.0
 
 
 @kernel
@@ -121,7 +120,7 @@ def _normal(seed: float, contact: int, hit: int) -> float:
     word = _mixed(word ^ contact)
     word = _mixed(word ^ (hit & _WORD))
     size = (_mixed(word) + 0.5) / _WORDS
-    _, cosine = sine_and_cosine(2.0 * math.pi * (_mixed(word ^ _OTHER) / _WORDS))
+    _, cosine = sine_and_cosine(_TURN * (_mixed(word ^ _OTHER) / _WORDS))
     return math.sqrt(-2.0 * log(size)) * cosine
 
 

@@ -98,7 +98,8 @@ class RigidBySpeed(Rigid):
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution at a speed in m/s, without scatter."""
-        return min(1.0, self.restitution * (self.speed / speed) ** self.speed_exponent)
+        slower: float = (self.speed / speed) ** self.speed_exponent
+        return min(1.0, self.restitution * slower)
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
@@ -170,8 +171,8 @@ class RigidLossBySpeed(RigidBySpeed):
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution at a speed in m/s, without scatter."""
-        loss = (1.0 - self.restitution) * (speed / self.speed) ** self.speed_exponent
-        return max(0.0, 1.0 - loss)
+        faster: float = (speed / self.speed) ** self.speed_exponent
+        return max(0.0, 1.0 - (1.0 - self.restitution) * faster)
 
 
 def powers(base: Any, exponent: Any) -> Any:
