@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from stackbounce.gaps_and_masses import best_masses, highest, transition
     from stackbounce.measure import read
     from stackbounce.model import (
+        Air,
         Ball,
         Dashpot,
         Drop,
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from stackbounce.version import __version__
 
 __all__ = [
+    "Air",
     "Ball",
     "Dashpot",
     "Drop",
