@@ -387,7 +387,7 @@ def _falling_together(
     for i, (mass, one) in enumerate(zip(masses, drags, strict=True)):
         body = (mass, one, 1)
         touching = i > 0 and gaps[i - 1] == 0.0
-        while touching and bodies and body[1] / body[0] < bodies[-1][1] / bodies[-1][0]:
+        while touching and body[1] / body[0] < bodies[-1][1] / bodies[-1][0]:
             below = bodies.pop()
             body = (below[0] + body[0], below[1] + body[1], below[2] + body[2])
             lowest = i + 1 - body[2]
