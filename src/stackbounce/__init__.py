@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from stackbounce.gaps_and_masses import best_masses, highest, transition
     from stackbounce.measure import read
     from stackbounce.model import (
+        Air,
         Ball,
         Bond,
         Dashpot,
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
         Hysteretic,
         PowerLaw,
         Rigid,
+        RigidBySpeed,
+        RigidLossBySpeed,
         Spring,
         StandardLinearSolid,
         Tabulated,
@@ -35,6 +38,7 @@ if TYPE_CHECKING:
     from stackbounce.version import __version__
 
 __all__ = [
+    "Air",
     "Ball",
     "Bond",
     "Dashpot",
@@ -50,6 +54,8 @@ __all__ = [
     "Range",
     "Result",
     "Rigid",
+    "RigidBySpeed",
+    "RigidLossBySpeed",
     "Spring",
     "StackbounceError",
     "StandardLinearSolid",

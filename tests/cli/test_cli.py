@@ -353,7 +353,7 @@ def test_json_stays_pure_with_a_picture(run):
         (["B1", "B2", "--contact", "Spring stiffness=1"], "contacts must hold one law per ball"),
         (
             ["B1", "B2", "--contact", "Rigid restitution=1", "--contact", "Spring stiffness=1"],
-            "contacts must be all Rigid or have none that is, got a mixture",
+            "contacts must be all rigid or have none that is, got a mixture",
         ),
         (["none.toml"], "none.toml cannot be read: No such file or directory"),
         (["./B1"], "./B1 cannot be read: No such file or directory"),

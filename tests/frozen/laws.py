@@ -10,6 +10,14 @@ from frozen.values import summary
 
 LAWS: dict[str, tuple[Any, Any]] = {  # of the floor, and between two balls of 0.1 kg at 1 m/s
     "Rigid": (sb.Rigid(0.9), sb.Rigid(0.6)),
+    "RigidBySpeed": (
+        sb.RigidBySpeed(0.9, 1.0),
+        sb.RigidBySpeed(0.6, 0.5, 0.4, scatter=0.05, seed=3),
+    ),
+    "RigidLossBySpeed": (
+        sb.RigidLossBySpeed(0.8, 3.0, 0.43),
+        sb.RigidLossBySpeed(0.6, 0.5, scatter=0.05, seed=3),
+    ),
     "Spring": (sb.Spring(1e4), sb.Spring(1e4)),
     "Hertz": (sb.Hertz(1e6), sb.Hertz(1e6)),
     "PowerLaw": (sb.PowerLaw(1e5, 1.3), sb.PowerLaw(1e6, 2.0)),

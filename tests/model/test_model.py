@@ -283,14 +283,14 @@ def test_velocities_are_finite(value):
         (
             {"contacts": [Rigid(1.0), SPRING]},
             (
-                "contacts must be all Rigid or have none that is, got a mixture: "
+                "contacts must be all rigid or have none that is, got a mixture: "
                 "contacts.0 is Rigid and contacts.1 is Spring"
             ),
         ),
         (
             {"contacts": [Hysteretic(1.0, restitution=0.5), Rigid(1.0)]},
             (
-                "contacts must be all Rigid or have none that is, got a mixture: "
+                "contacts must be all rigid or have none that is, got a mixture: "
                 "contacts.1 is Rigid and contacts.0 is Hysteretic"
             ),
         ),

@@ -258,7 +258,7 @@ def test_null_stands_for_a_key_left_out():
             'law = "Spring"\nstiffness = "2.5 kN/m"',
             'law = "Rigid"\nrestitution = 0.9',
             (
-                "contacts must be all Rigid or have none that is, got a mixture: "
+                "contacts must be all rigid or have none that is, got a mixture: "
                 "contacts.0 is Rigid and contacts.1 is Hysteretic"
             ),
         ),

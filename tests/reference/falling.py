@@ -11,7 +11,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from reference.common import DIGITS, TINY
-from reference.rigid import Collision, collide
+from reference.rigid import Collision, collide, restitution_of
 
 
 def fall(
@@ -26,7 +26,7 @@ def fall(
     with mp.workdps(DIGITS):
         return _fall(
             [mpf(m) for m in masses],
-            [None if e is None else mpf(e) for e in restitutions],
+            [e if e is None or callable(e) else mpf(e) for e in restitutions],
             [mpf(gap) for gap in gaps],
             [mpf(v) for v in velocities],
             mpf(gravity),
@@ -36,7 +36,7 @@ def fall(
 
 def _fall(
     masses: list[mpf],
-    restitutions: list[mpf | None],
+    restitutions: list[Any],
     gaps: list[mpf],
     velocities: list[mpf],
     gravity: mpf,
@@ -58,11 +58,12 @@ def _fall(
         if soonest > step:
             return done, q, v
         i = min(i for wait, i in waits if wait - soonest <= TINY * (now + soonest))
+        e = restitution_of(restitutions[i], (v[i - 1] if i else mpf(0)) - v[i])
         if i == 0:
-            q[0], v[0] = mpf(0), -restitutions[0] * v[0]
+            q[0], v[0] = mpf(0), -e * v[0]
         else:
             q[i] = q[i - 1]
-            v[i - 1], v[i] = collide(masses[i - 1], masses[i], restitutions[i], v[i - 1], v[i])
+            v[i - 1], v[i] = collide(masses[i - 1], masses[i], e, v[i - 1], v[i])
         done.append(Collision(now, i, v[i - 1] if i else mpf(0), v[i]))
 
 

@@ -1,8 +1,10 @@
 """Rigid balls as a sequence of collisions (eqs 1 to 4), exactly or with many digits.
 
-With `fractions.Fraction` arguments everything is exact, ties included. With mpmath numbers,
-velocities that differ by less than `TINY` of their own size are equal; a run that comes to such a
-pair with restitutions below 1 is not finished, as it may be on its way to an inelastic collapse.
+A restitution is a number, or a function of the closing speed that is called once for each
+collision. With `fractions.Fraction` arguments everything is exact, ties included. With mpmath
+numbers, velocities that differ by less than `TINY` of their own size are equal; a run that comes to
+such a pair with constant restitutions below 1 is not finished, as it may be on its way to an
+inelastic collapse.
 Several contacts closing at once: the lowest approaching one collides first.
 """
 
@@ -65,7 +67,7 @@ def _run(
     for gap in gaps:
         q.append(q[-1] + gap)
     first = 1 if restitutions[0] is None else 0
-    decided = exact or all(e == 1 for e in restitutions[first:])
+    decided = exact or all(callable(e) or e == 1 for e in restitutions[first:])
     done: list[Collision] = []
     while len(done) < limit:
         waits, close = [], False
@@ -83,13 +85,19 @@ def _run(
         i = min(i for wait, i in waits if wait - soonest <= tiny * (now + abs(soonest)))
         q = [x + soonest * u for x, u in zip(q, v, strict=True)]
         now += soonest
+        e = restitution_of(restitutions[i], (v[i - 1] if i else zero) - v[i])
         if i == 0:
-            q[0], v[0] = zero, -restitutions[0] * v[0]
+            q[0], v[0] = zero, -e * v[0]
         else:
             q[i] = q[i - 1]
-            v[i - 1], v[i] = collide(masses[i - 1], masses[i], restitutions[i], v[i - 1], v[i])
+            v[i - 1], v[i] = collide(masses[i - 1], masses[i], e, v[i - 1], v[i])
         done.append(Collision(now, i, v[i - 1] if i else zero, v[i]))
     return RigidOutcome(v, done, False)
+
+
+def restitution_of(given: Any, speed: Any) -> Any:
+    """Return the restitution of a collision: a number as it is, or a function at the speed."""
+    return given(speed) if callable(given) else given
 
 
 def collide(m: Any, n: Any, e: Any, v: Any, w: Any) -> tuple[Any, Any]:

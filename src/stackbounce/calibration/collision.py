@@ -25,12 +25,13 @@ def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None =
         ``m1 m2/(m1 + m2)``); needed for `Dashpot`,
         `StandardLinearSolid` and `Viscoelastic`.
     speed : float, optional
-        The speed in m/s at which the two meet; needed for `Viscoelastic` and `HuntCrossley`.
+        The speed in m/s at which the two meet; needed for `RigidBySpeed`, `RigidLossBySpeed`,
+        `Viscoelastic` and `HuntCrossley`.
 
     Returns
     -------
     float
-        From 0 to 1.
+        From 0 to 1; without scatter.
 
     Raises
     ------
@@ -69,15 +70,15 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
         Any contact law.
     mass : float or (float, float), optional
         The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
-        ``m1 m2/(m1 + m2)``); not needed for `Rigid`.
+        ``m1 m2/(m1 + m2)``); not needed for rigid laws.
     speed : float, optional
-        The relative speed in m/s at the touch. Not needed for `Rigid`, `Spring`, `Dashpot` and
+        The relative speed in m/s at the touch. Not needed for rigid laws, `Spring`, `Dashpot` and
         `StandardLinearSolid`, nor for `PowerLaw` and `Hysteretic` with the exponent 1.
 
     Returns
     -------
     float
-        0 for `Rigid`.
+        0 for rigid laws.
 
     Raises
     ------

@@ -64,13 +64,14 @@ def calibrate(
 
     Notes
     -----
-    `Rigid` needs `restitution` only. All other laws need `mass` and `contact_time`. The lossy laws
-    (`Dashpot`, `StandardLinearSolid`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`, `HollowBall`)
-    need `restitution` as well.
+    `Rigid` needs `restitution` only; `RigidBySpeed` and `RigidLossBySpeed` need `impact_speed` too
+    and have their usual `speed_exponent`. All other laws need `mass` and `contact_time`. The lossy
+    ones (`Dashpot`, `StandardLinearSolid`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`,
+    `HollowBall`) need `restitution` as well.
     `Viscoelastic`, `HuntCrossley`, `HollowBall` and any exponent other than 1 need `impact_speed`
     as well.
     Arguments that are not needed may be given, so that one measurement serves several classes. The
-    contact time of a `Rigid` contact is 0, whatever is given.
+    contact time of a rigid contact is 0, whatever is given.
 
     A `StandardLinearSolid` has one number more than these two tell. Unless `relaxation_time` is
     given, it is that at which a vibration with a half period of the contact time T loses most,

@@ -26,6 +26,8 @@ PIECEWISE = 11  # in the stack only: TWO_STAGE and TABULATED
 TWO_STAGE = 12
 TABULATED = 13
 BOND = 14  # a spring and a dashpot that also pull: the contact never opens
+RIGID_POWER = 15  # an instantaneous collision whose restitution is a power of the speed
+RIGID_LOSS = 16  # the same; its loss is a power of the speed
 FORMS = {
     "ABSENT": ABSENT,
     "POWER": POWER,
@@ -40,6 +42,8 @@ FORMS = {
     "TABULATED": TABULATED,
     "BOND": BOND,
     "RIGID": RIGID,
+    "RIGID_POWER": RIGID_POWER,
+    "RIGID_LOSS": RIGID_LOSS,
 }
 """Those that a law can have, by the names that it gives as its `form`."""
 

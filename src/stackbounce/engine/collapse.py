@@ -19,6 +19,12 @@ More contacts. No condition is known. A state in which all rates and gaps have t
 an earlier one, on a smaller scale, repeats for ever; Brent's cycle detection finds it among the
 rates and gaps of the contacts involved. A sequence that is not periodic is followed until its rates
 come close to underflow, and is then taken to be infinite.
+
+A restitution that varies with the speed. Where it tends to 1 for slow collisions there is no
+collapse (D. Goldman et al., Phys. Rev. E 57, 4831, 1998): the condition above fails for
+e1 = e2 = 1. Neither criterion is applied to such a contact, nor to one that scatters, whose rounds
+are not alike. Their collisions are computed one by one, if need be until their rates come close to
+underflow.
 """
 
 import math
@@ -47,6 +53,7 @@ from stackbounce.engine.flight import (
     wake,
 )
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.restitution import varies
 from stackbounce.engine.settling import NEGLIGIBLE_TIME
 from stackbounce.engine.slots import (
     EVENTS,
@@ -203,6 +210,8 @@ def pair_duration(stack: RigidStack, hit: int, other: int) -> float:
 
     Contact ``hit`` has just collided, and ``other`` beside it is closing.
     """
+    if varies(stack, hit) or varies(stack, other):
+        return math.inf
     x, y = stack.rate[hit], approach_rate(stack, other)
     e1, e2 = stack.restitution[hit], stack.restitution[other]
     if y == 0.0 or stack.law[hit] == ABSENT or e1 * e2 == 1.0:
@@ -284,7 +293,7 @@ def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]
         return low, high, 0.0
     size, kept, gap, kept_gap = 0.0, 0.0, 0.0, 0.0
     for i in range(low, high + 1):
-        if stack.involved[i] == 0:
+        if stack.involved[i] == 0 or varies(stack, i):
             return low, high, 0.0
         size = max(size, abs(rate_after(stack, i, 0.0)))
         kept = max(kept, abs(stack.kept_rate[i]))
@@ -320,7 +329,7 @@ def vanished_group(stack: RigidStack, contact: int) -> tuple[int, int]:
 
     The group consists of neighbouring contacts that have all collided recently. If a rate has not
     vanished, or the group has fewer than three contacts, ``contact`` is returned twice: two
-    contacts are decided by `pair_duration`.
+    contacts are decided by `pair_duration`, unless the restitution of one of them varies.
     """
     size = len(stack.mass)
     if not _is_still(stack, contact):
@@ -331,7 +340,10 @@ def vanished_group(stack: RigidStack, contact: int) -> tuple[int, int]:
         low -= 1
     while high + 1 < size and stack.last_hit[high + 1] > max(busy, 0):
         high += 1
+    least = 3
     for i in range(low, high + 1):
         if not _is_still(stack, i):
             return contact, contact
-    return (low, high) if high > low + 1 else (contact, contact)
+        if varies(stack, i):
+            least = 2
+    return (low, high) if high - low + 1 >= least else (contact, contact)

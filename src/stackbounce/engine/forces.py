@@ -24,6 +24,8 @@ TABULATED     k (a + b c + s c^2) in pieces, see `pieces`                 z, w: 
                                                                           p: share returned
 BOND          k c + z c', which may pull; the contact never opens         damping
 RIGID         an instantaneous collision                                  restitution
+RIGID_POWER   the same, with the restitution k v^-p at the speed v        scatter; w: seed
+RIGID_LOSS    the same, with the restitution 1 - k v^p                    scatter; w: seed
 ============= =========================================================== ========================
 
 Those from DASHPOT to RELAXING are one form in the stack, a PRODUCT of a power and a *gain*:

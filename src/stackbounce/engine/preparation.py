@@ -15,6 +15,7 @@ from stackbounce.engine.elementary import (
 )
 from stackbounce.engine.forces import is_nonlinear, take_law, typical_compression
 from stackbounce.engine.kernels import Floats, Integers, kernel
+from stackbounce.engine.restitution import take_restitution
 from stackbounce.engine.series import ORDER
 from stackbounce.engine.slots import (
     BONDS,
@@ -96,10 +97,10 @@ def prepare_rigid(
     stack: RigidStack,
     mass: Floats,
     kind: Integers,
-    stiffness: Floats,  # noqa: ARG001 - no number of a rigid contact
-    exponent: Floats,  # noqa: ARG001
-    restitution: Floats,
-    second_parameter: Floats,  # noqa: ARG001
+    coefficient: Floats,
+    exponent: Floats,
+    law_parameter: Floats,
+    second_parameter: Floats,
     gap: Floats,
     velocity: Floats,
     gravity: float,
@@ -117,10 +118,9 @@ def prepare_rigid(
     power = max(-_LARGEST_EXPONENT, min(exponent_of(speed), _LARGEST_EXPONENT))
     unit = times_power_of_two(1.0, power)
     for i in range(len(stack.mass)):
-        absent = kind[i] == codes.ABSENT
         stack.mass[i] = mass[i]
-        stack.law[i] = codes.ABSENT if absent else codes.POWER
-        stack.restitution[i] = 0.0 if absent else restitution[i]
+        z, w = law_parameter[i], second_parameter[i]
+        take_restitution(stack, i, kind[i], coefficient[i], exponent[i], z, w)
         stack.velocity[i] = velocity[i] / unit
         stack.compression[i] = -gap[i] / unit
     stack.number[UNIT] = unit

@@ -43,6 +43,7 @@ from stackbounce.engine.flight import (
     wake,
 )
 from stackbounce.engine.kernels import Floats, kernel
+from stackbounce.engine.restitution import loses_energy, next_restitution
 from stackbounce.engine.settling import earliest_other, settle
 from stackbounce.engine.slots import (
     BALLS_AT_REST,
@@ -73,7 +74,7 @@ def begin_collisions(stack: RigidStack) -> None:
         stack.number[SPEED] = max(stack.number[SPEED], abs(stack.velocity[i]) * stack.number[UNIT])
         below = stack.velocity[i - 1] if i > 0 else 0.0
         stack.rate[i] = below - stack.velocity[i]
-        if stack.law[i] != ABSENT and stack.restitution[i] < 1.0:
+        if loses_energy(stack, i):
             stack.resting[LOWEST_LOSSY] = min(stack.resting[LOWEST_LOSSY], i)
         schedule_collision(stack, i)
     keep_state(stack, -1, 0.0)
@@ -177,8 +178,9 @@ def _collide(stack: RigidStack, i: int, log: Floats) -> None:
     The heavier ball's velocity changes by the smaller increment; the lighter one's is that velocity
     plus the reversed rate, so that errors of the relative velocity do not accumulate.
     """
-    e = stack.restitution[i]
     rate = _anchor_colliding(stack, i)
+    e = next_restitution(stack, i, rate)
+    stack.hits[i] += 1
     lower, upper = stack.mass[i - 1] if i > 0 else math.inf, stack.mass[i]
     up = (1.0 + e) * rate * (1.0 / (1.0 + upper / lower))
     down = (1.0 + e) * rate * (1.0 / (1.0 + lower / upper))

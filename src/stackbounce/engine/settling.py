@@ -6,14 +6,24 @@ ball leaves with the speed u is
 
     2 u/g (1 + e + e^2 + ...) = 2 u / (g (1 - e)),
 
-and the bounces are computed until this duration is negligible. No formula is known for several
-balls that bounce on each other while they come to rest. They count as resting as soon as none of
-them would fly for more than a negligible time, if a contact among or below them loses energy.
+and the bounces are computed until this duration is negligible. If the loss d = 1 - e is
+proportional to v^p, d becomes d (1 - d)^p from one bounce to the next, and the duration is
+
+    2 u/g S(d),    S(d) = 1 + (1 - d) S(d (1 - d)^p).
+
+For p below 1 it is finite, at most 2 u/(g (1 - p) d), and S has the expansion of `_sum_of_bounces`.
+As d vanishes with u, the bounces become short much more slowly than with a constant e: they are
+computed until the expansion is exact and their height negligible. For p of 1 or above, and with a
+restitution that is 1 for slow collisions, the ball bounces for ever.
+
+No formula is known for several balls that bounce on each other while they come to rest. They count
+as resting as soon as none of them would fly for more than a negligible time, if a contact among or
+below them loses energy.
 """
 
 import math
 
-from stackbounce.engine.codes import ABSENT
+from stackbounce.engine.codes import ABSENT, RIGID_LOSS
 from stackbounce.engine.flight import (
     anchor_balls,
     anchor_contacts,
@@ -23,11 +33,20 @@ from stackbounce.engine.flight import (
     velocity_after,
 )
 from stackbounce.engine.kernels import kernel
-from stackbounce.engine.slots import BALLS_AT_REST, GRAVITY, LAST_EVENT, LOWEST_LOSSY
+from stackbounce.engine.restitution import loss_at, settling_loss
+from stackbounce.engine.slots import (
+    BALLS_AT_REST,
+    GRAVITY,
+    LAST_EVENT,
+    LOWEST_LOSSY,
+    SPEED,
+    UNIT,
+)
 from stackbounce.engine.stack import RigidStack
 
 NEGLIGIBLE_TIME = 1e-12  # longest duration of collisions left out, over the time elapsed
 _NEGLIGIBLE_FLIGHT = 1e-13  # longest flight left out, over the time elapsed times (1 - e)
+_LOW = 1e-6  # of the impact speed: bounces at lower speeds are left out if their sum is known
 
 
 @kernel
@@ -90,17 +109,14 @@ def _set_at_rest(stack: RigidStack, low: int, high: int) -> None:
 def _finish_bouncing(stack: RigidStack, until: float) -> bool:
     """Advance ball 0 to the end of its bounces on the floor, if they end before any other event.
 
-    This is done only if their duration is negligible. Returns whether it was done.
+    This is done only if what is left out is negligible. Returns whether it was done.
     """
-    gravity, e, speed = stack.number[GRAVITY], stack.restitution[0], -stack.rate[0]
-    if e == 1.0 or speed < 0.0:
+    gravity, speed = stack.number[GRAVITY], -stack.rate[0]
+    if speed < 0.0:
         return False
     flight = 2.0 * speed / gravity
-    duration = flight / (1.0 - e)
-    if (
-        duration > NEGLIGIBLE_TIME * stack.clock[LAST_EVENT]
-        or stack.clock[LAST_EVENT] + duration > until
-    ):
+    duration = _time_to_rest(stack, speed, flight)
+    if stack.clock[LAST_EVENT] + duration > until:
         return False
     if earliest_other(stack, 0) <= stack.now[0] + duration:
         return False
@@ -108,10 +124,12 @@ def _finish_bouncing(stack: RigidStack, until: float) -> bool:
         # ball 1 must be above ball 0's apexes at both ends of its parabola from the second
         # bounce on
         gap, velocity = -compression_after(stack, 1, 0.0), velocity_after(stack, 1, 0.0)
+        e = 1.0 - loss_at(stack, 0, speed)
         apex = 0.25 * e * e * speed  # divided by the duration of the first flight
         if gap / flight + velocity - speed <= apex:
             return False
-        if gap / duration + velocity - speed / (1.0 - e) <= apex * (1.0 - e):
+        part = flight / duration
+        if gap / duration + velocity - speed / part <= apex * part:
             return False
         height = gap + (velocity - 0.5 * gravity * duration) * duration
         anchor_balls(stack, 1, 1)
@@ -133,6 +151,36 @@ def _finish_bouncing(stack: RigidStack, until: float) -> bool:
 
 
 @kernel
+def _time_to_rest(stack: RigidStack, speed: float, flight: float) -> float:
+    """Return how long ball 0, which leaves the floor at a speed for a flight, bounces from now on.
+
+    The time is infinite while the bounces are not negligible and have to be computed.
+    """
+    share = settling_loss(stack, 0, speed)
+    if share == 0.0:
+        return math.inf
+    negligible = NEGLIGIBLE_TIME * stack.clock[LAST_EVENT]
+    if flight / share <= negligible:
+        return flight / share
+    if stack.law[0] == RIGID_LOSS and stack.scatter[0] == 0.0:
+        loss = loss_at(stack, 0, speed)
+        slow = speed * stack.number[UNIT] <= _LOW * stack.number[SPEED]
+        if slow and flight * loss * loss * loss <= negligible:
+            return flight * _sum_of_bounces(loss, stack.exponent[0])
+    return math.inf
+
+
+@kernel
+def _sum_of_bounces(loss: float, p: float) -> float:
+    """Return the duration of all bounces over that of the first; the loss goes with v^p, p < 1.
+
+    The error of this expansion of S(d) is below d^3/6.
+    """
+    slope = -p * (p + 1.0) * (3.0 * p + 2.0) / (24.0 * (2.0 * p + 1.0))
+    return 1.0 / ((1.0 - p) * loss) - 0.5 * p + loss * (-p / 6.0 + loss * slope)
+
+
+@kernel
 def _highest_settling(stack: RigidStack, low: int) -> int:
     """Return the highest ball from ``low`` up that comes to rest within a negligible time.
 
@@ -145,14 +193,14 @@ def _highest_settling(stack: RigidStack, low: int) -> int:
     if lossy == len(stack.mass):
         return low - 1
     gravity = stack.number[GRAVITY]
-    part = _NEGLIGIBLE_FLIGHT * (1.0 - stack.restitution[lossy])
-    limit = part * stack.clock[LAST_EVENT]
     height, longest, high = 0.0, 0.0, low - 1
     for i in range(low, len(stack.mass)):
         height += max(0.0, -compression_after(stack, i, 0.0))
         speed = abs(velocity_after(stack, i, 0.0))
         fall = (speed + math.sqrt(speed * speed + 2.0 * gravity * height)) / gravity
         longest = max(longest, fall)
+        part = _NEGLIGIBLE_FLIGHT * settling_loss(stack, lossy, gravity * longest)
+        limit = part * stack.clock[LAST_EVENT]
         if longest > limit:
             break
         alone = True

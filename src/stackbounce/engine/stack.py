@@ -121,7 +121,12 @@ class RigidStack(NamedTuple):
 
     mass: Floats
     law: Integers
-    restitution: Floats
+    restitution: Floats  # of a contact for which it is the same in all collisions
+    coefficient: Floats  # of a contact for which it is not, see `restitution`
+    exponent: Floats
+    scatter: Floats
+    seed: Floats
+    hits: Integers  # collisions so far
     velocity: Floats
     rate: Floats  # closing rate, more exact than the difference of velocities
     rate_noise: Floats  # bound on the accumulated round-off of the rate

@@ -29,7 +29,8 @@ class Drop:
         N balls, the lowest first.
     contacts : sequence of ContactLaw
         N laws; each is that of the contact below the ball with the same index. The first one is the
-        contact with the floor; None means that there is no floor. Either all are `Rigid` or none.
+        contact with the floor; None means that there is no floor. Either all are rigid (`Rigid`,
+        `RigidBySpeed`, `RigidLossBySpeed`) or none.
     gaps : sequence of float, optional
         N - 1 distances in m, 0 or above, each between a ball and the next one up; default all 0.
     impact_speed : float, optional
@@ -46,7 +47,7 @@ class Drop:
     Raises
     ------
     InvalidValue
-        If a number is out of its range, a length does not fit, `Rigid` is mixed with other laws,
+        If a number is out of its range, a length does not fit, rigid laws are mixed with others,
         or not exactly one of `impact_speed`, `height` and `velocities` is given.
     InvalidType
         If something has the wrong type.
@@ -285,8 +286,8 @@ def _check_contacts(contacts: tuple[object, ...], count: int) -> None:
     rigid = [i for i, law in enumerate(contacts) if isinstance(law, ContactLaw) and law.rigid]
     finite_ones = [i for i, law in enumerate(contacts) if law is not None and i not in rigid]
     if rigid and finite_ones:
-        other = type(contacts[finite_ones[0]]).__name__
+        one, other = (type(contacts[i]).__name__ for i in (rigid[0], finite_ones[0]))
         raise InvalidValue(
-            "contacts must be all Rigid or have none that is, got a mixture: "
-            f"contacts.{rigid[0]} is Rigid and contacts.{finite_ones[0]} is {other}"
+            "contacts must be all rigid or have none that is, got a mixture: "
+            f"contacts.{rigid[0]} is {one} and contacts.{finite_ones[0]} is {other}"
         )

@@ -41,7 +41,7 @@ def simulate(
     Parameters
     ----------
     drop : Drop
-        The stack and its impact speed. All contacts `Rigid`: a sequence of collisions
+        The stack and its impact speed. All contacts rigid: a sequence of collisions
         (eqs 1 to 4). None of them: simultaneous contacts (eqs 5, 6 and section V).
     until : float, optional
         A time in s at which to stop; by default the run ends once all contacts are open and none

@@ -212,7 +212,8 @@ class Result:
 
         The standard deviation of the speed over the reference speed, divided by that of independent
         relative errors of all masses, stiffnesses and gaps, of the speed and of gravity. It is
-        found by 20 more runs, at the first use. Exponents and restitutions have no error here.
+        found by 20 more runs, at the first use. Exponents have no error here, nor has the
+        restitution of `Rigid`; that of `RigidBySpeed` has one.
 
         Examples
         --------

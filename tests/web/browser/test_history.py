@@ -129,3 +129,20 @@ def test_a_law_that_is_chosen_again_has_its_numbers(visit):
     choose("none")
     choose("Spring")
     assert visit.state("drop.contacts[0].stiffness") == 3300
+
+
+def test_one_rigid_law_can_be_chosen_for_one_contact(visit):
+    page = visit.open()
+
+    def choose(contact, name):
+        page.locator(f"[data-key=law-{contact}]").select_option(name)
+        page.wait_for_function(
+            f"() => window.stackbounce.store.get().drop.contacts[{contact}].law === '{name}'"
+        )
+
+    choose(0, "Rigid")
+    choose(1, "RigidLossBySpeed")
+    laws = [one["law"] for one in visit.state("drop.contacts")]
+    assert laws == ["Rigid", "RigidLossBySpeed"]
+    choose(0, "Spring")
+    assert [one["law"] for one in visit.state("drop.contacts")] == ["Spring", "Spring"]

@@ -10,6 +10,7 @@ state besides: a contact ends when its force is zero, with a surface that recove
 # The laws are imported in the order in which people are shown them: each registers itself.
 # isort: off
 from stackbounce.model.laws.rigid import Rigid
+from stackbounce.model.laws.rigid_by_speed import RigidBySpeed, RigidLossBySpeed
 from stackbounce.model.laws.spring import Spring
 from stackbounce.model.laws.hertz import Hertz
 from stackbounce.model.laws.power_law import PowerLaw
@@ -39,6 +40,8 @@ __all__ = [
     "Hysteretic",
     "PowerLaw",
     "Rigid",
+    "RigidBySpeed",
+    "RigidLossBySpeed",
     "Spring",
     "StandardLinearSolid",
     "Tabulated",

@@ -19,7 +19,8 @@ UNLISTED: dict[str, type[ContactLaw]] = {}
 
 def usual_laws() -> list[str]:
     """Return the names of the laws that `standard_models` compares."""
-    return [name for name, law in LAWS.items() if law.rigid or law.usual_models]
+    rigid = [name for name, law in LAWS.items() if law.rigid and not law.loss_depends_on]
+    return rigid + [name for name, law in LAWS.items() if law.usual_models]
 
 
 _JOINED = str.maketrans("", "", "-_")

@@ -45,6 +45,22 @@ _WORDS = {
         "how bouncy",
         "The speed after a bounce over the speed before it: 1 loses nothing, 0 does not bounce.",
     ),
+    "speed": (
+        "at which speed",
+        "The speed of a collision that has this restitution. Slower ones lose less.",
+    ),
+    "speed_exponent": (
+        "how it depends on the speed",
+        "0: the same at all speeds. The larger, the more the restitution changes with the speed.",
+    ),
+    "scatter": (
+        "how much it varies",
+        "By how much the restitution differs from one bounce to the next, by chance.",
+    ),
+    "seed": (
+        "which chance",
+        "Another number gives other chances; the same number gives the same bounces again.",
+    ),
     "damping": (
         "how it brakes",
         "A force against the motion while the two touch: the faster, the larger. It takes energy.",

@@ -42,6 +42,7 @@ _BY_HAND = (
         ("stackbounce.engine.one_ball", "bounce"): "bounce",
         ("stackbounce.model.laws.law", "Quantity"): "Quantity",
         ("stackbounce.model.laws.law", "_NOTHING"): "NOTHING",
+        ("stackbounce.model.laws.rigid_by_speed", "powers"): "pow",
     }
     | {
         ("stackbounce.errors", name): name

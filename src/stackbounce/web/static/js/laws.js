@@ -56,9 +56,8 @@ export async function changeLaw(api, laws, drop, contact, name, memory) {
     memory.keep(pairAt(drop, contact), one, { law: "none" }, !lawOf(laws, one.law).rigid);
     return { drop: withValue(drop, `contacts.${contact}`, { law: "none" }), note: "" };
   }
-  const others = drop.contacts.some((other, i) => i !== contact && other.law !== "none");
-  const rigid = (law) => lawOf(laws, law).rigid;
-  const mixed = others && (rigid(one.law) || rigid(name) || drop.contacts.some(({ law }, i) => i !== contact && rigid(law)));
+  const { rigid } = lawOf(laws, name);
+  const mixed = drop.contacts.some(({ law }, i) => i !== contact && law !== "none" && lawOf(laws, law).rigid !== rigid);
   const places = mixed ? drop.contacts.map((_, i) => i).filter((i) => i === contact || drop.contacts[i].law !== "none") : [contact];
   let next = drop;
   for (const place of places) {

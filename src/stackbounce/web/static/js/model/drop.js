@@ -1,6 +1,5 @@
 /** A drop, checked, as stackbounce/model/drop.py has it. */
 
-import { LAWS } from "../../made/laws.js";
 import { InvalidType, InvalidValue, between, finite, nonNegative, positive, shown, writeFloat } from "./errors.js";
 import { known } from "./known.js";
 import { stripped } from "./units.js";
@@ -100,14 +99,9 @@ function checkContacts(contacts, count) {
   const other = contacts.findIndex((law) => law && !law.rigid);
   if (rigid < 0 || other < 0) return;
   throw new InvalidValue(
-    `contacts must be all ${rigidName()} or have none that is, got a mixture: ` +
+    "contacts must be all rigid or have none that is, got a mixture: " +
       `contacts.${rigid} is ${contacts[rigid].constructor.__name__} and contacts.${other} is ${contacts[other].constructor.__name__}`,
   );
-}
-
-/** Return what the law without a contact time is called. */
-function rigidName() {
-  return Object.keys(LAWS).find((name) => LAWS[name].rigid);
 }
 
 function checkName(name) {

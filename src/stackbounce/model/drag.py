@@ -1,0 +1,123 @@
+"""Falls and rises of a ball in air, in closed form.
+
+The drag of a ball of mass m and diameter D at the speed v is ``m k v**2``, with
+
+    k = rho C A/(2 m),    A = pi D**2/4,
+
+so that ``g/k`` is the square of its terminal speed:
+
+    after a fall of h from rest:  v**2 = (g/k) (1 - exp(-2 k h)),   t = acosh(exp(k h))/sqrt(g k)
+    after a fall for t from rest: h = ln(cosh(t sqrt(g k)))/k,      v = sqrt(g/k) tanh(t sqrt(g k))
+    rising from the speed v:      h = ln(1 + k v**2/g)/(2 k),       t = atan(v sqrt(k/g))/sqrt(g k)
+
+Each is written as the formula without air times a function that is 1 for k = 0, so that a small
+drag loses no digits. k is in 1/m, g in m/s**2.
+"""
+
+import math
+
+__all__ = [
+    "fall_time",
+    "fallen",
+    "fallen_speed",
+    "launch_speed",
+    "rise_time",
+    "risen",
+    "speed_after",
+]
+
+_LARGE = 50.0  # from here on exp(-x) is nothing beside 1
+
+
+def fallen_speed(k: float, height: float, g: float) -> float:
+    """Return the speed after a fall from rest.
+
+    Examples
+    --------
+    >>> fallen_speed(0.0, 5.0, 10.0)
+    10.0
+    """
+    z = 2.0 * k * height
+    return math.sqrt(2.0 * g * height * (-math.expm1(-z) / z if z > 0.0 else 1.0))
+
+
+def fall_time(k: float, height: float, g: float) -> float:
+    """Return the time of a fall from rest.
+
+    Examples
+    --------
+    >>> fall_time(0.0, 5.0, 10.0)
+    1.0
+    """
+    z = 2.0 * k * height
+    if z == 0.0:
+        return math.sqrt(2.0 * height / g)
+    # acosh(exp(z/2)), of which only ln 2 is left beside z/2 in the end
+    part = math.asinh(math.sqrt(math.expm1(z))) if z < _LARGE else 0.5 * z + math.log(2.0)
+    return math.sqrt(2.0 * height / g) * part / math.sqrt(z)
+
+
+def fallen(k: float, time: float, g: float) -> float:
+    """Return how far a ball has fallen from rest after a time.
+
+    Examples
+    --------
+    >>> fallen(0.0, 1.0, 10.0)
+    5.0
+    """
+    part = time * math.sqrt(g * k)
+    if part == 0.0:
+        return 0.5 * g * time * time
+    if part > _LARGE:
+        return (part - math.log(2.0)) / k
+    half = math.sinh(0.5 * part) / part  # cosh x = 1 + 2 sinh(x/2)^2
+    square = 2.0 * (half * part) ** 2
+    return 2.0 * g * (time * half) ** 2 * (math.log1p(square) / square)
+
+
+def speed_after(k: float, time: float, g: float) -> float:
+    """Return the speed of a ball that has fallen from rest for a time.
+
+    Examples
+    --------
+    >>> speed_after(0.0, 1.0, 10.0)
+    10.0
+    """
+    part = time * math.sqrt(g * k)
+    return g * time * (math.tanh(part) / part if part > 0.0 else 1.0)
+
+
+def risen(k: float, speed: float, g: float) -> float:
+    """Return how far a ball rises.
+
+    Examples
+    --------
+    >>> risen(0.0, 10.0, 10.0)
+    5.0
+    """
+    w = k * speed * speed / g
+    return speed * speed / (2.0 * g) * (math.log1p(w) / w if w > 0.0 else 1.0)
+
+
+def rise_time(k: float, speed: float, g: float) -> float:
+    """Return how long a ball rises.
+
+    Examples
+    --------
+    >>> rise_time(0.0, 10.0, 10.0)
+    1.0
+    """
+    root = speed * math.sqrt(k / g)
+    return speed / g * (math.atan(root) / root if root > 0.0 else 1.0)
+
+
+def launch_speed(k: float, height: float, g: float) -> float:
+    """Return the speed from which a ball rises to a height.
+
+    Examples
+    --------
+    >>> launch_speed(0.0, 5.0, 10.0)
+    10.0
+    """
+    z = 2.0 * k * height
+    return math.sqrt(2.0 * g * height * (math.expm1(z) / z if z > 0.0 else 1.0))

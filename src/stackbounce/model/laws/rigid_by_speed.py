@@ -1,0 +1,190 @@
+"""Rigid contacts whose restitution depends on the speed, and may scatter."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Annotated, Any, Self
+
+from stackbounce.engine.codes import FORMS
+from stackbounce.engine.elementary import power
+from stackbounce.errors import between, fraction
+from stackbounce.model.laws.law import EngineNumbers, Given, Quantity
+from stackbounce.model.laws.registry import register
+from stackbounce.model.laws.rigid import Rigid
+
+__all__ = ["RigidBySpeed", "RigidLossBySpeed"]
+
+_RESTITUTION = Quantity("", lambda n, v: fraction(n, v, zero=False), (0.8, 0.05, 1.0))
+_SPEED = Quantity("m/s", lambda n, v: between(n, v, 1e-9, 1e9, "m/s"), (1.0, 0.01, 10.0))
+_EXPONENT = Quantity("", lambda n, v: between(n, v, 0.0, 4.0), (0.25, 0.0, 1.0))
+_SCATTER = Quantity("", lambda n, v: between(n, v, 0.0, 1.0), (0.0, 0.0, 0.2))
+_SEED = Quantity("", lambda n, v: between(n, v, 0.0, 4294967295.0), (0.0, 0.0, 100.0))
+
+
+@register
+@dataclass(frozen=True)
+class RigidBySpeed(Rigid):
+    """An instantaneous collision whose restitution falls with a power of the speed.
+
+    ``e = restitution (v/speed)**-speed_exponent``, at most 1, where v is the speed at which the two
+    meet. All else is as of `Rigid`.
+
+    Parameters
+    ----------
+    restitution : float
+        The restitution at `speed`, above 0 and at most 1.
+    speed : float
+        In m/s, from 1e-9 to 1e9.
+    speed_exponent : float, optional
+        From 0 to 4; by default 1/4, that of spheres that yield. 0: e is the same at all speeds.
+    scatter : float, optional
+        The standard deviation of e from collision to collision, from 0 to 1, at a given speed.
+        Draws are normal, and e is kept from 0 to 1.
+    seed : float, optional
+        From 0 to 4294967295: another number gives other draws. A draw follows from the seed, the
+        contact's place in the stack, and how often the contact has collided.
+
+    Raises
+    ------
+    InvalidValue
+        If a number lies outside its range.
+    InvalidType
+        If one is no number.
+
+    Notes
+    -----
+    Source: K. L. Johnson, Contact Mechanics (Cambridge, 1985), section 11.5; F. G. Bridges,
+    A. Hatzes and D. N. C. Lin, Nature 309, 333 (1984). In the first, e of spheres that yield is
+    proportional to v**(-1/4); in the second, e of ice is 0.32 (v/(1 cm/s))**-0.234.
+
+    Examples
+    --------
+    >>> from stackbounce.calibration import restitution
+    >>> ice = RigidBySpeed(0.32, speed=0.01, speed_exponent=0.234)
+    >>> [round(restitution(ice, speed=v), 3) for v in (0.00001, 0.001, 0.01, 0.05)]
+    [1.0, 0.548, 0.32, 0.22]
+    """
+
+    says = "An instantaneous collision whose restitution falls with a power of the speed."
+    formula = "v' = -e v, e = min(1, restitution (v/speed)**-speed_exponent)"
+    source = (
+        "K. L. Johnson, Contact Mechanics (Cambridge, 1985), section 11.5; "
+        "F. G. Bridges, A. Hatzes and D. N. C. Lin, Nature 309, 333 (1984)"
+    )
+    form = "RIGID_POWER"
+    law_parameter = "scatter"
+    second_parameter = "seed"
+    loss_depends_on = ("speed",)
+
+    restitution: Annotated[float, _RESTITUTION]
+    speed: Annotated[float, _SPEED]
+    speed_exponent: Annotated[float, _EXPONENT] = 0.25
+    scatter: Annotated[float, _SCATTER] = 0.0
+    seed: Annotated[float, _SEED] = 0.0
+
+    def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
+        """Return the law's numbers, with k of ``e = k v**-p`` in place of a stiffness."""
+        e, v, p, scatter, seed = self._numbers(varied)
+        return FORMS[self.form], e * powers(v, p), p, scatter, seed
+
+    def _numbers(self, varied: Mapping[str, Any]) -> list[Any]:
+        """Return restitution, speed, exponent, scatter and seed."""
+        names = ("restitution", "speed", "speed_exponent", "scatter", "seed")
+        return [varied.get(name, getattr(self, name)) for name in names]
+
+    def _described_fields(self) -> list[str]:
+        """Return the fields to describe: scatter and seed only where it scatters."""
+        names = super()._described_fields()
+        return names if self.scatter else names[:-2]
+
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Return the restitution at a speed in m/s, without scatter."""
+        slower: float = (self.speed / speed) ** self.speed_exponent
+        return min(1.0, self.restitution * slower)
+
+    @classmethod
+    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
+        """Return the names of the arguments that `calibrate` needs."""
+        return ["restitution", "impact_speed"]
+
+    @classmethod
+    def calibrated(cls, given: Given) -> Self:
+        """Return the law with a restitution measured at a speed, and the usual exponent."""
+        return cls(given["restitution"], given["impact_speed"])
+
+
+@register
+@dataclass(frozen=True)
+class RigidLossBySpeed(RigidBySpeed):
+    """An instantaneous collision whose loss grows with a power of the speed.
+
+    ``1 - e = (1 - restitution) (v/speed)**speed_exponent``, at most 1, where v is the speed at
+    which the two meet. All else is as of `Rigid`.
+
+    Parameters
+    ----------
+    restitution : float
+        The restitution at `speed`, above 0 and at most 1.
+    speed : float
+        In m/s, from 1e-9 to 1e9.
+    speed_exponent : float, optional
+        From 0 to 4; by default 1/5, that of viscoelastic spheres whose loss is small. 0: e is the
+        same at all speeds.
+    scatter : float, optional
+        As of `RigidBySpeed`.
+    seed : float, optional
+        As of `RigidBySpeed`.
+
+    Raises
+    ------
+    InvalidValue
+        If a number lies outside its range.
+    InvalidType
+        If one is no number.
+
+    Notes
+    -----
+    Source: G. Kuwabara and K. Kono, Jpn. J. Appl. Phys. 26, 1230 (1987); T. Schwager and
+    T. Pöschel, Phys. Rev. E 57, 650 (1998). There, 1 - e = C v**(1/5) to leading order.
+
+    Examples
+    --------
+    >>> from stackbounce.calibration import restitution
+    >>> basketball = RigidLossBySpeed(0.8, speed=3.0, speed_exponent=0.43)
+    >>> [round(restitution(basketball, speed=v), 3) for v in (0.5, 3.0, 6.0)]
+    [0.907, 0.8, 0.731]
+    """
+
+    says = "An instantaneous collision whose loss grows with a power of the speed."
+    formula = "v' = -e v, e = max(0, 1 - (1 - restitution) (v/speed)**speed_exponent)"
+    source = (
+        "G. Kuwabara and K. Kono, Jpn. J. Appl. Phys. 26, 1230 (1987); "
+        "T. Schwager and T. Pöschel, Phys. Rev. E 57, 650 (1998)"
+    )
+    form = "RIGID_LOSS"
+
+    speed_exponent: Annotated[float, _EXPONENT] = 0.2
+
+    def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
+        """Return the law's numbers, with k of ``1 - e = k v**p`` in place of a stiffness."""
+        e, v, p, scatter, seed = self._numbers(varied)
+        return FORMS[self.form], (1.0 - e) * powers(v, -p), p, scatter, seed
+
+    def restitution_at(self, mass: float, speed: float) -> float:
+        """Return the restitution at a speed in m/s, without scatter."""
+        faster: float = (speed / self.speed) ** self.speed_exponent
+        return max(0.0, 1.0 - (1.0 - self.restitution) * faster)
+
+
+def powers(base: Any, exponent: Any) -> Any:
+    """Return the power of two numbers, or of each two of arrays, with the engine's own bits.
+
+    Examples
+    --------
+    >>> powers(4.0, 0.5)
+    2.0
+    """
+    if isinstance(base, float) and isinstance(exponent, float):
+        return power(base, exponent)
+    import numpy as np
+
+    return np.frompyfunc(power, 2, 1)(base, exponent).astype(float)

@@ -1,0 +1,274 @@
+"""Rigid collisions whose restitution depends on the speed, against many digits."""
+
+from fractions import Fraction
+from random import Random
+
+import numpy as np
+import pytest
+from mpmath import mpf
+
+import stackbounce as sb
+from drops import masses_of
+from reference import falling, restitution, rigid
+
+PRECISION = 1e-11
+G = 9.81
+
+
+def mean(law):
+    """Return the restitution of a law with many digits, as a function of the speed."""
+    if type(law) is sb.Rigid:
+        return mpf(law.restitution)
+    make = {
+        sb.RigidBySpeed: restitution.falling_power,
+        sb.RigidLossBySpeed: restitution.loss_power,
+    }[type(law)]
+    return make(law.restitution, law.speed, law.speed_exponent)
+
+
+def precise(drop, limit=100_000):
+    """Return the solution without gravity to fifty digits."""
+    return rigid.run(
+        [mpf(ball.mass) for ball in drop.balls],
+        [None if law is None else mean(law) for law in drop.contacts],
+        [mpf(gap) for gap in drop.gaps],
+        [mpf(v) for v in drop.start_velocities],
+        limit,
+    )
+
+
+def assert_same(result, collisions, velocities):
+    """Compare all collisions, their times and the velocities at the end."""
+    scale = PRECISION * result.drop.reference_speed
+    assert result.events["contact"].tolist() == [c.contact for c in collisions]
+    for name, field in (("lower_velocity", "lower"), ("upper_velocity", "upper")):
+        values = np.array([float(getattr(c, field)) for c in collisions])
+        assert np.abs(result.events[name] - values).max(initial=0.0) <= scale
+    times = np.array([float(c.time) for c in collisions])
+    late = PRECISION * times.max(initial=0.0)
+    assert np.abs(result.events["time"] - times).max(initial=0.0) <= late
+    assert np.abs(result.rebound_speeds - [float(v) for v in velocities]).max() <= scale
+
+
+def random_law(random):
+    """Return one of the three rigid laws."""
+    e, speed = random.uniform(0.3, 1.0), 10.0 ** random.uniform(-2.0, 1.0)
+    kind = random.choice([sb.Rigid, sb.RigidBySpeed, sb.RigidLossBySpeed])
+    return kind(e) if kind is sb.Rigid else kind(e, speed, random.choice([0.1, 0.2, 0.25, 0.43, 1]))
+
+
+def random_drop(random, **more):
+    """Return a stack of two to five balls, of which at most every third contact is a plain one."""
+    size = random.randint(2, 5)
+    laws = [random_law(random) for _ in range(size)]
+    return sb.Drop(
+        [sb.Ball(10.0 ** random.uniform(-1.0, 1.0)) for _ in range(size)],
+        [None, *laws[1:]] if random.random() < 0.2 else laws,
+        [random.choice([0.0, random.uniform(0.0, 0.1)]) for _ in range(size - 1)],
+        velocities=[random.uniform(-3.0, 1.0) for _ in range(size)],
+        **more,
+    )
+
+
+def test_random_stacks():
+    random, compared = Random(5), 0
+    for _ in range(120):
+        drop = random_drop(random)
+        result = sb.simulate(drop, event_limit=400)
+        if result.status is not sb.Status.FINISHED or result.conditioning.max() > 1e2:
+            continue  # plain contacts can collapse, and errors can grow beyond the digits compared
+        expected = precise(drop)
+        if expected.finished:
+            assert_same(result, expected.collisions, expected.velocities)
+            compared += 1
+    assert compared > 70
+
+
+def test_random_stacks_under_gravity():
+    random, compared = Random(6), 0
+    while compared < 25:
+        drop = random_drop(random, gravity=G)
+        until = random.uniform(0.05, 0.4)
+        result = sb.simulate(drop, until=until, event_limit=150)
+        stopped = result.status is sb.Status.TIME_REACHED
+        if not stopped or -1 in result.collisions or result.conditioning.max() > 1e2:
+            continue
+        laws = [None if law is None else mean(law) for law in drop.contacts]
+        masses = [ball.mass for ball in drop.balls]
+        collisions, _, velocities = falling.fall(
+            masses, laws, drop.gaps, drop.start_velocities, G, until
+        )
+        assert_same(result, collisions, velocities)
+        compared += len(collisions) > 2
+
+
+@pytest.mark.parametrize("masses", [(1.0, 0.5), (1.0, 3.0), (1.0, 5.0)])
+def test_a_loss_in_proportion_to_the_speed_exactly(masses):
+    """1 - e = v/4: all numbers are fractions."""
+    law = sb.RigidLossBySpeed(0.5, speed=2.0, speed_exponent=1.0)
+    drop = sb.Drop([sb.Ball(m) for m in masses], [law, law], impact_speed=1.5)
+    fourth = [lambda v: max(Fraction(0), 1 - v / 4)] * 2
+    start = [Fraction(v) for v in drop.start_velocities]
+    expected = rigid.run([Fraction(m) for m in masses], fourth, [Fraction(0)], start, 12)
+    assert expected.finished
+    assert_same(sb.simulate(drop), expected.collisions, expected.velocities)
+
+
+@pytest.mark.parametrize("gravity", [0.0, G])
+def test_plain_python_gives_the_same_bits(gravity):
+    random = Random(9)
+    for _ in range(30):
+        drop = random_drop(random, gravity=gravity)
+        one, other = (
+            sb.simulate(drop, until=0.5, event_limit=100, compiled=way) for way in (False, True)
+        )
+        assert one.log == other.log
+        assert list(one.final_velocities) == list(other.final_velocities)
+
+
+# one ball under gravity
+
+
+def bounce(law, until=1e3, **more):
+    """Return a ball that falls from 1 m and bounces."""
+    return sb.simulate(sb.Drop([sb.Ball(0.6)], [law], height=1.0, gravity=G), until=until, **more)
+
+
+@pytest.mark.parametrize("p", [0.05, 0.2, 0.43, 0.6])
+def test_one_ball_comes_to_rest(p):
+    """Its bounces last sum(2 u/g), u being u (1 - k u^p) next, between bounds by an integral.
+
+    From a bounce at u on the sum of u is at most the integral of 1/(k u^p), u^(1-p)/((1-p) k), and
+    at least (1 - k u^p)^p times that.
+    """
+    k = 0.2 / 3.0**p
+    result = bounce(sb.RigidLossBySpeed(0.8, 3.0, p))
+    assert result.status is sb.Status.SETTLED
+    assert result.collisions.tolist() == [-1]
+    assert result.rebound_speeds.tolist() == [0.0]
+    u = (2.0 * G) ** 0.5
+    speeds = [u := u * (1.0 - k * u**p) for _ in range(400_000)]
+    rest = speeds[-1] ** (1.0 - p) / ((1.0 - p) * k)
+    done = float(np.sum(speeds[:-1]))
+    most = 2.0 / G * (done + rest)
+    least = 2.0 / G * (done + rest * (1.0 - k * speeds[-1] ** p) ** p)
+    assert most - least <= 1e-8 * most
+    assert least * (1.0 - 1e-12) <= result.end_time <= most * (1.0 + 1e-12)
+    lowest = result.apexes["height"][-1]
+    assert 0.0 < lowest <= 1.1e-12  # of 1 m: what is left out is lower
+
+
+@pytest.mark.parametrize("p", [0.2, 0.43])
+def test_a_run_ends_amid_the_bounces(p):
+    law = sb.RigidLossBySpeed(0.8, 3.0, p)
+    end = bounce(law).end_time
+    for part in (0.5, 0.999, 1.0 - 1e-4, 1.0 - 1e-6):
+        result = bounce(law, part * end)
+        assert result.status is sb.Status.TIME_REACHED
+        assert result.end_time == part * end
+        assert result.rebound_speeds[0] != 0.0
+
+
+def test_what_rests_stays():
+    result = bounce(sb.RigidLossBySpeed(0.8, 3.0, 0.43))
+    later = result.sample([result.end_time, 2.0 * result.end_time])
+    assert later.position.values.tolist() == [[0.0, 0.0]]
+    assert later.velocity.values.tolist() == [[0.0, 0.0]]
+
+
+def test_a_loss_that_vanishes_with_the_speed_never_ends():
+    result = bounce(sb.RigidLossBySpeed(0.8, 3.0, 1.0), event_limit=10_000)
+    assert result.status is sb.Status.EVENT_LIMIT
+    assert result.collisions.tolist() == [10_000]
+    assert bounce(sb.RigidLossBySpeed(0.8, 3.0, 1.0), 2.0).status is sb.Status.TIME_REACHED
+
+
+def test_without_loss_below_a_speed_a_ball_bounces_for_ever():
+    law = sb.RigidBySpeed(1.0, speed=0.5)  # it yields above 0.5 m/s
+    result = bounce(law, 20.0)
+    assert result.status is sb.Status.TIME_REACHED
+    heights = result.apexes["height"]
+    last = heights[-1]
+    assert 0.0 < last <= 0.5**2 / (2.0 * G)
+    assert heights[heights < 0.5**2 / (2.0 * G)] == pytest.approx(last, rel=1e-13)
+    first = (0.5 / (2.0 * G) ** 0.5) ** 0.25
+    assert heights[0] == pytest.approx(first**2, rel=1e-14)
+
+
+def test_a_ball_above_one_that_comes_to_rest():
+    """Ball 1 is far above; what is left out of ball 0's bounces does not reach it."""
+    law = sb.RigidLossBySpeed(0.8, 3.0, 0.43)
+    alone = bounce(law)
+    balls = [sb.Ball(0.6), sb.Ball(0.06)]
+    drop = sb.Drop(balls, [law, law], [200.0], velocities=[-((2.0 * G) ** 0.5), 0.0], gravity=G)
+    result = sb.simulate(drop, until=alone.end_time + 0.01)
+    assert result.status is sb.Status.TIME_REACHED
+    assert result.collisions.tolist() == [-1, 0]
+    assert len(result.intervals) == len(alone.intervals)
+    assert result.rebound_speeds == pytest.approx([0.0, -G * result.end_time], rel=1e-13)
+
+
+# several balls
+
+
+def test_two_balls_come_to_rest_together():
+    law = sb.RigidLossBySpeed(0.8, 3.0, 0.2)
+    drop = sb.Drop([sb.Ball(0.6), sb.Ball(0.06)], [law, law], height=1.0, gravity=G)
+    result = sb.simulate(drop, until=60.0)
+    assert result.status is sb.Status.SETTLED
+    assert result.collisions.tolist() == [-1, -1]
+    assert result.rebound_speeds.tolist() == [0.0, 0.0]
+    last = result.events[-1]
+    assert result.end_time - last["time"] <= 1e-11 * result.end_time
+    assert abs(last["upper_velocity"]) <= 1e-11
+
+
+@pytest.mark.parametrize("kind", [sb.RigidBySpeed, sb.RigidLossBySpeed])
+def test_no_collapse_where_slow_collisions_lose_nothing(kind):
+    """With e = 0.5 at all speeds this pair collides infinitely often (m2/m1 = 8)."""
+    balls = [sb.Ball(1.0), sb.Ball(8.0)]
+    law = kind(0.5, speed=1.0, speed_exponent=0.01)
+    drop = sb.Drop(balls, [law, law], impact_speed=1.0)
+    result, expected = sb.simulate(drop), precise(drop)
+    assert result.status is sb.Status.FINISHED
+    assert result.collisions.tolist() == expected.counts()
+    assert_same(result, expected.collisions, expected.velocities)
+
+
+@pytest.mark.parametrize("compiled", [False, True])
+def test_rates_that_come_close_to_underflow_count_as_a_collapse(compiled):
+    law = sb.RigidLossBySpeed(0.5, speed=1.0, speed_exponent=1e-12)
+    balls = [sb.Ball(1.0), sb.Ball(9.0)]
+    drop = sb.Drop(balls, [law, law], impact_speed=1.0)
+    result = sb.simulate(drop, compiled=compiled)
+    assert result.status is sb.Status.COLLAPSED
+    assert result.collisions.tolist() == [-1, -1]
+    assert result.rebound_speeds.tolist() == [0.0, 0.0]
+
+
+@pytest.mark.parametrize("kind", [sb.RigidBySpeed, sb.RigidLossBySpeed])
+def test_the_same_at_all_speeds_is_a_plain_rigid_contact(kind):
+    random = Random(7)
+    for _ in range(40):
+        size = random.randint(1, 4)
+        balls = [sb.Ball(10.0 ** random.uniform(-1.0, 1.0)) for _ in range(size)]
+        given = {"height": 0.5, "gravity": random.choice([0.0, G])}
+        e = [random.choice([0.5, 0.75, 0.875]) for _ in range(size)]
+        one = sb.Drop(balls, [kind(x, 2.0, 0.0) for x in e], **given)
+        other = sb.Drop(balls, [sb.Rigid(x) for x in e], **given)
+        ours, plain = (sb.simulate(drop, until=0.7) for drop in (one, other))
+        assert ours.log == plain.log
+        assert ours.final_velocities == plain.final_velocities
+        assert (ours.status, ours.infinite) == (plain.status, plain.infinite)
+
+
+def test_energy_and_momentum():
+    random = Random(8)
+    for _ in range(60):
+        drop = random_drop(random)
+        result = sb.simulate(drop, event_limit=2000)
+        assert result.energy_retained <= 1.0 + 1e-12
+        if drop.contacts[0] is None:
+            before = masses_of(drop) @ np.array(drop.start_velocities)
+            after = masses_of(drop) @ result.rebound_speeds
+            assert after == pytest.approx(before, abs=1e-12 * masses_of(drop).sum() * 3.0)

@@ -1,0 +1,117 @@
+"""The laws of rigid collisions by speed: numbers, restitutions, calibration, files and sweeps."""
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce import errors
+from stackbounce.model.laws import usual_laws
+
+KINDS = [sb.RigidBySpeed, sb.RigidLossBySpeed]
+WRONG = {
+    "restitution": (0.0, 1.1, "a number above 0 and at most 1"),
+    "speed": (0.0, 1e10, "a number of m/s from 1e-09 to 1e+09"),
+    "speed_exponent": (-0.1, 4.1, "a number from 0 to 4"),
+    "scatter": (-0.1, 1.1, "a number from 0 to 1"),
+    "seed": (-1.0, 2.0**32, "a number from 0 to 4.29497e+09"),
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("field", WRONG)
+def test_numbers_out_of_range_are_refused(kind, field):
+    *values, right = WRONG[field]
+    for value in values:
+        with pytest.raises(errors.InvalidValue) as caught:
+            kind(**{"restitution": 0.8, "speed": 1.0} | {field: value})
+        assert str(caught.value) == f"{field} must be {right}, got {value}"
+    with pytest.raises(errors.InvalidType):
+        kind(**{"restitution": 0.8, "speed": 1.0} | {field: "1"})
+
+
+def test_published_restitutions():
+    """Ice (Bridges et al. 1984), and spheres that yield above 0.2 m/s."""
+    ice = sb.RigidBySpeed(0.32, speed=0.01, speed_exponent=0.234)
+    for speed in (0.002, 0.015, 0.05):
+        kept = 0.32 * (speed / 0.01) ** -0.234
+        assert sb.restitution(ice, speed=speed) == pytest.approx(kept, rel=1e-14)
+        drop = sb.Drop([sb.Ball(0.2)], [ice], impact_speed=speed)
+        assert sb.simulate(drop).rebound_ratios[0] == pytest.approx(kept, rel=1e-14)
+    steel = sb.RigidBySpeed(1.0, speed=0.2)
+    assert [sb.restitution(steel, speed=v) for v in (0.1, 0.2)] == [1.0, 1.0]
+    assert sb.restitution(steel, speed=3.2) == pytest.approx(0.5, rel=1e-14)
+
+
+def test_a_loss_that_grows_with_the_speed():
+    law = sb.RigidLossBySpeed(0.8, speed=3.0, speed_exponent=0.43)
+    for speed in (0.1, 3.0, 10.0):
+        kept = 1.0 - 0.2 * (speed / 3.0) ** 0.43
+        assert sb.restitution(law, speed=speed) == pytest.approx(kept, rel=1e-14)
+    assert sb.restitution(law, speed=3.0 * 5.0 ** (1.0 / 0.43) * 1.01) == 0.0
+    assert sb.RigidLossBySpeed(1.0, 1.0).restitution_at(1.0, 50.0) == 1.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_calibration_takes_the_usual_exponent(kind):
+    law = sb.calibrate(kind, restitution=0.7, impact_speed=2.5)
+    assert law == kind(0.7, 2.5)
+    assert law.speed_exponent == {"RigidBySpeed": 0.25, "RigidLossBySpeed": 0.2}[kind.__name__]
+    assert sb.contact_time(law) == 0.0
+    with pytest.raises(errors.InvalidValue, match="impact_speed must be given to calibrate Rigid"):
+        sb.calibrate(kind, restitution=0.7)
+    with pytest.raises(errors.InvalidValue, match="speed must be given, as the restitution of"):
+        sb.restitution(law, mass=0.1)
+
+
+def test_scatter_is_described_where_there_is_some():
+    law = sb.RigidBySpeed(0.8, 3.0)
+    assert law.described() == "RigidBySpeed, restitution 0.8, speed 3 m/s, speed exponent 0.25"
+    told = sb.RigidBySpeed(0.8, 3.0, scatter=0.05, seed=2).described()
+    assert told.endswith("exponent 0.25, scatter 0.05, seed 2")
+
+
+def test_a_file_with_units(tmp_path):
+    file = tmp_path / "ice.toml"
+    file.write_text(
+        'impact_speed = "2 cm/s"\n[[balls]]\nmass = 0.2\n[[contacts]]\nlaw = "RigidBySpeed"\n'
+        'restitution = 0.32\nspeed = "1 cm/s"\nspeed_exponent = 0.234\nscatter = 0.02\nseed = 4\n',
+        encoding="utf-8",
+    )
+    drop = sb.Drop.from_toml(file)
+    assert drop.contacts == (sb.RigidBySpeed(0.32, 0.01, 0.234, 0.02, 4.0),)
+    file.write_text(drop.to_toml(), encoding="utf-8")
+    assert sb.Drop.from_toml(file) == drop
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_sweep_of_all_its_numbers_has_the_bits_of_single_runs(kind):
+    random = np.random.default_rng(4)
+    names = ("restitution", "speed", "speed_exponent", "scatter", "seed")
+    least, most = np.array([[0.1, 0.01, 0.0, 0.0, 0.0], [1.0, 5.0, 1.0, 0.2, 9.0]])
+    values = random.uniform(least, most, (60, 5)).T
+    balls = [sb.Ball(1.0), sb.Ball(0.4)]
+
+    def drop(*numbers):
+        return sb.Drop(balls, [kind(*numbers), sb.Rigid(0.9)], impact_speed=1.3)
+
+    rows = {f"contacts.0.{name}": ("run", one) for name, one in zip(names, values, strict=True)}
+    swept = sb.sweep(drop(*values[:, 0]), rows)
+    single = [sb.simulate(drop(*one)).rebound_ratios.tolist() for one in values.T]
+    assert swept.rebound_ratio.values.tolist() == single
+
+
+def test_separate_collisions_take_the_restitution_at_the_first_speed():
+    law = sb.RigidLossBySpeed(0.8, speed=2.0, speed_exponent=1.0)
+    balls = [sb.Ball(3.0), sb.Ball(1.0)]
+    floor, between = sb.separate(sb.Drop(balls, [law, law], impact_speed=2.0)).contacts
+    assert floor == sb.Rigid(0.8)
+    assert between.restitution == pytest.approx(1.0 - 0.1 * (2.0 + 0.8 * 2.0), rel=1e-14)
+
+
+def test_rigid_laws_stand_together_and_not_with_others():
+    balls = [sb.Ball(1.0)] * 2
+    law = sb.RigidBySpeed(0.8, 1.0)
+    assert sb.Drop(balls, [sb.Rigid(0.5), law], impact_speed=1.0).rigid
+    with pytest.raises(errors.InvalidValue, match=r"contacts.0 is RigidBySpeed and contacts.1 is"):
+        sb.Drop(balls, [law, sb.Spring(1.0)], impact_speed=1.0)
+    assert usual_laws()[:2] == ["Rigid", "Spring"]
