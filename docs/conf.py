@@ -15,6 +15,7 @@ copyright = "2026, The stackbounce developers"
 release = version = __version__
 
 extensions = [
+    "docs._extensions.datasets",
     "docs._extensions.explorer",
     "docs._extensions.mathml",
     "docs._extensions.measure_options",

@@ -10,6 +10,7 @@ import typer
 
 from stackbounce.cli import (
     balls,
+    datasets,
     explorer,
     fit,
     highest,
@@ -55,6 +56,7 @@ app.command("transition", epilog=transition.EPILOG)(transition.run)
 app.command("highest", epilog=highest.EPILOG)(highest.run)
 app.command("masses", epilog=masses.EPILOG)(masses.run)
 app.command("balls")(balls.run)
+app.command("datasets", epilog=datasets.EPILOG)(datasets.run)
 app.command("paper")(paper.run)
 app.command("app", epilog=explorer.EPILOG)(explorer.run)
 
