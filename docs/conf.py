@@ -20,6 +20,7 @@ extensions = [
     "docs._extensions.mathml",
     "docs._extensions.measure_options",
     "docs._extensions.offline",
+    "docs._extensions.validation",
     "matplotlib.sphinxext.plot_directive",
     "myst_parser",
     "numpydoc",

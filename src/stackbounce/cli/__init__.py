@@ -20,6 +20,7 @@ from stackbounce.cli import (
     simulate,
     sweep,
     transition,
+    validate,
 )
 from stackbounce.cli.output import Unsolved
 from stackbounce.errors import StackbounceError
@@ -58,6 +59,7 @@ app.command("masses", epilog=masses.EPILOG)(masses.run)
 app.command("balls")(balls.run)
 app.command("datasets", epilog=datasets.EPILOG)(datasets.run)
 app.command("paper")(paper.run)
+app.command("validate")(validate.run)
 app.command("app", epilog=explorer.EPILOG)(explorer.run)
 
 
