@@ -28,7 +28,7 @@ def _laws(comparison: Comparison, verdict: str) -> str:
 
 
 def _p(value: float) -> str:
-    return f"({value:.2g})" if value >= 1e-4 else "(<&nbsp;0.0001)"
+    return f"({value:.2g})" if value >= 1e-4 else "(<\N{NO-BREAK SPACE}0.0001)"
 
 
 class Validation(SphinxDirective):

@@ -125,8 +125,26 @@ class Forgetful(Family):
 def test_a_calibration_that_depends_on_the_speed_is_skipped():
     family = Forgetful(sb.Rigid, RESTITUTION, 4.0)
     assert reason_to_skip(family, series_of(sb.Rigid)) == (
-        "its numbers depend on the speed at which it is calibrated"
+        "what it gives depends on the speed at which it is calibrated"
     )
+
+
+@dataclasses.dataclass(frozen=True)
+class Narrow(Family):
+    """A family that has no law with a small restitution."""
+
+    def law(self, value):
+        if value < 0.7:
+            raise sb.errors.InvalidValue("too small")
+        return super().law(value)
+
+
+def test_a_law_that_cannot_be_fitted_is_skipped(monkeypatch):
+    family = Narrow(sb.HuntCrossley, RESTITUTION, 4.0)
+    monkeypatch.setattr(comparison, "families", lambda _: [("HuntCrossley", family)])
+    found = compare_laws(series_of(sb.Rigid))
+    assert found.outcomes == ()
+    assert found.skipped == {"HuntCrossley": "it cannot be fitted: too small"}
 
 
 def test_assumed_errors_are_halved_and_doubled(monkeypatch):

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from stackbounce.errors import StackbounceError
 from stackbounce.validation.fall import Array
 from stackbounce.validation.family import Family, families, reason_to_skip
 from stackbounce.validation.series import RESTITUTION, Series
@@ -157,7 +158,11 @@ def compare_laws(series: Series, without_air: Series | None = None) -> Compariso
         if reason:
             skipped[name] = reason
             continue
-        curve, outcome = _outcome(name, family, series, without_air)
+        try:
+            curve, outcome = _outcome(name, family, series, without_air)
+        except StackbounceError as failure:
+            skipped[name] = f"it cannot be fitted: {failure}"
+            continue
         for i, (other, same) in enumerate(found):
             if np.allclose(curve, other, rtol=_ALIKE, atol=0.0):
                 more = {"laws": (*same.laws, name)}

@@ -9,13 +9,13 @@ from stackbounce.calibration import calibrate, contact_time, restitution
 from stackbounce.errors import StackbounceError
 from stackbounce.model.laws import LAWS, ContactLaw
 from stackbounce.validation.fall import Array
-from stackbounce.validation.series import RESTITUTION, Series
+from stackbounce.validation.series import CONTACT_TIME, RESTITUTION, Series
 
 __all__ = ["Family", "families", "predicted", "reason_to_skip"]
 
 _MASS = 0.1  # kg; on its own it does not change how a calibrated law depends on the speed
 _TIMES = (5e-3, 0.5e-3)  # s: two contact times, where a source gives none
-_SAME = 1e-3  # relative, of numbers that a calibration should leave as they are
+_SAME = 1e-3  # relative, of curves that should not depend on how a law was calibrated
 
 
 @dataclass(frozen=True)
@@ -97,8 +97,8 @@ def reason_to_skip(family: Family, series: Series) -> str:
     try:
         law = family.law(start)
         found = predicted(law, family.quantity, series.speeds)
-        if not _stays(family, law, float(series.speeds.min())):
-            return "its numbers depend on the speed at which it is calibrated"
+        if not _stays(family, law, series):
+            return "what it gives depends on the speed at which it is calibrated"
     except StackbounceError as error:
         return str(error)
     if family.quantity == RESTITUTION:
@@ -108,22 +108,18 @@ def reason_to_skip(family: Family, series: Series) -> str:
     return ""
 
 
-def _stays(family: Family, law: ContactLaw, speed: float) -> bool:
-    """Tell whether a calibration with what a law gives at another speed gives the law again."""
+def _stays(family: Family, law: ContactLaw, series: Series) -> bool:
+    """Tell whether a calibration with what a law gives at another speed predicts the same."""
+    speed = float(series.speeds.min())
     there = {
         quantity: float(predicted(law, quantity, np.array([speed]))[0])
-        for quantity in (RESTITUTION, "contact time")
+        for quantity in (RESTITUTION, CONTACT_TIME)
     }
     elsewhere = replace(
         family,
         speed=speed,
         restitution=there[RESTITUTION],
-        time=there["contact time"] or family.time,
+        time=there[CONTACT_TIME] or family.time,
     )
-    again = elsewhere.law(there[family.quantity])
-    numbers, others = law.to_mapping(), again.to_mapping()
-    return all(
-        one == others[name] or bool(np.isclose(one, others[name], rtol=_SAME))
-        for name, one in numbers.items()
-        if isinstance(one, int | float)
-    )
+    again = elsewhere.at(there[family.quantity], series.speeds)
+    return np.allclose(again, predicted(law, family.quantity, series.speeds), rtol=_SAME)
