@@ -42,6 +42,7 @@ def draw_on(axes: "Axes", comparison: Comparison) -> None:
     axes.errorbar(
         series.speeds, factor * series.values, errors, fmt="o", color="black", ms=4, lw=1.0
     )
+    axes.margins(0.04)  # whatever the style: no point lies on the frame
     axes.set_xlabel("impact speed (m/s)")
     axes.set_ylabel("restitution" if factor == 1.0 else "contact time (ms)")
     axes.legend(fontsize=8, loc="best")
