@@ -15,11 +15,13 @@ copyright = "2026, The stackbounce developers"
 release = version = __version__
 
 extensions = [
+    "docs._extensions.datasets",
     "docs._extensions.explorer",
     "docs._extensions.lesson",
     "docs._extensions.mathml",
     "docs._extensions.measure_options",
     "docs._extensions.offline",
+    "docs._extensions.validation",
     "matplotlib.sphinxext.plot_directive",
     "myst_parser",
     "numpydoc",

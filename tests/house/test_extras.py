@@ -94,6 +94,7 @@ def test_a_plain_install_sweeps():
         (["fit", "drop.toml"], "fit", "stackbounce fit"),
         (["masses", "basketball", "tennis", "B3"], "masses", "stackbounce masses"),
         (["paper", "--out", "paper"], "paper", "stackbounce paper"),
+        (["validate", "--out", "validate"], "paper", "stackbounce validate"),
         (["app"], "web", "stackbounce app"),
         (["simulate", "B1", "--plot", "b1.png"], "plots", "--plot"),
         (["simulate", "B1", "--height", "63 ± 1 cm"], "measure", "a number with an error"),

@@ -10,6 +10,7 @@ import typer
 
 from stackbounce.cli import (
     balls,
+    datasets,
     explorer,
     fit,
     highest,
@@ -19,6 +20,7 @@ from stackbounce.cli import (
     simulate,
     sweep,
     transition,
+    validate,
 )
 from stackbounce.cli.output import Unsolved
 from stackbounce.errors import StackbounceError
@@ -55,7 +57,9 @@ app.command("transition", epilog=transition.EPILOG)(transition.run)
 app.command("highest", epilog=highest.EPILOG)(highest.run)
 app.command("masses", epilog=masses.EPILOG)(masses.run)
 app.command("balls")(balls.run)
+app.command("datasets", epilog=datasets.EPILOG)(datasets.run)
 app.command("paper")(paper.run)
+app.command("validate")(validate.run)
 app.command("app", epilog=explorer.EPILOG)(explorer.run)
 
 

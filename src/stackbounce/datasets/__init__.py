@@ -1,0 +1,14 @@
+"""Published measurements of bounces and collisions as small tables, each with its source.
+
+`tables/` has one file for each; a file that is put there is a dataset.
+
+- `description.py`: what a dataset says of itself, and the check of its file
+- `published.py`: the files of `tables/` as descriptions
+- `paper.py`: the tables of Cross (2007), from `stackbounce.cross2007`, as descriptions
+- `loading.py`: `names`, `describe`, and `load`, which makes an xarray Dataset in SI units
+"""
+
+from stackbounce.datasets.description import Column, Description
+from stackbounce.datasets.loading import describe, load, names
+
+__all__ = ["Column", "Description", "describe", "load", "names"]

@@ -1,0 +1,158 @@
+"""The datasets by name, and each as an xarray Dataset in SI units."""
+
+from collections.abc import Iterable
+from dataclasses import fields
+from typing import TYPE_CHECKING, Any
+
+from stackbounce.datasets.description import TEXT, Column, Description
+from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.units import in_si, quantity
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+__all__ = ["describe", "load", "names", "si_unit"]
+
+_OFFSETS = {"degC": (273.15, "K")}  # units whose zero is shifted
+
+
+def names() -> tuple[str, ...]:
+    """Return the names of all datasets, in alphabetical order.
+
+    Examples
+    --------
+    >>> "granite-spheres" in names()
+    True
+    """
+    return tuple(sorted(_all()))
+
+
+def describe(name: str) -> Description:
+    """Return what a dataset says of itself, with its table in the units of its source.
+
+    Parameters
+    ----------
+    name : str
+        One of `names`.
+
+    Raises
+    ------
+    InvalidValue
+        If there is none of that name; the message suggests the nearest.
+
+    Examples
+    --------
+    >>> describe("superball-knocks").doi
+    '10.1119/1.4801369'
+    """
+    known = _all()
+    if not isinstance(name, str) or name not in known:
+        hint = nearest(str(name), sorted(known))
+        raise InvalidValue(f"name must be that of a dataset, got {shown(name)}; {hint}")
+    return known[name]
+
+
+def load(name: str) -> "xr.Dataset":
+    """Return a dataset in SI units.
+
+    Parameters
+    ----------
+    name : str
+        One of `names`.
+
+    Returns
+    -------
+    xarray.Dataset
+        A variable for each column, of shape (row,), or (row, NAME_reading) where the source repeats
+        a measurement. Its attributes are ``units``, ``long_name``, and ``assumed_error`` with
+        ``assumed_because`` where the source gives no error. The variable ``NAME_error`` has the
+        errors that the source gives. The attributes of the dataset say what was measured, where it
+        was published and what was read of that.
+
+    Raises
+    ------
+    InvalidValue
+        If there is none of that name; the message suggests the nearest.
+
+    Examples
+    --------
+    >>> granite = load("granite-spheres")
+    >>> float(granite.restitution[0]), float(granite.restitution_error[0])
+    (0.83, 0.06)
+    >>> load("tennis-ball-rule").rebound_height.values.round(3), granite.attrs["seen"]
+    (array([1.346, 1.473]), 'abstract')
+    """
+    import xarray as xr
+
+    about = describe(name)
+    variables: dict[str, Any] = {}
+    for column in about.columns:
+        variables |= _variables(column)
+    attributes = {
+        field.name: getattr(about, field.name) for field in fields(about) if field.name != "columns"
+    }
+    for key, unit in (("mass", "kg"), ("diameter", "m")):
+        if attributes[key]:
+            attributes[key] = quantity(attributes[key], unit)
+    return xr.Dataset(variables, attrs={key: one for key, one in attributes.items() if one != ""})
+
+
+def si_unit(column: Column) -> str:
+    """Return the SI unit of a column; ``"1"`` for a ratio, empty for words.
+
+    Raises
+    ------
+    InvalidValue
+        If its unit is unknown.
+
+    Examples
+    --------
+    >>> si_unit(Column("height", "inch", "height", (100.0,)))
+    'm'
+    """
+    if column.unit == TEXT:
+        return ""
+    if column.unit in _OFFSETS:
+        return _OFFSETS[column.unit][1]
+    found = ("", column.unit) if column.unit == "1" else in_si(column.unit)
+    if found is None:
+        raise InvalidValue(f"{column.name}.unit must be a unit, got {shown(column.unit)}")
+    return found[1]
+
+
+def _variables(column: Column) -> dict[str, Any]:
+    """Return the variable of a column, and that of its errors if the source gives them."""
+    unit = si_unit(column)
+    dims = ("row", f"{column.name}_reading") if column.repeated else ("row",)
+    attributes: dict[str, Any] = {"long_name": column.meaning} | ({"units": unit} if unit else {})
+    if column.assumed_error:
+        (error,) = _in_si([column.assumed_error], column.unit, unit)
+        attributes |= {"assumed_error": error, "assumed_because": column.assumed_because}
+    if column.unit == TEXT:
+        return {column.name: (dims, list(column.values), attributes)}
+    shift = _OFFSETS.get(column.unit, (0.0, ""))[0]
+    values = [
+        [one + shift for one in _in_si(row, column.unit, unit)]
+        if isinstance(row, tuple)
+        else _in_si([row], column.unit, unit)[0] + shift
+        for row in column.values
+    ]
+    made: dict[str, Any] = {column.name: (dims, values, attributes)}
+    if column.errors:
+        errors = _in_si(column.errors, column.unit, unit)
+        says = {"units": unit, "long_name": f"error of the {column.meaning}"}
+        made[f"{column.name}_error"] = ("row", errors, says)
+    return made
+
+
+def _in_si(values: Iterable[Any], unit: str, si: str) -> list[float]:
+    if unit in ("1", *_OFFSETS):
+        return [float(value) for value in values]
+    return [quantity(f"{value!r} {unit}", "" if si == "1" else si) for value in values]
+
+
+def _all() -> dict[str, Description]:
+    from stackbounce.datasets.paper import paper_datasets
+    from stackbounce.datasets.published import published
+
+    return published() | paper_datasets()

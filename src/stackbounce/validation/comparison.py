@@ -1,0 +1,301 @@
+"""How well each law follows a series: calibrated at one speed, and fitted to all."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from stackbounce.errors import StackbounceError
+from stackbounce.validation.fall import Array
+from stackbounce.validation.family import Family, families, reason_to_skip
+from stackbounce.validation.series import RESTITUTION, Series
+
+__all__ = ["AGREES", "DOUBTFUL", "REFUTED", "Comparison", "Outcome", "compare_laws", "verdict"]
+
+AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
+_REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05  # p values
+
+_NODES = 9  # at which a family is computed, for the fit
+_WIDER = 1.5  # logarithm by which the fit may leave the measured values
+_ALIKE = 1e-6  # relative, of curves that are one and the same
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How well some laws, which give the same curve, follow a series.
+
+    Parameters
+    ----------
+    laws : tuple of str
+        Their names.
+    value, error : float
+        Best value at the highest speed of the series, and its standard deviation.
+    chi_squared : float
+        Of the best fit.
+    freedom : int
+        Its degrees of freedom.
+    p : float
+        The probability of a larger χ² if the law holds.
+    p_calibrated : float
+        The same for the law that is calibrated at the highest speed alone and asked for the other
+        speeds. The error of the calibration is part of the covariance.
+    p_half, p_twice : float or None
+        p with half and with twice the assumed errors; None if none is assumed.
+    p_without_air : float or None
+        p if the drag of the air is left out; None if it was not corrected.
+    """
+
+    laws: tuple[str, ...]
+    value: float
+    error: float
+    chi_squared: float
+    freedom: int
+    p: float
+    p_calibrated: float
+    p_half: float | None = None
+    p_twice: float | None = None
+    p_without_air: float | None = None
+
+    @property
+    def short_name(self) -> str:
+        """The first law, with an ellipsis if there are more."""
+        return self.laws[0] + (" …" if len(self.laws) > 1 else "")
+
+    @property
+    def verdict(self) -> str:
+        """What p says."""
+        return verdict(self.p)
+
+    @property
+    def steady(self) -> bool:
+        """Whether half and twice the assumed errors leave the verdict as it is."""
+        given = [p for p in (self.p_half, self.p_twice) if p is not None]
+        return all(verdict(p) == self.verdict for p in given)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A series and all laws.
+
+    Parameters
+    ----------
+    series : Series
+        The measurements.
+    outcomes : tuple of Outcome
+        The best first.
+    skipped : dict of str to str
+        The laws that say nothing about the series, and why.
+    exponent, exponent_error : float
+        q and its standard deviation, if the loss ``1 - e``, or the contact time, grows as ``v**q``.
+    p_power : float or None
+        p of that power; None of two points, which have one exactly.
+    curves : dict of str to Family
+        The family of the first law of each outcome.
+    """
+
+    series: Series
+    outcomes: tuple[Outcome, ...]
+    skipped: dict[str, str]
+    exponent: float
+    exponent_error: float
+    p_power: float | None
+    curves: dict[str, Family] = field(repr=False)
+
+    @property
+    def tells_apart(self) -> bool:
+        """Whether one law agrees and another one is refuted."""
+        return {AGREES, REFUTED} <= {one.verdict for one in self.outcomes}
+
+    @property
+    def steady(self) -> bool:
+        """Whether half and twice the assumed errors leave all verdicts as they are."""
+        return all(one.steady for one in self.outcomes)
+
+    @property
+    def summary(self) -> str:
+        """What the series says of the laws, in a sentence."""
+        names = {
+            kind: [name for one in self.outcomes if one.verdict == kind for name in one.laws]
+            for kind in (AGREES, DOUBTFUL, REFUTED)
+        }
+        if not names[AGREES] and not names[DOUBTFUL]:
+            return "No law follows it within the errors."
+        said = [f"{', '.join(names[AGREES])} agree" if names[AGREES] else "No law agrees"]
+        if names[DOUBTFUL]:
+            said.append(f"{', '.join(names[DOUBTFUL])} doubtful")
+        said.append(f"{', '.join(names[REFUTED])} refuted" if names[REFUTED] else "none is refuted")
+        return "; ".join(said) + "."
+
+
+def verdict(p: float) -> str:
+    """Return what a p value says: below 0.01 refuted, from 0.05 on agrees, doubtful between.
+
+    Examples
+    --------
+    >>> verdict(0.3), verdict(0.001)
+    ('agrees', 'refuted')
+    """
+    if p < _REFUTED_BELOW:
+        return REFUTED
+    return AGREES if p >= _AGREES_FROM else DOUBTFUL
+
+
+def compare_laws(series: Series, without_air: Series | None = None) -> Comparison:
+    """Return how well all laws follow a series.
+
+    Parameters
+    ----------
+    series : Series
+        The measurements.
+    without_air : Series, optional
+        The same without a correction for the drag, to see what that changes.
+    """
+    skipped: dict[str, str] = {}
+    found: list[tuple[Array, Outcome]] = []
+    curves: dict[str, Family] = {}
+    for name, family in families(series):
+        reason = reason_to_skip(family, series)
+        if reason:
+            skipped[name] = reason
+            continue
+        try:
+            curve, outcome = _outcome(name, family, series, without_air)
+        except StackbounceError as failure:
+            skipped[name] = f"it cannot be fitted: {failure}"
+            continue
+        for i, (other, same) in enumerate(found):
+            if np.allclose(curve, other, rtol=_ALIKE, atol=0.0):
+                more = {"laws": (*same.laws, name)}
+                found[i] = other, Outcome(**vars(same) | more)
+                break
+        else:
+            found.append((curve, outcome))
+            curves[name] = family
+    exponent, error, p_power = _power(series)
+    ranked = sorted((outcome for _, outcome in found), key=lambda one: one.chi_squared)
+    return Comparison(series, tuple(ranked), skipped, exponent, error, p_power, curves)
+
+
+def _outcome(
+    name: str, family: Family, series: Series, without_air: Series | None
+) -> tuple[Array, Outcome]:
+    """Return the best curve of a family, and how well it follows the series."""
+    from scipy.stats import chi2
+
+    freedom = series.values.size - 1
+    curve = _interpolated(family, series)
+    value, error, _ = _fitted(curve, series, 1.0)
+    best = family.at(value, series.speeds)
+    apart = series.values - best
+    squares = float(apart @ np.linalg.solve(series.covariance(), apart))
+    supposed: dict[str, float | None] = {}
+    if series.has_assumed_errors:
+        for key, scale in (("p_half", 0.5), ("p_twice", 2.0)):
+            supposed[key] = float(chi2.sf(_fitted(curve, series, scale)[2], freedom))
+    if without_air is not None:
+        again = replace(family, speed=float(without_air.speeds.max()))
+        least = _fitted(_interpolated(again, without_air), without_air, 1.0)[2]
+        supposed["p_without_air"] = float(chi2.sf(least, freedom))
+    return best, Outcome(
+        laws=(name,),
+        value=value,
+        error=error,
+        chi_squared=squares,
+        freedom=freedom,
+        p=float(chi2.sf(squares, freedom)),
+        p_calibrated=float(chi2.sf(_of_the_rest(curve, series), freedom)),
+        **supposed,
+    )
+
+
+def _scaled(series: Series, values: Array) -> Array:
+    """Return what is nearly linear in its start: log(-log e), or the logarithm of the time."""
+    found: Array = np.log(-np.log(values) if series.quantity == RESTITUTION else values)
+    return found
+
+
+def _unscaled(series: Series, scaled: Array) -> Array:
+    found: Array = np.exp(-np.exp(scaled) if series.quantity == RESTITUTION else scaled)
+    return found
+
+
+def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
+    """Return the curve of a family by the scaled value at its speed, from some exact curves."""
+    if family.is_constant:
+        return lambda start: np.full(series.speeds.shape, _unscaled(series, np.array([start])))
+    scaled = _scaled(series, series.values)
+    low, high = float(scaled.min()) - _WIDER, float(scaled.max()) + _WIDER
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    nodes = np.polynomial.chebyshev.chebpts1(_NODES)
+    starts = _unscaled(series, middle + half * nodes)
+    exact = np.array([_scaled(series, family.at(float(one), series.speeds)) for one in starts])
+    through = np.polynomial.chebyshev.chebfit(nodes, exact, _NODES - 1)
+
+    def curve(start: float) -> Array:
+        scaled = np.polynomial.chebyshev.chebval((start - middle) / half, through)
+        return _unscaled(series, np.asarray(scaled, dtype=np.float64))
+
+    return curve
+
+
+def _fitted(
+    curve: Callable[[float], Array], series: Series, scale: float
+) -> tuple[float, float, float]:
+    """Return the best value at the family's speed, its standard deviation, and the least χ²."""
+    from scipy.optimize import minimize_scalar
+
+    weight = np.linalg.inv(series.covariance(scale))
+
+    def squares(start: float) -> float:
+        apart = series.values - curve(start)
+        return float(apart @ weight @ apart)
+
+    scaled = _scaled(series, series.values)
+    low, high = float(scaled.min()) - _WIDER, float(scaled.max()) + _WIDER
+    grid = np.linspace(low, high, 61)
+    first = int(np.argmin([squares(one) for one in grid]))
+    ends = grid[max(0, first - 1)], grid[min(grid.size - 1, first + 1)]
+    best = minimize_scalar(squares, bounds=ends, method="bounded", options={"xatol": 1e-9})
+    start = float(best.x)
+    slope = _slope(curve, start)
+    value = float(_unscaled(series, np.array([start]))[0])
+    by_value = -value * np.log(value) if series.quantity == RESTITUTION else value
+    return value, float(by_value / np.sqrt(slope @ weight @ slope)), float(best.fun)
+
+
+def _of_the_rest(curve: Callable[[float], Array], series: Series) -> float:
+    """Return χ² of the other speeds for the law that is calibrated at the highest one.
+
+    What is left over is ``y_i - f_i(y_0)``, and its covariance has the error of y_0 in all places.
+    """
+    first = int(np.argmax(series.speeds))
+    start = float(_scaled(series, series.values)[first])
+    slope = _slope(curve, start)
+    slope = slope / slope[first]  # by the value at the first speed itself
+    apart = series.values - curve(start)
+    shared = np.eye(series.values.size)
+    shared[:, first] -= slope
+    kept = np.arange(series.values.size) != first
+    covariance = (shared @ series.covariance() @ shared.T)[np.ix_(kept, kept)]
+    return float(apart[kept] @ np.linalg.solve(covariance, apart[kept]))
+
+
+def _slope(curve: Callable[[float], Array], start: float, step: float = 1e-5) -> Array:
+    return (curve(start + step) - curve(start - step)) / (2.0 * step)
+
+
+def _power(series: Series) -> tuple[float, float, float | None]:
+    """Return the exponent of the loss, or of the time, in the speed, its error, and p."""
+    from scipy.stats import chi2
+
+    values = series.values
+    grows = 1.0 - values if series.quantity == RESTITUTION else values
+    scaled, change = np.log(grows), np.diag(1.0 / grows)
+    weight = np.linalg.inv(change @ series.covariance() @ change)
+    design = np.column_stack([np.ones(values.size), np.log(series.speeds)])
+    covariance = np.linalg.inv(design.T @ weight @ design)
+    best = covariance @ design.T @ weight @ scaled
+    apart = scaled - design @ best
+    freedom = values.size - 2
+    p = float(chi2.sf(apart @ weight @ apart, freedom)) if freedom else None
+    return float(best[1]), float(np.sqrt(covariance[1, 1])), p

@@ -1,0 +1,182 @@
+"""The published measurements: every file is valid, has its source, and says what it says."""
+
+import json
+import math
+import re
+from importlib.resources import files
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce import datasets
+from stackbounce.cli import main
+from stackbounce.cross2007 import PAPER
+from stackbounce.datasets.description import read_description
+from stackbounce.datasets.loading import si_unit
+from stackbounce.units import in_si
+
+NAMES = datasets.names()
+G = 9.81
+
+
+def test_there_are_at_least_fifteen_of_each_its_own_source():
+    assert len(NAMES) >= 15
+    assert len({datasets.describe(name).source for name in NAMES}) >= 15
+
+
+def test_each_file_is_a_dataset():
+    folder = files("stackbounce.datasets").joinpath("tables")
+    found = {one.name.removesuffix(".toml") for one in folder.iterdir()}
+    assert found == {name for name in NAMES if not name.startswith("cross2007-")}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_dataset_loads_in_si_units_with_its_source(name):
+    about, data = datasets.describe(name), sb.datasets.load(name)
+    assert re.match(r"https?://", about.address)
+    assert re.fullmatch(r"(10\.\d{4,9}/\S+)?", about.doi)
+    for column in about.columns:
+        variable = data[column.name]
+        assert variable.sizes["row"] == len(column.values)
+        if column.unit != "text":
+            assert np.isfinite(variable).all()
+            assert variable.attrs["units"] == si_unit(column)
+            assert si_unit(column) == "1" or in_si(si_unit(column)) or si_unit(column) == "K"
+    assert data.attrs["source"] == about.source
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_what_cannot_be_is_not_there(name):
+    data = datasets.load(name)
+    for key in ("restitution", "energy_retained"):
+        if key in data:
+            assert ((data[key] > 0.0) & (data[key] < 1.0)).all()
+    if {"drop_height", "rebound_height"} <= set(data):
+        heights = [data[key] for key in ("drop_height", "rebound_height")]
+        fallen, leapt = (one.mean(dim=one.dims[1:]) if one.ndim > 1 else one for one in heights)
+        assert (leapt < fallen).all()
+    if "apex_height" in data:
+        assert (data.apex_height.diff("row") < 0.0).all()
+
+
+def test_the_knocks_of_the_superball():
+    knocks = datasets.load("superball-knocks").knock_time.values
+    first, second = np.diff(knocks)
+    assert second / first == pytest.approx(0.936, abs=5e-4)
+    height = float(datasets.load("superball-knocks").drop_height[0])
+    assert first * G / 2.0 / math.sqrt(2.0 * G * height) == pytest.approx(0.936, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "means"),
+    [
+        ("rubber-ball-two-heights", [0.759, 1.384]),
+        ("table-tennis-two-heights", [0.674, 1.247]),
+        (
+            "table-tennis-nine-heights",
+            [0.158, 0.215, 0.256, 0.309, 0.341, 0.407, 0.479, 0.571, 0.643],
+        ),
+        ("table-tennis-parquet-heights", [0.0451, 0.0679, 0.0742, 0.0885, 0.1578, 0.2496]),
+        ("golf-marble-heights", [0.6383, 0.7198, 0.7902, 0.8677]),
+    ],
+)
+def test_readings_have_the_means_that_the_sources_print(name, means):
+    found = datasets.load(name).rebound_height.mean("rebound_height_reading")
+    assert found.values == pytest.approx(means, abs=6e-5)
+
+
+def test_flights_have_the_means_that_the_source_prints():
+    flights = datasets.load("tennis-stoneware-flights")
+    found = flights.flight_time.mean("flight_time_reading").values
+    assert found[4:7] == pytest.approx([0.5007, 0.3805, 0.2894], abs=1e-4)
+    assert flights.drop_height.values[4] == 0.55
+    assert flights.flight.values[4] == 1
+
+
+def test_the_restitutions_that_reports_print_follow_from_their_heights():
+    rubber = datasets.load("rubber-ball-bounces").apex_height.values
+    found = np.sqrt(rubber[1:] / rubber[:-1])
+    assert found == pytest.approx([0.76, 0.77, 0.81, 0.81, 0.81, 0.82], abs=0.0062)
+
+
+def test_units_of_the_sources_are_converted():
+    rule = datasets.load("tennis-ball-rule")
+    assert rule.drop_height.values == pytest.approx(2.54)
+    assert rule.rebound_height.values == pytest.approx([1.3462, 1.4732])
+    assert rule.forward_deformation.values == pytest.approx([5.588e-3, 7.366e-3])
+    assert rule.return_deformation.values == pytest.approx([8.001e-3, 10.795e-3])
+    assert rule.force.values == pytest.approx(80.068, abs=1e-3)
+    assert datasets.load("table-tennis-temperature").temperature.values[0] == 305.15
+    assert datasets.load("superball-contact-time").contact_time_error.values[0] == 1e-3
+    assert datasets.load("baseball-rule").impact_speed.values[0] == pytest.approx(25.908)
+
+
+def test_what_the_paper_measured_is_its_own_data():
+    table = datasets.load("cross2007-table-2")
+    for row in range(table.sizes["row"]):
+        one = PAPER[str(table.quantity.values[row])]
+        assert (one.value, one.spread) == (table.value.values[row], table.value_error.values[row])
+    kept = [name for name in NAMES if name.startswith("cross2007-")]
+    assert sum(datasets.load(name).sizes["row"] for name in kept) == 74
+
+
+def test_an_unknown_name_suggests_the_nearest():
+    with pytest.raises(sb.StackbounceError, match="did you mean granite-spheres"):
+        datasets.load("granite-sphere")
+
+
+WHOLE = {
+    "title": "A bounce",
+    "measured": "by eye",
+    "ball": "a ball",
+    "source": "somebody",
+    "address": "https://example.org",
+    "seen": "full text",
+    "columns": [{"name": "height", "unit": "m", "meaning": "height", "values": [1.0, 2.0]}],
+}
+
+
+def column(**changes):
+    return {"columns": [WHOLE["columns"][0] | changes]}
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"titel": "A bounce"}, "bounce: titel is unknown; did you mean title"),
+        ({"seen": "somewhere"}, "bounce: seen must be one of full text"),
+        ({"seen": "quoted"}, "bounce: quoted_by goes with seen"),
+        ({"source": ""}, "bounce: source must be a text, got ''"),
+        ({"columns": []}, "bounce: columns must be a list of tables"),
+        (column(values=["1"]), "height.values must be a finite number, got '1'"),
+        (column(values=[[1.0, 2.0], [1.0]]), "equally many readings"),
+        (column(errors=[0.1]), "errors must be a number or one for each value"),
+        (column(errors=-0.1), "height.errors must be a number, 0 or above, got -0.1"),
+        (column(assumed_error=0.1), "assumed_error and assumed_because go together"),
+        (column(unit="text"), "height.values must be words, got 1.0"),
+        ({"columns": WHOLE["columns"] * 2}, "two columns must not have the same name"),
+    ],
+)
+def test_a_wrong_file_is_one_clear_error(changes, message):
+    with pytest.raises(sb.StackbounceError, match=re.escape(message)):
+        read_description("bounce", WHOLE | changes)
+
+
+def test_a_file_without_its_source_is_refused():
+    short = {key: value for key, value in WHOLE.items() if key != "source"}
+    with pytest.raises(sb.StackbounceError, match="bounce: source must be given"):
+        read_description("bounce", short)
+
+
+def test_the_command_lists_all_and_shows_one(capsys):
+    assert main(["datasets"]) == 0
+    listed = capsys.readouterr().out
+    assert all(name in listed for name in NAMES)
+    assert main(["datasets", "croquet-energy"]) == 0
+    assert "Am. J. Phys. 68, 920 (2000)" in capsys.readouterr().out
+    assert main(["datasets", "golf-marble-heights", "--json"]) == 0
+    (found,) = json.loads(capsys.readouterr().out)["datasets"]
+    assert found["columns"][0]["values"] == [80.0, 90.0, 100.0, 110.0]
+    assert main(["datasets", "golf"]) == 2
+    assert "name must be that of a dataset" in capsys.readouterr().err

@@ -1,0 +1,170 @@
+"""Laws beside series that are known: a law's own numbers, with errors."""
+
+import dataclasses
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce import datasets
+from stackbounce.model import LAWS
+from stackbounce.validation import comparison
+from stackbounce.validation.comparison import AGREES, REFUTED, compare_laws
+from stackbounce.validation.family import Family, families, predicted, reason_to_skip
+from stackbounce.validation.series import CONTACT_TIME, RESTITUTION, Series, make_series
+
+SPEEDS = np.array([4.0, 3.0, 2.0, 1.0, 0.5])
+ERROR = 0.004
+
+
+def series_of(law_class, generator=None, *, quantity=RESTITUTION, value=0.8, error=ERROR):
+    family = Family(law_class, quantity, 4.0, restitution=0.9)
+    values = family.at(value, SPEEDS)
+    covariance = np.diag(np.full(SPEEDS.size, error**2))
+    if generator is not None:
+        values = values + error * generator.standard_normal(SPEEDS.size)
+    nothing = np.zeros_like(covariance)
+    return Series("made", "made", "a ball", quantity, SPEEDS, values, covariance, nothing, 0.0, 0.9)
+
+
+def outcome(found, law):
+    return next(one for one in found.outcomes if law in one.laws)
+
+
+def only(*laws):
+    """Return a stand-in for `families` that has these laws only."""
+    return lambda series: ((name, one) for name, one in families(series) if name in laws)
+
+
+@pytest.mark.parametrize("law", ["Rigid", "Viscoelastic", "HuntCrossley"])
+def test_a_law_agrees_with_its_own_numbers_and_the_others_are_refuted(law):
+    found = compare_laws(series_of(LAWS[law]))
+    own = outcome(found, law)
+    assert own.chi_squared < 1e-6
+    assert own.value == pytest.approx(0.8, abs=1e-5)
+    assert own.verdict == AGREES
+    others = [one for one in found.outcomes if one is not own]
+    assert others
+    assert {one.verdict for one in others} == {REFUTED}
+    assert found.tells_apart
+
+
+@pytest.mark.parametrize("law", ["Rigid", pytest.param("HuntCrossley", marks=pytest.mark.slow)])
+def test_many_draws_of_a_law_have_the_chi_squared_and_the_scatter_that_are_told(law, monkeypatch):
+    monkeypatch.setattr(comparison, "families", only(law))
+    draws, freedom = 20, SPEEDS.size - 1
+    generator = np.random.default_rng(3)
+    made = [outcome(compare_laws(series_of(LAWS[law], generator)), law) for _ in range(draws)]
+    assert np.mean([one.chi_squared for one in made]) == pytest.approx(
+        freedom, abs=3.0 * np.sqrt(2.0 * freedom / draws)
+    )
+    assert np.mean([one.error for one in made]) == pytest.approx(
+        np.std([one.value for one in made], ddof=1), rel=0.5
+    )
+    if law == "Rigid":
+        assert made[0].error == pytest.approx(ERROR / np.sqrt(SPEEDS.size), rel=1e-3)
+
+
+def test_calibrated_on_one_and_fitted_to_all_say_the_same_of_a_constant(monkeypatch):
+    """A constant is linear in its value, and then χ² of the contrasts is that of the best fit."""
+    monkeypatch.setattr(comparison, "families", only("Rigid"))
+    found = compare_laws(series_of(sb.Rigid, np.random.default_rng(5)))
+    own = outcome(found, "Rigid")
+    assert own.p_calibrated == pytest.approx(own.p, rel=1e-6)
+
+
+def test_every_law_is_asked_or_has_a_reason_and_one_curve_is_one_outcome():
+    found = compare_laws(series_of(sb.Rigid))
+    assert {"Rigid", "Dashpot", "Hysteretic", "StandardLinearSolid"} <= set(
+        outcome(found, "Rigid").laws
+    )
+    asked = [name for one in found.outcomes for name in one.laws]
+    assert sorted([*asked, *found.skipped]) == sorted(LAWS)
+    assert found.skipped["Spring"] == "it loses nothing"
+
+
+def test_contact_times_tell_a_spring_from_hertz(monkeypatch):
+    monkeypatch.setattr(comparison, "families", only("Spring", "Hertz", "Rigid"))
+    made = series_of(sb.Hertz, quantity=CONTACT_TIME, value=5e-3, error=5e-5)
+    found = compare_laws(made)
+    assert outcome(found, "Hertz").verdict == AGREES
+    assert outcome(found, "Spring").verdict == REFUTED
+    assert found.exponent == pytest.approx(-0.2, abs=1e-3)
+    assert "no duration" in found.skipped["Rigid"]
+
+
+def test_the_exponent_of_the_loss_is_that_of_weak_viscoelasticity(monkeypatch):
+    monkeypatch.setattr(comparison, "families", only())
+    found = compare_laws(series_of(sb.Viscoelastic, value=0.99, error=1e-4))
+    assert found.exponent == pytest.approx(0.2, abs=0.005)
+    assert compare_laws(series_of(sb.HuntCrossley, value=0.99, error=1e-4)).exponent == (
+        pytest.approx(1.0, abs=0.02)
+    )
+
+
+@pytest.mark.parametrize("name", list(LAWS))
+def test_mass_and_contact_time_do_not_matter_to_a_law_that_is_asked(name):
+    series = series_of(sb.Rigid)
+    family = dict(families(series))[name]
+    if reason_to_skip(family, series):
+        pytest.skip("it is not asked")
+    found = family.at(0.8, SPEEDS)
+    law = sb.calibrate(LAWS[name], mass=3.0, restitution=0.8, contact_time=1e-4, impact_speed=4.0)
+    other = [sb.restitution(law, 3.0, float(speed)) for speed in SPEEDS]
+    assert found == pytest.approx(other, rel=1e-6)
+
+
+@dataclasses.dataclass(frozen=True)
+class Forgetful(Family):
+    """A family whose calibration does not give the law again at another speed."""
+
+    def law(self, value):
+        return sb.Rigid(min(1.0, value * self.speed / 4.0))
+
+
+def test_a_calibration_that_depends_on_the_speed_is_skipped():
+    family = Forgetful(sb.Rigid, RESTITUTION, 4.0)
+    assert reason_to_skip(family, series_of(sb.Rigid)) == (
+        "what it gives depends on the speed at which it is calibrated"
+    )
+
+
+@dataclasses.dataclass(frozen=True)
+class Narrow(Family):
+    """A family that has no law with a small restitution."""
+
+    def law(self, value):
+        if value < 0.7:
+            raise sb.errors.InvalidValue("too small")
+        return super().law(value)
+
+
+def test_a_law_that_cannot_be_fitted_is_skipped(monkeypatch):
+    family = Narrow(sb.HuntCrossley, RESTITUTION, 4.0)
+    monkeypatch.setattr(comparison, "families", lambda _: [("HuntCrossley", family)])
+    found = compare_laws(series_of(sb.Rigid))
+    assert found.outcomes == ()
+    assert found.skipped == {"HuntCrossley": "it cannot be fitted: too small"}
+
+
+def test_assumed_errors_are_halved_and_doubled(monkeypatch):
+    monkeypatch.setattr(comparison, "families", only("Rigid"))
+    made = series_of(sb.Rigid, np.random.default_rng(6))
+    supposed = dataclasses.replace(
+        made, published=made.assumed, assumed=made.published, values=made.values + 0.0
+    )
+    own = outcome(compare_laws(supposed), "Rigid")
+    assert own.p_half < own.p < own.p_twice
+    assert outcome(compare_laws(made), "Rigid").p_half is None
+
+
+@pytest.mark.slow
+def test_the_golf_ball_loses_the_same_share_at_all_speeds(monkeypatch):
+    monkeypatch.setattr(comparison, "families", only("Rigid", "Viscoelastic", "HuntCrossley"))
+    data = datasets.load("golf-marble-flights")
+    found = compare_laws(make_series(data), make_series(data, air=False))
+    assert outcome(found, "Rigid").verdict == AGREES
+    assert outcome(found, "Viscoelastic").verdict == REFUTED
+    assert outcome(found, "HuntCrossley").verdict == REFUTED
+    assert found.steady
+    assert predicted(sb.Rigid(0.9), RESTITUTION, SPEEDS).tolist() == [0.9] * 5

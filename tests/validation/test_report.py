@@ -1,0 +1,119 @@
+"""`stackbounce validate`: all datasets, all laws, and the files of it."""
+
+import csv
+import json
+
+import pytest
+
+from stackbounce import datasets, validation
+from stackbounce.cli import main
+from stackbounce.errors import FileError
+from stackbounce.model import LAWS
+from stackbounce.validation.comparison import AGREES, REFUTED, verdict
+from stackbounce.validation.results import validate
+
+FEW = ("granite-spheres", "superball-knocks")
+
+
+@pytest.fixture
+def few(monkeypatch):
+    """Let there be two datasets only."""
+    monkeypatch.setattr(datasets, "names", lambda: FEW)
+
+
+@pytest.mark.usefixtures("few")
+def test_the_files_hold_what_was_found(tmp_path, capsys):
+    out = tmp_path / "validate"
+    assert main(["validate", "--out", str(out), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    written = json.loads((out / "validation.json").read_text("utf-8"))
+    assert [one["name"] for one in told["datasets"]] == list(FEW[1:])
+    assert [one["name"] for one in written["datasets"]] == list(FEW[1:])
+    assert written["left_out"] == {"granite-spheres": "it has one value only"}
+    with (out / "validation.csv").open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    asked = [(one["name"], law["law"]) for one in written["datasets"] for law in one["laws"]]
+    assert [(row["dataset"], row["law"]) for row in rows] == asked
+    page = (out / "index.html").read_text("utf-8")
+    for one in written["datasets"]:
+        assert one["summary"] in page
+        assert datasets.describe(one["name"]).address in page
+        assert (out / "figures" / f"{one['name']}.svg").read_bytes().startswith(b"<?xml")
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("few")
+def test_the_same_version_writes_the_same_bytes(tmp_path):
+    for name in ("one", "two"):
+        validation.write(tmp_path / name)
+    files = [path.relative_to(tmp_path / "one") for path in (tmp_path / "one").rglob("*.*")]
+    assert len(files) == 5
+    for name in files:
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+
+
+@pytest.mark.usefixtures("few")
+def test_a_file_of_somebody_else_stays(tmp_path):
+    (tmp_path / "index.html").write_text("mine")
+    with pytest.raises(FileError, match=r"index\.html"):
+        validation.write(tmp_path)
+    assert (tmp_path / "index.html").read_text() == "mine"
+
+
+def test_the_folder_must_have_a_name(capsys):
+    assert main(["validate", "--out", ""]) == 2
+    assert "--out must name a folder" in capsys.readouterr().err
+
+
+@pytest.fixture(scope="module")
+def everything():
+    return validate()
+
+
+@pytest.mark.slow
+def test_every_dataset_is_compared_or_has_a_reason(everything):
+    compared = [one.series.name for one in everything.comparisons]
+    assert sorted([*compared, *everything.left_out]) == list(datasets.names())
+    assert len(compared) >= 15
+    for one in everything.comparisons:
+        asked = [name for found in one.outcomes for name in found.laws]
+        assert sorted([*asked, *one.skipped]) == sorted(LAWS)
+
+
+def laws_of(comparison, verdict):
+    return {name for one in comparison.outcomes if one.verdict == verdict for name in one.laws}
+
+
+@pytest.mark.slow
+def test_what_the_docs_say_of_balls_and_laws(everything):
+    found = {one.series.name: one for one in everything.comparisons}
+    golf = found["golf-marble-flights"]
+    assert golf.tells_apart
+    assert golf.steady
+    assert {"Rigid", "Dashpot", "Hysteretic"} <= laws_of(golf, AGREES)
+    assert {"Viscoelastic", "HuntCrossley"} <= laws_of(golf, REFUTED)
+    rubber = found["rubber-ball-two-heights"]
+    assert rubber.tells_apart
+    assert "HuntCrossley" in laws_of(rubber, AGREES)
+    for name in ("superball-knocks", "superball-contact-time", "table-tennis-nine-heights"):
+        assert not found[name].tells_apart
+    refuted = [one for one in found.values() if "HuntCrossley" in laws_of(one, REFUTED)]
+    assert len(refuted) > len(found) / 2
+    assert any(not laws_of(one, AGREES) for one in found.values())
+
+
+@pytest.mark.slow
+def test_air_that_is_left_out_refutes_a_law_that_follows_the_flights(everything):
+    found = {one.series.name: one for one in everything.comparisons}
+    ball = found["table-tennis-parquet-flights"]
+    rigid = next(one for one in ball.outcomes if "Rigid" in one.laws)
+    assert rigid.verdict == AGREES
+    assert verdict(rigid.p_without_air) == REFUTED
+
+
+@pytest.mark.slow
+def test_what_is_calibrated_on_one_speed_is_judged_as_what_is_fitted_to_all(everything):
+    for one in everything.comparisons:
+        for law in one.outcomes:
+            if law.p > 1e-3:
+                assert law.p_calibrated == pytest.approx(law.p, rel=0.2)

@@ -1,0 +1,133 @@
+"""Datasets as series: speeds and restitutions from heights and times, and their covariances."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from stackbounce import datasets
+from stackbounce.validation.fall import GRAVITY, Fall, through_air
+from stackbounce.validation.series import make_series, why_not
+
+BALL = Fall(0.126)  # a table tennis ball
+
+
+def leap(speed, drag):
+    """Return the highest point, the time of flight and the landing speed, by integration."""
+
+    def motion(_, state):
+        height, velocity = state
+        del height
+        return [velocity, -GRAVITY - drag * velocity * abs(velocity)]
+
+    def top(_, state):
+        return state[1]
+
+    def floor(_, state):
+        return state[0]
+
+    top.direction = floor.direction = -1.0
+    floor.terminal = True
+    found = solve_ivp(motion, (0.0, 5.0), [0.0, speed], events=(top, floor), rtol=1e-11, atol=1e-12)
+    return found.y_events[0][0][0], found.t_events[1][-1], -found.y_events[1][-1][1]
+
+
+@pytest.mark.parametrize("speed", [0.5, 2.0, 5.0])
+def test_a_leap_through_air_is_that_of_an_integration(speed):
+    height, time, landing = leap(speed, BALL.drag)
+    assert BALL.leaving_speed(np.array([height])) == pytest.approx(speed, rel=1e-8)
+    assert BALL.landing_speed(np.array([height])) == pytest.approx(landing, rel=1e-8)
+    both = BALL.flight(np.array([time]))
+    assert [float(one[0]) for one in both] == pytest.approx([speed, landing], rel=1e-8)
+
+
+def test_little_air_is_no_air():
+    heights, times = np.array([0.1, 1.0]), np.array([0.2, 0.9])
+    thin, none = Fall(1e-9), Fall()
+    assert thin.landing_speed(heights) == pytest.approx(none.landing_speed(heights), rel=1e-8)
+    assert thin.leaving_speed(heights) == pytest.approx(none.leaving_speed(heights), rel=1e-8)
+    assert thin.flight(times)[1] == pytest.approx(none.flight(times)[1], rel=1e-8)
+
+
+def test_air_is_known_only_with_mass_and_diameter():
+    assert through_air({"mass": 0.0027}) is None
+    assert through_air({"mass": 0.0027, "diameter": 0.04}).drag == pytest.approx(0.1257, abs=1e-4)
+
+
+def test_the_knocks_of_the_superball_are_two_restitutions():
+    series = make_series(datasets.load("superball-knocks"))
+    assert series.values == pytest.approx([0.9356, 0.9364], abs=1e-4)
+    assert series.speeds == pytest.approx([3.705, 3.467], abs=1e-3)
+
+
+def test_the_basketball_loses_as_a_power_of_its_speed_if_the_air_is_left_out():
+    series = make_series(datasets.load("leather-basketball"), air=False)
+    assert series.values == pytest.approx([0.81, 0.85])
+    loss, speed = np.log(1.0 - series.values), np.log(series.speeds)
+    assert np.diff(loss) / np.diff(speed) == pytest.approx(0.43, abs=0.005)
+
+
+@pytest.mark.parametrize("name", ["rubber-ball-bounces", "steel-on-metallic-glass"])
+def test_covariances_are_those_of_draws(name):
+    data = datasets.load(name)
+    series = make_series(data)
+    generator = np.random.default_rng(1)
+    drawn = []
+    for _ in range(500):
+        moved = data.copy()
+        for key, one in data.items():
+            error = one.attrs.get("assumed_error")
+            if error:
+                moved[key] = one + error * generator.standard_normal(one.shape)
+        drawn.append(make_series(moved).values)
+    found, wanted = np.cov(np.array(drawn).T), series.covariance()
+    scale = np.sqrt(np.outer(wanted.diagonal(), wanted.diagonal()))
+    assert np.abs(found - wanted).max() < 0.2 * scale.max()
+    assert np.abs((found - wanted) / scale).max() < 0.2
+    assert (wanted.diagonal(1) < 0.0).all()  # neighbours share a number
+
+
+def test_the_scatter_of_throws_is_the_error_of_their_mean():
+    """Flights of a ball whose restitution varies and whose knocks are heard late or early."""
+    data = datasets.load("golf-marble-flights")
+    generator = np.random.default_rng(2)
+    found, told = [], []
+    for _ in range(400):
+        rows = []
+        for _ in range(2):
+            kept = 0.9 + 0.01 * generator.standard_normal((8, 5))
+            flights = 0.8 * np.cumprod(kept, axis=0) + 0.001 * generator.standard_normal((8, 5))
+            rows.append(flights)
+        moved = data.assign(flight_time=(data.flight_time.dims, np.concatenate(rows)))
+        series = make_series(moved, air=False)
+        found.append(series.values)
+        told.append(series.published)
+    assert np.cov(np.array(found).T).diagonal().mean() == pytest.approx(
+        np.mean([one.diagonal().mean() for one in told]), rel=0.1
+    )
+    assert np.mean([one[0, 1] for one in told]) == pytest.approx(
+        np.cov(np.array(found).T).diagonal(1)[:6].mean(), abs=3e-6
+    )
+
+
+def test_a_drag_that_is_not_known_well_moves_all_values_together():
+    series = make_series(datasets.load("table-tennis-bounces"))
+    without = make_series(datasets.load("table-tennis-bounces"), air=False)
+    assert (series.values > without.values).all()
+    assert np.linalg.matrix_rank(series.assumed - without.assumed, tol=1e-7) >= 1
+    assert (np.sqrt(series.covariance().diagonal()) > np.sqrt(without.assumed.diagonal())).all()
+
+
+@pytest.mark.parametrize(
+    ("name", "reason"),
+    [
+        ("baseball-rule", "it has the limits of rules, no measurement"),
+        ("granite-spheres", "it has one value only"),
+        (
+            "cross2007-table-1",
+            "it has no restitutions or contact times of one ball at known speeds",
+        ),
+        ("golf-marble-flights", ""),
+    ],
+)
+def test_what_is_no_series_says_why(name, reason):
+    assert why_not(datasets.load(name)) == reason
