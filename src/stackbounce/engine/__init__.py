@@ -12,6 +12,7 @@ preparation   fills a stack with the parameters of a drop
 event_queue   a priority queue of times
 rigid         sequences of instantaneous collisions (eqs 1 to 4)
 flight        the motion of rigid balls between collisions
+restitution   of one rigid collision: constant, or by its speed and with scatter
 settling      how rigid balls come to rest under gravity
 collapse      inelastic collapse: infinitely many collisions in a finite time
 series        power series: evaluation, shift, sign bounds
