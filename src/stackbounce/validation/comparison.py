@@ -220,9 +220,13 @@ def _unscaled(series: Series, scaled: Array) -> Array:
 
 
 def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
-    """Return the curve of a family by the scaled value at its speed, from some exact curves."""
+    """Return the curve of a family by the scaled value at its speed: from some exact curves."""
     if family.is_constant:
         return lambda start: np.full(series.speeds.shape, _unscaled(series, np.array([start])))
+    if family.law_class.rigid:  # in closed form, and with a corner where the restitution is 1
+        return lambda start: family.at(
+            float(_unscaled(series, np.array([start]))[0]), series.speeds
+        )
     scaled = _scaled(series, series.values)
     low, high = float(scaled.min()) - _WIDER, float(scaled.max()) + _WIDER
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
