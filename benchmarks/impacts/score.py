@@ -17,7 +17,7 @@ from typing import Any
 
 FOLDER = Path(__file__).parent
 MOST = 15.0  # digits: a double has hardly more
-LEVELS = (6, 12)  # digits to which an answer is called right
+LEVELS = (3, 6, 12)  # digits to which an answer is called right
 FIELDS = {
     "velocities": ("velocities",),
     "counts": ("counts",),

@@ -11,8 +11,6 @@ from typing import Any
 from benchmarks.impacts.score import LEVELS, Score, summary
 from benchmarks.peers.impacts.common import Answer, Peer, Problem
 
-HIGH = LEVELS[-1]
-
 
 @dataclass(frozen=True)
 class Entry:
@@ -42,11 +40,11 @@ def markdown(entries: Sequence[Entry], problems: Sequence[Problem]) -> str:
                     "median digits: speeds",
                     "times",
                     "forces",
-                    "ms",
+                    "median ms",
                 ],
                 [_sums(one) for one in entries],
             ),
-            f"Right to {LEVELS[0]} and to {HIGH} digits, of the problems of each grade:\n",
+            f"Right to {_listed(LEVELS)} digits, of the problems of each grade:\n",
             _parts(entries, [f"grade {g}" for g in grades], lambda x: f"grade {x.grade}"),
             "The same of each group:\n",
             _parts(entries, groups, lambda x: of_group[x.name]),
@@ -59,6 +57,10 @@ def markdown(entries: Sequence[Entry], problems: Sequence[Problem]) -> str:
     )
 
 
+def _listed(levels: Sequence[int]) -> str:
+    return f"{', '.join(map(str, levels[:-1]))} and {levels[-1]}"
+
+
 def _sums(entry: Entry) -> list[str]:
     sums = summary(entry.scores)
     seconds = [
@@ -67,7 +69,7 @@ def _sums(entry: Entry) -> list[str]:
         if s.outcome == "answered"
     ]
     digits = ["–" if sums[x] is None else f"{sums[x]:.1f}" for x in ("speeds", "times", "forces")]
-    time = f"{1e3 * median(seconds):.2g}" if seconds else "–"
+    time = f"{1e3 * median(seconds):.1f}" if seconds else "–"
     wanted = ("answered", "counts", *(f"right_{level}" for level in LEVELS))
     return [entry.peer.name, entry.version, *(str(sums[x]) for x in wanted), *digits, time]
 

@@ -6,6 +6,7 @@ from benchmarks.peers.impacts.common import Answer, Peer, Problem, Solve, Unsupp
 from benchmarks.peers.impacts.worlds import PER_GAP, play
 
 ITERATIONS = 50
+NEAR = 1e-5  # of the widest gap: Bullet lets balls that are nearer bounce before they touch
 
 
 def prepare() -> Solve:
@@ -18,6 +19,7 @@ def prepare() -> Solve:
         """Spheres above a plane; the product of two restitutions counts, so the floor has 1."""
 
         def __init__(self, problem: Problem, dt: float) -> None:
+            gaps = [0.0, *problem["gaps"]]
             bullet.resetSimulation()
             bullet.setGravity(0.0, 0.0, -problem["gravity"])
             bullet.setPhysicsEngineParameter(
@@ -25,10 +27,10 @@ def prepare() -> Solve:
                 numSolverIterations=ITERATIONS,
                 restitutionVelocityThreshold=0.0,
                 contactSlop=0.0,
+                contactBreakingThreshold=NEAR * max(gaps),
                 erp=0.0,
                 contactERP=0.0,
             )
-            gaps = [0.0, *problem["gaps"]]
             self.radius = 10.0 * max(gaps) or 1.0
             e = problem["contacts"][-1]["restitution"]
             shape = bullet.createCollisionShape(bullet.GEOM_SPHERE, radius=self.radius)

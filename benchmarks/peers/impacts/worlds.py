@@ -10,8 +10,8 @@ from typing import Protocol
 
 from benchmarks.peers.impacts.common import Answer, Problem, Unsupported
 
-PER_GAP = 200
-MOST_STEPS = 300_000
+PER_GAP = 500
+MOST_STEPS = 750_000
 EQUAL = 1e-9  # approaches that are slower, in v0, are none
 
 
