@@ -3,13 +3,15 @@
 import json
 import subprocess
 import sys
+from contextlib import suppress
 from copy import deepcopy
 from functools import partial
 
 import pytest
+from benchmarks.impacts import __main__ as command
 from benchmarks.impacts import runs, score, table
 from benchmarks.impacts.score import FOLDER, Malformed, score_all
-from benchmarks.peers.impacts import PEERS, by_chipmunk, by_mujoco, by_scipy, ours
+from benchmarks.peers.impacts import PEERS, by_chipmunk, by_mujoco, by_scipy, ours, worlds
 from benchmarks.peers.impacts.common import Peer, Unsupported
 
 from reference import make_impacts
@@ -251,6 +253,69 @@ def test_the_table_has_a_row_for_each_program(tmp_path):
     assert "| pymunk (Chipmunk) | 7 | 1 | 1 | 1 | 1 | 1 | 15.0 | 15.0 | – | 1.0 |" in text
     assert len((tmp_path / "impacts.csv").read_text("utf-8").splitlines()) == 3
     assert json.loads((tmp_path / "impacts.json").read_text("utf-8"))[0]["version"] == "7"
+
+
+INSTALLED = [peer for peer in PEERS if peer.version()]
+EASY = {"springs-basketball-tennis": 3.0, "rigid-cannon": 2.0}
+
+
+@pytest.mark.parametrize("peer", INSTALLED, ids=lambda one: one.name)
+def test_a_program_that_is_installed_is_right_where_problems_are_easy(peer):
+    solve, done = peer.prepare(), []
+    for name, digits in EASY.items():
+        with suppress(Unsupported):
+            answer = {"name": name, **solve(BY_NAME[name])}
+            assert scored([answer], name).right(digits)
+            done.append(name)
+    assert done
+
+
+class Exact:
+    """A world that moves two balls without a floor exactly, if a step has one collision at most."""
+
+    def __init__(self, problem, _):
+        self.gap, self.v = problem["gaps"][0], list(problem["velocities"])
+        self.mass = problem["masses"]
+
+    def step(self, dt):
+        approach = self.v[0] - self.v[1]
+        self.gap -= approach * dt
+        if self.gap < 0.0 < approach:
+            centre = sum(m * v for m, v in zip(self.mass, self.v, strict=True)) / sum(self.mass)
+            self.v = [2.0 * centre - v for v in self.v]
+            self.gap = -self.gap
+
+    def look(self):
+        return [0.0, self.gap], self.v
+
+
+def test_collisions_are_read_off_the_steps_of_a_world():
+    problem = {
+        **BY_NAME["rigid-cradle"],
+        "masses": [1.0, 3.0],
+        "contacts": [None, {"law": "Rigid", "restitution": 1.0}],
+        "gaps": [0.01],
+        "velocities": [1.0, 0.0],
+    }
+    answer = worlds.play(problem, Exact)
+    assert answer["velocities"] == pytest.approx([-0.5, 0.5], abs=1e-15)
+    assert answer["counts"] == [0, 1]
+    assert answer["first_touch"] == [None, pytest.approx(0.01, rel=1e-12)]
+    assert answer["last_release"] == answer["first_touch"]
+    with pytest.raises(Unsupported, match="infinitely many"):
+        worlds.play(BY_NAME["collapse-floor"], Exact)
+
+
+def test_the_command_prints_and_writes_the_table(tmp_path, monkeypatch, capsys):
+    options = ["--only", "stackbounce", "--problem", PAIR, "--out", str(tmp_path)]
+    monkeypatch.setattr(sys, "argv", ["impacts", *options])
+    command.main()
+    assert "| stackbounce | " in capsys.readouterr().out
+    assert {file.name for file in tmp_path.iterdir()} == {
+        "impacts.csv",
+        "impacts.json",
+        "impacts.md",
+    }
 
 
 def test_names_of_programs_are_all_different():
