@@ -103,8 +103,10 @@ def play(mujoco: Any, problem: Problem) -> Answer:
     """Step a stack to the end of its story; a contact lasts while it is compressed."""
     stack = Stack(mujoco, problem)
     until, contacts = problem["until"], [i for i, x in enumerate(stack.contacts) if x]
-    intervals: list[list[list[float | None]]] = [[] for _ in problem["masses"]]
-    closed: set[int] = set()
+    closed = {i for i in contacts if stack.gaps[i] == 0.0}
+    intervals: list[list[list[float | None]]] = [
+        [[0.0, None]] if i in closed else [] for i in range(len(stack.gaps))
+    ]
     for number in range(MOST_STEPS):
         lengths, rates = stack.look()
         time = number * stack.dt
@@ -112,7 +114,7 @@ def play(mujoco: Any, problem: Problem) -> Answer:
             if lengths[i] > 0.0 and i not in closed:
                 closed.add(i)
                 intervals[i].append([time - lengths[i] / rates[i] if rates[i] else time, None])
-            elif lengths[i] <= 0.0 and i in closed:
+            elif lengths[i] < 0.0 and i in closed:
                 closed.discard(i)
                 intervals[i][-1][1] = time - lengths[i] / rates[i] if rates[i] else time
         if until is None and number and not closed and all(rates[i] <= 0.0 for i in contacts):
