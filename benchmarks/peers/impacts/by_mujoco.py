@@ -15,6 +15,7 @@ from benchmarks.peers.impacts.common import Answer, Peer, Problem, Solve, Unsupp
 SMALLEST, LARGEST = 1e-4, 0.9999  # impedances
 STEPS = 200  # of RK4 to the shortest contact
 BRIEF = 0.02  # the time of a rigid contact, over the time in which v0 crosses the narrowest gap
+EQUAL = 1e-3  # approaches that are slower, in v0, are within its errors, and count as none
 MOST_STEPS = 1_000_000
 RADIUS = 1.0  # m; the balls may be of any size
 
@@ -103,6 +104,7 @@ def play(mujoco: Any, problem: Problem) -> Answer:
     """Step a stack to the end of its story; a contact lasts while it is compressed."""
     stack = Stack(mujoco, problem)
     until, contacts = problem["until"], [i for i, x in enumerate(stack.contacts) if x]
+    equal = EQUAL * max(map(abs, problem["velocities"]))
     closed = {i for i in contacts if stack.gaps[i] == 0.0}
     intervals: list[list[list[float | None]]] = [
         [[0.0, None]] if i in closed else [] for i in range(len(stack.gaps))
@@ -117,7 +119,7 @@ def play(mujoco: Any, problem: Problem) -> Answer:
             elif lengths[i] < 0.0 and i in closed:
                 closed.discard(i)
                 intervals[i][-1][1] = time - lengths[i] / rates[i] if rates[i] else time
-        if until is None and number and not closed and all(rates[i] <= 0.0 for i in contacts):
+        if until is None and not closed and all(rates[i] <= equal for i in contacts):
             break
         if until is not None and time >= until:
             break
