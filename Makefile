@@ -62,8 +62,9 @@ browsers: $(DEV) kernels  ## the page's tests in Chromium and in Firefox, served
 	@tests/web/browser/browsers.sh
 	@STACKBOUNCE_BROWSERS="chromium firefox" $(PYTEST) tests/web/browser
 
-bench: $(DEV) kernels  ## growth, accuracy and speed, also of other solvers (extra: bench), in build/bench
+bench: $(DEV) kernels  ## growth, accuracy, speed, and the benchmark of impacts, also of other solvers (extra: bench), in build/bench
 	@PYTHONPATH=tests $(BIN)/python -m benchmarks --out build/bench
+	@$(BIN)/python -m benchmarks.impacts --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
 
 check: kernels lint types imports docs  ## everything: lint, types, import rules, documentation, all tests, in Chromium and Firefox too

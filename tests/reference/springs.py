@@ -22,6 +22,9 @@ from reference.common import (
     leading_order,
 )
 
+MOST = 8  # balls; with more that touch, the highest contact begins with an order above `ORDERS`
+ORDERS = 16  # of the derivatives that are looked at
+
 
 @dataclass(frozen=True)
 class Wave:
@@ -31,7 +34,7 @@ class Wave:
     drift: Number
     terms: tuple[tuple[Number, Number, Number], ...]
 
-    def derivatives(self, t: Number, orders: int = 16) -> list[Number]:
+    def derivatives(self, t: Number, orders: int = ORDERS) -> list[Number]:
         """Return the value and the derivatives at t."""
         total = [self.offset + self.drift * t, self.drift] + [mpf(0)] * (orders - 2)
         for w, a, b in self.terms:
@@ -162,6 +165,8 @@ def run(
     Arguments are numbers that are taken as they are (floats are exact), one per ball, bottom
     first; the gaps are one fewer. A first stiffness of None means that there is no floor.
     """
+    if len(masses) > MOST:
+        raise ValueError(f"there are {len(masses)} balls; `precise` solves more than {MOST}")
     with mp.workdps(DIGITS):
         m = [mpf(x) for x in masses]
         k = [mpf(x or 0) for x in stiffnesses]

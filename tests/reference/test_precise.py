@@ -6,7 +6,7 @@ import json
 import pytest
 from mpmath import mp, mpf
 
-from reference import make_data, make_gentle, make_laws, precise, taylor
+from reference import make_data, make_gentle, make_laws, precise, springs, taylor
 
 CLOSE = mpf(10) ** -34
 
@@ -93,6 +93,12 @@ def test_other_references(name):
         theirs = sorted(i[:3] for i in row["intervals"])
         for a, b in zip(ours, theirs, strict=True):
             assert a == pytest.approx(b, rel=1e-15, abs=1e-14 * row["end_time"])
+
+
+def test_springs_leaves_tall_stacks_to_precise():
+    """The ninth of touching balls moves as t**17 at first, beyond the orders that it looks at."""
+    with pytest.raises(ValueError, match="there are 9 balls"):
+        springs.run([1] * 9, [1] * 9, [0] * 8, [-1] * 9)
 
 
 MIXED = {

@@ -1,0 +1,1 @@
+"""A public benchmark of impacts: problems, reference answers, a scorer, and who gets what right."""
