@@ -36,6 +36,7 @@ LAWS: dict[str, tuple[Any, Any]] = {  # of the floor, and between two balls of 0
         sb.Hysteretic(1e4, restitution=0.8, reloading="lossy"),
         sb.Hysteretic(1e4, exponent=1.0, restitution=0.7, reloading="lossy"),
     ),
+    "HollowBall": (sb.HollowBall(1e4, 1e-3, 0.3, 0.8), sb.HollowBall(4e4, 5e-4, 0.2, 0.7)),
 }
 MASS_RATIOS = np.geomspace(0.05, 20.0, 20)
 STIFFNESS_RATIOS = np.geomspace(0.1, 50.0, 15)
