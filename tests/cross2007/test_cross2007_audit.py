@@ -142,6 +142,22 @@ def test_three_of_four_fits_are_the_most_that_any_fall_gives():
     assert max(counts) == 3
 
 
+def test_the_restitution_of_the_basketball_leaves_1_64_only_after_a_shorter_fall(done):
+    (row,) = [row for row in done.rows if row.id == "T2.tennis_on_basketball.upper"]
+    hollow, most, shorter = row.attempts
+    assert (hollow.verdict, most.verdict, shorter.verdict) == (DIFFERS, DIFFERS, WITHIN_ERROR)
+    assert hollow.computed < most.computed
+    assert round(most.computed - 1.5721, 4) == 0
+    assert round(shorter.computed - 1.6337, 4) == 0
+
+
+def test_a_floor_force_that_rises_at_once_leaves_no_7_ms(done):
+    (row,) = [row for row in done.rows if row.id == "III.quiet"]
+    hollow, constant = row.attempts
+    assert {hollow.verdict, constant.verdict} == {DIFFERS}
+    assert round(hollow.computed - 5.24, 2) == round(constant.computed - 4.76, 2) == 0
+
+
 def test_a_longer_fall_and_a_smaller_gap_are_the_same():
     bench = Bench(PAPER)
     drop = small_fit(bench, heavier_b1(bench))

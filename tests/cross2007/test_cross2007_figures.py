@@ -6,6 +6,7 @@ import xml.etree.ElementTree as ET
 import numpy as np
 import pytest
 
+import stackbounce as sb
 from stackbounce.cross2007 import PAPER, changed
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.curves import (
@@ -14,11 +15,13 @@ from stackbounce.cross2007.curves import (
     rebound_by_stiffness,
     sample_forces,
 )
-from stackbounce.cross2007.drops import bisect, force_above, peak_times, spring_pair
+from stackbounce.cross2007.drops import bisect, force_above, newton, peak_times, spring_pair
 from stackbounce.cross2007.paper import FIGURES, draw_figures
 from stackbounce.cross2007.stacks import (
     early_twins,
     gap_for_delay,
+    hollow_pair,
+    hollow_record,
     late_pair,
     late_twins,
     reversed_pair,
@@ -39,6 +42,7 @@ CONTENT = {
     "6": ("$r_k=k_1/k_2$", ["$v/v_0$"], [6]),
     "7": ("compression (mm)", [FORCE], [6]),
     "8": (TIME, [FORCE, FORCE], [2, 2]),
+    "8-hollow": (TIME, [FORCE, FORCE], [2, 2]),
     "9": (TIME, [FORCE], [2]),
     "10a": (TIME, [FORCE, FORCE], [1, 1]),
     "10b": (TIME, [FORCE, FORCE], [1, 1]),
@@ -160,6 +164,24 @@ def test_gap_for_a_delay_gives_the_delay(bench):
     drop = reversed_pair(bench, 0.0)
     gap = gap_for_delay(bench, drop, 2e-3)
     assert bench.simulate(reversed_pair(bench, gap)).first_touch[1] == pytest.approx(2e-3, rel=1e-9)
+
+
+def test_the_hollow_ball_is_set_to_two_measurements_and_misses_the_others(bench):
+    film, record = bench.simulate(hollow_pair(bench)), bench.simulate(hollow_record(bench))
+    assert film.rebound_ratios[0] == pytest.approx(bench("tennis_on_basketball.lower"), abs=1e-9)
+    assert record.last_release[0] == pytest.approx(bench("stack.duration"), rel=1e-9)
+    assert film.rebound_ratios[1] == pytest.approx(1.554, abs=1e-3)  # measured: 1.64
+    apart = bench.simulate(hollow_record(bench, bench("stack.gap")))
+    assert apart.first_touch[1] == pytest.approx(5.24e-3, abs=1e-5)  # measured: 7 ms
+    floor, _ = film.drop.contacts
+    alone = sb.simulate(sb.Drop(film.drop.balls[:1], [floor], impact_speed=3.53))
+    bounce = bench("basketball.rebound_height") / bench("stack.drop_height")
+    assert alone.rebound_ratios[0] ** 2 == pytest.approx(bounce, rel=1e-9)
+
+
+def test_newton_tells_that_there_is_no_zero():
+    with pytest.raises(ArithmeticError, match="no zero near"):
+        newton(lambda x: [x[0] ** 2 + 1.0, x[1]], np.array([1.0, 1.0]))
 
 
 def test_measured_delays_and_durations_set_the_gaps(bench):

@@ -11,7 +11,17 @@ import stackbounce as sb
 from stackbounce.calibration import between
 from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.study import inputs, single_ball
-from stackbounce.cross2007.study.basketball import fit_stacks, read_restitution
+from stackbounce.cross2007.study.basketball import (
+    GAPS,
+    HOLLOW,
+    HOLLOW_BOTH,
+    READINGS,
+    Buckling,
+    find_limits,
+    fit_stack,
+    read_restitution,
+)
+from stackbounce.cross2007.study.basketball import THEORIES as STACKS
 from stackbounce.cross2007.study.catalogue import AS_HEIGHTS, MISPRINT, THEORIES
 from stackbounce.cross2007.study.comparison import FittedModels
 from stackbounce.cross2007.study.energy import bound_energy
@@ -324,13 +334,93 @@ def test_records_that_were_not_fitted(compared):
     assert float(max(twins.last_release)) == pytest.approx(9e-3, abs=0.1e-3)
 
 
+def fitted(name, where, exponent=1.0, reading=0, gap=GAPS[1], buckling=None):
+    wanted = name, exponent, where
+    [theory] = [one for one in STACKS if (one.name, one.exponent, one.where) == wanted]
+    return fit_stack(theory, READINGS[reading], gap, buckling)
+
+
 def test_the_basketball_is_the_other_way_round():
     assert read_restitution("basketball") == pytest.approx(0.769, abs=1e-3)
-    found = {(one.where, one.exponent): one for one in fit_stacks()}
     for p in (1.0, 1.5):
-        assert found["elastic", p].chi_squared < 3.0
-        assert found["shared", p].chi_squared > 100.0
-        assert found["shared", p].ratios[1] < 1.36
+        assert fitted("Hunt and Crossley", "elastic", p).chi_squared < 3.0
+        shared = fitted("Hunt and Crossley", "shared", p)
+        assert shared.chi_squared > 100.0
+        assert shared.ratios[1] < 1.36
+
+
+def test_a_hollow_ball_retains_what_a_hysteresis_does():
+    hollow, hysteresis = (fitted(name, "elastic") for name in (HOLLOW, "hysteresis"))
+    assert hollow.ratios == pytest.approx(hysteresis.ratios, abs=0.01)
+    assert hollow.ratios == pytest.approx((0.159, 1.567), abs=2e-3)
+    assert 13.0 < hollow.chi_squared < 15.0  # 1.64 is 3.6 errors away
+    springs = fitted("springs", "elastic")
+    assert springs.ratios == pytest.approx((0.261, 1.858), abs=2e-3)
+
+
+def test_the_fall_decides_whether_a_hollow_ball_gives_both_ratios():
+    for gap in GAPS:
+        one = fitted(HOLLOW, "elastic", reading=2, gap=gap)
+        assert one.chi_squared < 1.0
+        assert one.ratios == pytest.approx((0.18, 1.64), abs=0.02)
+        assert one.duration == pytest.approx(30e-3, abs=0.1e-3)
+
+
+def test_a_hollow_ball_rises_early_and_brings_the_balls_together_early():
+    hollow, springs = fitted(HOLLOW, "elastic"), fitted("springs", "elastic")
+    assert hollow.fast == pytest.approx(1.15e-3, abs=0.05e-3)
+    assert springs.fast == pytest.approx(4.11e-3, abs=0.05e-3)
+    assert hollow.touch == pytest.approx(5.19e-3, abs=0.02e-3)
+    assert springs.touch == pytest.approx(6.76e-3, abs=0.02e-3)
+    assert hollow.needed > 1.8 * springs.needed
+
+
+def calibrated_floor(one):
+    return sb.calibrate(
+        sb.HollowBall,
+        mass=0.150,
+        contact_time=one.contact_time,
+        restitution=read_restitution("basketball"),
+        impact_speed=3.53,
+        buckling_time=one.buckling.part * one.contact_time,
+        buckling_share=one.buckling.share,
+    )
+
+
+def test_a_fitted_hollow_ball_is_the_calibrated_one():
+    one = fitted(HOLLOW, "elastic", buckling=Buckling(0.04, 0.3))
+    floor = calibrated_floor(one)
+    balls = [sb.Ball(0.150), sb.Ball(0.057)]
+    drop = Drop(balls, [floor, sb.Spring(one.stiffness)], gaps=[one.gap], impact_speed=3.53)
+    assert sb.simulate(drop).rebound_ratios == pytest.approx(one.ratios, rel=1e-6)
+
+
+@pytest.mark.parametrize("law", [HOLLOW_BOTH, "hysteresis"])
+def test_loss_between_the_balls_is_excluded_for_a_hollow_ball_too(law):
+    one = fitted(law, "shared")
+    assert one.chi_squared > 200.0
+    assert one.ratios[1] < 1.36
+
+
+def test_buckling_at_a_small_force_leaves_the_same_ratios():
+    one = fitted(HOLLOW, "elastic", reading=2, buckling=Buckling(0.04, 0.3))
+    assert one.chi_squared < 1.0
+
+
+@pytest.mark.slow
+def test_buckling_at_a_large_force_leaves_too_much_to_the_basketball():
+    one = fitted(HOLLOW, "elastic", reading=2, buckling=Buckling(0.04, 0.7))
+    assert one.chi_squared > 50.0
+    assert one.ratios[0] > 0.25
+
+
+@pytest.mark.parametrize("reading", READINGS, ids=lambda one: one.name)
+def test_the_early_force_has_an_upper_limit_whatever_the_law(reading):
+    limits = find_limits(reading)
+    assert 0.4 < limits.early / limits.mean < 0.6
+    # a constant force of this size moves the basketball by the gap in the time without F2
+    lag = limits.early * PAPER["stack.delay"].value ** 2 / (2.0 * PAPER["basketball.mass"].value)
+    assert lag == pytest.approx(PAPER["stack.gap"].value)
 
 
 @pytest.mark.slow

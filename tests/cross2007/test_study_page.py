@@ -149,6 +149,18 @@ def test_probabilities_and_measurements_are_there(page, folder):
         assert one["cost"] in text
 
 
+def test_the_basketball_is_there_with_all_its_theories(page, folder):
+    text = " ".join("".join(page.text).split())
+    done = json.loads((folder / "study.json").read_text(encoding="utf-8"))
+    assert len(done["basketball"]) == 2 * len(basketball.READINGS) * len(basketball.THEORIES)
+    assert len(done["buckling"]) == 18
+    assert [one["reading"] for one in done["basketball_limits"]] == [
+        one.name for one in basketball.READINGS
+    ]
+    for theory in basketball.THEORIES:
+        assert theory.name in text
+
+
 def test_it_says_what_it_is_doing(told):
     assert any("model 'S'" in line for line in told)
     assert [line for line in told if line.startswith("figure study")] == [

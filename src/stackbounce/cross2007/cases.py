@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from stackbounce.cross2007 import datasets, stacks
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.drops import fallen_speed, rigid_pair, spring_pair
+from stackbounce.cross2007.drops import rigid_pair, spring_pair
 from stackbounce.model import Drop
 
 __all__ = ["Case", "list_cases"]
@@ -48,7 +48,8 @@ def list_cases() -> Iterator[Case]:
     Examples
     --------
     >>> [case.name for case in list_cases() if case.group == "Basketball and tennis ball"]
-    ['figure-8', 'figure-8-gap', 'figure-9', 'figure-9-other', 'measured-basketball-tennis']
+    ['figure-8', 'figure-8-gap', 'figure-8-hollow', 'figure-8-hollow-gap', 'figure-9', \
+'figure-9-other', 'measured-basketball-tennis']
     """
     bench = Bench(PAPER)
     for group, made in _GROUPS.items():
@@ -95,16 +96,6 @@ def _figure_5(b: Bench) -> Drop:
     masses = b("fig5.lower_mass"), b("fig5.upper_mass")
     stiffnesses = b("fig5.floor_stiffness"), b("fig5.ball_stiffness")
     return spring_pair(masses, stiffnesses, speed=b("models.speed"))
-
-
-def _figure_8(b: Bench) -> Drop:
-    stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")
-    speed = fallen_speed(b("fig8.drop_height"))
-    return spring_pair(stacks.stack_masses(b), stiffnesses, speed=speed)
-
-
-def _figure_8_gap(b: Bench) -> Drop:
-    return replace(_figure_8(b), gaps=[b("stack.gap")])
 
 
 def _measured(name: str) -> Callable[[Bench], Drop]:
@@ -168,13 +159,25 @@ _GROUPS: dict[str, tuple[_Made, ...]] = {
             "figure-8",
             "Figure 8: dropped from 30 cm",
             "The forces begin together if the balls touch.",
-            _figure_8,
+            stacks.spring_record,
         ),
         (
             "figure-8-gap",
             "Figure 8 with a gap of 2 mm",
             "Two millimetres of air delay the force between the balls by 7 ms.",
-            _figure_8_gap,
+            lambda b: stacks.spring_record(b, b("stack.gap")),
+        ),
+        (
+            "figure-8-hollow",
+            "Figure 8 with a hollow ball",
+            "A ball that is stiff until it buckles: the floor's force rises at once.",
+            stacks.hollow_record,
+        ),
+        (
+            "figure-8-hollow-gap",
+            "Figure 8 with a hollow ball and a gap of 2 mm",
+            "The early force stops the basketball early: the balls touch after 5 ms, not 7.",
+            lambda b: stacks.hollow_record(b, b("stack.gap")),
         ),
         (
             "figure-9",

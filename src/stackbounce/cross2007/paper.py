@@ -47,6 +47,7 @@ FIGURES: dict[str, Callable[[Bench], Picture]] = {
     "6": figures_models.draw_figure_6,
     "7": figures_basketball.draw_figure_7,
     "8": figures_basketball.draw_figure_8,
+    "8-hollow": figures_basketball.draw_figure_8_hollow,
     "9": figures_basketball.draw_figure_9,
     "10a": figures_superballs.draw_figure_10a,
     "10b": figures_superballs.draw_figure_10b,
@@ -55,7 +56,9 @@ FIGURES: dict[str, Callable[[Bench], Picture]] = {
     "12": figures_superballs.draw_figure_12,
     "13": figures_superballs.draw_figure_13,
 }
-"""The functions that draw the figures, by the paper's number; 1 and 3 are sketches."""
+"""The functions that draw the figures, by the paper's number; 1 and 3 are sketches.
+
+"8-hollow" is Fig. 8 with another model."""
 
 
 @dataclass(frozen=True)

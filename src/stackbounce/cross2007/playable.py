@@ -16,6 +16,7 @@ __all__ = ["Link", "explorer_address", "link_figures"]
 _CASES = {  # of a figure, by the names of the explorer's examples
     "5": ("figure-5",),
     "8": ("figure-8", "figure-8-gap"),
+    "8-hollow": ("figure-8-hollow", "figure-8-hollow-gap"),
     "9": ("figure-9",),
     "10a": ("figure-13",),
     "10b": ("B1-on-B2",),

@@ -1,12 +1,17 @@
 """The paper's stacks: its pairs of balls with the contacts, speeds and gaps that it gives them."""
 
+import math
 from dataclasses import replace
+from functools import lru_cache
 
+import numpy as np
+
+from stackbounce.calibration import calibrate
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.drops import Two, bisect, fallen_speed, pair, spring_pair
+from stackbounce.cross2007.drops import Array, Two, bisect, fallen_speed, newton, pair, spring_pair
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import Drop
-from stackbounce.model.laws import Hysteretic, Spring
+from stackbounce.model.laws import HollowBall, Hysteretic, Spring
 
 __all__ = [
     "better_fit",
@@ -14,6 +19,8 @@ __all__ = [
     "early_twins",
     "gap_for_delay",
     "heavier_b1",
+    "hollow_pair",
+    "hollow_record",
     "late_pair",
     "late_twins",
     "other_fit",
@@ -22,11 +29,14 @@ __all__ = [
     "section_two",
     "small_fit",
     "smallest_fit",
+    "spring_record",
     "stack_masses",
     "stiffen",
     "superball_speed",
     "twin_pair",
 ]
+
+_HOLLOW = 0.026, 700.0  # s and N/m, where the search for the hollow ball's numbers begins
 
 
 def stack_masses(b: Bench) -> Two:
@@ -51,6 +61,55 @@ def other_fit(b: Bench) -> Drop:
     """Return the alternative fit that the text describes beside Fig. 9."""
     stiffnesses = b("fig9.other_floor_stiffness"), b("fig9.other_ball_stiffness")
     return spring_pair(stack_masses(b), stiffnesses, speed=b("stack.impact_speed"))
+
+
+def spring_record(b: Bench, gap: float = 0.0) -> Drop:
+    """Return the drop of Fig. 8 on Fig. 9's springs, with a gap in m."""
+    stiffnesses = b("fig9.floor_stiffness"), b("fig9.ball_stiffness")
+    speed = fallen_speed(b("fig8.drop_height"))
+    return spring_pair(stack_masses(b), stiffnesses, speed=speed, gap=gap)
+
+
+def hollow_record(b: Bench, gap: float = 0.0) -> Drop:
+    """Return the drop of Fig. 8 with a hollow ball at the floor, with a gap in m."""
+    return replace(hollow_pair(b), impact_speed=fallen_speed(b("fig8.drop_height")), gaps=(gap,))
+
+
+def hollow_pair(b: Bench) -> Drop:
+    """Return the tennis ball on a hollow ball, with a spring between them.
+
+    The hollow ball has the restitution of the basketball alone, and buckles as `calibrate` assumes.
+    Its contact time and the spring are those with which it leaves with Table II's v1/v0, while its
+    floor force in the drop of Fig. 8 lasts as long as measured.
+    """
+    alone = _calibrate_hollow(math.sqrt(b("basketball.rebound_height") / b("stack.drop_height")))
+    speed, recorded = b("stack.impact_speed"), fallen_speed(b("fig8.drop_height"))
+    ratio, duration = b("tennis_on_basketball.lower"), b("stack.duration")
+
+    def solved(factors: Array) -> Drop:
+        time, stiffness = (factors * _HOLLOW).tolist()
+        floor = replace(
+            alone,
+            stiffness=alone.stiffness * b("basketball.mass") / time**2,
+            buckling_compression=alone.buckling_compression * speed * time,
+        )
+        return pair(stack_masses(b), [floor, Spring(stiffness)], speed=speed)
+
+    def misses(factors: Array) -> list[float]:
+        drop = solved(factors)
+        record = b.simulate(replace(drop, impact_speed=recorded))
+        lower = float(b.simulate(drop).rebound_ratios[0])
+        return [lower - ratio, float(record.last_release[0]) / duration - 1.0]
+
+    return solved(newton(misses, np.ones(2)))
+
+
+@lru_cache(maxsize=64)
+def _calibrate_hollow(restitution: float) -> HollowBall:
+    """Return a hollow ball of mass, contact time and impact speed 1; others follow by scaling."""
+    return calibrate(
+        HollowBall, mass=1.0, contact_time=1.0, restitution=restitution, impact_speed=1.0
+    )
 
 
 def heavier_b1(bench: Bench) -> float:

@@ -43,12 +43,12 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
     measured_to : {"bottom", "centre", "top"} or a pair of them, optional
         The point of the ball at which `height` and a table's heights were read, and that a track
         follows; a pair has the point for the drop height first, then that for the bounces.
-    tabulated : bool, optional
-        Whether the contact of a press curve is the table of its points, in place of a fitted law.
     floor : float, optional
         Level of the floor in a track of one ball, in m as tracked.
     alone : xarray.Dataset, optional
         The floor's force under the lower ball alone; with that under the stack it gives the gap.
+    tabulated : bool, optional
+        Whether the contact of a press curve is the table of its points, in place of a fitted law.
     time_constant : float, optional
         Of a piezo sensor's droop, in s, which is then corrected.
     gravity : float, optional

@@ -6,7 +6,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from stackbounce.cross2007.study import inputs
-from stackbounce.cross2007.study.basketball import Stack, fit_stacks
+from stackbounce.cross2007.study.basketball import (
+    READINGS,
+    Limits,
+    Stack,
+    find_limits,
+    fit_bucklings,
+    fit_stacks,
+)
 from stackbounce.cross2007.study.choice_fits import ChoiceFits, fit_choices
 from stackbounce.cross2007.study.choices import BASE, LATE
 from stackbounce.cross2007.study.claims import Claim, check_claims, state_headline
@@ -57,6 +64,8 @@ class Study:
     facts: list[Fact]
     predictions: list[Prediction]
     stacks: list[Stack]
+    bucklings: list[Stack]
+    limits: list[Limits]
     refits: list[Refit]
     weighed: Hierarchy
     expected: Information
@@ -122,6 +131,8 @@ class Study:
             "records": [one._asdict() for one in self.facts],
             "predictions": [one._asdict() for one in self.predictions],
             "basketball": [one._asdict() for one in self.stacks],
+            "buckling": [one._asdict() for one in self.bucklings],
+            "basketball_limits": [one._asdict() for one in self.limits],
             "section_v": [
                 {**one._asdict(), "numbers": [number._asdict() for number in one.numbers]}
                 for one in self.refits
@@ -164,6 +175,8 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
         shown,
         said,
         fit_stacks(),
+        fit_bucklings(),
+        [find_limits(one) for one in READINGS],
         refit_section_v(),
         weighed,
         expected,

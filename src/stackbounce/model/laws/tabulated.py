@@ -43,8 +43,8 @@ class Tabulated(ContactLaw):
 
     - the points of `unloading`, a curve of its own. It was measured from the peak of the table; for
       another peak C with the force F it is the same curve in units of C and F;
-    - or the loading curve times ``(c/C)**m``, where m is such that the fraction `restitution`**2 of
-      the work is returned;
+    - or the loading curve times ``(c/C)**m``, where m is such that the fraction ``restitution**2``
+      of the work is returned;
     - or, if neither is given, the loading curve: no energy is lost.
 
     If the contact is compressed again before it has opened, it follows its unloading curve back to
