@@ -115,6 +115,14 @@ def test_energy_stays_in_the_vibration():
     assert energy == pytest.approx(np.full(200, 0.6), rel=1e-10)
 
 
+def test_samples_beyond_what_can_be_followed_are_refused():
+    drop = sb.Drop([sb.Ball(0.1), sb.Ball(0.05)], [sb.Spring(4e4), sb.Bond(1e4)], impact_speed=2.0)
+    result = sb.simulate(drop, event_limit=1000)
+    assert result.sample([0.1]).energy.values == pytest.approx([0.3], rel=1e-9)
+    with pytest.raises(errors.InvalidValue, match=r"times must be seconds up to .*, got 10000"):
+        result.sample([1e4])
+
+
 def test_a_ball_rests_on_a_plate():
     laws = [sb.Bond(4e3, 40.0), sb.Dashpot(900.0, damping=9.0)]
     drop = sb.Drop(
@@ -166,6 +174,13 @@ def test_a_bond_has_no_gap_and_no_collision():
             measure(sb.Bond(1.0), 1.0, 1.0)
     with pytest.raises(errors.InvalidValue, match="got Bond, which never opens"):
         sb.separate(sb.Drop(balls, laws, impact_speed=1.0))
+
+
+def test_bonds_in_series_have_one_damping_over_stiffness():
+    both = sb.series(sb.Bond(1e4, 2.0), sb.Bond(2e4, 4.0))
+    assert (both.stiffness, both.damping) == pytest.approx((2e4 / 3.0, 4.0 / 3.0))
+    with pytest.raises(errors.InvalidValue, match="same damping/stiffness"):
+        sb.series(sb.Bond(1e4, 2.0), sb.Bond(2e4, 3.0))
 
 
 def test_the_command_runs_a_body(tmp_path, capfd):

@@ -36,13 +36,13 @@ def by_points(law):
         y = [one / law.force[-1] for one in law.unloading]
         unloading = monotone_spline(x, y)
         back = (lambda c: at(unloading, c)), [one[0] for one in unloading[1:-1]]
-    share = 1.0 if law.restitution is None else law.restitution**2
+    share = law.engine_numbers()[2]
     return pieces.Contact(lambda c: at(loading, c), [one[0] for one in loading[1:]], share, back)
 
 
 def at(spline, x):
-    _, a, b, s = next(one for one in reversed(spline) if one[0] <= x)
-    return a + x * (b + x * s)
+    begin, a, b, s = next(one for one in reversed(spline) if one[0] <= x)
+    return a + (x - begin) * (b + (x - begin) * s)
 
 
 def reference_of(law):
@@ -153,6 +153,33 @@ def test_stacks_against_another_integration(seed):
     assert result.rebound_speeds == pytest.approx(speeds, abs=1e-8)
     for found, ends in zip(result.last_release, intervals, strict=True):
         assert not ends or found == pytest.approx(ends[-1][1], rel=1e-7)
+
+
+SOFTENING = sb.Tabulated(
+    [0.0, 1e-3, 2e-3, 3e-3], [0.0, 76.0, 96.0, 99.5], unloading=[0.0, 40.0, 90.0, 99.5]
+)
+
+
+@pytest.mark.parametrize("speed", [1e-3, 0.1, 0.5, 1.0, 2.0, 3.0, 30.0])
+@pytest.mark.parametrize(
+    "law",
+    [SOFTENING, sb.Tabulated([0.0, 1e-3, 2e-3], [0.0, 100.0, 101.0], unloading=[0.0, 99.0, 101.0])],
+)
+def test_a_table_never_returns_more_than_it_took(law, speed):
+    """Where its unloading curve would lie above its loading curve, it returns the same share."""
+    result = one_ball(law, speed, 0.05)
+    assert result.status is sb.Status.FINISHED
+    assert result.rebound_ratios[0] <= 1.0
+    energy = result.sample(np.linspace(0.0, result.end_time, 300)).energy.values
+    assert energy.max() <= energy[0] * (1.0 + 1e-10)
+
+
+@pytest.mark.parametrize("width", [1.5e-3, 1e-2, 0.1])
+def test_a_steep_table_without_loss_keeps_its_energy(width):
+    law = sb.Tabulated([0.0, 1e-3, 1e-3 * (1.0 + width), 1.5e-3], [0.0, 30.0, 70.0, 71.0])
+    result = one_ball(law, 1.2, 0.05)
+    energy = result.sample(np.linspace(0.0, result.end_time, 500)).energy.values
+    assert energy == pytest.approx(np.full(500, energy[0]), rel=1e-10)
 
 
 def test_plain_python_gives_the_same_bits():

@@ -264,3 +264,28 @@ def test_what_is_wrong_is_told():
     assert refused(AIR.rebound_heights, thrown, [1.0, 2.0]).startswith("speeds must hold one num")
     assert refused(AIR.rebound_heights, thrown, [math.nan]).startswith("speeds.0 must be a")
     assert refused(AIR.dropped, stack([BALL, sb.Ball(1.0)])).startswith("balls.1.diameter must")
+
+
+def test_what_is_out_of_range_is_refused():
+    ball = sb.Ball(1e-3, 0.1)
+    for ask, words in (
+        (
+            lambda: sb.Air(density=1e3).launch_speed(ball, 10.0),
+            "height must be one that a ball can",
+        ),
+        (
+            lambda: sb.Air().flight(sb.Ball(1.0, 0.1), 1e200),
+            "speed must give a flight in the range",
+        ),
+    ):
+        with pytest.raises(errors.InvalidValue, match=words):
+            ask()
+    with pytest.raises(errors.InvalidType, match="names of balls as keys, got 1"):
+        sb.Air(drag_coefficient={1: 0.5})
+
+
+def test_parts_of_one_body_do_not_part_in_the_fall():
+    laws = [sb.Spring(1.0), sb.Bond(1.0)]
+    drop = sb.Drop([sb.Ball(1.0, 0.1), sb.Ball(1e-3, 0.2)], laws, height=1.0)
+    with pytest.raises(errors.InvalidValue, match=r"contacts\.1 must not be a Bond"):
+        sb.Air().dropped(drop)

@@ -18,8 +18,8 @@ X, Y, BACK = [0.0, 1e-3, 2e-3, 4e-3], [0.0, 10.0, 15.0, 60.0], [0.0, 0.0, 8.0, 6
 
 def at(spline, x):
     starts = np.array([one[0] for one in spline])
-    _, a, b, s = np.array(spline)[np.searchsorted(starts, x, side="right") - 1].T
-    return a + x * (b + x * s), b + 2.0 * x * s
+    begin, a, b, s = np.array(spline)[np.searchsorted(starts, x, side="right") - 1].T
+    return a + (x - begin) * (b + (x - begin) * s), b + 2.0 * (x - begin) * s
 
 
 @pytest.mark.parametrize("seed", range(20))
@@ -38,7 +38,7 @@ def test_a_spline_goes_through_its_points_and_rises(seed):
 def test_a_spline_has_no_corner_but_at_the_last_point_of_a_level():
     spline = monotone_spline(X, Y)
     for before, after in itertools.pairwise(spline):
-        one, two = (piece[2] + 2.0 * after[0] * piece[3] for piece in (before, after))
+        one, two = before[2] + 2.0 * (after[0] - before[0]) * before[3], after[2]
         assert one == pytest.approx(two, rel=1e-9)
 
 
@@ -59,6 +59,7 @@ def test_a_spline_converges_to_a_smooth_curve():
         ({"force": [1.0, 2.0, 3.0, 4.0]}, "force.0 must be 0, where the ball is just touched"),
         ({"force": [0.0, 2.0, 2.0, 4.0]}, "force.2 must be above force.1, 2.0, got 2.0"),
         ({"compression": [0.0, 2.0, 1.0, 4.0]}, "compression.2 must be above compression.1"),
+        ({"compression": [0.0, 1.0, 1.0005, 4.0]}, "compression.2 must be at least 0.1 % above"),
         ({"compression": [0.0]}, "compression must have from 2 to 16 points, got 1"),
         ({"unloading": [0.0, 1.0, 2.0, 3.0]}, "unloading must end with the last force, 60.0"),
         ({"unloading": [0.0, 11.0, 12.0, 60.0]}, "unloading.1 must be at most force.1, 10.0"),

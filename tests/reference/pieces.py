@@ -24,15 +24,15 @@ class Contact:
     returned : float
         Share of the work that unloading along ``loading(c) (c/C)**m`` returns.
     back : (callable, sequence of float), optional
-        The unloading curve in units of the peak, and its corners.
+        The unloading curve in units of the peak, and its corners; used where it suits the peak.
     """
 
     def __init__(self, loading, knots, returned=1.0, back=None):
         self.loading, self.knots, self.returned, self.back = loading, list(knots), returned, back
-        self.closed, self.peak, self.factor, self.rising = False, None, 0.0, True
+        self.closed, self.peak, self.factor, self.rescaled = False, None, 0.0, False
 
     def open(self):
-        self.closed, self.peak, self.rising = False, None, True
+        self.closed, self.peak = False, None
 
     def work(self, end, power=0.0):
         corners = [0.0, *(one for one in self.knots if 0.0 < one < end), end]
@@ -44,15 +44,27 @@ class Contact:
     def turn(self, c):
         """Take the unloading curve from the peak c."""
         self.peak = c
-        if self.back is None and self.returned < 1.0:
+        self.rescaled = self.back is not None and self.suits(c)
+        if not self.rescaled and self.returned < 1.0:
             whole = self.work(c)
             self.factor = brentq(
                 lambda m: self.work(c, m) / whole - self.returned, 0.0, 4.0 / self.returned,
                 xtol=1e-14, rtol=1e-14,
             )  # fmt: skip
 
+    def suits(self, c):
+        """Tell whether the unloading curve, in units of the peak c, is below the loading curve."""
+        curve, corners = self.back
+        ends = [0.0, *corners, 1.0]
+        area = sum(quad(curve, a, b, epsabs=0, epsrel=1e-13)[0] for a, b in pairwise(ends))
+        peak = self.loading(c)
+        if peak * c * area > self.work(c):
+            return False
+        places = [*self.knots, *(one * c for one in corners)]
+        return all(peak * curve(x / c) <= self.loading(x) + 1e-9 * peak for x in places if x < c)
+
     def corners(self):
-        if self.peak is None or self.back is None:
+        if self.peak is None or not self.rescaled:
             return self.knots
         return [one * self.peak for one in self.back[1]]
 
@@ -60,7 +72,7 @@ class Contact:
         c = max(c, 0.0)
         if self.peak is None or self.has_one_curve:
             return self.loading(c)
-        if self.back is None:
+        if not self.rescaled:
             return self.loading(c) * (c / self.peak) ** self.factor
         return self.loading(self.peak) * self.back[0](c / self.peak)
 

@@ -47,7 +47,7 @@ def calibrate(
     buckling_time : float, optional
         Of a `HollowBall`, in s, above 0: the time after the touch at which the force bends.
     buckling_share : float, optional
-        Of a `HollowBall`, above 0 and at most 1: the force at that time over the peak force.
+        Of a `HollowBall`, above 0 and below 1: the force at that time over the peak force.
 
     Returns
     -------
@@ -101,6 +101,8 @@ def calibrate(
         given["buckling_time"] = positive("buckling_time", buckling_time, "seconds")
     if buckling_share is not None:
         given["buckling_share"] = fraction("buckling_share", buckling_share, zero=False)
+        if given["buckling_share"] == 1.0:
+            raise InvalidValue("buckling_share must be below 1: the force rises on, got 1")
     if not kind.loss and given.get("restitution", 1.0) != 1.0:
         raise InvalidValue(
             f"restitution must be 1 or left out for {kind.__name__}, which gives back all "

@@ -32,7 +32,13 @@ from stackbounce.engine.codes import (
 from stackbounce.engine.elementary import exp, log, power
 from stackbounce.engine.forces import force, loaded_energy, stored_energy
 from stackbounce.engine.kernels import kernel
-from stackbounce.engine.pieces import cross_knot, find_piece, take_piece, unloading_factor
+from stackbounce.engine.pieces import (
+    cross_knot,
+    find_piece,
+    may_rescale,
+    take_piece,
+    unloading_factor,
+)
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
@@ -81,6 +87,7 @@ def _set_loading_curve(stack: Stack, i: int) -> None:
     if exponent == 1.0:
         stack.rate[i] = stack.stiffness[i]
     if stack.law[i] == PIECEWISE:
+        stack.rescaled[i] = 0
         find_piece(stack, i, stack.compression[i])
 
 
@@ -261,10 +268,11 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
 @kernel
 def _turn_back(stack: Stack, i: int, compression: float) -> None:
     """Give piecewise contact i the unloading curve from its peak, see `pieces`."""
-    if stack.unloading_pieces[i] > 0:
-        pressing = force(stack, i, compression, 0.0, 0.0)
+    pressing = force(stack, i, compression, 0.0, 0.0)
+    if may_rescale(stack, i, compression, pressing):
         _set_curve(stack, i, pressing, compression, 0.0)
         stack.top[i] = compression
+        stack.rescaled[i] = 1
         take_piece(stack, i, stack.unloading_pieces[i] - 1)
         return
     exponent = unloading_factor(stack, i, compression)

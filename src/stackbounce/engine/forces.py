@@ -146,7 +146,7 @@ def check_form(kind: int) -> None:
 def is_nonlinear(stack: Stack, i: int) -> bool:
     """Tell whether the force of contact i can be nonlinear, but for straight pieces."""
     if stack.law[i] == PIECEWISE:
-        return stack.unloading_pieces[i] == 0 and not has_one_curve(stack, i)
+        return not has_one_curve(stack, i)
     if stack.law[i] == PRODUCT:
         return stack.factor_exponent[i] != 0.0
     return stack.unloading[i] != 1.0
@@ -232,8 +232,9 @@ def force(stack: Stack, i: int, compression: float, rate: float, creep: float) -
         ratio = max(0.0, compression / stack.curve_unit[i])
         pressing = stack.curve_force[i] * raised(ratio, exponent)
     if stack.law[i] >= PRODUCT:
-        slope = stack.gain_slope[i] + stack.gain_square[i] * compression
-        gain = stack.gain_constant[i] + slope * compression
+        beyond = compression - stack.gain_origin[i]
+        slope = stack.gain_slope[i] + stack.gain_square[i] * beyond
+        gain = stack.gain_constant[i] + slope * beyond
         gain += stack.gain_rate[i] * rate
         if stack.bonded[i] == 1:
             return pressing * gain
@@ -351,17 +352,19 @@ def power_needed(stack: Stack, i: int) -> float:
     p = stack.curve_exponent[i]
     if p == 0.0 or p == 1.0:
         return 0.0
-    if stack.law[i] >= PRODUCT and stack.gain_constant[i] == 0.0 and stack.gain_square[i] == 0.0:
+    added = stack.gain_constant[i] != 0.0 or stack.gain_square[i] != 0.0
+    if stack.law[i] >= PRODUCT and not added and stack.gain_origin[i] == 0.0:
         return p + 1.0
     return p
 
 
 @kernel
 def has_rare_terms(stack: Stack, low: int, high: int) -> bool:
-    """Tell whether the gain of one of the contacts low..high-1 has a term in c^2 or a creep."""
+    """Tell whether a gain of contacts low..high-1 has a term in c^2, an origin, or a creep."""
     largest = 0.0
     for i in range(low, high):
-        largest = max(largest, abs(stack.gain_square[i]), stack.gain_creep[i])
+        square = max(abs(stack.gain_square[i]), stack.gain_origin[i])
+        largest = max(largest, square, stack.gain_creep[i])
     return largest > 0.0
 
 
@@ -372,7 +375,8 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
     With x = t^(1/root), a series of terms a_k x^k is the rate of one of terms root a_k/(k + root)
     x^(k + root). Of each power of a compression c, all terms are computed that c is known to. This
     is one function, which takes each array from the stack once: several functions took twice as
-    long. Only if ``rare`` is 1 may a gain have a term in c^2 or a creep: else the loop is faster.
+    long. Only if ``rare`` is 1 may a gain have a term in c^2, an origin or a creep: the loop is
+    faster without.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
     powers, gains, needed = stack.power_series, stack.gain_series, stack.power
@@ -380,6 +384,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
     slope, exponent = stack.rate, stack.curve_exponent
     gain_constant, gain_slope = stack.gain_constant, stack.gain_slope
     gain_square, gain_rate, mass = stack.gain_square, stack.gain_rate, stack.mass
+    gain_origin = stack.gain_origin
     creep_all, gain_creep, creep_rate = stack.creep_series, stack.gain_creep, stack.creep_rate
     for k in range(order + 1):
         n = k + root
@@ -407,6 +412,9 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
                 force = curve_force[i] * u[k] if p > 0.0 else slope[i] * c[k]
             else:
                 gain = gains[i]
+                pressed = c[0]
+                if rare == 1:
+                    c[0] -= gain_origin[i]
                 gain[k] = gain_slope[i] * c[k] + gain_rate[i] * rate
                 if k == 0:
                     gain[0] += gain_constant[i]
@@ -417,6 +425,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
                     creep = creep_all[i]
                     creep[n] = share * creep_rate[i] * (c[k] - creep[k])
                     gain[k] += gain_square[i] * total - gain_creep[i] * creep[k]
+                    c[0] = pressed
                 if exponent[i] == 0.0:
                     force = curve_force[i] * gain[k]
                 elif p > exponent[i]:  # see `power_needed`

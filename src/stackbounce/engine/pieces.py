@@ -2,13 +2,15 @@
 
 A piece is told by four numbers: the compression x at which it begins, and the coefficients of
 
-    F = k (a + b c + s c^2).
+    F = k (a + b (c - x) + s (c - x)^2).
 
 The last piece has no end. Unloading, which begins at the peak C with the force F, follows one of
 
 - the loading curve itself, if all energy is returned;
 - the loading curve times (c/C)^m, where m is such that a given share of the work is returned;
-- pieces of its own, F (a + b y + s y^2) with y = c/C, which begin at y = 0 and end with F at y = 1.
+- pieces of its own, F (a + b (y - x) + s (y - x)^2) with y = c/C, from y = 0 to F at y = 1. Where
+  they would lie above the loading curve, from another peak than that at which they were measured,
+  it is the loading curve times (c/C)^m again, with the share of work that they return from theirs.
 
 In the first piece F(0) = 0. All pieces are continued by the next, so that the force is continuous.
 Where a compression passes from one piece into the next is an event (CROSSED): inside a piece the
@@ -26,13 +28,14 @@ _BEGIN, _CONSTANT, _SLOPE, _SQUARE = 0, 1, 2, 3  # numbers of a piece
 _HALVINGS = 60
 _STEPS = 50  # of the search for an exponent, which takes about six
 _CLOSE = 1e-15  # of an exponent
+_TOUCHES = 1e-9  # of the peak force: curves that are the same but for round-off
 
 
 @kernel
 def take_two_stages(stack: Stack, i: int, knee: float, softening: float, returned: float) -> None:
     """Give contact i a loading curve of two straight pieces: c up to ``knee``, then softer."""
     _put_piece(stack, i, 0, 0.0, 0.0, 1.0, 0.0)
-    _put_piece(stack, i, 1, knee, knee * (1.0 - softening), softening, 0.0)
+    _put_piece(stack, i, 1, knee, knee, softening, 0.0)
     take_table(stack, i, 2, 0, returned)
 
 
@@ -50,8 +53,7 @@ def take_table(stack: Stack, i: int, loading: int, unloading: int, returned: flo
     stack.curve_unit[i] = 1.0
     stack.curve_exponent[i] = 0.0
     stack.top[i] = math.inf
-    if unloading > 0:
-        stack.returned[i] = _sum_of_pieces(stack, i, loading, unloading, 1.0, 0.0, 1.0)
+    stack.rescaled[i] = 0
     take_piece(stack, i, 0)
 
 
@@ -73,15 +75,9 @@ def has_one_curve(stack: Stack, i: int) -> bool:
 
 
 @kernel
-def _own_pieces(stack: Stack, i: int) -> bool:
-    """Tell whether contact i is now on the pieces of its unloading curve."""
-    return stack.unloading_pieces[i] > 0 and stack.top[i] < math.inf
-
-
-@kernel
 def _range(stack: Stack, i: int) -> tuple[int, int, float]:
     """Return the first piece of the present curve, their number, and the unit of their knots."""
-    if _own_pieces(stack, i):
+    if stack.rescaled[i] == 1:
         return stack.loading_pieces[i], stack.unloading_pieces[i], stack.curve_unit[i]
     return 0, stack.loading_pieces[i], 1.0
 
@@ -92,10 +88,11 @@ def take_piece(stack: Stack, i: int, j: int) -> None:
     first, count, unit = _range(stack, i)
     at = (i * MOST_PIECES + first + j) * PIECE_NUMBERS
     stack.piece[i] = j
+    stack.gain_origin[i] = stack.pieces[at + _BEGIN] * unit
     stack.gain_constant[i] = stack.pieces[at + _CONSTANT]
     stack.gain_slope[i] = stack.pieces[at + _SLOPE] / unit
     stack.gain_square[i] = stack.pieces[at + _SQUARE] / unit / unit
-    stack.piece_low[i] = stack.pieces[at + _BEGIN] * unit
+    stack.piece_low[i] = stack.gain_origin[i]
     stack.piece_high[i] = math.inf
     if j + 1 < count:
         stack.piece_high[i] = stack.pieces[at + PIECE_NUMBERS + _BEGIN] * unit
@@ -123,7 +120,7 @@ def cross_knot(stack: Stack, i: int) -> None:
 def _sum_of_pieces(
     stack: Stack, i: int, first: int, count: int, unit: float, m: float, c: float
 ) -> float:
-    """Return the integral from 0 to c of (x/c)^m (a + b y + s y^2) dx, y being x/unit."""
+    """Return the integral from 0 to c of (y/c)^m times the pieces, whose knots have a unit."""
     total = 0.0
     for j in range(count):
         at = (i * MOST_PIECES + first + j) * PIECE_NUMBERS
@@ -132,14 +129,19 @@ def _sum_of_pieces(
             break
         if j + 1 < count:
             high = min(c, stack.pieces[at + PIECE_NUMBERS + _BEGIN] * unit)
-        constant = stack.pieces[at + _CONSTANT] / (m + 1.0)
-        slope = stack.pieces[at + _SLOPE] / unit / (m + 2.0)
-        square = stack.pieces[at + _SQUARE] / unit / unit / (m + 3.0)
-        part = high * (constant + high * (slope + high * square))
-        total += part if m == 0.0 else part * power(high / c, m)
+        constant = stack.pieces[at + _CONSTANT]
+        slope = stack.pieces[at + _SLOPE] / unit
+        square = stack.pieces[at + _SQUARE] / unit / unit
+        if m == 0.0:
+            width = high - low
+            total += width * (constant + width * (0.5 * slope + width * square / 3.0))
+            continue
+        constant -= low * (slope - low * square)  # about 0
+        slope -= 2.0 * low * square
+        constant, slope, square = constant / (m + 1.0), slope / (m + 2.0), square / (m + 3.0)
+        total += high * (constant + high * (slope + high * square)) * power(high / c, m)
         if low > 0.0:
-            part = low * (constant + low * (slope + low * square))
-            total -= part if m == 0.0 else part * power(low / c, m)
+            total -= low * (constant + low * (slope + low * square)) * power(low / c, m)
     return total
 
 
@@ -159,9 +161,54 @@ def energy_given_back(stack: Stack, i: int, c: float, pressing: float) -> float:
     """Return the energy that contact i, with the force ``pressing``, would now give back."""
     if stack.top[i] < math.inf or has_one_curve(stack, i):
         return curve_work(stack, i, c)
-    if stack.unloading_pieces[i] > 0:
-        return pressing * c * stack.returned[i]
+    if may_rescale(stack, i, c, pressing):
+        return pressing * _rescaled_work(stack, i, c)
     return stack.returned[i] * curve_work(stack, i, c)
+
+
+@kernel
+def _rescaled_work(stack: Stack, i: int, c: float) -> float:
+    """Return the work of the unloading pieces of contact i from a peak c, over its force."""
+    first, count = stack.loading_pieces[i], stack.unloading_pieces[i]
+    return _sum_of_pieces(stack, i, first, count, c, 0.0, c)
+
+
+@kernel
+def may_rescale(stack: Stack, i: int, c: float, pressing: float) -> bool:
+    """Tell whether contact i, on its loading curve, may unload from a peak on its own pieces.
+
+    That is so if they return no more than the work done, and lie below the loading curve where a
+    piece of either begins.
+    """
+    first, count = stack.loading_pieces[i], stack.unloading_pieces[i]
+    if count == 0 or c <= 0.0:
+        return False
+    if pressing * _rescaled_work(stack, i, c) > curve_work(stack, i, c):
+        return False
+    for j in range(first + count):
+        knot = stack.pieces[(i * MOST_PIECES + j) * PIECE_NUMBERS + _BEGIN]
+        if j >= first:
+            knot *= c
+        if knot >= c:
+            continue
+        below = pressing * _value(stack, i, first, count, c, knot)
+        above = stack.stiffness[i] * _value(stack, i, 0, first, 1.0, knot)
+        if below > above + _TOUCHES * pressing:
+            return False
+    return True
+
+
+@kernel
+def _value(stack: Stack, i: int, first: int, count: int, unit: float, c: float) -> float:
+    """Return the value of pieces at a compression, their knots having a unit."""
+    j = 0
+    at = (i * MOST_PIECES + first) * PIECE_NUMBERS
+    while j + 1 < count and stack.pieces[at + PIECE_NUMBERS + _BEGIN] * unit <= c:
+        j += 1
+        at += PIECE_NUMBERS
+    y = c / unit - stack.pieces[at + _BEGIN]
+    slope = stack.pieces[at + _SLOPE] + y * stack.pieces[at + _SQUARE]
+    return stack.pieces[at + _CONSTANT] + y * slope
 
 
 @kernel
@@ -236,7 +283,7 @@ def _force_at(stack: Stack, i: int, c: float, j: int) -> float:
     """Return the force of contact i at a compression on piece j of its present curve."""
     first, _, unit = _range(stack, i)
     at = (i * MOST_PIECES + first + j) * PIECE_NUMBERS
-    y = c / unit
+    y = c / unit - stack.pieces[at + _BEGIN]
     gain = stack.pieces[at + _CONSTANT]
     gain += y * (stack.pieces[at + _SLOPE] + y * stack.pieces[at + _SQUARE])
     m = stack.curve_exponent[i]

@@ -34,6 +34,7 @@ class Stack(NamedTuple):
     gain_constant: Floats  # a of that gain
     gain_slope: Floats  # b
     gain_square: Floats  # s
+    gain_origin: Floats  # the compression that c counts from in this gain; not 0 in pieces only
     gain_rate: Floats  # d
     gain_creep: Floats  # m
     creep_rate: Floats  # 1/w, at which u follows c
@@ -58,6 +59,7 @@ class Stack(NamedTuple):
     loading_pieces: Integers  # number of them; 0 if the force is no curve of pieces
     unloading_pieces: Integers
     returned: Floats  # share of the work of loading that unloading returns; see `pieces`
+    rescaled: Integers  # 1 on the pieces of unloading, in units of the peak
     piece: Integers  # the present one, and where it begins and ends
     piece_low: Floats
     piece_high: Floats

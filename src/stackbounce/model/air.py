@@ -79,6 +79,11 @@ class Air:
         object.__setattr__(self, "density", non_negative("density", self.density, "kg/m**3"))
         given = self.drag_coefficient
         if isinstance(given, Mapping):
+            for name in given:
+                if not isinstance(name, str):
+                    raise InvalidType(
+                        f"drag_coefficient must have names of balls as keys, got {shown(name)}"
+                    )
             checked: object = {
                 name: non_negative(f"drag_coefficient.{name}", one) for name, one in given.items()
             }
@@ -219,7 +224,13 @@ class Air:
         5.9
         """
         h = positive("height", height, "metres")
-        return drag.launch_speed(self._rate(ball), h, _pull(gravity))
+        try:
+            return drag.launch_speed(self._rate(ball), h, _pull(gravity))
+        except OverflowError:
+            raise InvalidValue(
+                f"height must be one that a ball can reach in this air, got {h!r}: its speed would "
+                "be out of the range of numbers"
+            ) from None
 
     def flight(self, ball: Ball, speed: float, gravity: float = STANDARD_GRAVITY) -> Flight:
         """Return the flight of a ball that leaves the floor at a speed in m/s, above 0.
@@ -249,7 +260,10 @@ class Air:
         v, g = positive("speed", speed, "m/s"), _pull(gravity)
         k = self._rate(ball)
         height, landing = drag.risen(k, v, g), v / math.sqrt(1.0 + k * v * v / g)
-        return Flight(height, drag.rise_time(k, v, g), drag.fall_time(k, height, g), landing)
+        flight = Flight(height, drag.rise_time(k, v, g), drag.fall_time(k, height, g), landing)
+        if not all(map(math.isfinite, flight)):
+            raise InvalidValue(f"speed must give a flight in the range of numbers, got {v!r}")
+        return flight
 
     def dropped(self, drop: Drop) -> Drop:
         """Return a drop from a height as it is in air at the first touch of the floor.
@@ -289,6 +303,12 @@ class Air:
             raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
         if drop.height is None:
             raise InvalidValue("drop must have a height from which it falls in air, got none")
+        for i, law in enumerate(drop.contacts):
+            if law is not None and law.pulls:
+                raise InvalidValue(
+                    f"contacts.{i} must not be a {type(law).__name__}: parts of one body fall "
+                    "together, and their drag is that of the body"
+                )
         g, drags = drop.gravity or STANDARD_GRAVITY, self._drags(drop.balls)
         masses = [ball.mass for ball in drop.balls]
         rates = _falling_together(masses, drags, drop.gaps)

@@ -330,7 +330,13 @@ class Result:
 
         wanted = self._times(times)
         order = np.argsort(wanted, kind="stable")
-        samples = self.rerun(wanted[order].tolist()).samples
+        run = self.rerun(wanted[order].tolist())
+        if len(wanted) and run.status == Status.EVENT_LIMIT and run.time < wanted.max():
+            raise InvalidValue(
+                f"times must be seconds up to {run.time:g}, got {wanted.max():g}: what vibrates on "
+                "is followed from swing to swing, and the run met its limit of events"
+            )
+        samples = run.samples
         balls = len(self.drop.balls)
         tables = {}
         for name in ("position", "velocity", "compression", "force", "stored"):

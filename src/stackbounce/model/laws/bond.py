@@ -70,6 +70,14 @@ class Bond(ContactLaw):
         Quantity("N s/m", lambda n, v: non_negative(n, v, "N s/m"), (0.0, 0.0, 1e3)),
     ] = 0.0
 
+    def series_constants(self) -> dict[str, float]:
+        """Return the quantities that two bonds in series must have in common: also b/k."""
+        return super().series_constants() | {"damping/stiffness": self.damping / self.stiffness}
+
+    def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
+        """Return stiffness and damping of two bonds in series; b/k is that of each."""
+        return {"stiffness": stiffness, "damping": stiffness * (self.damping / self.stiffness)}
+
     def restitution_at(self, mass: float, speed: float) -> float:
         """Raise an error: a bond has no collision."""
         raise InvalidValue("law must be that of a collision, got Bond, which never opens")

@@ -28,9 +28,10 @@ MOST_POINTS = 16
 
 _ONE_PARABOLA = 1e-9  # of the slope: two parabolas are one
 _STEEPEST_FLANK = 6.0
+_NARROWEST = 1e-3  # of a compression: the smallest step to it
 
 Piece = tuple[float, float, float, float]
-"""Where a piece begins, and a, b, s of ``a + b x + s x**2``."""
+"""Where a piece begins, and a, b, s of ``a + b d + s d**2``, d being the distance from there."""
 
 
 @register_unlisted
@@ -42,7 +43,9 @@ class Tabulated(ContactLaw):
     beyond the last one. Unloading follows
 
     - the points of `unloading`, a curve of its own. It was measured from the peak of the table; for
-      another peak C with the force F it is the same curve in units of C and F;
+      another peak C with the force F it is the same curve in units of C and F, unless that lies
+      above the loading curve: then the loading curve times ``(c/C)**m``, with the share of the
+      work that the measured curve returns;
     - or the loading curve times ``(c/C)**m``, where m is such that the fraction ``restitution**2``
       of the work is returned;
     - or, if neither is given, the loading curve: no energy is lost.
@@ -53,7 +56,7 @@ class Tabulated(ContactLaw):
     Parameters
     ----------
     compression : sequence of float
-        In m, from 0 on, rising; 2 to 16 points.
+        In m, from 0 on, rising by at least 0.1 % from point to point; 2 to 16 points.
     force : sequence of float
         In N, from 0 on, rising: the force at each compression in loading.
     unloading : sequence of float, optional
@@ -141,6 +144,9 @@ class Tabulated(ContactLaw):
         """Return the law's numbers: those of its pieces, and the share of energy returned."""
         loading, unloading = self._curves()
         share = 1.0 if self.restitution is None else self.restitution**2
+        if self.unloading is not None:
+            peak = self.compression[-1] * self.force[-1]
+            share = min(1.0, _area(unloading, 1.0) * peak / _area(loading, self.compression[-1]))
         return FORMS[self.form], 1.0, share, float(len(loading)), float(len(unloading))
 
     def pieces(self) -> list[float]:
@@ -210,6 +216,10 @@ def _points(
         if two < one or (two == one and not level):
             words = "at least" if level else "above"
             raise InvalidValue(f"{name}.{i + 1} must be {words} {name}.{i}, {one!r}, got {two!r}")
+        if like is None and two - one < _NARROWEST * two:
+            raise InvalidValue(
+                f"{name}.{i + 1} must be at least 0.1 % above {name}.{i}, {one!r}, got {two!r}"
+            )
     return points
 
 
@@ -237,12 +247,12 @@ def monotone_spline(x: Sequence[float], y: Sequence[float]) -> list[Piece]:
     Returns
     -------
     list of tuple of float
-        For each piece, where it begins, and a, b, s of ``a + b x + s x**2``.
+        For each piece, where it begins, and a, b, s of ``a + b d + s d**2``, d from there.
 
     Examples
     --------
     >>> monotone_spline([0.0, 1.0, 2.0], [0.0, 1.0, 2.0])
-    [(0.0, 0.0, 1.0, 0.0), (1.0, 0.0, 1.0, 0.0), (2.0, 0.0, 1.0, 0.0)]
+    [(0.0, 0.0, 1.0, 0.0), (1.0, 1.0, 1.0, 0.0), (2.0, 2.0, 1.0, 0.0)]
     """
     chords = [(y[i + 1] - y[i]) / (x[i + 1] - x[i]) for i in range(len(x) - 1)]
     slopes = _slopes(x, chords)
@@ -250,15 +260,25 @@ def monotone_spline(x: Sequence[float], y: Sequence[float]) -> list[Piece]:
     for i, chord in enumerate(chords):
         low, high, width = slopes[i], slopes[i + 1], x[i + 1] - x[i]
         if abs(low + high - 2.0 * chord) <= _ONE_PARABOLA * chord:
-            pieces.append(_piece(x[i], y[i], low, 0.5 * (high - low) / width))
+            pieces.append((x[i], y[i], low, 0.5 * (high - low) / width))
             continue
         middle = 2.0 * chord - 0.5 * (low + high)
         half = 0.5 * width
         height = y[i] + 0.5 * (low + middle) * half
-        pieces.append(_piece(x[i], y[i], low, 0.5 * (middle - low) / half))
-        pieces.append(_piece(x[i] + half, height, middle, 0.5 * (high - middle) / half))
-    pieces.append(_piece(x[-1], y[-1], slopes[-1] if slopes[-1] > 0.0 else chords[-1], 0.0))
+        pieces.append((x[i], y[i], low, 0.5 * (middle - low) / half))
+        pieces.append((x[i] + half, height, middle, 0.5 * (high - middle) / half))
+    pieces.append((x[-1], y[-1], slopes[-1] if slopes[-1] > 0.0 else chords[-1], 0.0))
     return pieces
+
+
+def _area(pieces: list[Piece], end: float) -> float:
+    """Return the integral of pieces from 0 to an end, up to which they go."""
+    ends = [piece[0] for piece in pieces[1:] if piece[0] < end] + [end]
+    total = 0.0
+    for (begin, height, slope, square), last in zip(pieces, ends, strict=False):
+        width = last - begin
+        total += width * (height + width * (0.5 * slope + width * square / 3.0))
+    return total
 
 
 def _slopes(x: Sequence[float], chords: Sequence[float]) -> list[float]:
@@ -278,9 +298,3 @@ def _slopes(x: Sequence[float], chords: Sequence[float]) -> list[float]:
     first = min(max(2.0 * chords[0] - inner[0], 0.0), 2.0 * chords[0])
     last = min(max(2.0 * chords[-1] - inner[-1], 0.0), 2.0 * chords[-1])
     return [first, *inner, last]
-
-
-def _piece(begin: float, height: float, slope: float, square: float) -> Piece:
-    """Return a piece from its value and slope where it begins, and half its second derivative."""
-    constant = height - begin * (slope - begin * square)
-    return begin, constant, slope - 2.0 * begin * square, square

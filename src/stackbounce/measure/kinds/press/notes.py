@@ -39,8 +39,8 @@ def sentences(found: Press, held: int) -> list[str]:
             )
     if p.nominal_value < 1.0 - _CLEAR * p.std_dev:
         notes.append(
-            "The ball gets softer as it is pressed (exponent below 1), which no law of this "
-            "package does: the straight line stands for it."
+            "The ball gets softer as it is pressed (exponent below 1), which no power law of this "
+            "package does: the straight line stands for it, or the table of its points."
         )
     notes += _on_fits(found)
     notes += _on_loss(found, held)

@@ -87,6 +87,7 @@ def _spline_at(knots: Array, values: Array, c: Array) -> Array:
     """Return the monotone spline through the values at some compressions."""
     pieces = np.array(monotone_spline(knots.tolist(), values.tolist()))
     at = np.maximum(np.searchsorted(pieces[:, 0], c, side="right") - 1, 0)
-    _, a, b, s = pieces[at].T
-    spline: Array = a + c * (b + c * s)
+    begin, a, b, s = pieces[at].T
+    beyond = c - begin
+    spline: Array = a + beyond * (b + beyond * s)
     return spline
