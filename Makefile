@@ -14,11 +14,11 @@ FOLDER ?=
 SEED ?= 1
 ATTACKS ?= signals kills pairs stores disks measurements requests
 PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal
-# Not the tests of the project's own rules, of pages, benchmarks and kept answers, and none of libraries' warnings of what comes.
+# Not the tests of the project's own rules, of the engine (kernels), of pages, benchmarks and kept answers, and none of libraries' warnings of what comes.
 OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal -m 'not slow' \
   --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning \
   -W ignore::FutureWarning tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz \
-  --ignore=tests/web/browser --ignore=tests/web/test_openapi.py --ignore=tests/test_impacts.py
+  --ignore=tests/web/browser --ignore=tests/web/test_openapi.py --ignore=tests/test_impacts.py --ignore=tests/engine
 # 3: kernels cannot be compiled on this machine, plain Python runs.
 COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build || test $$? -eq 3; }
 # Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.

@@ -140,7 +140,7 @@ def random_stack(seed):
 
 
 @pytest.mark.parametrize(
-    "seed", [*range(8), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(8, 60))]
+    "seed", [*range(8), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(8, 30))]
 )
 def test_stacks_against_another_integration(seed):
     drop = random_stack(seed)

@@ -127,6 +127,17 @@ def test_nothing_moves_on_the_page_while_a_film_plays(visits, width, in_firefox)
     assert page.evaluate("() => window.shifts") == []
 
 
+@pytest.mark.parametrize("width", [1440, 390])
+def test_nothing_moves_while_the_page_opens(visits, width, in_firefox):
+    if in_firefox:
+        pytest.skip("Firefox does not measure layout shifts")
+    visit = visits(viewport={"width": width, "height": 844})
+    visit.page.add_init_script(f"({WATCH_THE_LAYOUT})()")
+    page = visit.open()
+    assert page.locator("#sentence").is_visible()
+    assert page.evaluate("() => window.shifts") == []
+
+
 def test_buttons_step_from_event_to_event(visit):
     page = visit.open()
     said = page.locator("#stage .scene-time")

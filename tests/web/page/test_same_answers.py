@@ -199,6 +199,8 @@ def compare_laws(asked, seed, count):
     chance = random.Random(seed)
     questions, calls = [], []
     for contact, mass, speed in contacts(seed, count):
+        if creeps_apart(contact, mass, speed):
+            continue
         to = chance.choice(list(sb.model.LAWS))
         e, time = (
             chance.choice((None, 0.8, 1.0, chance.uniform(0.01, 1))),
@@ -218,6 +220,19 @@ def compare_laws(asked, seed, count):
         questions.append(["law", {"law": to} | asked_of])
         calls.append(lambda n=to, g=asked_of: catalogue.calibrate_law(n, **g))
     return compare(asked, questions, calls, hardly_bounces)
+
+
+def creeps_apart(contact, mass, speed):
+    """Tell whether strong viscous damping leaves fewer than 12 digits of the end of a contact.
+
+    The speeds keep theirs, see docs/benchmark.md.
+    """
+    if not isinstance(contact, dict) or contact.get("law") != "Viscoelastic":
+        return False
+    try:
+        return sb.restitution(read_law(contact, "contact"), mass, speed) < 0.02
+    except sb.StackbounceError:
+        return False
 
 
 def hardly_bounces(answer):

@@ -33,6 +33,7 @@ import { mountTabs } from "./tabs.js";
 import { mountTransport } from "./transport.js";
 
 const place = (id) => document.getElementById(id);
+const LATE = 5000; // ms, after which the page is shown without its first drop
 const reduced = matchMedia("(prefers-reduced-motion: reduce)");
 
 const store = createStore(address.read(location.hash));
@@ -74,6 +75,9 @@ place("skip").addEventListener("click", (event) => {
   place("stage-box").focus();
 });
 store.subscribe((state, before) => state.view !== before.view && state.view !== "play" && clock.pause());
+const show = () => document.querySelectorAll(".starting").forEach((part) => part.classList.remove("starting"));
+setTimeout(show, LATE);
+store.subscribe(({ result, error }) => (result || error) && show());
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();

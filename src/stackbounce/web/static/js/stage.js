@@ -25,7 +25,7 @@ let stages = 0;
 export function mountStage(root, store, clock, onRuler = () => null) {
   stages += 1;
   const light = `light-${stages}`; // a gradient of a hidden stage would not be drawn
-  const svg = s("svg", { class: "scene", role: "img" });
+  const svg = s("svg", { class: "scene" }); // an image once it has words, see below
   const time = s("text", { class: "scene-time", x: 12, y: 22 });
   const scale = s("text", { class: "scene-note", x: 12, y: 42 });
   const ground = s("g", { class: "ground" });
@@ -93,6 +93,7 @@ export function mountStage(root, store, clock, onRuler = () => null) {
       write(scale, said.note);
     }
     if (!clock.playing || !svg.hasAttribute("aria-label")) put(svg, "aria-label", spoken(scene, clock.time, now));
+    put(svg, "role", "img");
   };
 
   const showParts = () => {
