@@ -21,7 +21,7 @@ rates and gaps of the contacts involved. A sequence that is not periodic is foll
 come close to underflow, and is then taken to be infinite.
 
 A restitution that varies with the speed. Where it tends to 1 for slow collisions there is no
-collapse (D. Goldman et al., Phys. Rev. E 57, 4831, 1998): the condition above fails for
+collapse: the condition above fails for
 e1 = e2 = 1. Neither criterion is applied to such a contact, nor to one that scatters, whose rounds
 are not alike. Their collisions are computed one by one, if need be until their rates come close to
 underflow.

@@ -56,9 +56,9 @@ class Air:
     Notes
     -----
     The formulas solve ``v' = g - k v**2`` (`model/drag.py`). The density follows from the gas law
-    with 28.965 g/mol. Source of the coefficient: E. Achenbach, J. Fluid Mech. 54, 565 (1972): about
-    0.5 for smooth spheres with Reynolds numbers ``v D/(1.5e-5 m**2/s)`` of 2e4 to 3e5; from 1e3 on
-    it is 0.4 to 0.5. The drag of slower or smaller balls is larger than this, and matters less.
+    with 28.965 g/mol. The coefficient is a usual round number for smooth spheres: collections of
+    data have a nearly flat curve of 0.4 to 0.5 for Reynolds numbers ``v D/(1.5e-5 m**2/s)`` of 1e3
+    to 3e5. The drag of slower or smaller balls is larger than this, and matters less.
 
     During the contacts the drag is left out. So are the buoyancy and the air that a ball sets in
     motion: see `docs/air.md` for how much they are.

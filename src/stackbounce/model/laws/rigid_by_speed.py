@@ -54,7 +54,8 @@ class RigidBySpeed(Rigid):
     -----
     Source: K. L. Johnson, Contact Mechanics (Cambridge, 1985), section 11.5; F. G. Bridges,
     A. Hatzes and D. N. C. Lin, Nature 309, 333 (1984). In the first, e of spheres that yield is
-    proportional to v**(-1/4); in the second, e of ice is 0.32 (v/(1 cm/s))**-0.234.
+    proportional to v**(-1/4); in the second, e of ice is 0.32 (v/(1 cm/s))**-0.234. Neither was
+    read for this package: both are as others quote them.
 
     Examples
     --------
@@ -144,7 +145,9 @@ class RigidLossBySpeed(RigidBySpeed):
     Notes
     -----
     Source: G. Kuwabara and K. Kono, Jpn. J. Appl. Phys. 26, 1230 (1987); T. Schwager and
-    T. Pöschel, Phys. Rev. E 57, 650 (1998). There, 1 - e = C v**(1/5) to leading order.
+    T. Pöschel, Phys. Rev. E 57, 650 (1998). There, 1 - e = C v**(1/5) to leading order. These two
+    were not read for this package; the abstract of R. Ramírez, T. Pöschel, N. V. Brilliantov and
+    T. Schwager, Phys. Rev. E 60, 4465 (1999), which was, gives the same series.
 
     Examples
     --------
