@@ -406,6 +406,40 @@ def test_a_class_is_calibrated(kind):
     assert got.startswith("law_class must be the class of a contact law (Rigid, RigidBySpeed, ")
 
 
+@pytest.mark.parametrize("decay_time", [None, 0.02, 3e-4])
+@pytest.mark.parametrize("mass", [0.057, (0.3, 0.057)])
+def test_a_bond_vibrates_as_measured(mass, decay_time):
+    bond = sb.calibrate(sb.Bond, mass=mass, frequency=800.0, decay_time=decay_time)
+    parts = [mass] if isinstance(mass, float) else mass
+    inertia = 1.0 / sum(1.0 / part for part in parts)
+    roots = np.roots([inertia, bond.damping, bond.stiffness])
+    assert np.abs(roots.imag) == pytest.approx([2.0 * np.pi * 800.0] * 2, rel=1e-12)
+    assert -roots.real == pytest.approx([0.0 if decay_time is None else 1.0 / decay_time] * 2)
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"mass": 1.0}, "frequency must be given to calibrate Bond, which needs mass, frequency"),
+        ({"mass": 1.0, "frequency": 0.0}, "frequency must be a positive number of Hz, got 0.0"),
+        (
+            {"mass": 1.0, "frequency": 5.0, "decay_time": -1.0},
+            "decay_time must be a positive number of seconds, got -1.0",
+        ),
+    ],
+)
+def test_a_bond_needs_a_vibration(given, said):
+    assert message(errors.InvalidValue, sb.calibrate, sb.Bond, **given) == said
+
+
+def test_a_table_is_not_calibrated():
+    got = message(errors.InvalidValue, sb.calibrate, sb.Tabulated, **MEASURED)
+    assert got == (
+        "law_class must be a law with a formula, got Tabulated: press(...).table() makes one of a "
+        "press curve"
+    )
+
+
 def test_numbers_out_of_range_are_refused():
     given_ = {"mass": 1.0, "contact_time": 1e-3, "impact_speed": 1.0, "exponent": 1e6}
     got = message(errors.InvalidValue, sb.calibrate, sb.PowerLaw, **given_)

@@ -5,6 +5,7 @@ from typing import TypeVar
 from stackbounce.calibration.collision import Mass, reduced
 from stackbounce.errors import InvalidType, InvalidValue, between, fraction, positive, shown
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw
+from stackbounce.model.laws.registry import UNLISTED
 
 __all__ = ["calibrate"]
 
@@ -22,6 +23,8 @@ def calibrate(
     relaxation_time: float | None = None,
     buckling_time: float | None = None,
     buckling_share: float | None = None,
+    frequency: float | None = None,
+    decay_time: float | None = None,
 ) -> _Law:
     """Return the contact law of a class that has a measured contact time and restitution.
 
@@ -48,11 +51,17 @@ def calibrate(
         Of a `HollowBall`, in s, above 0: the time after the touch at which the force bends.
     buckling_share : float, optional
         Of a `HollowBall`, above 0 and below 1: the force at that time over the peak force.
+    frequency : float, optional
+        Of the vibration of a `Bond` in Hz, above 0, as it is seen: damped.
+    decay_time : float, optional
+        Of the same vibration, in s, above 0: the time in which its amplitude falls to 1/e of what
+        it was. By default the vibration does not decay.
 
     Returns
     -------
     law_class
-        A law whose `stackbounce.restitution` and `stackbounce.contact_time` are the given values.
+        A law whose `stackbounce.restitution` and `stackbounce.contact_time` are the given values;
+        of a `Bond`, the vibration.
 
     Raises
     ------
@@ -69,7 +78,8 @@ def calibrate(
     ones (`Dashpot`, `StandardLinearSolid`, `Viscoelastic`, `HuntCrossley`, `Hysteretic`,
     `HollowBall`) need `restitution` as well.
     `Viscoelastic`, `HuntCrossley`, `HollowBall` and any exponent other than 1 need `impact_speed`
-    as well.
+    as well. A `Bond` needs `mass` and `frequency`: the masses of the two parts of a body, or one
+    mass that is bonded to the floor.
     Arguments that are not needed may be given, so that one measurement serves several classes. The
     contact time of a rigid contact is 0, whatever is given.
 
@@ -88,8 +98,9 @@ def calibrate(
     >>> round(calibrate(HuntCrossley, **measured).dissipation, 4)
     0.1653
     """
-    if not isinstance(law_class, type) or law_class not in LAWS.values():
-        known = ", ".join(LAWS)
+    known_laws = LAWS | UNLISTED
+    if not isinstance(law_class, type) or law_class not in known_laws.values():
+        known = ", ".join(known_laws)
         raise InvalidType(
             f"law_class must be the class of a contact law ({known}), got {shown(law_class)}"
         )
@@ -99,6 +110,10 @@ def calibrate(
         given["relaxation_time"] = positive("relaxation_time", relaxation_time, "seconds")
     if buckling_time is not None:
         given["buckling_time"] = positive("buckling_time", buckling_time, "seconds")
+    if frequency is not None:
+        given["frequency"] = positive("frequency", frequency, "Hz")
+    if decay_time is not None:
+        given["decay_time"] = positive("decay_time", decay_time, "seconds")
     if buckling_share is not None:
         given["buckling_share"] = fraction("buckling_share", buckling_share, zero=False)
         if given["buckling_share"] == 1.0:

@@ -1,10 +1,11 @@
 """A bond: what joins two parts of one body, or a body to the floor."""
 
+import math
 from dataclasses import dataclass
-from typing import Annotated, ClassVar
+from typing import Annotated, ClassVar, Self
 
 from stackbounce.errors import InvalidValue, non_negative
-from stackbounce.model.laws.law import ContactLaw, Quantity, stiffness_in
+from stackbounce.model.laws.law import ContactLaw, Given, Quantity, stiffness_in
 from stackbounce.model.laws.registry import register_unlisted
 
 __all__ = ["Bond"]
@@ -18,7 +19,8 @@ class Bond(ContactLaw):
     ``F = k c + b ċ``, for compression and extension alike. Two balls with a bond between them are
     one ball with an inner mode of vibration. A lowest ball with a bond below it is a floor of
     finite mass on a spring: a table, or a force plate; with gravity it carries its own weight from
-    the start. There is no gap at a bond.
+    the start. There is no gap at a bond. `stackbounce.calibrate` gives the bond that vibrates with
+    a measured frequency and decay.
 
     The rebound speed of a ball with bonds is that of the centre of its body, and 0 for a body that
     is bonded to the floor: the vibration that is left is no motion of the body. It ends with the
@@ -77,6 +79,22 @@ class Bond(ContactLaw):
     def series_changes(self, stiffness: float, share: float) -> dict[str, float]:
         """Return stiffness and damping of two bonds in series; b/k is that of each."""
         return {"stiffness": stiffness, "damping": stiffness * (self.damping / self.stiffness)}
+
+    @classmethod
+    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
+        """Return the names of the arguments that `calibrate` needs: mass and frequency."""
+        return ["mass", "frequency"]
+
+    @classmethod
+    def calibrated(cls, given: Given) -> Self:
+        """Return the bond of a vibration ``exp(-t/T) cos(2 π f t)`` of a (reduced) mass m.
+
+        It is the solution of ``m c'' + b c' + k c = 0`` with ``k = m (4 π² f² + 1/T²)`` and
+        ``b = 2 m/T``.
+        """
+        rate = 2.0 * math.pi * given["frequency"]
+        decay = 1.0 / given["decay_time"] if "decay_time" in given else 0.0
+        return cls(given["mass"] * (rate * rate + decay * decay), 2.0 * given["mass"] * decay)
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Raise an error: a bond has no collision."""

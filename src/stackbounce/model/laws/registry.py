@@ -52,7 +52,6 @@ def _registered(law: type[_Law], laws: dict[str, type[ContactLaw]]) -> type[_Law
         raise TypeError(f"{law.__name__} is the name of a law in {other.__module__} already")
     if law.form not in FORMS:
         hint = nearest(law.form, FORMS)
-        hint = nearest(law.form, FORMS)
         raise TypeError(f"{law.__name__} has the form of force {law.form}; {hint}")
     laws[law.__name__] = law
     return law

@@ -13,11 +13,11 @@ import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidType, InvalidValue, finite, fraction, shown
-from stackbounce.model.laws.law import ContactLaw, EngineNumbers, Flank, Flanks
+from stackbounce.model.laws.law import ContactLaw, EngineNumbers, Flank, Flanks, Given
 from stackbounce.model.laws.registry import register_unlisted
 from stackbounce.units import Unit
 
@@ -181,6 +181,19 @@ class Tabulated(ContactLaw):
         from stackbounce.engine.one_ball import bounce
 
         return bounce(self.engine_numbers(), mass, speed, self.pieces())
+
+    @classmethod
+    def calibration_needs(cls, exponent: float | None = None) -> list[str]:
+        """Return no names: `calibrated` says what makes a table."""
+        return []
+
+    @classmethod
+    def calibrated(cls, given: Given) -> Self:
+        """Raise an error: a contact time and a restitution are no table."""
+        raise InvalidValue(
+            "law_class must be a law with a formula, got Tabulated: press(...).table() makes one "
+            "of a press curve"
+        )
 
     @classmethod
     def flanks(cls, exponent: float | None, law: ContactLaw | None = None) -> Flanks:
