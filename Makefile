@@ -67,9 +67,9 @@ bench: $(DEV) kernels  ## growth, accuracy, speed, and the benchmark of impacts,
 	@$(BIN)/python -m benchmarks.impacts --out build/bench
 	@echo "Open $(CURDIR)/build/bench/index.html"
 
-check: kernels lint types imports docs  ## everything: lint, types, import rules, documentation, all tests, in Chromium and Firefox too
+check: lint types imports docs test  ## everything: lint, types, import rules, documentation, all tests, in Chromium and Firefox too
 	@tests/web/browser/browsers.sh
-	@$(PYTEST)
+	@$(PYTEST) -m 'slow or hypothesis'
 
 fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS=1000000 FILES=5000 FOLDER= SEED=1
 	@cd tests && ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
