@@ -1,6 +1,6 @@
 /** The controls: presets, how the tower comes in, and the tower. */
 
-import { h, write } from "./dom.js";
+import { h, hide, write } from "./dom.js";
 import { GRAVITY, complete, gapsOf, incidenceOf, valueAt, withIncidence, withValue } from "./drops.js";
 import { choice, numberField } from "./fields.js";
 import { t, translated, writeTold } from "./language.js";
@@ -180,7 +180,7 @@ function showError(fields, general, error) {
   const detail = error && !error.offline ? error.detail : null;
   const named = detail && fields.filter(({ path }) => mentions(detail, path)).sort((a, b) => b.path.length - a.path.length)[0];
   for (const field of fields) field.fail(field === named ? detail.slice(field.path.length).trim() : null);
-  general.hidden = !detail || Boolean(named);
+  hide(general, !detail || Boolean(named));
   writeTold(general, general.hidden ? "" : detail);
 }
 

@@ -109,7 +109,10 @@ export function numberField(spec) {
     show(value);
     spec.set(path, value);
   });
+  let told; // the message that is shown
   const fail = (message) => {
+    if (message === told) return;
+    told = message;
     writeTold(error, message ?? "");
     write(error, capital(error.textContent));
     error.hidden = !message;

@@ -65,19 +65,30 @@ function smooth(part) {
   return x * x * (3 - 2 * x);
 }
 
-/** Return a smooth function of film time that nowhere exceeds a function of the drop's time. */
+/**
+ * Return a smooth function of film time that nowhere exceeds a function of the drop's time. It is computed where it is asked
+ * for: while numbers change, the film stands at one moment.
+ */
 function smoothed(film, limit) {
-  const limits = Array.from({ length: SAMPLES + 1 }, (_, i) => limit(film.toTime((film.length * i) / SAMPLES)));
-  if (limits.every((one) => one === 1)) return () => 1;
   const beside = Math.ceil((SMOOTH * SAMPLES) / film.length);
-  const around = (values, i) => values.slice(Math.max(0, i - beside), i + beside + 1);
-  const least = limits.map((_, i) => Math.min(...around(limits, i)));
-  const mean = least.map((_, i) => around(least, i).reduce((sum, one, _at, all) => sum + one / all.length, 0));
+  const around = (values, i) => {
+    const [from, to] = [Math.max(0, i - beside), Math.min(SAMPLES, i + beside)];
+    return Array.from({ length: to - from + 1 }, (_, k) => values(from + k));
+  };
+  const limits = kept((i) => limit(film.toTime((film.length * i) / SAMPLES)));
+  const least = kept((i) => Math.min(...around(limits, i)));
+  const mean = kept((i) => around(least, i).reduce((sum, one, _at, all) => sum + one / all.length, 0));
   return (reel) => {
     const place = (SAMPLES * reel) / film.length;
     const i = Math.min(Math.floor(place), SAMPLES - 1);
-    return mean[i] + (place - i) * (mean[i + 1] - mean[i]);
+    return mean(i) + (place - i) * (mean(i + 1) - mean(i));
   };
+}
+
+/** Return a function of a whole number that computes each value once. */
+function kept(compute) {
+  const known = [];
+  return (i) => (known[i] ??= compute(i));
 }
 
 /** Return the largest number up to `most` for which a condition holds that holds for small ones. */

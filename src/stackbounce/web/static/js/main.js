@@ -5,7 +5,7 @@ import * as api from "./api.js";
 import { mountLooks } from "./ball_looks.js";
 import { Clock } from "./clock.js";
 import { mountControls } from "./controls.js";
-import { h, write } from "./dom.js";
+import { h, hide, write } from "./dom.js";
 import { takeFiles } from "./dropped.js";
 import { mountEmbed } from "./embed.js";
 import { direct } from "./film_director.js";
@@ -77,7 +77,11 @@ place("skip").addEventListener("click", (event) => {
 store.subscribe((state, before) => state.view !== before.view && state.view !== "play" && clock.pause());
 const show = () => document.querySelectorAll(".starting").forEach((part) => part.classList.remove("starting"));
 setTimeout(show, LATE);
-store.subscribe(({ result, error }) => (result || error) && show());
+const endShow = store.subscribe(({ result, error }) => {
+  if (!result && !error) return;
+  endShow();
+  show();
+});
 const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
@@ -171,7 +175,7 @@ function showBanner() {
     runner.again();
   });
   const show = ({ error, busy }) => {
-    place("banner").hidden = !error?.offline;
+    hide(place("banner"), !error?.offline);
     writeTold(text, error?.offline ? error.detail : "");
     document.body.classList.toggle("busy", busy);
   };

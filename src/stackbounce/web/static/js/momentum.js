@@ -1,6 +1,6 @@
 /** Bars of momentum below the stage: each ball's and their sum, now, before and after the impact. */
 
-import { h, put, s, write } from "./dom.js";
+import { h, hide, put, s, write } from "./dom.js";
 import { t } from "./language.js";
 import { fixed } from "./units.js";
 import { shortBall } from "./words.js";
@@ -18,7 +18,7 @@ export function mountMomentum(root, store, clock) {
 
   const build = () => {
     const { result, momentum } = store.get();
-    root.hidden = !momentum || !result;
+    hide(root, !momentum || !result);
     if (root.hidden || !clock.film) return;
     if (width < NAMES + VALUES) return;
     bars = barsOf(result.drop, clock.film, width);

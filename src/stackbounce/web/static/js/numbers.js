@@ -1,6 +1,6 @@
 /** The results: speeds, ratios, heights, collisions and energy, beside those of separate collisions. */
 
-import { h, renew } from "./dom.js";
+import { d, renew } from "./dom.js";
 import { GRAVITY, speedOf } from "./drops.js";
 import { t, translated } from "./language.js";
 import { withSpread } from "./quantity.js";
@@ -18,7 +18,7 @@ export function mountNumbers({ root, table }, store) {
   const show = () => {
     const { result, until, prediction, kept } = store.get();
     if (!result) return;
-    const compared = kept && until === null ? [h("h3", { class: "kept-title", text: t("Kept to compare") }), ballTable(kept, null, null)] : [];
+    const compared = kept && until === null ? [d("h3", { class: "kept-title", text: t("Kept to compare") }), ballTable(kept, null, null)] : [];
     renew(root, ballTable(result, until, prediction), facts(result, until, prediction), ...compared);
     showIntervals();
   };
@@ -28,13 +28,12 @@ export function mountNumbers({ root, table }, store) {
 }
 
 function columns(...names) {
-  return h("tr", {}, names.map((name) => h("th", { scope: "col" }, ...[name].flat())));
+  return d("tr", {}, names.map((name) => d("th", { scope: "col" }, ...[name].flat())));
 }
 
 function row(name, index, ...cells) {
-  const swatch = h("span", { class: "swatch", "aria-hidden": "true" });
-  swatch.style.setProperty("--ball", `var(--ball-${index % 6})`);
-  return h("tr", {}, h("th", { scope: "row" }, swatch, name), cells.map((cell) => h("td", {}, cell)));
+  const swatch = d("span", { class: "swatch", "aria-hidden": "true", "--ball": `var(--ball-${index % 6})` });
+  return d("tr", {}, d("th", { scope: "row" }, swatch, name), cells.map((cell) => d("td", {}, cell)));
 }
 
 /** Return the separate collisions' numbers, where there are any. */
@@ -50,15 +49,15 @@ function ballTable(result, until, prediction) {
   const theirs = separate && (until === null ? impactColumns(result, separate, null, false).slice(1) : wholeColumns(result, separate.position));
   const all = [...own, ...(theirs ?? [])];
   const when = until === null ? t("After the impact") : t("Within {time} s", { time: format(until) });
-  const groups = [h("td"), h("th", { scope: "colgroup", colspan: own.length, text: when })];
-  if (theirs) groups.push(h("th", { scope: "colgroup", colspan: theirs.length, text: t("Textbook") }));
+  const groups = [d("td"), d("th", { scope: "colgroup", colspan: own.length, text: when })];
+  if (theirs) groups.push(d("th", { scope: "colgroup", colspan: theirs.length, text: t("Textbook") }));
   const rows = drop.balls.map((_, ball) => row(ballName(drop, ball), ball, ...all.map(({ cell }) => cell(ball))));
-  return h(
+  return d(
     "table",
     { class: until === null ? "numbers-table" : "numbers-table whole" },
-    h("caption", { class: "quiet", text: t("Speeds and heights of the balls, the highest ball first") }),
-    h("thead", {}, h("tr", { class: "groups" }, groups), columns(t("Ball"), ...all.map(({ name }) => name))),
-    h("tbody", {}, rows.reverse()),
+    d("caption", { class: "quiet", text: t("Speeds and heights of the balls, the highest ball first") }),
+    d("thead", {}, d("tr", { class: "groups" }, groups), columns(t("Ball"), ...all.map(({ name }) => name))),
+    d("tbody", {}, rows.reverse()),
   );
 }
 
@@ -102,40 +101,38 @@ function times(reached, fallen) {
 
 /** Return a text that is hidden on a phone. */
 function wide(text) {
-  return h("span", { class: "wide-only", text });
+  return d("span", { class: "wide-only", text });
 }
 
 /** Energy, collisions and how the run ended. */
 function facts(result, until, prediction) {
   const { drop } = result;
   const separate = textbook(result);
-  const pair = (name, own, other) => {
-    const beside = other === undefined ? null : h("small", { text: ` ${t("textbook {value}", { value: other })}` });
-    return h("div", {}, h("dt", { text: name }), h("dd", {}, own, beside));
+  const pair = (name, own, other, attributes = {}) => {
+    const beside = other === undefined ? null : d("small", { text: ` ${t("textbook {value}", { value: other })}` });
+    return d("div", attributes, d("dt", { text: name }), d("dd", {}, own, beside));
   };
-  const list = h("dl", { class: "facts" }, pair(t("Impact speed"), `${format(result.reference_speed, 3)} m/s`));
+  const list = [pair(t("Impact speed"), `${format(result.reference_speed, 3)} m/s`)];
   if (until === null) {
     const theirs = separate ? percent(separate.energy_retained) : undefined;
     const { value, error } = prediction?.values?.energy_retained ?? {};
     const own = withSpread({ value: 100 * value, error: 100 * error });
-    list.append(pair(t("Energy retained"), own ? `${own} %` : percent(result.energy_retained), theirs));
+    list.push(pair(t("Energy retained"), own ? `${own} %` : percent(result.energy_retained), theirs));
   }
   const met = drop.contacts
     .map((_, contact) => contact)
     .filter((contact) => drop.contacts[contact]?.law !== "none")
     .map((contact) => `${shortContact(drop, contact)}: ${count(result.collisions[contact])}`);
   const theirs = separate?.collisions.map(count).join(", ");
-  list.append(pair(t("Collisions"), met.join(", "), theirs));
-  list.append(pair(t("Impulse"), impulses(result)));
-  const set = pair(t("Set-up"), setUp(drop));
-  set.classList.add("print-only");
-  list.prepend(set);
-  if (result.separate?.error) list.append(pair(t("Textbook"), translated(result.separate.error)));
+  list.push(pair(t("Collisions"), met.join(", "), theirs));
+  list.push(pair(t("Impulse"), impulses(result)));
+  list.unshift(pair(t("Set-up"), setUp(drop), undefined, { class: "print-only" }));
+  if (result.separate?.error) list.push(pair(t("Textbook"), translated(result.separate.error)));
   const said = errorWords(prediction, drop);
-  if (said) list.append(pair(t("Errors"), said));
+  if (said) list.push(pair(t("Errors"), said));
   const asked = until !== null && result.status === "TIME_REACHED";
-  if (result.status !== "FINISHED" && !asked) list.append(pair(t("Note"), capital(translated(result.advice))));
-  return list;
+  if (result.status !== "FINISHED" && !asked) list.push(pair(t("Note"), capital(translated(result.advice))));
+  return d("dl", { class: "facts" }, list);
 }
 
 /** The whole impulse of each contact. */
@@ -185,11 +182,11 @@ function intervalTable({ drop, intervals }) {
     ),
   );
   const more = intervals.length > rows.length ? ` ${t("The first {some} of {all}.", { some: rows.length, all: intervals.length })}` : "";
-  return h(
+  return d(
     "table",
     {},
-    h("caption", { text: `${t("Each time a contact was closed.")}${more}` }),
-    h("thead", {}, columns(...HEADS())),
-    h("tbody", {}, rows),
+    d("caption", { text: `${t("Each time a contact was closed.")}${more}` }),
+    d("thead", {}, columns(...HEADS())),
+    d("tbody", {}, rows),
   );
 }

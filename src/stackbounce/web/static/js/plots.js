@@ -3,14 +3,19 @@
 import uPlot from "../vendor/uplot/uPlot.esm.js";
 import { between, locate } from "./clock.js";
 import { describePanel, panels } from "./curves.js";
-import { h, write } from "./dom.js";
+import { h, hide, write } from "./dom.js";
+import { Pace } from "./pace.js";
 import { colorOf, LETTERS, onRepaint, palette } from "./palette.js";
 import { PlotZoom } from "./plot_zoom.js";
 import { format } from "./units.js";
 
+const SELDOM = 250; // ms between two drawings while the drop changes on a slow machine
+
 /** Draw the plots into `root` and keep their cursor at the clock's time. */
 export function mountPlots(root, store, clock) {
+  const pace = new Pace();
   let shown = [];
+  let due = false; // what is shown has changed
   let extent = [0, 1]; // s, of what is plotted
   const redraw = () => {
     for (const one of shown) one.plot.setData(one.data());
@@ -33,7 +38,9 @@ export function mountPlots(root, store, clock) {
       root.replaceChildren();
       shown = wanted.map((panel) => new Panel(root, panel, colors, clock, zoom));
     }
-    zoom.element.hidden = false;
+    hide(zoom.element, false);
+    due = false;
+    pace.watch();
     clock.touch();
   };
   const repaint = () => {
@@ -42,7 +49,8 @@ export function mountPlots(root, store, clock) {
     build();
   };
   store.subscribe((state, before) => {
-    if (["result", "overlays", "prediction", "view"].some((name) => state[name] !== before[name])) build();
+    due ||= ["result", "overlays", "prediction", "view"].some((name) => state[name] !== before[name]);
+    if (due && !(state.busy && pace.isSlow && pace.since < SELDOM)) build();
   });
   clock.subscribe(() => {
     for (const one of shown) if (clock.legible) one.tell(clock.time);
