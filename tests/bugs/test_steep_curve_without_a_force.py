@@ -1,4 +1,4 @@
-"""A lossy contact on a steep curve, whose force was 0 at a turn, had forces that were no numbers."""
+"""A lossy contact that turned on a steep curve without a force had forces that were no numbers."""
 
 import numpy as np
 
