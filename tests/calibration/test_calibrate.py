@@ -378,6 +378,23 @@ def test_a_hysteretic_law_has_a_least_restitution():
     assert got.startswith("restitution must be at least 0.00142 for exponent 1")
 
 
+def test_a_hollow_ball_has_a_least_restitution():
+    """It is said for the time at which the ball shall buckle, and can be reached."""
+    measured = {"mass": 0.1, "contact_time": 1e-2, "impact_speed": 1.0}
+    for e in (1e-3, 0.05):
+        with pytest.raises(errors.InvalidValue, match="buckling_time must be below") as caught:
+            sb.calibrate(sb.HollowBall, restitution=e, **measured)
+        least = float(str(caught.value).rpartition(", for which restitution must be at least ")[2])
+        sb.calibrate(sb.HollowBall, restitution=least, **measured)
+        with pytest.raises(errors.InvalidValue):
+            sb.calibrate(sb.HollowBall, restitution=0.99 * least, **measured)
+    early = sb.calibrate(sb.HollowBall, restitution=1e-3, buckling_time=4e-6, **measured)
+    assert sb.contact_time(early, 0.1, 1.0) == pytest.approx(1e-2, rel=1e-9)
+    with pytest.raises(errors.InvalidValue) as caught:  # no restitution at all
+        sb.calibrate(sb.HollowBall, restitution=0.9, buckling_time=3e-3, **measured)
+    assert str(caught.value).endswith("a restitution of 0.9, got 0.3 times")
+
+
 @pytest.mark.parametrize(
     ("name", "value", "expected"),
     [

@@ -289,3 +289,9 @@ def test_parts_of_one_body_do_not_part_in_the_fall():
     drop = sb.Drop([sb.Ball(1.0, 0.1), sb.Ball(1e-3, 0.2)], laws, height=1.0)
     with pytest.raises(errors.InvalidValue, match=r"contacts\.1 must not be a Bond"):
         sb.Air().dropped(drop)
+
+
+def test_air_is_a_value_that_hashes():
+    one = sb.Air(drag_coefficient={"a": 0.5, "b": 0.4})
+    assert one == sb.Air(drag_coefficient={"b": 0.4, "a": 0.5})
+    assert len({one, sb.Air(drag_coefficient={"b": 0.4, "a": 0.5}), sb.Air(), sb.Air(1.204)}) == 2

@@ -115,3 +115,18 @@ def test_rigid_laws_stand_together_and_not_with_others():
     with pytest.raises(errors.InvalidValue, match=r"contacts.0 is RigidBySpeed and contacts.1 is"):
         sb.Drop(balls, [law, sb.Spring(1.0)], impact_speed=1.0)
     assert usual_laws()[:2] == ["Rigid", "Spring"]
+
+
+@pytest.mark.parametrize("exponent", [0.2, 4.0])
+def test_restitutions_at_any_speed_are_limits(exponent):
+    """Beyond the range of numbers they are those of the formula: 0 or 1."""
+    falls, loses = sb.RigidBySpeed(0.5, 1.0, exponent), sb.RigidLossBySpeed(0.5, 1.0, exponent)
+    for slow in (5e-324, 1e-100):
+        assert sb.restitution(falls, speed=slow) == 1.0
+        assert sb.restitution(loses, speed=slow) == pytest.approx(1.0)
+    for fast in (1e100, 1e308):
+        assert sb.restitution(falls, speed=fast) == pytest.approx(0.0, abs=1e-19)
+        assert sb.restitution(loses, speed=fast) == 0.0
+    assert sb.restitution(sb.RigidLossBySpeed(1.0, 1.0, exponent), speed=1e308) == 1.0
+    gentle = sb.RigidBySpeed(0.5, 1e-9, 1e-3)  # its ratio of speeds is out of range, not its power
+    assert sb.restitution(gentle, speed=1e308) == pytest.approx(0.5 * 10.0**-0.317)

@@ -65,7 +65,7 @@ def test_a_spline_converges_to_a_smooth_curve():
         ({"unloading": [0.0, 11.0, 12.0, 60.0]}, "unloading.1 must be at most force.1, 10.0"),
         ({"unloading": [0.0, 5.0, 4.0, 60.0]}, "unloading.2 must be at least unloading.1"),
         ({"unloading": BACK, "restitution": 0.8}, "unloading and restitution must not both be"),
-        ({"restitution": 0.0}, "restitution must be a number above 0 and at most 1, got 0"),
+        ({"restitution": 0.0}, "restitution must be a number from 1e-05 to 1, got 0"),
         ({"force": [0.0, 1.0, float("nan"), 3.0]}, "force.2 must be a finite number"),
     ],
 )
@@ -80,6 +80,16 @@ def test_what_is_no_sequence_is_refused():
         sb.Tabulated(X, "many")
     with pytest.raises(errors.InvalidValue, match=r"of more, stackbounce.measure.press"):
         sb.Tabulated(range(MOST_POINTS + 1), range(MOST_POINTS + 1))
+    for value in (np.array(3.0), {0.0, 1e-3}):
+        with pytest.raises(errors.InvalidType, match="compression must be a sequence of numbers"):
+            sb.Tabulated(value, Y)
+
+
+def test_a_sequence_may_be_endless():
+    with pytest.raises(errors.InvalidValue, match="from 2 to 16 points, got more"):
+        sb.Tabulated(itertools.count(), Y)
+    with pytest.raises(errors.InvalidValue, match="balls must hold at most 100000 values"):
+        sb.Drop(itertools.repeat(sb.Ball(1.0)), [sb.Spring(1.0)], impact_speed=1.0)
 
 
 @pytest.mark.parametrize("own", [{}, {"unloading": BACK}, {"restitution": 0.7}])

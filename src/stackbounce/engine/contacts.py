@@ -185,7 +185,7 @@ def _steepen(stack: Stack, i: int, compression: float) -> None:
     pressing = force(stack, i, compression, 0.0, 0.0)
     exponent = stack.exponent[i]
     steeper = pressing * compression / _energy_to_return(stack, i, compression) - 1.0
-    if steeper <= stack.curve_exponent[i] * _STEEPER:
+    if not steeper > stack.curve_exponent[i] * _STEEPER:  # nan where there is no force left
         return
     # the steeper curve meets the loading curve earlier than the old one
     meeting = max(0.0, log(stack.stiffness[i] * power(compression, exponent) / pressing))

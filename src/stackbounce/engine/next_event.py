@@ -74,7 +74,8 @@ from stackbounce.engine.stack import Stack
 # round-off below this fraction of a typical motion: the motion itself is only round-off
 _NOTHING = 1000.0 * EPSILON * EPSILON
 _LOOSE = 10.0  # a touch must exceed this times the tolerance of a step
-_LINEARISED_EXIT = 0.9  # of ``linearised_below``: the chord is left above 1 and taken below this
+_LINEARISED_EXIT = 0.9  # of ``linearised_below``: the chord is left above 1 and taken below this,
+_LOGARITHMS = 1e3  # or where the logarithm of the force has changed by this
 
 
 @kernel
@@ -213,7 +214,8 @@ def _linearised_level(stack: Stack, i: int) -> float:
         return 0.0
     if root_at(stack, i) == 2 and stack.phase[i] == COMPRESSING:
         return 0.0
-    return _LINEARISED_EXIT * stack.linearised_below[i]
+    ratio = max(_LINEARISED_EXIT, 1.0 - _LOGARITHMS / stack.curve_exponent[i])
+    return ratio * stack.linearised_below[i]
 
 
 @kernel

@@ -78,6 +78,8 @@ from stackbounce.engine.slots import (
     LAST_EVENT,
     LOG_ROWS,
     NEXT_SAMPLE,
+    STEPS,
+    STEPS_BEFORE,
     TOLERANCE,
 )
 from stackbounce.engine.stack import Samples, Stack
@@ -85,7 +87,8 @@ from stackbounce.engine.taylor import record_series_peaks
 
 _COARSE = 1e-5  # of a contact's duration: the coarsest resolution of time
 _NOTICED = 1e-3  # of the energy of approach: the largest energy stored before a touch is noticed
-_SWINGING = 50_000  # steps without an event after which a stack that lies is left, if no end is set
+_SWINGING = 50_000  # steps since a touch or release: a stack that lies is left, if no end is set
+_STEPS = 1_000_000  # in all: the least limit; it is the limit of events where that is larger
 _NEWTON = 4  # Newton steps from a time at which the sign is certain to its change
 
 
@@ -130,13 +133,12 @@ def advance_contacts(
             return TIME_REACHED
         if time == math.inf:
             return _final_status(stack)
-        if max(stack.counter[EVENTS], stack.counter[CHECKS]) >= event_limit:
-            return EVENT_LIMIT
-        if stack.counter[CHECKS] >= _SWINGING and until == math.inf and _lies(stack):
+        if _meets_limit(stack, until, event_limit):
             return EVENT_LIMIT
         if stack.counter[LOG_ROWS] == room:
             return RUNNING
         stack.clock[LAST_CHECK] = time
+        stack.counter[STEPS] += 1
         if slot >= size:
             stack.counter[CHECKS] += 1
             _expand_again(stack, slot - size, time)
@@ -158,6 +160,20 @@ def advance_contacts(
 
 
 @kernel
+def _meets_limit(stack: Stack, until: float, event_limit: int) -> bool:
+    """Tell whether a run ends because it has had too many events or steps.
+
+    A stack that lies is left where no contact has opened or closed for long, if no end is set.
+    """
+    if max(stack.counter[EVENTS], stack.counter[CHECKS]) >= event_limit:
+        return True
+    steps = stack.counter[STEPS]
+    if steps - stack.counter[STEPS_BEFORE] >= _SWINGING and until == math.inf and _lies(stack):
+        return True
+    return steps >= max(_STEPS, event_limit)
+
+
+@kernel
 def _is_over(stack: Stack, time: float, samples: Samples) -> bool:
     """Tell whether bodies have parted for good; they are followed on to the last sample."""
     return stack.counter[NEXT_SAMPLE] == len(samples.time) and have_parted(stack, time)
@@ -174,6 +190,8 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
     """Apply an event of contact i."""
     stack.counter[EVENTS] += 1
     stack.counter[CHECKS] = 0
+    if kind in (TOUCH, RELEASE):
+        stack.counter[STEPS_BEFORE] = stack.counter[STEPS]
     compression = compression_at(stack, i, time)
     if kind == PEAK:
         record_peak(stack, i, compression, force(stack, i, compression, 0.0, 0.0), time)

@@ -6,8 +6,8 @@ array      `Stack`       `RigidStack`  slots
 `number`   6             6             GRAVITY, SPEED, TOLERANCE, LINEARISED_WORK, UNIT,
                                        KEPT_TIME
 `setting`  4                           SERIES_ORDER, NONLINEAR, RECORDS_PEAKS, BONDS
-`counter`  6             6             LOG_ROWS, EVENTS, CHECKS, NEXT_SAMPLE, CLOSED,
-                                       APPROACHING
+`counter`  8             8             LOG_ROWS, EVENTS, CHECKS, NEXT_SAMPLE, CLOSED,
+                                       APPROACHING, STEPS, STEPS_BEFORE
 `clock`    2             2             LAST_EVENT, LAST_CHECK
 `resting`                2             BALLS_AT_REST, LOWEST_LOSSY
 `memory`                 5             KEPT_CONTACT, KEEP_AFTER, SINCE_KEPT,
@@ -38,7 +38,9 @@ CHECKS = 2  # finite: contacts checked and series renewed since the last event
 NEXT_SAMPLE = 3  # the index of the next sample time
 CLOSED = 4  # finite: contacts that are not open
 APPROACHING = 5  # finite: a contact that was approaching when all were last checked
-COUNTERS = 6
+STEPS = 6  # finite: events and checks since the start
+STEPS_BEFORE = 7  # finite: those up to the last touch or release
+COUNTERS = 8
 
 # `clock`: times
 LAST_EVENT = 0

@@ -1,5 +1,6 @@
 """A drop: balls, the contacts below them, the gaps between them, and the impact speed."""
 
+import itertools
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ __all__ = ["STANDARD_GRAVITY", "Drop"]
 STANDARD_GRAVITY = 9.80665
 """Standard gravity in m/s**2, for the fall from `height` if `gravity` is 0."""
 
+_MOST_ITEMS = 100_000  # far more than can be run: an endless sequence ends with an error
 _INCIDENCE = ("impact_speed", "height", "velocities")
 
 
@@ -254,10 +256,14 @@ class Drop:
 def _items(name: str, values: object) -> tuple[Any, ...]:
     if isinstance(values, str | bytes | Mapping | set | frozenset):
         raise InvalidType(f"{name} must be a list, got {shown(values)}")
+    given: Any = values
     try:
-        return tuple(values)  # type: ignore[arg-type]
+        items = tuple(itertools.islice(given, _MOST_ITEMS + 1))
     except TypeError:
         raise InvalidType(f"{name} must be a list, got {shown(values)}") from None
+    if len(items) > _MOST_ITEMS:
+        raise InvalidValue(f"{name} must hold at most {_MOST_ITEMS} values, got more")
+    return items
 
 
 def _check_balls(balls: tuple[object, ...]) -> None:

@@ -51,7 +51,8 @@ def simulate(
         and rigid balls are exact to round-off whatever it is.
     event_limit : int, optional
         Events (touches, releases, and changes of the force between them), or steps between two
-        events, after which to stop with the status EVENT_LIMIT and the results so far.
+        events, after which to stop with the status EVENT_LIMIT and the results so far. A run also
+        stops after a million steps in all, or after `event_limit` steps where that is more.
     compiled : bool, optional
         Whether to run compiled code rather than plain Python; by default wherever there is some for
         this machine. Both give the same bits.

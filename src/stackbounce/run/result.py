@@ -54,8 +54,9 @@ class Status(enum.IntEnum):
     Examples
     --------
     >>> Status.EVENT_LIMIT.advice
-    'the limit of events, or of steps between two events, was met, as by a stack that lies and
-    swings without loss: raise event_limit, or stop earlier with until'
+    'the limit of events or of steps was met, as by balls that swing or bounce on each other almost
+    without loss, or by a contact that is far stiffer or far more damped than the others: stop
+    earlier with until, raise event_limit, or bring the numbers of the contacts closer together'
     """
 
     FINISHED = codes.FINISHED
@@ -77,8 +78,10 @@ _ADVICE = {
     Status.COLLAPSED: "infinitely many collisions took place in a finite time and ended at their "
     "limit: their count is given as -1",
     Status.TIME_REACHED: "the time asked for was reached first: raise until to see more",
-    Status.EVENT_LIMIT: "the limit of events, or of steps between two events, was met, as by a "
-    "stack that lies and swings without loss: raise event_limit, or stop earlier with until",
+    Status.EVENT_LIMIT: "the limit of events or of steps was met, as by balls that swing or bounce "
+    "on each other almost without loss, or by a contact that is far stiffer or far more damped "
+    "than the others: stop earlier with until, raise event_limit, or bring the numbers of the "
+    "contacts closer together",
     Status.INVALID: "numbers left the range of floating point, or a contact was shorter than the "
     "resolution of time, so that no speeds are known: bring masses, stiffnesses, gaps and "
     "speeds closer together",

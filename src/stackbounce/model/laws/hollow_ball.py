@@ -15,6 +15,7 @@ from stackbounce.engine.codes import FORMS
 from stackbounce.errors import InvalidValue, fraction, positive
 from stackbounce.model.collision.roots import root
 from stackbounce.model.laws.law import (
+    RESTITUTION,
     ContactLaw,
     EngineNumbers,
     Flank,
@@ -53,7 +54,7 @@ class HollowBall(ContactLaw):
     stiffness_ratio : float
         r, above 0 and at most 1: the stiffness after buckling over that before.
     restitution : float
-        e, above 0 and at most 1.
+        e, from 1e-5 to 1: a contact that returns less is `Rigid`, with the restitution 0.
 
     Raises
     ------
@@ -94,9 +95,7 @@ restitution 0.75'
     stiffness_ratio: Annotated[
         float, Quantity("", lambda n, v: fraction(n, v, zero=False), (0.3, 0.01, 1.0))
     ]
-    restitution: Annotated[
-        float, Quantity("", lambda n, v: fraction(n, v, zero=False), (0.8, 0.05, 1.0))
-    ]
+    restitution: Annotated[float, RESTITUTION]
 
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers: k, the share e**2 of energy returned, c_b and r."""
@@ -129,12 +128,8 @@ restitution 0.75'
         share = given.get("buckling_share", _BUCKLING_SHARE)
         part = given.get("buckling_time", _BUCKLING_TIME * lasts) / lasts
         latest = math.asin(share)
-        most = latest / _unit_law(latest, share, kept).contact_time_at(1.0, 1.0)
-        if part >= most:
-            raise InvalidValue(
-                f"buckling_time must be below {most:.3g} times contact_time for a buckling_share "
-                f"of {share:g}, got {part:.3g} times"
-            )
+        if part >= _latest_part(share, kept):
+            raise InvalidValue(_out_of_reach(part, share, kept))
         start = root(
             lambda start: start - part * _unit_law(start, share, kept).contact_time_at(1.0, 1.0),
             0.1 * min(part, latest),
@@ -162,6 +157,27 @@ restitution 0.75'
         """Return the stiffness of both in series, and the compression at which both buckle."""
         knee = self.buckling_compression * (self.stiffness / stiffness)
         return {"stiffness": stiffness, "buckling_compression": knee}
+
+
+def _latest_part(share: float, restitution: float) -> float:
+    """Return the largest buckling time over the contact time: that with the stiffness ratio 1."""
+    latest = math.asin(share)
+    return latest / _unit_law(latest, share, restitution).contact_time_at(1.0, 1.0)
+
+
+def _out_of_reach(part: float, share: float, restitution: float) -> str:
+    """Return the message that a ball of this restitution does not buckle so late."""
+    text = (
+        f"buckling_time must be below {_latest_part(share, restitution):.3g} times contact_time "
+        f"for a buckling_share of {share:g} and a restitution of {restitution:g}, "
+        f"got {part:.3g} times"
+    )
+    if part >= _latest_part(share, 1.0):
+        return text
+    least = root(
+        lambda e: _latest_part(share, min(max(e, restitution), 1.0)) - part, restitution, 1.0
+    )
+    return f"{text}, for which restitution must be at least {1.005 * least:.3g}"
 
 
 def _unit_law(start: float, share: float, restitution: float) -> HollowBall:

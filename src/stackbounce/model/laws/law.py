@@ -22,6 +22,7 @@ from stackbounce.units import Unit, unit_of
 
 __all__ = [
     "EXPONENT",
+    "RESTITUTION",
     "STEEPEST",
     "ContactLaw",
     "EngineNumbers",
@@ -72,6 +73,12 @@ def stiffness_in(unit: str) -> Quantity:
 
 EXPONENT = Quantity("", lambda name, value: between(name, value, 1.0, STEEPEST), (1.5, 1.0, 4.0))
 """The `Quantity` of the exponent of a loading curve."""
+
+RESTITUTION = Quantity("", lambda name, value: between(name, value, 1e-5, 1.0), (0.8, 0.05, 1.0))
+"""The `Quantity` of the restitution of a curve of pieces.
+
+Its unloading is too steep for the digits of a compression where it returns less.
+"""
 
 
 class Flank(NamedTuple):

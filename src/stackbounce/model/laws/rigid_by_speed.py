@@ -1,5 +1,6 @@
 """Rigid contacts whose restitution depends on the speed, and may scatter."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Annotated, Any, Self
@@ -13,6 +14,7 @@ from stackbounce.model.laws.rigid import Rigid
 
 __all__ = ["RigidBySpeed", "RigidLossBySpeed"]
 
+_HUGE = 700.0  # the logarithm of a number that is nearly the largest one
 _RESTITUTION = Quantity("", lambda n, v: fraction(n, v, zero=False), (0.8, 0.05, 1.0))
 _SPEED = Quantity("m/s", lambda n, v: between(n, v, 1e-9, 1e9, "m/s"), (1.0, 0.01, 10.0))
 _EXPONENT = Quantity("", lambda n, v: between(n, v, 0.0, 4.0), (0.25, 0.0, 1.0))
@@ -99,8 +101,7 @@ class RigidBySpeed(Rigid):
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution at a speed in m/s, without scatter."""
-        slower: float = (self.speed / speed) ** self.speed_exponent
-        return min(1.0, self.restitution * slower)
+        return min(1.0, self.restitution * _ratio_power(self.speed, speed, self.speed_exponent))
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
@@ -174,8 +175,17 @@ class RigidLossBySpeed(RigidBySpeed):
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution at a speed in m/s, without scatter."""
-        faster: float = (speed / self.speed) ** self.speed_exponent
+        faster = _ratio_power(speed, self.speed, self.speed_exponent)
         return max(0.0, 1.0 - (1.0 - self.restitution) * faster)
+
+
+def _ratio_power(speed: float, other: float, exponent: float) -> float:
+    """Return the power of the ratio of two speeds; a huge number where it would be larger."""
+    ratio = speed / other
+    logarithm = exponent * (math.log(speed) - math.log(other))
+    if 0.0 < ratio < math.inf and logarithm < _HUGE:
+        return float(ratio**exponent)
+    return math.exp(min(logarithm, _HUGE))
 
 
 def powers(base: Any, exponent: Any) -> Any:

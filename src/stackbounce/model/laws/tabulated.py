@@ -10,14 +10,21 @@ Sci. Stat. Comput. 5, 300 (1984).
 """
 
 import functools
+import itertools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine.codes import FORMS
-from stackbounce.errors import InvalidType, InvalidValue, finite, fraction, shown
-from stackbounce.model.laws.law import ContactLaw, EngineNumbers, Flank, Flanks, Given
+from stackbounce.errors import InvalidType, InvalidValue, finite, shown
+from stackbounce.model.laws.law import (
+    RESTITUTION,
+    ContactLaw,
+    EngineNumbers,
+    Flank,
+    Flanks,
+    Given,
+)
 from stackbounce.model.laws.registry import register_unlisted
 from stackbounce.units import Unit
 
@@ -63,7 +70,7 @@ class Tabulated(ContactLaw):
         In N: the force at each compression in unloading from the last one. It begins with 0, never
         falls, is at most the force in loading, and ends with it.
     restitution : float, optional
-        e, above 0 and at most 1, where the unloading curve is not known.
+        e, from 1e-5 to 1, where the unloading curve is not known.
 
     Raises
     ------
@@ -119,7 +126,7 @@ class Tabulated(ContactLaw):
         if self.restitution is not None:
             if self.unloading is not None:
                 raise InvalidValue("unloading and restitution must not both be given, got both")
-            e = fraction("restitution", self.restitution, zero=False)
+            e = RESTITUTION.check("restitution", self.restitution)
             object.__setattr__(self, "restitution", e)
 
     def to_mapping(self) -> dict[str, Any]:
@@ -210,13 +217,13 @@ def _points(
     level: bool = False,
 ) -> tuple[float, ...]:
     """Return the points of a curve from 0 on; raise if they do not rise."""
-    given: Any = values
-    if isinstance(values, str | bytes | Mapping) or not hasattr(values, "__iter__"):
-        raise InvalidType(f"{name} must be a sequence of numbers, got {shown(values)}")
-    points = tuple(finite(f"{name}.{i}", value, unit) for i, value in enumerate(given))
+    points = tuple(
+        finite(f"{name}.{i}", value, unit) for i, value in enumerate(_first(name, values))
+    )
     if not 2 <= len(points) <= MOST_POINTS:
+        count = len(points) if len(points) < 2 else "more"
         raise InvalidValue(
-            f"{name} must have from 2 to {MOST_POINTS} points, got {len(points)}: of more, "
+            f"{name} must have from 2 to {MOST_POINTS} points, got {count}: of more, "
             "stackbounce.measure.press((compression, force)).table() makes a law"
         )
     if like is not None and len(points) != len(like):
@@ -225,7 +232,7 @@ def _points(
         )
     if points[0] != 0.0:
         raise InvalidValue(f"{name}.0 must be 0, where the ball is just touched, got {points[0]!r}")
-    for i, (one, two) in enumerate(pairwise(points)):
+    for i, (one, two) in enumerate(itertools.pairwise(points)):
         if two < one or (two == one and not level):
             words = "at least" if level else "above"
             raise InvalidValue(f"{name}.{i + 1} must be {words} {name}.{i}, {one!r}, got {two!r}")
@@ -234,6 +241,17 @@ def _points(
                 f"{name}.{i + 1} must be at least 0.1 % above {name}.{i}, {one!r}, got {two!r}"
             )
     return points
+
+
+def _first(name: str, values: object) -> list[object]:
+    """Return the values, which may have no end, up to one more than a curve has points."""
+    given: Any = values
+    if isinstance(values, str | bytes | Mapping | set | frozenset):
+        given = None
+    try:
+        return list(itertools.islice(given, MOST_POINTS + 1))
+    except TypeError:
+        raise InvalidType(f"{name} must be a sequence of numbers, got {shown(values)}") from None
 
 
 @functools.lru_cache(maxsize=64)
