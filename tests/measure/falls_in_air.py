@@ -30,15 +30,18 @@ class FallsInAir(Falls):
         return heights
 
 
-def falls_in_air(height, kept, *, ball=BALL, coefficient=0.45, bounces=8, contact_time=0.0):
-    """Return the bounces of a ball from a height in m; `kept` is its restitution at a speed."""
+def falls_in_air(height, kept, *, ball=BALL, coefficient=0.45, bounces=8, lasts=lambda _: 0.0):
+    """Return the bounces of a ball from a height in m.
+
+    `kept` is its restitution at a speed, and `lasts` the duration of a contact.
+    """
     mass, diameter = ball
     k = DENSITY * coefficient * math.pi * (diameter / 2.0) ** 2 / (2.0 * mass)
     first = _flight(k, [height, 0.0])
     time, speed = first.t[-1], -first.y[1, -1]
     rows, solutions = [], [first.sol]
     for _ in range(bounces):
-        e = kept(speed)
+        e, contact_time = kept(speed), lasts(speed)
         flown = _flight(k, [0.0, e * speed])
         rows.append((time, time + contact_time, speed, e, flown.y_events[1][0][0]))
         solutions.append(flown.sol)
