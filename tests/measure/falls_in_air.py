@@ -25,8 +25,9 @@ class FallsInAir(Falls):
         starts, ends = [0.0, *self.releases], [*self.touches, math.inf]
         for start, end, solution in zip(starts, ends, self.solutions, strict=True):
             flying = (times >= start) & (times < end)
-            at = np.minimum(times[flying] - start, solution.t_max)
-            heights[flying] = np.maximum(solution(at)[0], 0.0)
+            if flying.any():
+                at = np.minimum(times[flying] - start, solution.t_max)
+                heights[flying] = np.maximum(solution(at)[0], 0.0)
         return heights
 
 
@@ -63,6 +64,7 @@ def _flight(k, state):
         (0.0, 10.0),
         state,
         events=(floor, top),
+        method="DOP853",
         rtol=1e-11,
         atol=1e-13,
         dense_output=True,

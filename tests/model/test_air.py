@@ -149,6 +149,31 @@ def test_the_speed_of_a_flight_grows_with_its_time():
         drag.flight_speed(0.126, 1e4, G)
 
 
+@pytest.mark.parametrize("start", [3.0, 0.0, -2.0])
+@pytest.mark.parametrize("time", [0.4, 1.3, -0.2])
+def test_a_ball_is_followed_from_any_speed(start, time):
+    way, speed = drag.flown(K, start, time, G)
+    found = solve_ivp(
+        lambda _, y: [y[1], -G - K * y[1] * abs(y[1])],
+        (0.0, time),
+        [0.0, start],
+        rtol=1e-12,
+        atol=1e-13,
+    )
+    assert (way, speed) == pytest.approx(found.y[:, -1], rel=1e-9)
+    assert drag.flown(K, speed, -time, G) == pytest.approx((-way, start), rel=1e-10, abs=1e-12)
+    assert drag.flown(0.0, start, time, G) == pytest.approx(
+        (start * time - 0.5 * G * time**2, start - G * time)
+    )
+
+
+def test_a_ball_that_is_too_fast_is_followed_nowhere():
+    with pytest.raises(OverflowError):
+        drag.flown(K, -1.01 * AIR.terminal_speed(BALL), 0.1, G)
+    with pytest.raises(OverflowError):
+        drag.flown(K, 1.0, -10.0, G)
+
+
 @given(height=heights, density=densities)
 def test_the_height_of_a_fall_is_the_inverse_of_its_speed(height, density):
     k = sb.Air(density)._rate(BALL)

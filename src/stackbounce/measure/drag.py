@@ -74,25 +74,29 @@ class Drag:
         mass, diameter, coefficient, density = map(nominal, vars(self).values())
         return Drag(mass, diameter, factor * coefficient, density)
 
-    def fallen_speed(self, height: Any, gravity: float = STANDARD_GRAVITY) -> Number:
+    def fallen_speed(self, height: Any, gravity: Any = STANDARD_GRAVITY) -> Number:
         """Return the speed in m/s after a fall from rest by a height in m."""
         return self._found(drag.fallen_speed, height, gravity)
 
-    def fall_height(self, speed: Any, gravity: float = STANDARD_GRAVITY) -> Number | None:
+    def fall_time(self, height: Any, gravity: Any = STANDARD_GRAVITY) -> Number:
+        """Return the time in s of a fall from rest by a height in m."""
+        return self._found(drag.fall_time, height, gravity)
+
+    def fall_height(self, speed: Any, gravity: Any = STANDARD_GRAVITY) -> Number | None:
         """Return the height in m of a fall from rest to a speed in m/s; None if none is enough."""
-        if math.isinf(drag.fall_height(nominal(self.rate), nominal(speed), gravity)):
+        if math.isinf(drag.fall_height(nominal(self.rate), nominal(speed), nominal(gravity))):
             return None
         return self._found(drag.fall_height, speed, gravity)
 
-    def launch_speed(self, height: Any, gravity: float = STANDARD_GRAVITY) -> Number:
+    def launch_speed(self, height: Any, gravity: Any = STANDARD_GRAVITY) -> Number:
         """Return the speed in m/s at which a ball left the floor that rose to a height in m."""
         return self._found(drag.launch_speed, height, gravity)
 
-    def risen(self, speed: Any, gravity: float = STANDARD_GRAVITY) -> Number:
+    def risen(self, speed: Any, gravity: Any = STANDARD_GRAVITY) -> Number:
         """Return the height in m to which a ball rises that leaves the floor at a speed in m/s."""
         return self._found(drag.risen, speed, gravity)
 
-    def flight_speeds(self, time: Any, gravity: float = STANDARD_GRAVITY) -> tuple[Number, Number]:
+    def flight_speeds(self, time: Any, gravity: Any = STANDARD_GRAVITY) -> tuple[Number, Number]:
         """Return the speeds in m/s at which a flight of a time in s began and ended."""
         leaving = self._found(drag.flight_speed, time, gravity)
         return leaving, self._found(drag.landing_speed, leaving, gravity)

@@ -24,6 +24,7 @@ __all__ = [
     "fallen",
     "fallen_speed",
     "flight_speed",
+    "flown",
     "landing_speed",
     "launch_speed",
     "rise_time",
@@ -116,6 +117,47 @@ def speed_after(k: float, time: float, g: float) -> float:
     """
     part = time * math.sqrt(g * k)
     return g * time * (math.tanh(part) / part if part > 0.0 else 1.0)
+
+
+def flown(k: float, speed: float, time: float, g: float) -> tuple[float, float]:
+    """Return the way and the speed after a time, both up-positive; before it if that is negative.
+
+    The speed now is up-positive too, and no ball falls faster than its terminal speed.
+
+    Raises
+    ------
+    OverflowError
+        If the ball would have come from infinitely far.
+
+    Examples
+    --------
+    >>> flown(0.0, 10.0, 3.0, 10.0), flown(0.0, -10.0, -2.0, 10.0)
+    ((-15.0, -20.0), (0.0, 10.0))
+    """
+    top = rise_time(k, speed, g) if speed >= 0.0 else -_time_to(k, -speed, g)
+    start, end = _from_top(k, -top, g), _from_top(k, time - top, g)
+    return end[0] - start[0], end[1]
+
+
+def _time_to(k: float, speed: float, g: float) -> float:
+    """Return how long a ball has fallen from rest at a speed."""
+    root = speed * math.sqrt(k / g)
+    if root >= 1.0:
+        raise OverflowError("faster than the terminal speed")
+    return speed / g * (math.atanh(root) / root if root > 0.0 else 1.0)
+
+
+def _from_top(k: float, time: float, g: float) -> tuple[float, float]:
+    """Return height above its highest point and velocity of a ball, a time after it was there."""
+    if time >= 0.0:
+        return -fallen(k, time, g), -speed_after(k, time, g)
+    part = -time * math.sqrt(g * k)
+    if part == 0.0:
+        return -0.5 * g * time * time, -g * time
+    if part >= 0.5 * math.pi:
+        raise OverflowError("from infinitely far")
+    way = -math.log1p(-(math.sin(part) ** 2)) / (part * part)
+    return -0.5 * g * time * time * way, -g * time * (math.tan(part) / part)
 
 
 def risen(k: float, speed: float, g: float) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
 from stackbounce.measure.drag import Drag, speed_after_fall
-from stackbounce.measure.kinds.bounces.error_of_drag import with_error_of_drag
+from stackbounce.measure.error_of_drag import with_error_of_drag
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces
@@ -106,6 +106,7 @@ def bounces(
     if drag is not None:
         found = replace(
             with_error_of_drag(found, found_with, drag),
+            drag=drag,
             notes=(drag.note(found_with(None).mean), *found.notes),
         )
     return replace(found, notes=(*notes, *found.notes))
