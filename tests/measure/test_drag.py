@@ -293,9 +293,14 @@ def test_what_is_missing_or_out_of_range_is_told(path):
     assert "drag_coefficient must be" in refused(lambda: analyse(data, drag_coefficient="x"))
     assert "mass must be a positive" in refused(lambda: Drag(0.0, 0.04, 0.5))
     assert "coefficient must be" in refused(lambda: Drag(1.0, 0.04, 0.0))
-    assert refused(lambda: bounces(times, drag=Drag(1e-9, 10.0, 0.5))).startswith(
+    assert refused(lambda: bounces(times, drag=Drag(1e-5, 1.0, 0.5))).startswith(
         "mass, diameter and drag_coefficient must be those of a ball that can fly so far, got 2.36"
     )
+    assert refused(lambda: Drag(1e-100, 1.0, 0.5)) == (
+        "mass, diameter and drag_coefficient must be those of a ball in air, got 2.36e+99 1/m of "
+        "drag (a table tennis ball has 0.13)"
+    )
+    assert "of a ball in air, got inf 1/m" in refused(lambda: Drag(1.0, 1e300, 0.5))
     page = refused(
         lambda: records.measure_record(path.name, path.read_bytes(), {"drag_coefficient": "0.5"})
     )

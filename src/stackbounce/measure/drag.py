@@ -15,6 +15,8 @@ from stackbounce.model.drop import STANDARD_GRAVITY
 
 __all__ = ["Drag", "drag_of", "speed_after_fall"]
 
+_THINNEST, _THICKEST = 1e-15, 1e6  # 1/m, of what is called a ball in air
+_MOST = 1e12  # m/s, m, s
 _WIDER = 1e-6  # of a bracket: more than the steps of a derivative move its root
 
 
@@ -63,6 +65,15 @@ class Drag:
         for name in ("mass", "diameter", "coefficient", "density"):
             value = measured(name, getattr(self, name), units.get(name, ""))
             object.__setattr__(self, name, value)
+        try:
+            rate = nominal(self.rate)
+        except ArithmeticError:
+            rate = math.inf
+        if not _THINNEST < rate < _THICKEST:
+            raise InvalidValue(
+                "mass, diameter and drag_coefficient must be those of a ball in air, got "
+                f"{rate:.3g} 1/m of drag (a table tennis ball has 0.13)"
+            )
 
     @property
     def rate(self) -> Number:
@@ -122,7 +133,10 @@ class Drag:
 
             return float(brentq(above, *bounds, xtol=1e-300))
 
-        return wrap(between)(self.rate, heights[0], heights[-1])
+        try:
+            return wrap(between)(self.rate, heights[0], heights[-1])
+        except ArithmeticError:
+            raise self._too_far() from None
 
     def height_after(self, start: float, restitution: float, bounces: float) -> float:
         """Return the height in m after some bounces of one restitution, from a drop height in m.
@@ -150,13 +164,18 @@ class Drag:
         from uncertainties import wrap
 
         try:
-            return wrap(formula)(self.rate, *given)
-        except OverflowError:
-            raise InvalidValue(
-                "mass, diameter and drag_coefficient must be those of a ball that can fly so far, "
-                f"got {nominal(self.rate):.3g} 1/m of drag: its speed would be out of the range of "
-                "numbers"
-            ) from None
+            found = wrap(formula)(self.rate, *given)
+        except ArithmeticError:
+            raise self._too_far() from None
+        if not nominal(found) < _MOST:
+            raise self._too_far()
+        return found
+
+    def _too_far(self) -> InvalidValue:
+        return InvalidValue(
+            "mass, diameter and drag_coefficient must be those of a ball that can fly so far, got "
+            f"{nominal(self.rate):.3g} 1/m of drag: its speed would be out of all range"
+        )
 
 
 def speed_after_fall(height: Any, gravity: float, drag: Drag | None) -> Any:
