@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         series,
     )
     from stackbounce.prediction import Prediction, predict
+    from stackbounce.run.bounces import bounces_in_air
     from stackbounce.run.driver import simulate
     from stackbounce.run.result import Result, Status
     from stackbounce.sweeps import sweep
@@ -64,6 +65,7 @@ __all__ = [
     "Viscoelastic",
     "__version__",
     "best_masses",
+    "bounces_in_air",
     "calibrate",
     "compare",
     "contact_time",
@@ -90,6 +92,7 @@ _ROOMS = {
     "prediction": ("Prediction", "predict"),
     "run.driver": ("simulate",),
     "run.result": ("Result", "Status"),
+    "run.bounces": ("bounces_in_air",),
     "sweeps": ("sweep",),
     "version": ("__version__",),
 }

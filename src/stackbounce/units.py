@@ -42,6 +42,7 @@ _KINDS = {
     "N s/m": ("a damping", "7 N s/m"),
     "s/m": ("a dissipation", "0.2 s/m"),
     "Pa": ("a pressure", "210 GPa"),
+    "kg/m**3": ("a density", "1.2 kg/m^3"),
 }
 
 _HANDY = {  # unit: (from this value on, its name, how many of it the unit has), largest first

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 import stackbounce as sb
 from stackbounce import errors
-from stackbounce.model import STANDARD_GRAVITY
+from stackbounce.model import STANDARD_GRAVITY, drag
 
 G = 9.80665
 BALL = sb.Ball(0.057, 0.066, "tennis")
@@ -113,6 +113,75 @@ def test_without_drag_all_is_as_in_free_fall(height):
         flight = air.flight(BALL, speed)
         assert (flight.rise_time, flight.landing_speed) == (speed / G, speed)
         assert air.terminal_speed(BALL) == math.inf
+
+
+def quadrature(k, speed, g=G):
+    """Return the time of a flight from a speed: dt = dv/(g + k v**2) up, dv/(g - k v**2) down."""
+    with mp.workdps(30):
+        k, speed, g = mpf(k), mpf(speed), mpf(g)
+        landing = speed / mp.sqrt(1 + k * speed**2 / g)
+        up = mp.quad(lambda v: 1 / (g + k * v**2), [0, speed / 2, speed])
+        return up + mp.quad(lambda v: 1 / (g - k * v**2), [0, landing / 2, landing])
+
+
+@pytest.mark.parametrize("k", [1e-12, 1e-4, K, 0.126, 3.0])
+@pytest.mark.parametrize("speed", [1e-3, 0.5, 3.0, 8.0])
+def test_the_speed_of_a_flight_is_that_of_quadrature(k, speed):
+    time = float(quadrature(k, speed))
+    assert drag.flight_speed(k, time, G) == pytest.approx(speed, rel=1e-14)
+    assert drag.landing_speed(k, speed, G) <= speed
+
+
+@given(speed=speeds, density=densities)
+def test_the_speed_of_a_flight_is_the_inverse_of_its_time(speed, density):
+    k, flight = sb.Air(density)._rate(BALL), sb.Air(density).flight(BALL, speed)
+    time = flight.rise_time + flight.fall_time
+    assert drag.flight_speed(k, time, STANDARD_GRAVITY) == pytest.approx(speed, rel=3e-13)
+
+
+def test_the_speed_of_a_flight_grows_with_its_time():
+    times = np.geomspace(1e-9, 300.0, 3000)
+    found = [drag.flight_speed(0.126, time, G) for time in times.tolist()]
+    assert (np.diff(found) > 0.0).all()
+    assert found[0] == pytest.approx(0.5 * G * 1e-9, rel=1e-14)
+    assert drag.flight_speed(0.126, 0.0, G) == 0.0
+    with pytest.raises(OverflowError):
+        drag.flight_speed(0.126, 1e4, G)
+
+
+@pytest.mark.parametrize("start", [3.0, 0.0, -2.0])
+@pytest.mark.parametrize("time", [0.4, 1.3, -0.2])
+def test_a_ball_is_followed_from_any_speed(start, time):
+    way, speed = drag.flown(K, start, time, G)
+    found = solve_ivp(
+        lambda _, y: [y[1], -G - K * y[1] * abs(y[1])],
+        (0.0, time),
+        [0.0, start],
+        rtol=1e-12,
+        atol=1e-13,
+    )
+    assert (way, speed) == pytest.approx(found.y[:, -1], rel=1e-9)
+    assert drag.flown(K, speed, -time, G) == pytest.approx((-way, start), rel=1e-10, abs=1e-12)
+    assert drag.flown(0.0, start, time, G) == pytest.approx(
+        (start * time - 0.5 * G * time**2, start - G * time)
+    )
+
+
+def test_a_ball_that_is_too_fast_is_followed_nowhere():
+    with pytest.raises(OverflowError):
+        drag.flown(K, -1.01 * AIR.terminal_speed(BALL), 0.1, G)
+    with pytest.raises(OverflowError):
+        drag.flown(K, 1.0, -10.0, G)
+
+
+@given(height=heights, density=densities)
+def test_the_height_of_a_fall_is_the_inverse_of_its_speed(height, density):
+    k = sb.Air(density)._rate(BALL)
+    speed = drag.fallen_speed(k, height, G)
+    if k * speed * speed / G < 0.9:
+        assert drag.fall_height(k, speed, G) == pytest.approx(height, rel=1e-13)
+    terminal = math.sqrt(G / k) if k > 1e-300 else math.inf
+    assert drag.fall_height(k, 1.001 * terminal, G) == math.inf
 
 
 def test_energy_that_the_air_takes_in_a_flight():

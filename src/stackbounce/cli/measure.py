@@ -153,13 +153,16 @@ run.__signature__ = _signature()  # type: ignore[attr-defined]
 def _law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawConstants":
     """Return the law of ``--law``, calibrated to the results and the known numbers."""
     from stackbounce.measure import one_law
+    from stackbounce.measure.drag import drag_of, speed_after_fall
     from stackbounce.model.drop import STANDARD_GRAVITY
 
     names = ("mass", "contact_time", "restitution", "exponent")
     given = {name: known[name] for name in names if name in known}
     speed = known.get("speed")
     if speed is None and "height" in known:
-        speed = (2.0 * known.get("gravity", STANDARD_GRAVITY) * known["height"]) ** 0.5
+        names = ("mass", "diameter", "drag_coefficient", "air_density")
+        drag = drag_of(*(known.get(name) for name in names))
+        speed = speed_after_fall(known["height"], known.get("gravity", STANDARD_GRAVITY), drag)
     found = [one for each in done for one in each.found]
     return one_law(known["law"], found, **given, impact_speed=speed)
 

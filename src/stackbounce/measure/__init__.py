@@ -9,6 +9,8 @@ options       the table of options, for all user interfaces
 option_values texts from a user interface -> values that the analyses take
 analysis      the right analysis for what a file holds
 measurement   a file or typed numbers, with the results, for all user interfaces
+drag          the drag of the air in measured flights
+error_of_drag its error in what was found
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
 hints         options that a message recommends, in the words of each interface
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from stackbounce.measure.analysis import analyse
     from stackbounce.measure.assembly import one_ball, one_law
     from stackbounce.measure.constants import dynamic_stiffness, law_constants
+    from stackbounce.measure.drag import Drag
     from stackbounce.measure.kinds.acceleration.analysis import accelerometer
     from stackbounce.measure.kinds.bounces.analysis import bounces
     from stackbounce.measure.kinds.heights.analysis import heights
@@ -42,6 +45,7 @@ if TYPE_CHECKING:
     from stackbounce.measure.reading import read
 
 __all__ = [
+    "Drag",
     "accelerometer",
     "analyse",
     "bounces",
@@ -64,6 +68,7 @@ __all__ = [
 
 # Each name is imported when it is first used: the command line's help needs only the options.
 _HOMES = {
+    "Drag": "drag",
     "accelerometer": "kinds.acceleration.analysis",
     "analyse": "analysis",
     "bounces": "kinds.bounces.analysis",

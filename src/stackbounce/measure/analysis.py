@@ -25,7 +25,7 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
     mass : float or ufloat, optional
         Of the ball, in kg: a contact time then gives a stiffness.
     diameter : float or ufloat, optional
-        Of the ball, in m; needed where `measured_to` is not its bottom.
+        Of the ball, in m; needed where `measured_to` is not its bottom, and for drag.
     contact_time, restitution : float or ufloat, optional
         Of the lower ball alone, in s and dimensionless, for the gap of a stack.
     law : ContactLaw, its class or its name, optional
@@ -53,6 +53,11 @@ def analyse(data: "xr.Dataset", **options: Any) -> "tuple[Finding, ...]":
         Of a piezo sensor's droop, in s, which is then corrected.
     gravity : float, optional
         In m/s**2.
+    drag_coefficient : float or ufloat, optional
+        Of the ball in air, with `mass` and `diameter`: its drag is then taken into account in times
+        and heights of bounces and in tracks. By default, or with 0, there is no air.
+    air_density : float or ufloat, optional
+        In kg/m**3, with a drag coefficient; by default 1.204.
 
     Returns
     -------

@@ -34,6 +34,7 @@ _UNIT_NAMES = {
     "s": "TIME",
     "m/s": "SPEED",
     "m/s**2": "ACCELERATION",
+    "kg/m**3": "DENSITY",
 }
 _FORM_NAMES = {"lengths": "LENGTHS", "points": "POINT"}
 _BALL, _DROP = "What is known of the ball", "What is known of the drop"
@@ -174,6 +175,13 @@ _TABLE: dict[str, tuple[Option, ...]] = {
                 says="Time constant of a piezo sensor, such as 0.1s: its droop is corrected."),
         _number("gravity", "Gravity", "9.81 m/s^2", unit="m/s**2", rare=True,
                 says="At the place of the measurement, such as 9.81m/s^2."),
+        _measured("drag_coefficient", "Drag coefficient", "0.45 ± 0.05", rare=True,
+                  check=non_negative,
+                  says="Takes the drag of the air into account, with the ball's mass and diameter: "
+                  "'0.45 ± 0.05' for a smooth sphere. Without it there is no air."),
+        _measured("air_density", "Density of the air", "1.20 kg/m^3", unit="kg/m**3", rare=True,
+                  says="With a drag coefficient, such as 1.1kg/m^3; by default that at 20 °C and "
+                  "sea level, 1.204kg/m^3."),
     ),
     _FILE: (
         _told("holds", "Kind of measurement", "as recognised", metavar="KIND",

@@ -265,7 +265,7 @@ class Air:
         """
         v, g = positive("speed", speed, "m/s"), _pull(gravity)
         k = self._rate(ball)
-        height, landing = drag.risen(k, v, g), v / math.sqrt(1.0 + k * v * v / g)
+        height, landing = drag.risen(k, v, g), drag.landing_speed(k, v, g)
         flight = Flight(height, drag.rise_time(k, v, g), drag.fall_time(k, height, g), landing)
         if not all(map(math.isfinite, flight)):
             raise InvalidValue(f"speed must give a flight in the range of numbers, got {v!r}")
@@ -394,7 +394,7 @@ class Air:
                     f"got {shown(ball.name)}"
                 )
             coefficient = coefficient[ball.name]
-        return 0.125 * math.pi * self.density * coefficient * ball.diameter**2
+        return drag.sphere_drag(self.density, coefficient, ball.diameter)
 
 
 def _pull(gravity: object) -> float:

@@ -8,6 +8,7 @@ engines     chooses the engine, and plain Python or compiled code
 memory      the arrays in which drops are run, or lists for plain Python
 driver      one drop: `simulate`
 batch       many drops in blocks and threads
+bounces     one ball that bounces on in air
 quantities  speeds, heights, times and energy of many drops, by name
 result      the `Result` of one drop
 paths       the parameters of a drop by their paths, such as ``balls.0.mass``

@@ -185,6 +185,10 @@ class ContactLaw:
         law: Any = self
         return replace(law, **changes)  # type: ignore[no-any-return]
 
+    def of_collision(self, number: int) -> Self:
+        """Return the law for one of several runs, whose draws are independent of each other."""
+        return self
+
     def to_mapping(self) -> dict[str, Any]:
         """Return the law as plain values, with its name as ``law``, as scenario files have it."""
         law: Any = self

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Annotated, Any, Self
 
 from stackbounce.engine.codes import FORMS
@@ -19,7 +19,8 @@ _RESTITUTION = Quantity("", lambda n, v: fraction(n, v, zero=False), (0.8, 0.05,
 _SPEED = Quantity("m/s", lambda n, v: between(n, v, 1e-9, 1e9, "m/s"), (1.0, 0.01, 10.0))
 _EXPONENT = Quantity("", lambda n, v: between(n, v, 0.0, 4.0), (0.25, 0.0, 1.0))
 _SCATTER = Quantity("", lambda n, v: between(n, v, 0.0, 1.0), (0.0, 0.0, 0.2))
-_SEED = Quantity("", lambda n, v: between(n, v, 0.0, 4294967295.0), (0.0, 0.0, 100.0))
+_SEEDS = 4294967295.0
+_SEED = Quantity("", lambda n, v: between(n, v, 0.0, _SEEDS), (0.0, 0.0, 100.0))
 
 
 @register
@@ -98,6 +99,10 @@ class RigidBySpeed(Rigid):
         """Return the fields to describe: scatter and seed only where it scatters."""
         names = super()._described_fields()
         return names if self.scatter else names[:-2]
+
+    def of_collision(self, number: int) -> Self:
+        """Return the law with another seed for each number."""
+        return replace(self, seed=(self.seed + number) % _SEEDS) if self.scatter else self
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution at a speed in m/s, without scatter."""

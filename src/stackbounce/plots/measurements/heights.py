@@ -8,6 +8,7 @@ from stackbounce.plots.style import COLORS, annotate, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
 
 __all__ = ["draw"]
 
@@ -41,10 +42,10 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         kept, start = found.mean.nominal_value, rows[0].nominal_value
         wide = np.linspace(at[0], at[-1], 160)
         if found.repeated:
-            expected = np.full(len(wide), start * kept**2)
+            expected = np.full(len(wide), _curve(found, start, kept, np.ones(1))[0])
             label = f"mean restitution {_written(found.mean)}"
         else:
-            expected = start * kept ** (2.0 * wide)
+            expected = _curve(found, start, kept, wide)
             label = f"restitution {_written(found.mean)} at each bounce"
         axes.plot(wide, expected, color=COLORS[1], label=label)
         errors = np.nan_to_num([one.std_dev for one in rows])
@@ -58,6 +59,13 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         axes.set_ylabel("height of the lowest point (m)")
         axes.legend(frameon=False, loc="upper right")
     return figure
+
+
+def _curve(found: Any, start: float, kept: float, bounces: "NDArray[np.float64]") -> Any:
+    """Return the heights at one restitution after some bounces."""
+    if found.drag is None:
+        return start * kept ** (2.0 * bounces)
+    return np.array([found.drag.height_after(start, kept, one) for one in bounces.tolist()])
 
 
 def _written(number: Any) -> str:

@@ -61,15 +61,12 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, found: Any) -> None:
         ball.times[used], ball.heights[used], label=_label(ball, named, found.units.speed), **dots
     )
     axes.plot(ball.times[~used], ball.heights[~used], **hollow)
-    fall = ball.fit.values[0]
     impacts = dict(zip(ball.bounces, (one.nominal_value for one in ball.impact_times), strict=True))
     for j, (first, last) in enumerate(ball.fit.flights):
         start = impacts.get(j - 1, ball.times[first])
         stop = impacts.get(j, ball.times[last - 1])
         at = np.linspace(start, stop, _SAMPLES)
-        since = at - ball.fit.origins[j]
-        level, speed = ball.fit.values[1 + 2 * j : 3 + 2 * j]
-        axes.plot(at, level + speed * since - 0.5 * fall * since**2, color=color, linewidth=1.4)
+        axes.plot(at, found.fitted(ball, j, at), color=color, linewidth=1.4)
     rows = zip(ball.impact_times, ball.levels, ball.restitutions, strict=True)
     for k, (time, level, kept) in enumerate(rows):
         place = (time.nominal_value, level.nominal_value)

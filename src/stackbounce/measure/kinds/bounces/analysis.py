@@ -1,11 +1,14 @@
 """Times of successive bounces -> restitution of each, and how it falls with speed."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
+from stackbounce.measure.drag import Drag, speed_after_fall
+from stackbounce.measure.error_of_drag import with_error_of_drag
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces
@@ -32,11 +35,13 @@ def bounces(
     gravity: float = STANDARD_GRAVITY,
     time_error: float | None = None,
     contact_time: float = 0.0,
+    drag: Drag | None = None,
 ) -> Bounces:
     """Return the restitution of each bounce from the times of bounces.
 
     A flight of time T ends at the speed with which it began, ``g T/2``, so that the restitution of
-    a bounce is the ratio of the flight after it to the one before it.
+    a bounce is the ratio of the flight after it to the one before it. With drag a flight ends at a
+    lower speed than it began with, and both follow from its time.
 
     Parameters
     ----------
@@ -53,6 +58,8 @@ def bounces(
     contact_time : float, optional
         Of one bounce in s, subtracted from each interval to get the flight; the time of a bounce is
         the beginning of its contact.
+    drag : Drag, optional
+        Of the air on the ball; by default there is none.
 
     Returns
     -------
@@ -67,10 +74,11 @@ def bounces(
 
     Notes
     -----
-    Air is left out. Restitutions that alternate by more than the errors of the times tell of the
+    Restitutions that alternate by more than the errors of the times tell of the
     timing, others of the floor or spin: see `scatter.scatter_of`. The slope is fitted by
     generalised least squares with correlated errors; error bars that were estimated from few
-    bounces are widened by Student's t.
+    bounces are widened by Student's t. An error of the drag changes all restitutions together. The
+    fits therefore suppose that the drag is known, and its error is propagated through all of them.
 
     Examples
     --------
@@ -80,23 +88,59 @@ def bounces(
     >>> f"{found.drop_height:.2f}", found.inferred
     ('1.23+/-0.01', True)
     """
-    from uncertainties import UFloat
-
     gravity = positive("gravity", gravity, "m/s^2")
     contact_time = non_negative("contact_time", contact_time, "seconds")
-    notes: list[str] = []
     if drop_height is not None:
-        positive("drop_height", getattr(drop_height, "nominal_value", drop_height), "metres")
-    height = drop_height
-    moments, missed = _moments(times, time_error, 3 if height is None else 2, notes)
+        positive("drop_height", nominal(drop_height), "metres")
+    notes: list[str] = []
+    moments, missed = _moments(times, time_error, 3 if drop_height is None else 2, notes)
     if len(moments) > _LONGEST:
         raise InvalidValue(
             f"times must be those of one drop's bounces, at most {_LONGEST}, got {len(moments)}"
         )
 
+    def found_with(drag: Drag | None) -> Bounces:
+        return _analysed(moments, _Fall(missed, drop_height, gravity, contact_time, drag))
+
+    found = found_with(None if drag is None else drag.exact())
+    if drag is not None:
+        found = replace(
+            with_error_of_drag(found, found_with, drag),
+            drag=drag,
+            notes=(drag.note(found_with(None).mean), *found.notes),
+        )
+    return replace(found, notes=(*notes, *found.notes))
+
+
+class _Fall(NamedTuple):
+    """What is known of the flights: bounces missing after each, and numbers that all share."""
+
+    missed: Sequence[int]
+    height: Any
+    gravity: float
+    contact_time: float
+    drag: Drag | None
+
+
+class _Found(NamedTuple):
+    """Times of bounces and the flights between; of bounces: numbers, speeds, restitutions."""
+
+    moments: Sequence[Any]
+    flights: Sequence[Any]
+    numbers: Sequence[int]
+    speeds: Sequence[Any]
+    kept: Sequence[Any]
+
+
+def _analysed(moments: Sequence[Any], fall: _Fall) -> Bounces:
+    """Return what follows from times, with a drag that is known exactly."""
+    from uncertainties import UFloat
+
+    notes: list[str] = []
+
     def found_at(moments: Sequence[Any]) -> _Found:
-        flights = _flights(moments, missed, contact_time)
-        return _Found(moments, flights, *_restitutions(flights, missed, height, gravity))
+        flights = _flights(moments, fall.missed, fall.contact_time)
+        return _Found(moments, flights, *_restitutions(flights, fall))
 
     found = found_at(moments)
     if not found.kept:
@@ -111,38 +155,29 @@ def bounces(
             "A restitution above 1: a bounce was missed before it, or it was not left to itself."
         )
     found, mean, laws, scatter = _with_scatter(found, found_at, known, notes)
-    flights, speeds, kept = found.flights, found.speeds, found.kept
-    inferred = height is None
-    if height is None and flights[0] is not None:
-        height = gravity * flights[0] ** 2 / 8.0 / _energy_kept(kept)
-        notes.append(
-            "The drop height is inferred from the mean fraction of energy retained; give "
-            "it if it is known: the first bounce, the fastest, usually retains less."
-        )
+    height = fall.height
+    if height is None:
+        height = _height_before(found, fall)
+        if height is not None:
+            notes.append(
+                "The drop height is inferred from the mean fraction of energy retained; give "
+                "it if it is known: the first bounce, the fastest, usually retains less."
+            )
     return Bounces(
         tuple(found.moments),
-        tuple(flights),
+        tuple(found.flights),
         tuple(found.numbers),
-        tuple(speeds),
-        tuple(kept),
+        tuple(found.speeds),
+        tuple(found.kept),
         mean,
         laws,
         height,
-        inferred and height is not None,
+        fall.height is None and height is not None,
         scatter,
-        gravity,
+        fall.gravity,
         tuple(notes),
+        fall.drag,
     )
-
-
-class _Found(NamedTuple):
-    """Times of bounces and the flights between; of bounces: numbers, speeds, restitutions."""
-
-    moments: Sequence[Any]
-    flights: Sequence[Any]
-    numbers: Sequence[int]
-    speeds: Sequence[Any]
-    kept: Sequence[Any]
 
 
 def _moments(
@@ -233,23 +268,42 @@ def _flights(moments: Sequence[Any], missed: Sequence[int], contact_time: float)
     return flights
 
 
-def _restitutions(
-    flights: Sequence[Any], missed: Sequence[int], height: Any, gravity: float
-) -> tuple[list[int], list[Any], list[Any]]:
+def _restitutions(flights: Sequence[Any], fall: _Fall) -> tuple[list[int], list[Any], list[Any]]:
     """Return numbers, impact speeds and restitutions of the bounces between known flights."""
     numbers: list[int] = []
     speeds: list[Any] = []
     kept: list[Any] = []
-    if height is not None and flights[0] is not None:
-        speed = (2.0 * gravity * height) ** 0.5
-        numbers, speeds, kept = [0], [speed], [0.5 * gravity * flights[0] / speed]
+    gravity, missed = fall.gravity, fall.missed
+    ends = [_ends(one, fall) for one in flights]
+    if fall.height is not None and flights[0] is not None:
+        speed = speed_after_fall(fall.height, gravity, fall.drag)
+        numbers, speeds, kept = [0], [speed], [0.5 * gravity * ends[0][0] / speed]
     for k in range(len(flights) - 1):
-        before, after = flights[k], flights[k + 1]
-        if before is not None and after is not None:
+        if flights[k] is not None and flights[k + 1] is not None:
+            before, after = ends[k][1], ends[k + 1][0]
             numbers.append(k + 1 + sum(missed[: k + 1]))
             speeds.append(0.5 * gravity * before)
             kept.append(after / before)
     return numbers, speeds, kept
+
+
+def _ends(flight: Any, fall: _Fall) -> tuple[Any, Any]:
+    """Return the speeds at which a flight begins and ends, each over g/2: without air its time."""
+    if flight is None or fall.drag is None:
+        return flight, flight
+    leaving, landing = fall.drag.flight_speeds(flight, fall.gravity)
+    return leaving / (0.5 * fall.gravity), landing / (0.5 * fall.gravity)
+
+
+def _height_before(found: _Found, fall: _Fall) -> Any:
+    """Return the drop height that the mean energy retained tells; None where nothing tells it."""
+    if found.flights[0] is None:
+        return None
+    energy = _energy_kept(found.kept)
+    if fall.drag is None:
+        return fall.gravity * found.flights[0] ** 2 / 8.0 / energy
+    leaving, _ = fall.drag.flight_speeds(found.flights[0], fall.gravity)
+    return fall.drag.fall_height(leaving / energy**0.5, fall.gravity)
 
 
 def _with_errors_from_scatter(

@@ -15,13 +15,19 @@ def _analyse(
     *,
     height: Any = None,
     measured_to: Any = "bottom",
+    mass: Any = None,
     diameter: Any = None,
+    drag_coefficient: Any = None,
+    air_density: Any = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> Any:
+    from stackbounce.measure.drag import drag_of
     from stackbounce.measure.kinds.bounces.analysis import bounces
     from stackbounce.measure.kinds.heights.analysis import fallen
 
-    return bounces(data, drop_height=fallen(height, measured_to, diameter), gravity=gravity)
+    drag = drag_of(mass, diameter, drag_coefficient, air_density)
+    height = fallen(height, measured_to, diameter)
+    return bounces(data, drop_height=height, gravity=gravity, drag=drag)
 
 
 KNOCKS = Kind(

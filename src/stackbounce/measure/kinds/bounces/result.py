@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from stackbounce.measure.drag import Drag, speed_after_fall
 from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.kinds.bounces.restitution_law import RestitutionLaw
 from stackbounce.measure.quantities import Number, Row, nominal
@@ -42,6 +43,8 @@ class Bounces(Finding):
         In m/s**2.
     notes : tuple of str
         What a reader of the numbers should know, a sentence each.
+    drag : Drag or None
+        Of the air, where it was taken into account.
     """
 
     picture: ClassVar[str] = "bounces"
@@ -58,6 +61,7 @@ class Bounces(Finding):
     scatter: float
     gravity: float
     notes: tuple[str, ...]
+    drag: Drag | None = None
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
@@ -75,18 +79,26 @@ class Bounces(Finding):
             rows.append(Row(f"restitution of bounce {k}", kept))
         if self.scatter:
             rows.append(Row("scatter of restitution from bounce to bounce", self.scatter))
-        return rows
+        return [*rows, *(self.drag.rows() if self.drag else ())]
 
     def parts(self) -> dict[str, Any]:
-        """Return the floor's contact and, if it is known, the drop height, as in a drop's TOML."""
+        """Return the floor's contact and, if it is known, the drop height, as in a drop's TOML.
+
+        In air it is the impact speed: a simulated drop falls without.
+        """
         parts = rigid_contact(min(nominal(self.mean), 1.0))
         if self.drop_height is not None:
-            parts["height"] = nominal(self.drop_height)
+            start = "height" if self.drag is None else "impact_speed"
+            parts[start] = nominal(self.drop_height if self.drag is None else self._speed)
         return parts
 
     def told(self) -> dict[str, Any]:
         """Return the mean restitution and, if a drop height was given, the impact speed."""
         told: dict[str, Any] = {"restitution": self.mean}
         if self.drop_height is not None and not self.inferred:
-            told["impact_speed"] = (2.0 * self.gravity * self.drop_height) ** 0.5
+            told["impact_speed"] = self._speed
         return told
+
+    @property
+    def _speed(self) -> Any:
+        return speed_after_fall(self.drop_height, self.gravity, self.drag)

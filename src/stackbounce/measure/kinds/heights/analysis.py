@@ -7,6 +7,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.measure.drag import Drag
 from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.heights.result import Heights
 from stackbounce.measure.quantities import Number, nominal
@@ -28,10 +29,12 @@ def heights(
     measured_to: Place | tuple[Place, Place] = "bottom",
     height_error: float | None = None,
     repeated: bool = False,
+    drag: Drag | None = None,
 ) -> Heights:
     """Return the restitution of each bounce from the heights between bounces.
 
-    A ball that falls from a height h0 and rises to h1 has the restitution ``sqrt(h1/h0)``. Both
+    A ball that falls from a height h0 and rises to h1 has the restitution ``sqrt(h1/h0)``. With
+    drag it is slower after the fall and was faster before the rise than these heights tell. Both
     are heights of the same point of the ball above where that point is while the ball touches the
     floor; so a height read at the centre counts from half a diameter above the floor, and one read
     at the top from a whole one.
@@ -52,6 +55,8 @@ def heights(
     repeated : bool, optional
         Whether `bounce_heights` are the first bounce's, from drop after drop, rather than
         successive ones.
+    drag : Drag, optional
+        Of the air on the ball; by default there is none.
 
     Returns
     -------
@@ -77,6 +82,12 @@ def heights(
     ... )
     >>> print(f"{found.mean:.1uS}")
     0.758(4)
+
+    The first rebound of a table tennis ball in air:
+
+    >>> air = Drag(2.7e-3, 0.040, 0.5)
+    >>> print(f"{heights(1.0, 0.70, height_error=0.005, drag=air).mean:.1uS}")
+    0.942(4)
     """
     points = places(measured_to)
     error = math.nan
@@ -91,10 +102,12 @@ def heights(
         for name, one in zip(names, listed, strict=True)
     ]
     before = [start] * len(counted) if repeated else [start, *counted[:-1]]
-    kept = [(after / first) ** 0.5 for first, after in zip(before, counted, strict=True)]
-    mean = _mean(start, counted, repeated)
+    kept = [_kept(first, after, drag) for first, after in zip(before, counted, strict=True)]
+    mean = _mean(start, counted, repeated, drag)
     notes = _notes(before, counted)
-    return Heights(start, tuple(counted), tuple(kept), mean, bool(repeated), tuple(notes))
+    if drag is not None:
+        notes.insert(0, drag.note(_mean(start, counted, repeated, None)))
+    return Heights(start, tuple(counted), tuple(kept), mean, bool(repeated), tuple(notes), drag)
 
 
 def above_bottom(measured_to: str, diameter: float | Number | None = None) -> Any:
@@ -208,11 +221,20 @@ def _counted(name: str, height: Any, place: str, size: Any) -> Any:
     return counted
 
 
-def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
+def _kept(first: Any, after: Any, drag: Drag | None) -> Any:
+    """Return the restitution of a bounce between two heights."""
+    if drag is None:
+        return (after / first) ** 0.5
+    return drag.launch_speed(after) / drag.fallen_speed(first)
+
+
+def _mean(start: Any, counted: list[Any], repeated: bool, drag: Drag | None) -> Any:
     """Return the restitution of all bounces together."""
     from uncertainties import ufloat
 
     if not repeated:
+        if drag is not None:
+            return drag.restitution_between([start, *counted])
         return (counted[-1] / start) ** (0.5 / len(counted))
     mean = sum(counted) / len(counted)
     if len(counted) > 1:
@@ -220,7 +242,7 @@ def _mean(start: Any, counted: list[Any], repeated: bool) -> Any:
         values = np.array([one.nominal_value for one in counted])
         error = float(values.std(ddof=1)) / math.sqrt(len(values)) * widening(len(values) - 1)
         mean = ufloat(values.mean(), error) if error else mean
-    return (mean / start) ** 0.5
+    return _kept(start, mean, drag)
 
 
 def _notes(before: list[Any], counted: list[Any]) -> list[str]:

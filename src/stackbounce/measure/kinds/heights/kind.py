@@ -48,11 +48,16 @@ def _of_numbers(
     height_error: float | None = None,
     repeated: bool = False,
     measured_to: Any = "bottom",
+    mass: Any = None,
     diameter: Any = None,
+    drag_coefficient: Any = None,
+    air_density: Any = None,
 ) -> Any:
+    from stackbounce.measure.drag import drag_of
     from stackbounce.measure.kinds.heights import analysis
 
     known = {"diameter": diameter, "measured_to": measured_to, "height_error": height_error}
+    known["drag"] = drag_of(mass, diameter, drag_coefficient, air_density)
     return analysis.heights(heights[0], heights[1:], repeated=repeated, **known)
 
 

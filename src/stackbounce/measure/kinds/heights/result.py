@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from stackbounce.measure.drag import Drag, speed_after_fall
 from stackbounce.measure.finding import Finding, rigid_contact
 from stackbounce.measure.quantities import Number, Row, nominal
 from stackbounce.model.drop import STANDARD_GRAVITY
@@ -28,6 +29,8 @@ class Heights(Finding):
         Whether the heights are those of the first bounce in repeated drops.
     notes : tuple of str
         What a reader of the numbers should know, a sentence each.
+    drag : Drag or None
+        Of the air, where it was taken into account.
     """
 
     picture: ClassVar[str] = "heights"
@@ -38,6 +41,7 @@ class Heights(Finding):
     mean: Number
     repeated: bool
     notes: tuple[str, ...]
+    drag: Drag | None = None
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
@@ -46,13 +50,22 @@ class Heights(Finding):
         for k, height in enumerate(self.bounce_heights):
             rows.append(Row(f"height {after}{k}", height, "m"))
             rows.append(Row(f"restitution {of}{k}", self.restitutions[k]))
-        return rows
+        return [*rows, *(self.drag.rows() if self.drag else ())]
 
     def parts(self) -> dict[str, Any]:
-        """Return the floor's contact and the drop height, as in a drop's TOML."""
-        return {"height": nominal(self.drop_height), **rigid_contact(self.mean)}
+        """Return the floor's contact and the drop height, as in a drop's TOML.
+
+        In air it is the impact speed: a simulated drop falls without.
+        """
+        contact = rigid_contact(self.mean)
+        if self.drag is not None:
+            return {"impact_speed": nominal(self._speed), **contact}
+        return {"height": nominal(self.drop_height), **contact}
 
     def told(self) -> dict[str, Any]:
         """Return the restitution and the impact speed, at standard gravity."""
-        speed = (2.0 * STANDARD_GRAVITY * self.drop_height) ** 0.5
-        return {"restitution": self.mean, "impact_speed": speed}
+        return {"restitution": self.mean, "impact_speed": self._speed}
+
+    @property
+    def _speed(self) -> Any:
+        return speed_after_fall(self.drop_height, STANDARD_GRAVITY, self.drag)

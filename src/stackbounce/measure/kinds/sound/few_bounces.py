@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from stackbounce.errors import positive
+from stackbounce.measure.drag import Drag
 from stackbounce.measure.finding import Finding
 from stackbounce.measure.kinds.bounces.knocks import Knocks
 from stackbounce.measure.quantities import Number, Row
@@ -23,11 +24,14 @@ class FewBounces(Finding):
         How high the ball rose in them, in m.
     notes : tuple of str
         What was not found, and what is needed to find it.
+    drag : Drag or None
+        Of the air, where it was taken into account.
     """
 
     flights: tuple[Number | None, ...]
     apex_heights: tuple[Number | None, ...]
     notes: tuple[str, ...]
+    drag: Drag | None = None
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
@@ -36,13 +40,15 @@ class FewBounces(Finding):
             if flight is not None and height is not None:
                 rows.append(Row(f"flight after bounce {k}", flight, "s"))
                 rows.append(Row(f"apex height after bounce {k}", height, "m"))
-        return rows
+        return [*rows, *(self.drag.rows() if self.drag else ())]
 
 
-def few_bounces(heard: Knocks, *, gravity: float = STANDARD_GRAVITY) -> FewBounces:
+def few_bounces(
+    heard: Knocks, *, gravity: float = STANDARD_GRAVITY, drag: Drag | None = None
+) -> FewBounces:
     """Return the flights of knocks among which no two neighbouring flights are known.
 
-    A flight of time T rises to ``g T**2/8``.
+    A flight of time T rises to ``g T**2/8``, and a little lower with drag.
 
     Parameters
     ----------
@@ -50,6 +56,8 @@ def few_bounces(heard: Knocks, *, gravity: float = STANDARD_GRAVITY) -> FewBounc
         One knock, two, or more with bounces missing between them.
     gravity : float, optional
         In m/s**2, above 0.
+    drag : Drag, optional
+        Of the air on the ball; by default there is none.
 
     Returns
     -------
@@ -74,11 +82,18 @@ def few_bounces(heard: Knocks, *, gravity: float = STANDARD_GRAVITY) -> FewBounc
     gravity = positive("gravity", gravity, "m/s^2")
     pairs = zip(heard.times[:-1], heard.times[1:], heard.missed, strict=True)
     flights = tuple(None if lost else later - first for first, later, lost in pairs)
-    heights = tuple(None if one is None else gravity * one**2 / 8.0 for one in flights)
+    heights = tuple(None if one is None else _apex(one, gravity, drag) for one in flights)
     count = len(heard.times)
     between = ", with others missing between them" if any(heard.missed) else ""
     note = (
         "No restitution was found: it needs 3 bounces in a row, or 2 and the drop height; "
         f"{count} {'was' if count == 1 else 'were'} heard{between}."
     )
-    return FewBounces(flights, heights, (note,))
+    return FewBounces(flights, heights, (note,), drag)
+
+
+def _apex(flight: Number, gravity: float, drag: Drag | None) -> Number:
+    """Return how high a ball rose in a flight of some time."""
+    if drag is None:
+        return gravity * flight**2 / 8.0
+    return drag.risen(drag.flight_speeds(flight, gravity)[0], gravity)

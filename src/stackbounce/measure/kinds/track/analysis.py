@@ -6,8 +6,11 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
-from stackbounce.measure.hints import Said
-from stackbounce.measure.kinds.track.flight_numbers import Numbers, flight_numbers
+from stackbounce.measure.drag import Drag
+from stackbounce.measure.error_of_drag import with_error_of_drag
+from stackbounce.measure.hints import Hint, Said
+from stackbounce.measure.kinds.track.air import fall_at, meeting, state, straightened
+from stackbounce.measure.kinds.track.flight_numbers import flight_numbers
 from stackbounce.measure.kinds.track.free_flight import (
     comparable,
     no_flight,
@@ -28,7 +31,7 @@ from stackbounce.measure.kinds.track.result import Track, Tracks
 from stackbounce.measure.kinds.track.shape import shape_of
 from stackbounce.measure.kinds.track.time_base import check_time_base
 from stackbounce.measure.kinds.track.units import TrackUnits, uncalibrated, units_of
-from stackbounce.measure.quantities import Array
+from stackbounce.measure.quantities import Array, nominal
 from stackbounce.measure.statistics.regression import widening
 from stackbounce.model.drop import STANDARD_GRAVITY
 
@@ -47,6 +50,7 @@ def track(
     floor: float | None = None,
     frame_rate_factor: float = 1.0,
     scale: float = 1.0,
+    drag: Drag | None = None,
 ) -> Tracks:
     """Analyse the drop and the bounces in a track of one ball or more.
 
@@ -70,6 +74,8 @@ def track(
         How many times higher the true frame rate is than the one that the times were made with.
     scale : float, optional
         What lengths are to be multiplied by.
+    drag : Drag, optional
+        Of the air, on the one ball of a track in m and s; by default there is none.
 
     Returns
     -------
@@ -85,7 +91,8 @@ def track(
     Notes
     -----
     Errors follow the residuals and their correlation between neighbouring points; they are widened
-    by Student's t where there are few. Air is left out.
+    by Student's t where there are few. With drag, what it does to each flight is computed and taken
+    from the points, so that parabolas are left.
 
     A soft ball is on the floor for a time T, and the parabolas before and after it meet below the
     level at which it touches, by about v T/2 at a speed v. They are followed too far down, and both
@@ -119,7 +126,10 @@ def track(
     level = None if floor is None else ruler * finite("floor", floor, "metres")
     units = units_of(data)
     alone = len(fitted) == 1
-    balls = [_track(name, *one, level, units, alone=alone) for name, one in fitted]
+    if drag is None:
+        balls = [_track(name, *one, level, units, alone=alone) for name, one in fitted]
+    else:
+        balls = [_track_in_air(fitted, level, units, drag, notes)]
     notes.extend(note for ball in balls for note in ball.notes)
     balls.sort(key=lambda ball: float(ball.levels[0].nominal_value))
     if gains := no_gain(balls[0].restitutions, balls[0].impact_times):
@@ -132,7 +142,8 @@ def track(
     ratios = _rebound_ratios(balls, notes)
     sign = "" if up.sign > 0.0 else "-"
     first = balls[0].impact_times[0]
-    return Tracks(tuple(balls), ratios, first, base, sign + up.axis, up.tilt, tuple(notes), units)
+    axes = sign + up.axis, up.tilt
+    return Tracks(tuple(balls), ratios, first, base, *axes, tuple(notes), units, drag)
 
 
 _Found = tuple[Array, Array, Flights, list[int]]
@@ -212,6 +223,42 @@ def _flights(found: Columns, up: Upward, gravity: float) -> list[tuple[str, _Fou
     return fitted
 
 
+def _track_in_air(
+    fitted: list[tuple[str, _Found]],
+    level: float | None,
+    units: TrackUnits,
+    drag: Drag,
+    notes: list[str],
+) -> Track:
+    """Return the bounces of the one ball of a track in air, with the error of the drag."""
+    if len(fitted) > 1:
+        raise InvalidValue(
+            f"drag is for the track of one ball of known mass and diameter, got {len(fitted)}"
+        )
+    if not units.known:
+        raise InvalidValue(
+            Said(
+                f"drag needs lengths in m and times in s, got {units.length} and {units.time}: ",
+                Hint({"frame_rate": None, "scale": None}),
+                " tell them",
+            )
+        )
+    ((name, one),) = fitted
+
+    def found_with(drag: Drag | None) -> Track:
+        return _track(name, *one, level, units, alone=True, drag=drag)
+
+    try:
+        found = with_error_of_drag(found_with(drag.exact()), found_with, drag)
+    except OverflowError:
+        raise InvalidValue(
+            "mass, diameter and drag_coefficient must be those of the ball that was tracked, got "
+            f"{nominal(drag.rate):.3g} 1/m of drag: it flies faster than it could fall"
+        ) from None
+    notes.append(drag.note(found_with(None).restitutions[0]))
+    return found
+
+
 def _track(
     name: str,
     times: Array,
@@ -222,21 +269,26 @@ def _track(
     units: TrackUnits,
     *,
     alone: bool,
+    drag: Drag | None = None,
 ) -> Track:
-    """Return a ball's bounces from its parabolas."""
+    """Return a ball's bounces from its parabolas; a drag is taken to be exact."""
     from uncertainties import ufloat
 
-    shape = shape_of(times, heights, fit.flights)
-    numbers = flight_numbers(times, heights, fit, shape)
+    flat = heights
+    if drag is not None:
+        flat, fit = straightened(times, heights, fit, drag)
+    shape = shape_of(times, flat, fit.flights)
+    numbers = flight_numbers(times, flat, fit, shape)
     wider = widening(max(fit.freedom, 1)) * shape.widening
     common = ufloat(fit.values[0], wider * math.sqrt(fit.covariance[0, 0]))
     rows = []
     for j in bounces:
         middle = 0.5 * (times[fit.flights[j].last - 1] + times[fit.flights[j + 1].first])
-        falls = numbers[j][0], numbers[j + 1][0]
+        middle += meeting(numbers[j : j + 2], fit.origins[j : j + 2], middle, drag)
         (low, before), (high, after) = (
-            _state(numbers[k], middle - fit.origins[k]) for k in (j, j + 1)
+            state(numbers[k], float(middle - fit.origins[k]), drag) for k in (j, j + 1)
         )
+        falls = fall_at(numbers[j][0], before, drag), fall_at(numbers[j + 1][0], after, drag)
         since = (low - high) / (after - before)
         if floor is None:
             level = low + before * since - 0.5 * falls[0] * since**2
@@ -252,15 +304,16 @@ def _track(
     moments, levels, impacts, rebounds = (tuple(column) for column in zip(*rows, strict=True))
     fall = common if shape.widening > 1.0 else numbers[0][0]
     scale = ufloat(1.0, shape.scatter) if shape.scatter > 0.0 else 1.0  # after over before
+    height, fallen = _fallen(impacts[0], numbers[bounces[0]][0], drag)
     return Track(
         name,
         moments,
         levels,
         impacts,
         rebounds,
-        impacts[0] ** 2 / (2.0 * numbers[bounces[0]][0]),
+        height,
         tuple(
-            math.copysign(0.5, speed.nominal_value) * speed**2 / numbers[j + 1][0]
+            _risen(speed, numbers[j + 1][0], drag)
             for j, speed in zip(bounces, rebounds, strict=True)
         ),
         tuple(after / before * scale for before, after in zip(impacts, rebounds, strict=True)),
@@ -271,7 +324,9 @@ def _track(
         tuple(bounces),
         (
             *uneven(name, shape),
-            *notes_of(name, times, fit, bounces, moments[0], impacts[0] / fall, units.time),
+            *notes_of(
+                name, times, fit, bounces, moments[0], fallen or impacts[0] / fall, units.time
+            ),
             *(
                 stays_long(name, times, fit, bounces[0], impacts[0], fall, alone=alone)
                 if floor is None and units.known
@@ -281,10 +336,21 @@ def _track(
     )
 
 
-def _state(numbers: Numbers, since: float) -> tuple[Any, Any]:
-    """Return height and velocity of a flight, a time after its middle."""
-    fall, level, speed = numbers
-    return level + speed * since - 0.5 * fall * since**2, speed - fall * since
+def _fallen(speed: Any, fall: Any, drag: Drag | None) -> tuple[Any, Any]:
+    """Return height and time of the fall from rest to a speed; no time without drag."""
+    if drag is None:
+        return speed**2 / (2.0 * fall), None
+    height = drag.fall_height(speed, fall)
+    if height is None:
+        raise OverflowError("faster than the terminal speed")
+    return height, drag.fall_time(height, fall)
+
+
+def _risen(speed: Any, fall: Any, drag: Drag | None) -> Any:
+    """Return the height to which a ball rises at a speed, below 0 for one that moves down."""
+    if drag is None:
+        return math.copysign(0.5, speed.nominal_value) * speed**2 / fall
+    return drag.risen(speed, fall) if speed.nominal_value > 0.0 else -drag.risen(-speed, fall)
 
 
 def _at_level(speed: Any, above: Any, fall: Any) -> Any:

@@ -14,10 +14,14 @@ def _analyse(
     *,
     floor: float | None = None,
     measured_to: Any = "bottom",
+    mass: Any = None,
     diameter: Any = None,
+    drag_coefficient: Any = None,
+    air_density: Any = None,
     gravity: float = STANDARD_GRAVITY,
 ) -> Any:
     """Analyse a track; the floor's level becomes that of the point that was followed."""
+    from stackbounce.measure.drag import drag_of
     from stackbounce.measure.kinds.heights.analysis import above_bottom, places
     from stackbounce.measure.kinds.track.analysis import track
     from stackbounce.measure.quantities import nominal
@@ -25,7 +29,8 @@ def _analyse(
     point = places(measured_to)[1]
     if floor is not None:
         floor += nominal(above_bottom(point, diameter))
-    found = track(data, gravity=gravity, floor=floor)
+    drag = drag_of(mass, diameter, drag_coefficient, air_density)
+    found = track(data, gravity=gravity, floor=floor, drag=drag)
     if floor is not None and len(found.balls) > 1:
         raise InvalidValue(
             f"floor is for the track of one ball, as the others bounce on balls, got "

@@ -3,7 +3,9 @@
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+from stackbounce.measure.drag import Drag
 from stackbounce.measure.finding import Curve, Finding, as_ratios, rigid_contact
+from stackbounce.measure.kinds.track.air import curve
 from stackbounce.measure.kinds.track.parabolas import Flights
 from stackbounce.measure.kinds.track.time_base import TimeBase
 from stackbounce.measure.kinds.track.units import SI, TrackUnits
@@ -83,6 +85,9 @@ class Tracks(Finding):
         What a reader of the numbers should know, a sentence each.
     units : TrackUnits
         Of lengths and times: pixels or frames in place of m and s where these are not known.
+    drag : Drag or None
+        Of the air, where it was taken into account. The parabolas are then those of points from
+        which its part is taken.
     """
 
     picture: ClassVar[str] = "track"
@@ -95,6 +100,7 @@ class Tracks(Finding):
     tilt: float
     notes: tuple[str, ...]
     units: TrackUnits = SI
+    drag: Drag | None = None
 
     def rows(self) -> list[Row]:
         """Return the table, the most important first."""
@@ -116,7 +122,11 @@ class Tracks(Finding):
                 rows.append(Row(f"{of}apex height{after}", ball.apex_heights[k], length))
                 rows.append(Row(f"{of}time{bounce}", ball.impact_times[k], time))
         rows.append(Row("gravity of the flights", self.time_base.gravity, f"{speed}^2"))
-        return rows
+        return [*rows, *(self.drag.rows() if self.drag else ())]
+
+    def fitted(self, ball: Track, flight: int, times: Array) -> Array:
+        """Return the heights of a flight of a ball at some times, as they were fitted."""
+        return curve(ball.fit, flight, times, self.drag)
 
     def parts(self) -> dict[str, Any]:
         """Return impact speed and, of a single ball, the floor's contact, as in a drop's TOML."""

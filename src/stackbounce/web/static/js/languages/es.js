@@ -502,6 +502,7 @@ export const table = {
   "a damping": "un amortiguamiento",
   "a dissipation": "una disipación",
   "a pressure": "una presión",
+  "a density": "una densidad",
   "impact speed": "velocidad de impacto",
   "height": "altura",
   "gravity": "gravedad",

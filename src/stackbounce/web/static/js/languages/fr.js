@@ -502,6 +502,7 @@ export const table = {
   "a damping": "un amortissement",
   "a dissipation": "une dissipation",
   "a pressure": "une pression",
+  "a density": "une masse volumique",
   "impact speed": "vitesse d’impact",
   "height": "hauteur",
   "gravity": "pesanteur",

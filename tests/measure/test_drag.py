@@ -1,0 +1,312 @@
+"""Drag in times and heights of bounces: against falls that an integrator of scipy makes."""
+
+import json
+import math
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+from uncertainties import correlation_matrix, ufloat
+
+import stackbounce as sb
+from measure.falls_in_air import BALL, falls_in_air
+from stackbounce import plots
+from stackbounce.cli import main
+from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.measure import Drag, analyse, bounces, heights, knocks
+from stackbounce.measure.kinds.sound.few_bounces import few_bounces
+from stackbounce.measure.option_values import read_options
+from stackbounce.synthetic.sound import sound
+from stackbounce.validation.series import make_series
+from stackbounce.web.answers import records
+
+AT_REST, SLOPE = 0.92, 0.012  # restitution at no speed, and its fall per m/s
+AIR = Drag(*BALL, 0.45)
+UNSURE = Drag(*BALL, ufloat(0.45, 0.05))
+UGLY = {"uneven": 0.2, "room": 0.4, "alike": 0.5, "wind": 0.01, "coarse": 0.4, "level": 2.0}
+TYPED = {"mass": "2.7 g", "diameter": "40 mm", "drag_coefficient": "0.45 ± 0.05"}
+OPTIONS = {"mass": 2.7e-3, "diameter": 0.040, "drag_coefficient": 0.45}
+
+
+def kept(speed):
+    return AT_REST - SLOPE * speed
+
+
+FALL = falls_in_air(0.5, kept, bounces=9)
+
+
+@pytest.fixture(scope="module")
+def path(tmp_path_factory):
+    """Return a file of knocks as phyphox writes it."""
+    path = tmp_path_factory.mktemp("knocks") / "knocks.csv"
+    steps = np.diff(FALL.touches, prepend=FALL.touches[0])
+    rows = "".join(f"{a:.9f},{b:.9f}\n" for a, b in zip(FALL.touches, steps, strict=True))
+    path.write_text(f'"Event time (s)","Interval (s)"\n{rows}', encoding="utf-8")
+    return path
+
+
+def possible(hits, count):
+    """Tell whether so many of some trials can lie within one sigma, by chance of 1 in 100."""
+    return binom.cdf(hits, count, 0.683) > 0.005 and binom.sf(hits - 1, count, 0.683) > 0.005
+
+
+def within(found, true):
+    return abs(found.nominal_value - true) <= found.std_dev
+
+
+def test_exact_times_give_what_went_in():
+    found = bounces(FALL.touches, drop_height=FALL.height, time_error=1e-6, drag=AIR)
+    assert found.numbers == tuple(range(8))
+    assert [one.nominal_value for one in found.restitutions] == pytest.approx(
+        FALL.restitutions[:8], abs=1e-8
+    )
+    assert [one.nominal_value for one in found.impact_speeds] == pytest.approx(
+        FALL.speeds[:8], rel=1e-8
+    )
+    assert found.laws[0].coefficient.nominal_value == pytest.approx(AT_REST, abs=1e-6)
+    assert found.laws[0].slope.nominal_value == pytest.approx(SLOPE, abs=1e-6)
+    free = bounces(FALL.touches, drop_height=FALL.height, time_error=1e-6)
+    assert AT_REST - free.laws[0].coefficient.nominal_value < 0.01
+    assert free.laws[0].slope.nominal_value > 2.0 * SLOPE  # air looks like a loss by speed
+
+
+def test_a_drop_height_that_is_inferred_is_that_of_a_fall_in_air():
+    fall = falls_in_air(0.5, lambda _: 0.9, bounces=7)
+    found = bounces(fall.touches, time_error=1e-6, drag=AIR)
+    assert found.inferred
+    assert found.drop_height.nominal_value == pytest.approx(0.5, rel=1e-6)
+    fast = [0.0, 3.0, 3.3, 3.55]  # no fall in this air is fast enough for such a first flight
+    assert bounces(fast, time_error=1e-3, drag=Drag(1e-3, 0.1, 0.5)).drop_height is None
+
+
+def test_a_contact_time_and_a_missing_bounce_are_as_without_air():
+    times = FALL.touches + 1e-3 * np.arange(9)
+    found = bounces(np.delete(times, 4), contact_time=1e-3, time_error=1e-6, drag=AIR)
+    free = bounces(np.delete(times, 4), contact_time=1e-3, time_error=1e-6)
+    assert found.numbers == free.numbers == (1, 2, 6, 7)
+    assert found.flights[3] is None
+    assert [one.nominal_value for one in found.restitutions] == pytest.approx(
+        FALL.restitutions[[1, 2, 6, 7]], abs=1e-7
+    )
+
+
+@pytest.mark.parametrize("drag", [None, AIR, UNSURE])
+def test_times_without_errors_get_them_from_the_scatter(drag):
+    """The scatter is the timing's, however unsure the drag is."""
+    noise = np.random.default_rng(3).normal(0.0, 1e-3, 9)
+    found = bounces(FALL.touches + noise, drag=drag)
+    assert found.times[0].std_dev == pytest.approx(1e-3, rel=0.7)
+
+
+@pytest.mark.parametrize("seeds", [range(1), pytest.param(range(1, 7), marks=pytest.mark.slow)])
+def test_ugly_recordings_in_air(seeds):
+    hits = count = 0
+    for seed in seeds:
+        fall = falls_in_air(0.3 + 0.01 * seed, kept, bounces=6)
+        heard = knocks(sound(fall, seed=seed, before=0.1, after=0.1, rate=22050.0, **UGLY))
+        first = int(np.argmin(abs(fall.touches - fall.touches[0] + 0.1 - heard.times[0].n)))
+        found, free = bounces(heard, drag=AIR), bounces(heard)
+        true = fall.restitutions[np.array(found.numbers) + first]
+        hits += sum(within(*pair) for pair in zip(found.restitutions, true, strict=True))
+        count += len(true)
+        low = [one.n - e for one, e in zip(free.restitutions[:3], true[:3], strict=True)]
+        assert max(low) < -0.005
+    # The restitutions of a recording share flights: about half of them are independent.
+    assert possible(round(0.5 * hits), round(0.5 * count))
+
+
+def drawn(seed):
+    """Return times with errors of a ball whose drag coefficient is not known well."""
+    random = np.random.default_rng([seed, 5])
+    fall = falls_in_air(0.4, kept, coefficient=random.normal(0.45, 0.05), bounces=7)
+    return fall, fall.touches + random.normal(0.0, 2e-4, 7), random
+
+
+@pytest.mark.slow
+def test_an_unsure_drag_is_in_the_errors():
+    """The truth lies within one sigma as often as it should; an exact drag would promise more."""
+    found = {"first": [], "mean of a line": [], "height": [], "exact": []}
+    for seed in range(100):
+        fall, times, random = drawn(seed)
+        told = bounces(times, time_error=2e-4, drag=UNSURE)
+        found["first"].append(within(told.restitutions[0], fall.restitutions[1]))
+        found["mean of a line"].append(within(told.laws[0].at(1.5), kept(1.5)))
+        exact = bounces(times, time_error=2e-4, drag=AIR)
+        found["exact"].append(within(exact.restitutions[0], fall.restitutions[1]))
+        read = np.array([fall.height, *fall.apexes]) + random.normal(0.0, 1e-3, 8)
+        ruler = heights(read[0], read[1:], height_error=1e-3, drag=UNSURE)
+        found["height"].append(within(ruler.restitutions[0], fall.restitutions[0]))
+    hits = {name: sum(one) for name, one in found.items()}
+    assert all(possible(hits[name], 100) for name in ("first", "mean of a line", "height")), hits
+    assert hits["exact"] < hits["first"] - 15
+
+
+def test_an_error_of_the_drag_is_one_of_all_restitutions():
+    told = bounces(FALL.touches, time_error=1e-6, drag=UNSURE)
+    assert correlation_matrix(told.restitutions).min() > 0.99
+    more, less = (
+        bounces(FALL.touches, time_error=1e-6, drag=Drag(*BALL, one)) for one in (0.50, 0.40)
+    )
+    assert told.restitutions[0].s == pytest.approx(
+        0.5 * (more.restitutions[0].n - less.restitutions[0].n), rel=1e-3
+    )
+    law = [one.laws[0].coefficient for one in (told, more, less)]
+    assert law[0].s == pytest.approx(0.5 * abs(law[1].n - law[2].n), rel=0.02)
+    by_mass = Drag(ufloat(2.7e-3, 2.7e-4), 0.040, 0.45)
+    other = bounces(FALL.touches, time_error=1e-6, drag=by_mass)
+    assert other.restitutions[0].s == pytest.approx(0.9 * told.restitutions[0].s, rel=0.01)
+
+
+def test_heights_in_air_give_what_went_in():
+    found = heights(FALL.height, FALL.apexes, height_error=1e-6, drag=AIR)
+    assert [one.nominal_value for one in found.restitutions] == pytest.approx(
+        FALL.restitutions, abs=1e-8
+    )
+    same = falls_in_air(1.0, lambda _: 0.85, bounces=4)
+    told = heights(1.0, same.apexes, height_error=1e-3, drag=AIR)
+    assert told.mean.nominal_value == pytest.approx(0.85, abs=1e-8)
+    again = heights(ufloat(1.0, 1e-6), [same.apexes[0]] * 3, repeated=True, drag=AIR)
+    assert again.mean.nominal_value == pytest.approx(0.85, abs=1e-8)
+    centre = heights(1.02, list(same.apexes + 0.02), diameter=0.04, measured_to="centre", drag=AIR)
+    assert centre.mean.nominal_value == pytest.approx(0.85, abs=1e-8)
+    assert math.isnan(centre.mean.std_dev)
+    assert told.told()["impact_speed"].n == pytest.approx(same.speeds[0], rel=1e-8)
+
+
+def test_the_mean_lies_between_the_bounces_and_its_error_is_that_of_draws():
+    rows = np.array([1.0, 0.70, 0.50, 0.38])
+    found = heights(rows[0], list(rows[1:]), height_error=5e-3, drag=UNSURE)
+    every = [one.n for one in found.restitutions]
+    assert min(every) < found.mean.n < max(every)
+    random = np.random.default_rng(1)
+    means = []
+    for _ in range(300):
+        start, *after = rows + random.normal(0.0, 5e-3, 4)
+        air = Drag(*BALL, random.normal(0.45, 0.05))
+        means.append(heights(start, after, drag=air).mean.n)
+    assert found.mean.std_dev == pytest.approx(np.std(means), rel=0.15)
+
+
+def test_two_knocks_tell_how_high_it_rose_in_air():
+    heard = knocks(sound(falls_in_air(0.5, kept, bounces=2), seed=1))
+    found = few_bounces(heard, drag=AIR)
+    true = FALL.apexes[0]
+    assert found.apex_heights[0].n == pytest.approx(true, rel=2e-3)
+    assert few_bounces(heard).apex_heights[0].n > found.apex_heights[0].n
+    assert found.rows()[-1] == AIR.rows()[-1]
+
+
+def test_no_drag_is_no_air(path):
+    data = sb.read(path)
+    plain = [one.rows() for one in analyse(data, height=0.5)]
+    none = analyse(data, height=0.5, **OPTIONS | {"drag_coefficient": 0.0})
+    assert repr([one.rows() for one in none]) == repr(plain)
+    thin = bounces(FALL.touches, drop_height=0.5, time_error=1e-4, drag=Drag(*BALL, 1e-9))
+    free = bounces(FALL.touches, drop_height=0.5, time_error=1e-4)
+    assert [one.n for one in thin.restitutions] == pytest.approx(
+        [one.n for one in free.restitutions], rel=1e-9
+    )
+
+
+def test_every_face_takes_the_same_air(path, capfd):
+    typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45 ± 0.05"]
+    assert main(["measure", str(path), "--height", "0.5m", *typed, "--json"]) == 0
+    (told,) = json.loads(capfd.readouterr().out)["files"]
+    page = json.loads(
+        records.measure_record(path.name, path.read_bytes(), TYPED | {"height": "0.5 m"})
+    )
+    assert page["found"] == told["found"]
+    assert page["notes"] == told["notes"]
+    known = {one["name"]: one for one in told["found"]}
+    assert (known["drag coefficient"]["value"], known["drag coefficient"]["error"]) == (0.45, 0.05)
+    assert known["density of the air"] == {
+        "name": "density of the air", "value": 1.204, "error": 0.0, "unit": "kg/m^3"
+    }  # fmt: skip
+    assert told["notes"][0].startswith("The drag of the air is taken into account, with a coeff")
+    python = read_options(TYPED, lambda one: one.name)
+    (found,) = analyse(sb.read(path), height=0.5, **python)
+    assert found.mean.n == known["restitution, mean"]["value"]
+    thick = ["measure", str(path), *typed, "--air-density", "1.3kg/m^3", "--json"]
+    assert main(thick) == 0
+    (other,) = json.loads(capfd.readouterr().out)["files"]
+    assert other["found"][0]["value"] > told["found"][0]["value"]
+
+
+def test_heights_are_typed_with_air(capfd, tmp_path):
+    picture = tmp_path / "heights.svg"
+    typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45"]
+    read = "100, 70, 50, 38 cm"
+    assert main(["measure", "--heights", read, *typed, "--plot", str(picture), "--json"]) == 0
+    (told,) = json.loads(capfd.readouterr().out)["files"]
+    found = heights(1.0, [0.7, 0.5, 0.38], drag=AIR)
+    assert told["found"][0]["value"] == pytest.approx(found.mean.n, rel=1e-12)
+    assert picture.read_bytes().startswith(b"<?xml")
+    (line,) = [one for one in plots.measured(None, found).axes[0].lines if len(one.get_xdata()) > 9]
+    curve = dict(zip(np.round(line.get_xdata(), 9), line.get_ydata(), strict=True))
+    assert (curve[0.0], curve[3.0]) == pytest.approx((1.0, 0.38))
+
+
+def test_the_ball_that_is_saved_has_the_impact_speed_in_air(path, tmp_path, capfd):
+    """A simulated drop falls without air: from the height it would be too fast."""
+    ball = tmp_path / "ball.toml"
+    typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45"]
+    arguments = ["measure", str(path), "--height", "0.5m", *typed, "--law", "rigid"]
+    assert main([*arguments, "--save", str(ball), "--json"]) == 0
+    drop = sb.Drop.from_toml(ball)
+    assert drop.height is None
+    assert drop.impact_speed == pytest.approx(FALL.speeds[0], rel=1e-9)
+    capfd.readouterr()
+    law = ["--heights", "50, 40 cm", *typed, "--height", "50cm", "--contact-time", "1ms"]
+    assert main(["measure", *law, "--law", "hunt-crossley", "--json"]) == 0
+    told = {one["name"]: one["value"] for one in json.loads(capfd.readouterr().out)["law"]}
+    assert told["from impact speed"] == pytest.approx(FALL.speeds[0], rel=1e-9)
+
+
+def test_a_published_series_has_the_restitutions_of_the_validation():
+    data = sb.datasets.load("table-tennis-bounces")
+    rows = data.apex_height.values.tolist()
+    found = heights(rows[0], rows[1:], drag=Drag(2.7e-3, 0.040, 0.45, 1.2))
+    assert [one.n for one in found.restitutions] == pytest.approx(
+        make_series(data).values, rel=1e-9
+    )
+
+
+def refused(call):
+    with pytest.raises((InvalidValue, InvalidType)) as caught:
+        call()
+    return str(caught.value)
+
+
+def test_what_is_missing_or_out_of_range_is_told(path):
+    times = [0.0, 0.5, 0.9, 1.25]
+    data = sb.read(path)
+    assert refused(lambda: analyse(data, drag_coefficient=0.45, mass=2.7e-3)).endswith(
+        "a drag coefficient needs mass and diameter of the ball: give diameter"
+    )
+    assert refused(lambda: analyse(data, air_density=1.2)).endswith(
+        "the density of the air counts with a drag_coefficient only, got none"
+    )
+    assert refused(lambda: analyse(data, drag_coefficient=ufloat(0.0, 0.1))).endswith(
+        "drag_coefficient must be above 0 where it has an error, or 0 for no air, got 0.0+/-0.1"
+    )
+    assert "drag_coefficient must be" in refused(lambda: analyse(data, drag_coefficient=-1.0))
+    assert "drag_coefficient must be" in refused(lambda: analyse(data, drag_coefficient="x"))
+    assert "mass must be a positive" in refused(lambda: Drag(0.0, 0.04, 0.5))
+    assert "coefficient must be" in refused(lambda: Drag(1.0, 0.04, 0.0))
+    assert refused(lambda: bounces(times, drag=Drag(1e-5, 1.0, 0.5))).startswith(
+        "mass, diameter and drag_coefficient must be those of a ball that can fly so far, got 2.36"
+    )
+    assert refused(lambda: Drag(1e-100, 1.0, 0.5)) == (
+        "mass, diameter and drag_coefficient must be those of a ball in air, got 2.36e+99 1/m of "
+        "drag (a table tennis ball has 0.13)"
+    )
+    assert "of a ball in air, got inf 1/m" in refused(lambda: Drag(1.0, 1e300, 0.5))
+    page = refused(
+        lambda: records.measure_record(path.name, path.read_bytes(), {"drag_coefficient": "0.5"})
+    )
+    assert page.endswith("give “Ball's mass” and “Diameter”")
+
+
+def test_the_command_says_what_is_missing(capfd):
+    assert main(["measure", "--heights", "1, 0.7 m", "--drag-coefficient", "0.5"]) == 2
+    assert "of the ball: give mass, diameter" in capfd.readouterr().err

@@ -1,0 +1,169 @@
+"""Drag in tracks: against falls that an integrator of scipy makes, with what is ugly in tracks."""
+
+import json
+
+import numpy as np
+import pytest
+from scipy.stats import binom
+from uncertainties import ufloat
+
+import stackbounce as sb
+from measure.falls_in_air import BALL, falls_in_air
+from stackbounce import plots
+from stackbounce.cli import main
+from stackbounce.errors import InvalidValue
+from stackbounce.measure import Drag, track
+from stackbounce.synthetic.falls import falls
+from stackbounce.synthetic.track import track as tracked
+
+AIR = Drag(*BALL, 0.45)
+UNSURE = Drag(*BALL, ufloat(0.45, 0.05))
+
+
+def kept(speed):
+    return 0.92 - 0.012 * speed
+
+
+FALL = falls_in_air(1.0, kept, bounces=5)
+UGLY = {
+    "errors that go together": {"correlation": 0.5, "frame_rate": 100.0},
+    "pixels of 4 mm": {"pixel": 0.004},
+    "one point in five missing": {"missing": 0.2},
+    "tilted and drifting": {"tilt": 0.07, "drift": 0.1},
+    "downward": {"down": True, "frame_rate": 240.0},
+}
+
+
+def seen(fall=FALL, **how):
+    usual = {"frame_rate": 60.0, "noise": 1e-3, "until": float(fall.touches[3])}
+    return tracked(fall, **usual | how)
+
+
+def pairs(ball, fall):
+    """Return what was found with what is true."""
+    count = len(ball.restitutions)
+    columns = [
+        (ball.restitutions, fall.restitutions[:count]),
+        (ball.impact_speeds, fall.speeds[:count]),
+        (ball.rebound_speeds, fall.rebounds[:count]),
+        (ball.apex_heights, fall.apexes[:count]),
+        ([ball.drop_height, ball.gravity], [fall.height, fall.gravity]),
+    ]
+    return [pair for found, true in columns for pair in zip(found, true, strict=True)]
+
+
+def test_a_track_nearly_without_errors_gives_what_went_in():
+    data = seen(noise=1e-5, frame_rate=240.0)
+    (ball,) = track(data, drag=AIR).balls
+    for found, true in pairs(ball, FALL):
+        assert found.n == pytest.approx(true, rel=2e-5)
+    (free,) = track(data).balls
+    assert free.restitutions[0].n < FALL.restitutions[0] - 0.04
+    assert free.impact_speeds[0].n > 1.02 * FALL.speeds[0]
+
+
+@pytest.mark.parametrize("how", UGLY)
+def test_ugly_tracks_in_air(how):
+    """All lie within four of their errors; without air the first restitution does not."""
+    data = seen(seed=1, **UGLY[how])
+    found = track(data, drag=AIR)
+    (ball,) = found.balls
+    off = [(one.n - true) / one.s for one, true in pairs(ball, FALL)]
+    assert max(map(abs, off)) < 4.0
+    assert ball.restitutions[0].s < 0.006
+    assert track(data).balls[0].restitutions[0].n < FALL.restitutions[0] - 0.03
+    assert found.time_base.agrees
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("unsure", [False, True])
+def test_the_truth_lies_within_one_sigma_as_often_as_it_should(unsure):
+    hits = dict.fromkeys(["restitution", "impact speed", "drop height", "gravity"], 0)
+    for seed in range(100):
+        random = np.random.default_rng([seed, 7])
+        true = random.normal(0.45, 0.05) if unsure else 0.45
+        fall = falls_in_air(0.6, kept, coefficient=true, bounces=4)
+        (ball,) = track(seen(fall, seed=seed), drag=UNSURE if unsure else AIR).balls
+        rows = (
+            (ball.restitutions[0], fall.restitutions[0]),
+            (ball.impact_speeds[0], fall.speeds[0]),
+            (ball.drop_height, fall.height),
+            (ball.gravity, fall.gravity),
+        )
+        for name, (found, value) in zip(hits, rows, strict=True):
+            hits[name] += abs(found.n - value) <= found.s
+    for name, count in hits.items():
+        assert binom.cdf(count, 100, 0.60) > 0.005, (name, count)
+        assert binom.sf(count - 1, 100, 0.76) > 0.005, (name, count)
+
+
+def test_an_error_of_the_drag_is_the_change_by_it():
+    data = seen(frame_rate=120.0)
+    (ball,) = track(data, drag=UNSURE).balls
+    more, less = (track(data, drag=Drag(*BALL, one)).balls[0] for one in (0.50, 0.40))
+    for name in ("restitutions", "impact_speeds", "rebound_speeds"):
+        found, high, low = (getattr(one, name)[0] for one in (ball, more, less))
+        exact = getattr(track(data, drag=AIR).balls[0], name)[0]
+        assert found.n == exact.n
+        assert found.s == pytest.approx(np.hypot(exact.s, 0.5 * (high.n - low.n)), rel=1e-2)
+
+
+def test_a_soft_ball_and_its_floor():
+    fall = falls_in_air(1.0, kept, bounces=5, lasts=lambda _: 0.012)
+    data = seen(fall, frame_rate=240.0)
+    (ball,) = track(data, floor=0.0, drag=AIR).balls
+    for found, true in pairs(ball, fall):
+        assert found.n == pytest.approx(true, rel=5e-3)
+    (plain,) = track(data, drag=AIR).balls
+    assert plain.impact_speeds[0].n > 1.01 * fall.speeds[0]
+
+
+def test_without_drag_parabolas_stay():
+    data = seen(falls(1.0, 0.8))
+    thin = track(data, drag=Drag(*BALL, 1e-12)).balls[0]
+    free = track(data).balls[0]
+    for name in ("restitutions", "impact_speeds", "apex_heights", "levels"):
+        one, other = ([x.n for x in getattr(ball, name)] for ball in (thin, free))
+        assert one == pytest.approx(other, rel=1e-9, abs=1e-12)
+
+
+def test_the_curve_that_is_drawn_passes_through_the_points():
+    found = track(seen(frame_rate=240.0), drag=AIR)
+    (ball,) = found.balls
+    used = np.isfinite(ball.fit.residuals)
+    lines = plots.measured(None, found).axes[0].lines
+    curves = [line for line in lines if len(line.get_xdata()) == 60]
+    assert len(curves) == len(ball.fit.flights)
+    for line, (first, last) in zip(curves, ball.fit.flights, strict=True):
+        part = slice(first, last)
+        there = np.interp(ball.times[part][used[part]], line.get_xdata(), line.get_ydata())
+        assert np.std(there - ball.heights[part][used[part]]) < 1.2e-3
+
+
+def test_the_command_takes_air(tmp_path, capfd):
+    data = seen()
+    path = tmp_path / "track.csv"
+    rows = zip(data.time.values, data.y.values.ravel(), strict=True)
+    path.write_text("t (s),y (m)\n" + "".join(f"{t:.6f},{y:.6f}\n" for t, y in rows))
+    typed = ["--mass", "2.7g", "--diameter", "40mm", "--drag-coefficient", "0.45"]
+    assert main(["measure", str(path), *typed, "--json"]) == 0
+    (told,) = json.loads(capfd.readouterr().out)["files"]
+    found = {one["name"]: one["value"] for one in told["found"]}
+    assert found["restitution of bounce 0"] == pytest.approx(FALL.restitutions[0], abs=3e-3)
+    assert found["drag coefficient"] == 0.45
+    assert any(note.startswith("The drag of the air is taken") for note in told["notes"])
+
+
+def test_what_has_no_air_is_told():
+    pixels = seen()
+    pixels.y.attrs["units"] = "px"
+    with pytest.raises(InvalidValue, match="drag needs lengths in m and times in s, got px and s"):
+        track(pixels, drag=AIR)
+    stack = sb.Drop(
+        [sb.Ball(0.6, 0.2), sb.Ball(0.1, 0.1)], [sb.Rigid(0.8)] * 2, height=0.5, gravity=9.81
+    )
+    two = tracked(sb.simulate(stack, until=0.2), frame_rate=240.0)
+    with pytest.raises(InvalidValue, match=r"drag is for the track of one ball .*, got 2"):
+        track(two, drag=AIR)
+    with pytest.raises(InvalidValue, match="it flies faster than it could fall"):
+        track(seen(), drag=Drag(1e-4, 0.040, 0.5))
