@@ -24,7 +24,7 @@ from stackbounce.engine.taylor import (
     record_series_peaks,
 )
 
-_KNOWN = 100.0  # times the tolerance of a step: the error after many steps
+KNOWN = 100.0  # times the tolerance of a step: the error after many steps
 _ENTERS = 1e-6  # of the reference speed: contacts that begin faster need no chord
 _SURFACE_TERMS = 10  # as many as of a spring's compression, see `add_ball_series`
 _LEAST_REST = 1e-290  # a bound that is not 0, as the search for events needs one
@@ -317,7 +317,7 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
         fastest = max(fastest, abs(before), abs(stack.velocity[b]))
     noise = 64.0 * EPSILON * fastest
     if moves and (order < ORDER or stack.root[first] == 2):
-        known = min(_KNOWN * stack.number[TOLERANCE], _SLOWEST)
+        known = min(KNOWN * stack.number[TOLERANCE], _SLOWEST)
         noise = max(noise, known * stack.number[SPEED])
     for b in range(first, last + 1):
         stack.velocity_noise[b] = max(stack.velocity_noise[b], noise)

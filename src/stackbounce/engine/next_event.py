@@ -25,7 +25,8 @@ A lossless power-law contact in a cluster that is solved by Taylor series has no
 `record_series_peaks` finds the peak from the series.
 
 A change of sign counts only if it exceeds round-off: an open contact that grazes within its
-round-off has not touched, and balls whose speeds are equal within theirs do not approach.
+round-off has not touched, and balls whose speeds are equal within theirs do not approach. A gain
+that exceeds its round-off only long after its zero is clipped at the zero all the same.
 """
 
 import math
@@ -59,6 +60,7 @@ from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.forces import creeps, is_damped
 from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.motion import (
+    KNOWN,
     align_anchors,
     compression_series,
     contact_impulse,
@@ -67,13 +69,24 @@ from stackbounce.engine.motion import (
     subtract_surface,
 )
 from stackbounce.engine.pieces import has_one_curve
-from stackbounce.engine.series import lower_bound, parabola_root, safe_step, shift, time_to_level
+from stackbounce.engine.series import (
+    differentiate,
+    evaluate,
+    lower_bound,
+    parabola_root,
+    safe_step,
+    shift,
+    time_to_level,
+)
 from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
 # round-off below this fraction of a typical motion: the motion itself is only round-off
 _NOTHING = 1000.0 * EPSILON * EPSILON
 _LOOSE = 10.0  # a touch must exceed this times the tolerance of a step
+_NEAR = 2e-12  # of a time: the end of a force that is no later than that is left where it is,
+_NEWTON = 6  # else so many steps lead back to the zero,
+_CONVERGED = 1e-3  # if the last is at most that part of them all
 _LINEARISED_EXIT = 0.9  # of ``linearised_below``: the chord is left above 1 and taken below this,
 _LOGARITHMS = 1e3  # or where the logarithm of the force has changed by this
 
@@ -303,8 +316,8 @@ def _gain_wait(
         level = 2.0 * clear
     elif gain[0] <= clear and gain[1] < 0.0 and a[1] < 0.0:
         # an overdamped contact would open infinitely slowly, with a negligible force
-        return 0.0, True
-    return _safe_wait(
+        return _zero_near(stack, i, time, order, root, 0.0, horizon), True
+    wait, reached = _safe_wait(
         stack,
         gain,
         order,
@@ -316,6 +329,36 @@ def _gain_wait(
         clear,
         horizon,
     )
+    if reached and sign > 0.0:
+        wait = _zero_near(stack, i, time, order, root, wait, horizon)
+    return wait, reached
+
+
+@kernel
+def _zero_near(
+    stack: Stack, i: int, time: float, order: int, root: int, near: float, horizon: float
+) -> float:
+    """Return where the gain of contact i falls through zero, or ``near`` if that is near enough.
+
+    Near enough is what the tolerance leaves of a time after many steps. Under strong damping the
+    gain passes zero so gently that it is clear of its round-off only later than that. The result is
+    ``near`` as well if Newton's method finds no zero from now to the horizon.
+    """
+    share = _NEAR
+    if stack.factor_exponent[i] > 0.0:
+        share = max(share, KNOWN * stack.number[TOLERANCE])
+    gain, x, step = stack.changed, near, 0.0
+    found = near if root == 1 else near * near
+    for _ in range(_NEWTON):
+        rate = differentiate(gain, order, x)
+        if rate >= 0.0:
+            return near
+        step = evaluate(gain, order, x) / rate
+        x -= step
+        zero = x if root == 1 else x * x
+        if not 0.0 <= x <= horizon or abs(zero - found) <= share * (time + found):
+            return near
+    return x if abs(step) <= _CONVERGED * abs(x - near) else near
 
 
 @kernel

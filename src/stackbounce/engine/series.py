@@ -125,6 +125,15 @@ def evaluate(a: Floats, n: int, s: float) -> float:
 
 
 @kernel
+def differentiate(a: Floats, n: int, s: float) -> float:
+    """Return the derivative of the polynomial of `evaluate` at s."""
+    total = n * a[n]
+    for k in range(n - 1, 0, -1):
+        total = k * a[k] + s * total
+    return total
+
+
+@kernel
 def integrate(a: Floats, n: int, s: float, root: int) -> float:
     """Return the integral of the polynomial of `evaluate` over time, from 0 to s^root.
 

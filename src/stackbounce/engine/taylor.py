@@ -27,7 +27,7 @@ from stackbounce.engine.forces import (
     raised,
 )
 from stackbounce.engine.kernels import Floats, kernel
-from stackbounce.engine.series import ORDER, ROOT_ORDER, evaluate
+from stackbounce.engine.series import ORDER, ROOT_ORDER, differentiate, evaluate
 from stackbounce.engine.slots import RECORDS_PEAKS, SERIES_ORDER, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
@@ -191,11 +191,11 @@ def _largest_value(a: Floats, n: int, s: float) -> tuple[float, float]:
         return largest, at  # monotonic
     for part in range(_PARTS):
         left, right = s * part / _PARTS, s * (part + 1) / _PARTS
-        if _slope(a, n, left) <= 0.0 or _slope(a, n, right) >= 0.0:
+        if differentiate(a, n, left) <= 0.0 or differentiate(a, n, right) >= 0.0:
             continue
         for _ in range(_HALVINGS):
             middle = 0.5 * (left + right)
-            if _slope(a, n, middle) > 0.0:
+            if differentiate(a, n, middle) > 0.0:
                 left = middle
             else:
                 right = middle
@@ -203,12 +203,3 @@ def _largest_value(a: Floats, n: int, s: float) -> tuple[float, float]:
         if crest > largest:
             largest, at = crest, left
     return largest, at
-
-
-@kernel
-def _slope(a: Floats, n: int, s: float) -> float:
-    """Return the derivative of a series at s."""
-    total = n * a[n]
-    for k in range(n - 1, 0, -1):
-        total = k * a[k] + s * total
-    return total

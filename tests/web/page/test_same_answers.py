@@ -230,7 +230,7 @@ def creeps_apart(contact, mass, speed):
     if not isinstance(contact, dict) or contact.get("law") != "Viscoelastic":
         return False
     try:
-        return sb.restitution(read_law(contact, "contact"), mass, speed) < 0.02
+        return sb.restitution(read_law(contact, "contact"), mass, speed) < 1e-4
     except sb.StackbounceError:
         return False
 
