@@ -1,14 +1,15 @@
 /** How fast this machine draws: what can wait a little then leaves its time to what cannot. */
 
-const SLOW = 50; // ms from a change to its picture
+const QUICK = 50; // ms from a change to its picture
+const SHARE = 5; // on a slow machine, one part in so many of the time is for what can wait
 
 export class Pace {
-  isSlow = false;
   begun = -Infinity; // ms, when something was drawn last
+  took = 0; // ms, until it was on the screen
 
-  /** Return the ms since something was drawn. */
-  get since() {
-    return performance.now() - this.begun;
+  /** Whether the machine is slow, and has just drawn: what can wait is then better left for later. */
+  get isBusy() {
+    return this.took > QUICK && performance.now() - this.begun < SHARE * this.took;
   }
 
   /** Measure how long it takes from now until the picture is on the screen. */
@@ -19,7 +20,7 @@ export class Pace {
       const { port1, port2 } = new MessageChannel(); // its message comes after the picture
       port1.onmessage = () => {
         port1.close();
-        this.isSlow = performance.now() - begun > SLOW;
+        this.took = performance.now() - begun;
       };
       port2.postMessage(null);
     });

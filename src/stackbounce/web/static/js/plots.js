@@ -9,8 +9,6 @@ import { colorOf, LETTERS, onRepaint, palette } from "./palette.js";
 import { PlotZoom } from "./plot_zoom.js";
 import { format } from "./units.js";
 
-const SELDOM = 250; // ms between two drawings while the drop changes on a slow machine
-
 /** Draw the plots into `root` and keep their cursor at the clock's time. */
 export function mountPlots(root, store, clock) {
   const pace = new Pace();
@@ -50,7 +48,7 @@ export function mountPlots(root, store, clock) {
   };
   store.subscribe((state, before) => {
     due ||= ["result", "overlays", "prediction", "view"].some((name) => state[name] !== before[name]);
-    if (due && !(state.busy && pace.isSlow && pace.since < SELDOM)) build();
+    if (due && !(state.busy && pace.isBusy)) build();
   });
   clock.subscribe(() => {
     for (const one of shown) if (clock.legible) one.tell(clock.time);
