@@ -52,7 +52,8 @@ def simulate(
     event_limit : int, optional
         Events (touches, releases, and changes of the force between them), or steps between two
         events, after which to stop with the status EVENT_LIMIT and the results so far. A run also
-        stops after a million steps in all, or after `event_limit` steps where that is more.
+        stops after a million steps in all, ten million where all contacts are linear, or after
+        `event_limit` steps where that is more.
     compiled : bool, optional
         Whether to run compiled code rather than plain Python; by default wherever there is some for
         this machine. Both give the same bits.

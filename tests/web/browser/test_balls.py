@@ -5,6 +5,8 @@ import pytest
 import stackbounce as sb
 from stackbounce.model.catalogue import stack
 
+pytestmark = pytest.mark.slow
+
 COLORS = """() => [0, 1].map((i) =>
   getComputedStyle(document.documentElement).getPropertyValue(`--ball-${i}`).trim())"""
 INK = """(name) =>

@@ -115,8 +115,8 @@ def test_random_lines_have_the_library_s_numbers(asked):
 
 
 @pytest.mark.slow
-def test_three_hundred_random_lines_have_the_library_s_numbers(asked):
-    compare_lines(asked, SEED + 1, 300)
+def test_a_hundred_random_lines_have_the_library_s_numbers(asked):
+    compare_lines(asked, SEED + 1, 100)
 
 
 def paper_lines(asked, show):

@@ -55,10 +55,11 @@ class RigidBySpeed(Rigid):
 
     Notes
     -----
-    Source: K. L. Johnson, Contact Mechanics (Cambridge, 1985), section 11.5; F. G. Bridges,
-    A. Hatzes and D. N. C. Lin, Nature 309, 333 (1984). In the first, e of spheres that yield is
-    proportional to v**(-1/4); in the second, e of ice is 0.32 (v/(1 cm/s))**-0.234. Neither was
-    read for this package: both are as others quote them.
+    Source: A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988),
+    whose abstract, all that was read, has a power law for ice with frost. As others quote them, e
+    of spheres that yield is proportional to v**(-1/4) (K. L. Johnson, Contact Mechanics, Cambridge,
+    1985, section 11.5), and e of ice is 0.32 (v/(1 cm/s))**-0.234 (F. G. Bridges, A. Hatzes and
+    D. N. C. Lin, Nature 309, 333, 1984).
 
     Examples
     --------
@@ -71,8 +72,8 @@ class RigidBySpeed(Rigid):
     says = "An instantaneous collision whose restitution falls with a power of the speed."
     formula = "v' = -e v, e = min(1, restitution (v/speed)**-speed_exponent)"
     source = (
-        "K. L. Johnson, Contact Mechanics (Cambridge, 1985), section 11.5; "
-        "F. G. Bridges, A. Hatzes and D. N. C. Lin, Nature 309, 333 (1984)"
+        "A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988), "
+        "abstract"
     )
     form = "RIGID_POWER"
     law_parameter = "scatter"
@@ -150,10 +151,8 @@ class RigidLossBySpeed(RigidBySpeed):
 
     Notes
     -----
-    Source: G. Kuwabara and K. Kono, Jpn. J. Appl. Phys. 26, 1230 (1987); T. Schwager and
-    T. Pöschel, Phys. Rev. E 57, 650 (1998). There, 1 - e = C v**(1/5) to leading order. These two
-    were not read for this package; the abstract of R. Ramírez, T. Pöschel, N. V. Brilliantov and
-    T. Schwager, Phys. Rev. E 60, 4465 (1999), which was, gives the same series.
+    Source: R. Ramírez, T. Pöschel, N. V. Brilliantov and T. Schwager, Phys. Rev. E 60, 4465 (1999),
+    whose abstract, all that was read, gives 1 - e = C v**(1/5) to leading order.
 
     Examples
     --------
@@ -166,8 +165,8 @@ class RigidLossBySpeed(RigidBySpeed):
     says = "An instantaneous collision whose loss grows with a power of the speed."
     formula = "v' = -e v, e = max(0, 1 - (1 - restitution) (v/speed)**speed_exponent)"
     source = (
-        "G. Kuwabara and K. Kono, Jpn. J. Appl. Phys. 26, 1230 (1987); "
-        "T. Schwager and T. Pöschel, Phys. Rev. E 57, 650 (1998)"
+        "R. Ramírez, T. Pöschel, N. V. Brilliantov and T. Schwager, Phys. Rev. E 60, 4465 (1999), "
+        "abstract"
     )
     form = "RIGID_LOSS"
 
