@@ -71,10 +71,7 @@ class RigidBySpeed(Rigid):
 
     says = "An instantaneous collision whose restitution falls with a power of the speed."
     formula = "v' = -e v, e = min(1, restitution (v/speed)**-speed_exponent)"
-    source = (
-        "A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988), "
-        "abstract"
-    )
+    source = "A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988)"
     form = "RIGID_POWER"
     law_parameter = "scatter"
     second_parameter = "seed"
@@ -165,8 +162,7 @@ class RigidLossBySpeed(RigidBySpeed):
     says = "An instantaneous collision whose loss grows with a power of the speed."
     formula = "v' = -e v, e = max(0, 1 - (1 - restitution) (v/speed)**speed_exponent)"
     source = (
-        "R. Ramírez, T. Pöschel, N. V. Brilliantov and T. Schwager, Phys. Rev. E 60, 4465 (1999), "
-        "abstract"
+        "R. Ramírez, T. Pöschel, N. V. Brilliantov and T. Schwager, Phys. Rev. E 60, 4465 (1999)"
     )
     form = "RIGID_LOSS"
 
