@@ -266,6 +266,41 @@ def test_a_slider_by_keyboard_changes_the_numbers(visit):
     assert page.locator("#numbers").inner_text() != before
 
 
+SAID = """(change) => {
+    const { store } = window.stackbounce;
+    store.set({ drop: change(store.get().drop) });
+    const { result, resultOf, drop } = store.get();
+    const isNew = resultOf.drop === drop;
+    return { isNew, ratio: result.rebound_ratios[1], said: document.querySelector('#numbers').innerText }; }"""
+
+
+def test_a_change_is_answered_before_the_next_picture(visit):
+    """The page's own engine answers within the same task; the worker adds frames with the same numbers."""
+    page = visit.open()
+    page.evaluate("() => window.stackbounce.whole.then(() => null)")
+    at_once = page.evaluate(f"() => ({SAID})((drop) => ({{ ...drop, impact_speed: 3 }}))")
+    drop = sb.Drop.from_mapping(visit.state("drop"))
+    assert at_once["isNew"]
+    assert at_once["ratio"] == pytest.approx(sb.simulate(drop).rebound_ratios[1], abs=1e-12)
+    assert f"{at_once['ratio']:.3f}" in at_once["said"]
+    few = len(visit.state("result.frames.time"))
+    visit.ready()
+    assert len(visit.state("result.frames.time")) > 2 * few
+    assert visit.state("result.rebound_ratios")[1] == at_once["ratio"]
+
+
+def test_a_drop_of_many_collisions_is_left_to_the_worker(visit):
+    page = visit.open()
+    page.evaluate("() => window.stackbounce.whole.then(() => null)")
+    many = """(drop) => ({
+        balls: [{ mass: 1e6 }, { mass: 0.001 }], gaps: [1e-3], impact_speed: 3, gravity: 0,
+        contacts: drop.contacts.map(() => ({ law: "Spring", stiffness: 1e5 })) })"""
+    assert not page.evaluate(f"() => ({SAID})({many})")["isNew"]
+    visit.ready()
+    assert visit.state("result.status") == "FINISHED"
+    assert len(visit.state("result.intervals")) > 100  # each with a touch, a peak and a release
+
+
 @pytest.mark.parametrize(
     ("text", "mass"), [("57 g", 0.057), ("0.057 kg", 0.057), ("57", 0.057), ("0,057 kg", 0.057)]
 )

@@ -1,5 +1,6 @@
 /** What the page asks: its own engine for drops and maps, a server for measurements and fits. */
 
+import { AtOnce } from "./engine/at_once.js";
 import { Client } from "./engine/client.js";
 import { pictureOf } from "./export_picture.js";
 import { t } from "./language.js";
@@ -18,14 +19,22 @@ function parts() {
 
 const player = new Client(startWorker, parts); // the drop that is shown
 const desk = new Client(startWorker, parts); // maps, lines, and all else
+const atOnce = new AtOnce();
 
-/** Start the second worker, so that nothing has to be loaded later on. */
-export const prepare = () => desk.prepare().catch(() => null); // it is tried again when it is asked
+/** Start the second worker and the engine in the page, so that nothing has to be loaded later on; `drop` is a drop to try. */
+export const prepare = (drop) =>
+  Promise.all([
+    desk.prepare().catch(() => null), // it is tried again when it is asked
+    parts().then((loaded) => atOnce.open(loaded, drop)).catch(() => null), // the workers do without
+  ]);
 
 /** Return the balls, laws, cases and limits. */
 export async function catalogue() {
   return (await parts()).model;
 }
+
+/** Return the result of a drop at once, or null where that would take too long or cannot be. */
+export const playAtOnce = (drop, until, frames) => atOnce.play(drop, until, frames);
 
 /** Return the result of the drop that is to be shown; one that is still computed makes room for it. */
 export const play = (drop, until, frames) =>

@@ -86,7 +86,7 @@ const end = store.subscribe(({ result }) => {
   if (!result) return;
   end();
   const views = [loadLine, loadMap].map((load) => load().catch(() => null)); // what fails is tried again when it is opened
-  window.stackbounce.whole = Promise.all([api.prepare(), ...views]); // from here on nothing is loaded
+  window.stackbounce.whole = Promise.all([api.prepare(result.drop), ...views]); // from here on nothing is loaded
 });
 addEventListener("beforeprint", () => (place("intervals").closest("details").open = true));
 showBanner();

@@ -6,25 +6,34 @@ const REST = 150; // ms without a change
 
 /** Keep `result`, `busy` and `error` of the store in step with `drop` and `until`; `again()` asks anew. */
 export function run(store, api) {
-  let newest = 0;
+  let newest = 0; // question
+  let shown = 0; // question whose answer is shown
   let timer = 0;
   let changed = -Infinity; // ms, when the last change was
   let adopted = null; // a drop that came with its result
 
-  const again = () => {
+  /** Have the result of a drop computed; return what changes at once. */
+  const begin = ({ drop, until }) => {
     clearTimeout(timer);
     const quick = performance.now() - changed < REST;
     changed = performance.now();
-    if (quick) timer = setTimeout(() => ask(ALL), REST);
-    ask(quick ? FEW : ALL);
+    const result = hasTexts(drop) ? null : api.playAtOnce(drop, until, FEW);
+    if (quick || result) timer = setTimeout(() => ask(ALL), REST);
+    if (!result) {
+      ask(quick ? FEW : ALL);
+      return { busy: true };
+    }
+    newest += 1;
+    shown = newest;
+    return { result, resultOf: { drop, until }, error: null, busy: true };
   };
   const ask = async (frames) => {
     newest += 1;
     const mine = newest;
-    if (!store.get().busy) store.set({ busy: true });
     const { drop, until } = store.get();
     const patch = await answer(api, drop, until, frames);
-    if (!patch) return;
+    if (!patch || mine < shown) return;
+    shown = mine;
     const last = mine === newest;
     if (!last) delete patch.error; // an error of an older state is not reported
     if (patch.result && store.get().drop === drop && hasTexts(drop)) {
@@ -34,10 +43,11 @@ export function run(store, api) {
     }
     store.set({ ...patch, busy: !last || (frames === FEW && !patch.error) });
   };
-  store.subscribe((state, before) => {
+  store.derive((state, before) => {
     const other = state.drop !== before.drop && state.drop !== adopted;
-    if (other || state.until !== before.until) again();
+    return other || state.until !== before.until ? begin(state) : null;
   });
+  const again = () => store.set(begin(store.get()));
   again();
   return { again };
 }

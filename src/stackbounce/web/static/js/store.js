@@ -61,16 +61,18 @@ export function withExample({ replay, visits }, drop) {
   return { drop, errors: {}, notes: [], ...shown, replay: replay + 1, visits: visits + 1 };
 }
 
-/** Return a store: `get()`, `set(patch)`, `subscribe(listener)`. */
+/** Return a store: `get()`, `set(patch)`, `subscribe(listener)`, `derive(follows)`. */
 export function createStore(first = {}) {
   let state = { ...FIRST, ...first };
   const listeners = new Set();
+  const derivations = new Set();
   const get = () => state;
-  /** Merge a patch and tell everybody once, with the state and the one before. */
+  /** Merge a patch, and what follows of it at once, and tell everybody once, with the state and the one before. */
   const set = (patch) => {
     const before = state;
     if (Object.entries(patch).every(([name, value]) => before[name] === value)) return;
     state = { ...state, ...patch };
+    for (const follows of derivations) state = { ...state, ...follows(state, before) };
     for (const listener of [...listeners]) listener(state, before);
   };
   /** Call a listener with (state, before) after each change; returns what ends that. */
@@ -78,5 +80,7 @@ export function createStore(first = {}) {
     listeners.add(listener);
     return () => listeners.delete(listener);
   };
-  return { get, set, subscribe };
+  /** Let a function of (state, before) return what else changes with each change, before anybody hears of it. */
+  const derive = (follows) => derivations.add(follows);
+  return { get, set, subscribe, derive };
 }

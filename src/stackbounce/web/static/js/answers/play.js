@@ -11,9 +11,9 @@ const BEFORE = 0.15; // margins, over the duration of the impact
 const AFTER = 0.35;
 const INSTANT = 0.01; // s: used as the duration of an instantaneous impact
 
-/** Return a drop's result, within the limits of the page. */
-export function runDrop(drop, until) {
-  return simulate(drop, { until: until ?? Infinity, rtol: known.rtol, eventLimit: known.limits.events });
+/** Return a drop's result, within the limits of the page or with fewer events. */
+export function runDrop(drop, until, eventLimit = known.limits.events) {
+  return simulate(drop, { until: until ?? Infinity, rtol: known.rtol, eventLimit });
 }
 
 /** Return the end of a run in s, checked; null for the impact alone. */
@@ -25,10 +25,10 @@ export function checkUntil(until) {
 }
 
 /** Drop a stack of balls: numbers, intervals, frames, and the separate collisions of the same drop. */
-export function playDrop(mapping, until_, frames) {
+export function playDrop(mapping, until_, frames, eventLimit) {
   const drop = readDrop(mapping);
   const until = checkUntil(until_);
-  const result = runDrop(drop, until);
+  const result = runDrop(drop, until, eventLimit);
   const times = chooseTimes(result, until, frames);
   const ends = result.intervals.map(({ end }) => end).filter(Number.isFinite);
   return {
@@ -38,7 +38,7 @@ export function playDrop(mapping, until_, frames) {
     intervals: result.intervals.map((one) => plain(one)),
     impact: [0, Math.max(0, ...ends)],
     frames: sampleFrames(result, times),
-    separate: drop.rigid ? null : playSeparate(drop, until, times),
+    separate: drop.rigid ? null : playSeparate(drop, until, times, eventLimit),
   };
 }
 
@@ -97,16 +97,15 @@ export function spaced(from, to, count) {
 }
 
 /** Return what `Result.sample` does, also at times before the first touch. */
-export function sampleWithApproach(result, times) {
+function sampleWithApproach(result, times) {
   const { drop } = result;
   const found = result.sample(times.map((time) => Math.max(time, 0)));
-  const { start } = drop;
+  addFall(found.position, drop, times);
   times.forEach((time, row) => {
     if (time >= 0) return;
     let below = 0;
-    start.forEach((velocity, ball) => {
-      const fallen = velocity * time - 0.5 * drop.gravity * time * time;
-      found.position[ball][row] += fallen;
+    drop.start.forEach((velocity, ball) => {
+      const fallen = fallenAt(drop, velocity, time);
       found.velocity[ball][row] -= drop.gravity * time;
       found.compression[ball][row] -= fallen - below;
       found.force[ball][row] = 0;
@@ -114,6 +113,24 @@ export function sampleWithApproach(result, times) {
     });
   });
   return found;
+}
+
+/** Return the positions alone, also at times before the first touch. */
+function positionsWithApproach(result, times) {
+  const { position } = result.sample(times.map((time) => Math.max(time, 0)), ["position"]);
+  addFall(position, result.drop, times);
+  return position;
+}
+
+/** Add the fall before the first touch to positions at times that have none of it. */
+function addFall(position, drop, times) {
+  times.forEach((time, row) => {
+    if (time < 0) drop.start.forEach((velocity, ball) => (position[ball][row] += fallenAt(drop, velocity, time)));
+  });
+}
+
+function fallenAt({ gravity }, velocity, time) {
+  return velocity * time - 0.5 * gravity * time * time;
 }
 
 function sampleFrames(result, times) {
@@ -142,13 +159,13 @@ function summed(lists) {
 }
 
 /** Return the separate collisions of a drop at the same times, or why there are none. */
-function playSeparate(drop, until, times) {
+function playSeparate(drop, until, times, eventLimit) {
   try {
     const alone = separate(drop);
     const textbook = until === null ? alone : alone.changed({ gravity: drop.gravity }); // a whole drop has flights
-    const result = runDrop(textbook, until);
+    const result = runDrop(textbook, until, eventLimit);
     const reached = result.stopped ? result.end : Infinity;
-    const { position } = sampleWithApproach(result, times.map((time) => Math.min(time, reached)));
+    const position = positionsWithApproach(result, times.map((time) => Math.min(time, reached)));
     return {
       ...numbers(result),
       restitutions: textbook.contacts.map((law) => law && law.restitution_at(1, 1)),

@@ -87,13 +87,18 @@ export class Result {
     return came > 0 ? energy(this.speeds) / came : NaN;
   }
 
-  /** Return lists by ball or contact over ascending times in s: position, velocity, compression, force; stored energy. */
-  sample(times) {
+  /** Return lists by ball or contact over ascending times in s: position, velocity, compression, force; stored energy; or some of these. */
+  sample(times, names = ["position", "velocity", "compression", "force", "stored"]) {
     const { samples } = this.again(times);
-    const balls = this.drop.balls.length;
-    const table = (name) => this.drop.balls.map((_, i) => times.map((_, row) => samples[name][row * balls + i]));
-    return Object.fromEntries(["position", "velocity", "compression", "force", "stored"].map((name) => [name, table(name)]));
+    return Object.fromEntries(names.map((name) => [name, columnsOf(samples[name], this.drop.balls.length)]));
   }
+}
+
+/** Return the columns of a table that lies in rows, as lists. */
+function columnsOf(values, count) {
+  const columns = Array.from({ length: count }, () => new Array(values.length / count));
+  for (let k = 0; k < values.length; k += 1) columns[k % count][Math.floor(k / count)] = values[k];
+  return columns;
 }
 
 /** Return the rows of a log by time; rows of one time stay in their order. */
