@@ -271,11 +271,12 @@ SAID = """(change) => {
     store.set({ drop: change(store.get().drop) });
     const { result, resultOf, drop } = store.get();
     const isNew = resultOf.drop === drop;
-    return { isNew, ratio: result.rebound_ratios[1], said: document.querySelector('#numbers').innerText }; }"""
+    const said = document.querySelector('#numbers').innerText;
+    return { isNew, ratio: result.rebound_ratios[1], said }; }"""
 
 
 def test_a_change_is_answered_before_the_next_picture(visit):
-    """The page's own engine answers within the same task; the worker adds frames with the same numbers."""
+    """The page answers within the same task; the worker adds frames with the same numbers."""
     page = visit.open()
     page.evaluate("() => window.stackbounce.whole.then(() => null)")
     at_once = page.evaluate(f"() => ({SAID})((drop) => ({{ ...drop, impact_speed: 3 }}))")
