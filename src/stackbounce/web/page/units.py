@@ -28,12 +28,12 @@ def list_units() -> dict[str, Any]:
     registry: Any = pint.UnitRegistry()
     dimensions: list[dict[str, float]] = []
     names: dict[str, tuple[float | None, int]] = {}
-    for name in filter(_NAME.fullmatch, list(registry._units)):
+    for name in sorted(filter(_NAME.fullmatch, registry._units)):  # pint's order varies
         if not registry._units[name].is_multiplicative:
             names[name] = None, 0
             continue
         size = registry.Quantity(1.0, name).to_base_units()
-        own = dict(size.dimensionality)
+        own = dict(sorted(size.dimensionality.items()))
         if own not in dimensions:
             dimensions.append(own)
         names[name] = float(size.magnitude), dimensions.index(own)
