@@ -14,7 +14,6 @@ ASK = 7  # the fast engine left a drop undecided: the general one solves it
 ABSENT = 0  # no floor
 POWER = 1  # a power of the compression, loading and unloading alike
 HYSTERETIC = 2  # another power when unloading
-LOSSY = 3  # the same, with another one after each reloading
 PRODUCT = 4  # in the stack only: all forms from DASHPOT to RELAXING but RIGID, and BOND
 DASHPOT = 5
 VISCOELASTIC = 6
@@ -32,7 +31,6 @@ FORMS = {
     "ABSENT": ABSENT,
     "POWER": POWER,
     "HYSTERETIC": HYSTERETIC,
-    "LOSSY": LOSSY,
     "DASHPOT": DASHPOT,
     "VISCOELASTIC": VISCOELASTIC,
     "HUNT_CROSSLEY": HUNT_CROSSLEY,
@@ -59,10 +57,10 @@ TOUCH = 1
 RELEASE = 2
 COLLISION = 3
 PEAK = 4  # the compression stops growing
-DIP = 5  # the compression of a lossy contact stops falling
+DIP = 5  # the compression of a contact with hysteresis stops falling
 LINEARISED = 6  # the power law is replaced by its chord, see `contacts`
 CURVED = 7  # the chord is replaced by the power law
-RELOADED = 8  # the compression comes back to its old peak
+RETURNED = 8  # the compression comes back to its last turning point but one, see `cycles`
 CLIPPED = 9  # the force would begin to pull
 RESUMED = 10  # the force would stop pulling
 CROSSED = 12  # the compression passes from one piece of a curve into the next, see `pieces`

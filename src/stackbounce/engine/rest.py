@@ -17,10 +17,11 @@ stack is set to its static state at once.
 
 import math
 
-from stackbounce.engine.codes import COMPRESSING, PIECEWISE, POWER, PRODUCT
-from stackbounce.engine.forces import arm_energy, creeps, is_damped, potential, static_compression
+from stackbounce.engine.codes import COMPRESSING
+from stackbounce.engine.contacts import settle_curve
+from stackbounce.engine.cycles import has_hysteresis, highest_peak
+from stackbounce.engine.forces import arm_energy, creeps, is_damped, potential, static_state
 from stackbounce.engine.kernels import kernel
-from stackbounce.engine.pieces import find_piece, has_one_curve
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
 from stackbounce.engine.stack import TERMS, Stack
 
@@ -47,8 +48,11 @@ def is_bound(stack: Stack) -> bool:
     weight = 0.0
     for i in range(size - 1, -1, -1):
         weight += stack.mass[i] * stack.number[GRAVITY]
-        rest = static_compression(stack, i, weight)
-        at_rest = potential(stack, i, rest)
+        if has_hysteresis(stack, i):
+            if highest_peak(stack, i) == math.inf:
+                return False
+            share = _HYSTERETIC if size > 1 else 1.0
+        rest, at_rest = static_state(stack, i, weight)
         c = stack.compression[i]
         excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
         excess += arm_energy(stack, i, c, stack.creep[i])
@@ -56,11 +60,6 @@ def is_bound(stack: Stack) -> bool:
         if stack.bonded[i] == 0:
             barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
         damped = damped or is_damped(stack, i)
-        one_curve = stack.law[i] == PIECEWISE and has_one_curve(stack, i)
-        if stack.law[i] not in (POWER, PRODUCT) and not one_curve:
-            if stack.top[i] == math.inf:
-                return False
-            share = _HYSTERETIC if size > 1 else 1.0
     still = max(_STILL, 100.0 * stack.number[TOLERANCE])
     return excess < share * barrier and (not damped or excess <= still * still * reference)
 
@@ -72,9 +71,8 @@ def set_static_state(stack: Stack) -> None:
     weight = 0.0
     for i in range(size - 1, -1, -1):
         weight += stack.mass[i] * stack.number[GRAVITY]
-        stack.compression[i] = static_compression(stack, i, weight)
-        if stack.law[i] == PIECEWISE:
-            find_piece(stack, i, stack.compression[i])
+        stack.compression[i], _ = static_state(stack, i, weight)
+        settle_curve(stack, i, stack.compression[i])
         stack.velocity[i] = 0.0
         stack.creep[i] = stack.compression[i] if creeps(stack, i) else 0.0
         for k in range(TERMS):
