@@ -53,6 +53,7 @@ _NO_WORK = 1e-50  # the work under the shortest chord, over the reference energy
 _SOFTEST = 1e-60  # times the slope at the curve's unit: the smallest slope of a chord
 _GRAZE = 1e-30  # of a typical compression: the smallest peak
 
+_ALL_BUT_OPEN = 1e-12  # of the peak
 _BEYOND = 1.0 + 1e-6  # times a turning point, where the steepest curve has 3 times the force
 
 
@@ -169,19 +170,27 @@ def reduced_mass(stack: Stack, i: int) -> float:
 def _linearise_if_slow(stack: Stack, i: int) -> None:
     """Linearise opening contact i, anchored now, if the work left under its chord is small enough.
 
-    Otherwise ``linearised_below`` is reduced: the next trial comes at a smaller compression.
+    Otherwise ``linearised_below`` is reduced: the next trial comes at a smaller compression. Where
+    the gain alone is a part of the force, the chord is 0: the power is nothing beside that part.
     """
     compression = stack.compression[i]
     rate = stack.velocity[i]
     if i > 0:
         rate -= stack.velocity[i - 1]
     work = force(stack, i, compression, -rate, 0.0) * compression
+    flat = stack.flat[i]
+    if flat > 0.0:
+        steep = power(compression / stack.curve_unit[i], stack.curve_exponent[i])
+        steep *= stack.curve_force[i]
+        work *= steep / (steep + flat)
     budget = linearised_impulse_limit(stack, i)
     if (
         work <= rate * budget
         or work <= _NO_WORK / stack.number[TOLERANCE] * budget * stack.number[SPEED]
     ):
         _linearise(stack, i)
+        if flat > 0.0:
+            stack.rate[i] = 0.0
         if stack.law[i] == POWER:  # past its peak, see `record_series_peaks`
             stack.phase[i] = RELEASING
     else:
@@ -225,7 +234,7 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
             pressing = loading_force(stack, i, compression)
         _set_unloading_curve(stack, i, pressing, compression, False)
     elif kind == DIP:
-        if stack.linearised[i] == 1:  # all but open: all elements forget their peak
+        if compression < _ALL_BUT_OPEN * stack.top[i]:  # all elements forget their peak
             begin_loading(stack, i)
             stack.phase[i] = COMPRESSING
             _set_loading_curve(stack, i, compression, True)

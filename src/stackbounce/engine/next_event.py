@@ -181,7 +181,7 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
         other, there = _safe_wait(stack, a, order, power, tail, 0.0, -1.0, level, band, left)
         if other < wait:
             wait, reached, kind = other, there, upper_kind
-    if stack.linearised[i] == 1 and phase >= COMPRESSING:
+    if stack.linearised[i] == 1 and stack.rate[i] > 0.0 and phase >= COMPRESSING:
         other, there = _linearised_wait(stack, i, time, order, power, tail, min(wait, horizon))
         if other < wait:
             wait, reached, kind = other, there, CURVED

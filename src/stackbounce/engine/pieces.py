@@ -20,13 +20,14 @@ motion is analytic.
 
 import math
 
-from stackbounce.engine.codes import PIECEWISE
+from stackbounce.engine.codes import EPSILON, PIECEWISE
 from stackbounce.engine.elementary import power
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.stack import MOST_PIECES, PIECE_NUMBERS, Stack
 
 _BEGIN, _CONSTANT, _SLOPE, _SQUARE = 0, 1, 2, 3  # numbers of a piece
 _HALVINGS = 60
+_ROUND_OFF = 4.0 * EPSILON
 
 
 @kernel
@@ -144,7 +145,8 @@ def lost_share(stack: Stack, i: int, peak: float) -> float:
     """Return g of the share 1 - g + g (c/C)^M with which contact i returns e^2 of its work."""
     left = pieces_moment(stack, i, stack.loss_exponent[i], peak)
     whole = pieces_moment(stack, i, 0.0, peak)
-    return min(1.0, (1.0 - stack.returned[i]) / (1.0 - left / whole))
+    lost = (1.0 - stack.returned[i]) / (1.0 - left / whole)
+    return lost if lost < 1.0 - _ROUND_OFF else 1.0
 
 
 @kernel
