@@ -193,6 +193,7 @@ def _linearise_if_slow(stack: Stack, i: int) -> None:
             stack.rate[i] = 0.0
         if stack.law[i] == POWER:  # past its peak, see `record_series_peaks`
             stack.phase[i] = RELEASING
+            stack.top[i] = math.inf
     else:
         shorter = power(_SHORTER, 1.0 / (stack.curve_exponent[i] + 1.0))
         stack.linearised_below[i] = shorter * compression
@@ -210,17 +211,19 @@ def record_peak(stack: Stack, i: int, compression: float, pressing: float, time:
 @kernel
 def changes_curve(stack: Stack, i: int, kind: int) -> bool:
     """Tell whether the force follows another curve after an event inside an interval."""
+    if not has_hysteresis(stack, i):
+        return kind not in (PEAK, RETURNED)
     if kind == PEAK:
-        return has_hysteresis(stack, i) and stack.returning[i] == 0
-    if kind == DIP:
-        return stack.depth[i] < TURNS
-    return True
+        return stack.returning[i] == 0
+    return kind != DIP or stack.depth[i] < TURNS
 
 
 @kernel
 def change_phase(stack: Stack, i: int, kind: int) -> None:
     """Switch contact i between compressing and releasing on the same curve."""
     stack.phase[i] = RELEASING if kind == PEAK else COMPRESSING
+    if kind == PEAK and not has_hysteresis(stack, i):  # pressed beyond it, it has another peak
+        stack.top[i] = stack.peak_compression[i]
 
 
 @kernel
