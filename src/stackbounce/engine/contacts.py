@@ -193,6 +193,7 @@ def _linearise_if_slow(stack: Stack, i: int) -> None:
             stack.rate[i] = 0.0
         if stack.law[i] == POWER:  # past its peak, see `record_series_peaks`
             stack.phase[i] = RELEASING
+            stack.top[i] = math.inf
     else:
         shorter = power(_SHORTER, 1.0 / (stack.curve_exponent[i] + 1.0))
         stack.linearised_below[i] = shorter * compression
@@ -214,13 +215,15 @@ def changes_curve(stack: Stack, i: int, kind: int) -> bool:
         return has_hysteresis(stack, i) and stack.returning[i] == 0
     if kind == DIP:
         return stack.depth[i] < TURNS
-    return True
+    return kind != RETURNED or has_hysteresis(stack, i)
 
 
 @kernel
 def change_phase(stack: Stack, i: int, kind: int) -> None:
     """Switch contact i between compressing and releasing on the same curve."""
     stack.phase[i] = RELEASING if kind == PEAK else COMPRESSING
+    if kind == PEAK and stack.law[i] == POWER:
+        stack.top[i] = stack.peak_compression[i]
 
 
 @kernel

@@ -9,7 +9,9 @@ compressing the rate falls through 0     PEAK: releasing; with hysteresis along 
                                          from here
 ..          c rises through the peak of  RETURNED: the same, as before that cycle, see `cycles`
             the present cycle
-releasing   c falls through 0            RELEASE: open
+releasing   c of a lossless contact      RETURNED: compressing
+            rises through its highest peak
+..          c falls through 0            RELEASE: open
 ..          c falls to where the present RETURNED: the same, as before that cycle
             cycle began
 ..          the rate of a contact with   DIP: compressing, in a cycle inside the present one
@@ -248,7 +250,7 @@ def _upper_level(stack: Stack, i: int, plain: bool) -> tuple[float, int]:
     phase = stack.phase[i]
     if phase == UNLOADED:
         return level, kind
-    if not plain and phase == COMPRESSING and has_hysteresis(stack, i):
+    if not plain and phase == (COMPRESSING if has_hysteresis(stack, i) else RELEASING):
         level, kind = stack.top[i], RETURNED
     if stack.law[i] == PIECEWISE and stack.piece_high[i] < level:
         level, kind = stack.piece_high[i], CROSSED
