@@ -16,6 +16,7 @@ __all__ = ["draw_information", "draw_probabilities"]
 _STYLES = {
     SEPARATE: ("#FFFFFF", "xxxx"),
     "A": (FLOOR, ""),
+    "P": ("#E69F00", "\\\\\\\\"),
     "S": ("#56B4E9", "...."),
     "V": ("#F0E442", ""),
     "H": ("#CC79A7", "////"),
@@ -51,7 +52,7 @@ def draw_probabilities(found: Hierarchy) -> Picture:
     ax.tick_params(axis="y", which="both", left=False, right=False)
     handles, labels = ax.get_legend_handles_labels()
     figure.legend(
-        handles, labels, loc="upper center", ncols=8, frameon=False, fontsize=9,
+        handles, labels, loc="upper center", ncols=9, frameon=False, fontsize=9,
         handlelength=1.2, columnspacing=1.1,
     )  # fmt: skip
     return Picture(
