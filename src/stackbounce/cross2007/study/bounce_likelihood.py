@@ -53,7 +53,7 @@ __all__ = [
 
 Array: TypeAlias = NDArray[np.float64]
 
-MODELS = (SEPARATE, "A", "P", "S", "V", "H", "L", "L, linear", "B")
+MODELS = (SEPARATE, "A", "P", "S", "V", "H", "H, linear", "B")
 """The models, by the names of the catalogue."""
 
 CHOICES: dict[str, tuple[str, ...]] = {

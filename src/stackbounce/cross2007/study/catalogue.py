@@ -32,7 +32,6 @@ THEORIES: dict[str, Theory] = {
         ELASTIC,
         AS_PRINTED,
         exponent=1.0,
-        reloading="lossy",
     ),
     "P, fitted": Theory(
         "the paper's law, two restitutions",
@@ -41,7 +40,6 @@ THEORIES: dict[str, Theory] = {
         {},
         _BOTH,
         exponent=1.0,
-        reloading="lossy",
     ),
     "X": Theory("loss in every contact, Table I as printed", HuntCrossley, SHARED, AS_PRINTED),
     "S": Theory("loss in every contact, roots of Table I", HuntCrossley, SHARED, AS_HEIGHTS),
@@ -56,23 +54,14 @@ THEORIES: dict[str, Theory] = {
     "V": Theory(
         "viscoelastic spheres in every contact, two restitutions", Viscoelastic, SHARED, {}, _BOTH
     ),
-    "H": Theory("hysteresis in every contact, two restitutions", Hysteretic, SHARED, {}, _BOTH),
-    "L": Theory(
-        "hysteresis that loses on reloading too, B1's restitution",
-        Hysteretic,
-        SHARED,
-        _SMALL,
-        ("e_B1",),
-        reloading="lossy",
+    "H": Theory(
+        "hysteresis in every contact, B1's restitution", Hysteretic, SHARED, _SMALL, ("e_B1",)
     ),
-    "L, linear": Theory(
-        "as L, from linear springs, two restitutions",
-        Hysteretic,
-        SHARED,
-        {},
-        _BOTH,
-        exponent=1.0,
-        reloading="lossy",
+    "H, fitted": Theory(
+        "hysteresis in every contact, two restitutions", Hysteretic, SHARED, {}, _BOTH
+    ),
+    "H, linear": Theory(
+        "the same from linear springs", Hysteretic, SHARED, {}, _BOTH, exponent=1.0
     ),
     "Z": Theory(
         "linear solid that relaxes in every contact, two restitutions",
@@ -107,7 +96,7 @@ THEORIES: dict[str, Theory] = {
 }
 """The models with finite contacts; `NAMES` has those with separate collisions."""
 
-CHOSEN = ("A", "S", "L", "B")
+CHOSEN = ("A", "S", "H", "B")
 """The models whose predictions are shown: a loss at the floor only, and three that fit better."""
 
 FLOOR_ONLY = ("A", "A, fitted", "P", "P, fitted")

@@ -144,6 +144,6 @@ _CLAIMS: dict[str, Callable[[ChoiceFits, str], bool]] = {
     "a loss at the floor only is excluded": _excluded(*FLOOR_ONLY),
     "no model gives all values": _none_fits,
     "S has a smaller BIC than B": _beats("S", "B"),
-    "a hysteresis that loses on reloading has the smallest BIC": _leads("L", "L, linear"),
+    "a hysteresis in every contact has the smallest BIC": _leads("H", "H, fitted", "H, linear"),
     "one model's BIC is smaller than that of all others by more than 6": _decided,
 }

@@ -67,11 +67,11 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         "separate collisions": (SEPARATE,),
         "Hunt and Crossley": ("A", "S"),
         "viscoelastic": ("V",),
-        "hysteresis": ("P", "H", "L", "L, linear", "B"),
+        "hysteresis": ("P", "H", "H, linear", "B"),
     },
     "where energy is lost": {
         "floor only": ("A", "P"),
-        "every contact, by material": ("S", "V", "H", "L", "L, linear"),
+        "every contact, by material": ("S", "V", "H", "H, linear"),
         "every contact, balls by a number of their own": (SEPARATE, "B"),
     },
 }
@@ -297,7 +297,7 @@ def describe_undecided(whole: Mapping[str, float], cases: list[dict[str, float]]
 
     Examples
     --------
-    >>> describe_undecided({"S": 0.6, "L": 0.4}, [{"S": 0.97, "L": 0.03}, {"S": 0.2, "L": 0.8}])
+    >>> describe_undecided({"S": 0.6, "H": 0.4}, [{"S": 0.97, "H": 0.03}, {"S": 0.2, "H": 0.8}])
     'Which model is right remains undecided: over all choices S has the probability 0.60, and L has
     0.40. In 1 of 2 combinations of choices a model (S) exceeds 0.95.'
     """

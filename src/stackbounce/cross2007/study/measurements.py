@@ -135,7 +135,7 @@ def measure_loops(name: str, restitutions: Array) -> Array:
     --------
     A linear spring without loss has π/2, half of the contact time, and nothing:
 
-    >>> measure_loops("L, linear", np.array([0.9999]))[0].round(2)
+    >>> measure_loops("H, linear", np.array([0.9999]))[0].round(2)
     array([1.57, 0.5 , 0.  ])
     """
     ball = make_drop(name, "B1_on_B1").balls[:1]
