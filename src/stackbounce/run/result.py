@@ -104,7 +104,8 @@ class Result:
     end_time : float
         Time in s of the last event, or of the stop.
     final_velocities : sequence of float
-        (N,) velocity of each ball in m/s at `end_time`, up-positive; nan if INVALID.
+        (N,) velocity of each ball, or of the centre of its body, in m/s at `end_time`, up-positive;
+        nan if INVALID.
     log : sequence of float
         The engine's log, a row of `stackbounce.engine.codes.LOG_COLUMNS` numbers per event.
     infinite : sequence of int
@@ -139,7 +140,10 @@ class Result:
 
     @functools.cached_property
     def rebound_speeds(self) -> NDArray[np.float64]:
-        """(N,) velocity of each ball after the impact, m/s, up-positive; nan if INVALID."""
+        """(N,) velocity of each ball after the impact, m/s, up-positive; nan if INVALID.
+
+        That of a ball with a `Bond` is the velocity of the centre of its body.
+        """
         return _frozen(np.array(self.final_velocities, dtype=float))
 
     @functools.cached_property
