@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, finite, shown
+from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
 from stackbounce.measure.quantities import known_to, quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.columns import check
@@ -217,7 +217,7 @@ def _with_error(number: Number, value: Any) -> Any:
 
 def _draws(path: str, value: Any) -> Array:
     """Return the draws of a number."""
-    draws = np.asarray(value)
+    draws = np.asarray(unmasked(path, value))
     if draws.ndim != 1 or len(draws) < _FEWEST or draws.dtype.kind not in "iuf":
         raise InvalidValue(
             f"{path} must be a number with an error or an array of {_FEWEST} draws or more, "

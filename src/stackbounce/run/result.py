@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.engine import codes
 from stackbounce.engine.ratios import energy_kept
-from stackbounce.errors import InvalidType, InvalidValue, finite, shown
+from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 
@@ -424,8 +424,7 @@ class Result:
 
 def _numbers(times: object) -> NDArray[np.float64]:
     """Return times as an array of floats; raise if one is not a real number."""
-    if np.ma.isMaskedArray(times):
-        raise InvalidType(f"times must be a list of numbers, got a masked array: {shown(times)}")
+    unmasked("times", times)
     try:
         # Without an array's type, numpy would make one of [1.0, True] and of [1.0, "2"].
         table = np.asarray(times, dtype=None if hasattr(times, "dtype") else object)
