@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, nearest, positive, shown
+from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
 from stackbounce.fitting.covariance import estimate_covariance, find_directions, find_leverages
 from stackbounce.fitting.least_squares import Minimum
@@ -249,7 +249,7 @@ class Fit:
             If it was not varied, or a value lies outside the bounds.
         """
         k = self.names.index(self._known(name))
-        return self._profile(k).evaluate(np.asarray(values, dtype=float))
+        return self._profile(k).evaluate(np.asarray(unmasked("values", values), dtype=float))
 
     def _profile(self, k: int) -> Profile:
         return Profile(self.objective, self.minima[0], self.covariance.values, k)
