@@ -53,7 +53,8 @@ class Tabulated(ContactLaw):
 
     - the points of `unloading`, measured from the last of `compression`. From any peak C it is the
       loading curve times the measured share of unloading over loading, which is a function of
-      ``c/C``: straight between the points, and made to rise, by lowering it, where it does not;
+      ``c/C``: straight between the points and on towards 0, at least 0, and made to rise, by
+      lowering it, where it does not;
     - or the loading curve times ``1 - g + g (c/C)**m``, where g is such that the fraction
       ``restitution**2`` of the work is returned. The exponent m is that for which g would be 1 if
       the curve were everywhere as steep as where it is steepest;
