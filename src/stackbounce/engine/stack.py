@@ -19,7 +19,7 @@ WIDTH = MODES + 1  # balls of that cluster, without a floor
 TERMS = 40  # numbers of a power series
 MOST_PIECES = 64  # of the curves of a contact, see `pieces`
 PIECE_NUMBERS = 4  # numbers of a piece
-TURNS = 8  # the most cycles inside one another that a contact remembers, see `cycles`
+TURNS = 64  # the most cycles inside one another that a contact remembers, see `cycles`
 
 
 class Stack(NamedTuple):
