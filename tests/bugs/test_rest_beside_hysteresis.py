@@ -16,6 +16,7 @@ def test_a_damped_stack_comes_to_rest_where_it_swings_out(law):
     result = sb.simulate(drop, until=100.0)
     assert result.status is sb.Status.SETTLED
     end = result.sample([result.end_time - 1e-9, 100.0])
-    assert end.force.values[:, 1] == pytest.approx(WEIGHTS, rel=1e-8)
+    # the run ends at 1e-9 of the impact speed: 1e-9 sqrt(k m) of it is left of the force
+    assert end.force.values[:, 1] == pytest.approx(WEIGHTS, rel=1e-7)
     assert end.force.values[:, 0] == pytest.approx(WEIGHTS, rel=1e-7)
     assert end.compression.values[:, 1] == pytest.approx(end.compression.values[:, 0], rel=1e-6)

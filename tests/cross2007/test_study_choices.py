@@ -163,7 +163,7 @@ def test_claims_are_checked_with_every_choice():
     text = state_headline(fits, list(found.values()))
     assert text.startswith(
         "Which model describes Table II is undecided. With gravity, which is a fact, the smallest "
-        "BIC belongs to “L” with 1 of 1 choices. Without gravity the smallest BIC belongs to "
+        "BIC belongs to “H” with 1 of 1 choices. Without gravity the smallest BIC belongs to "
         "“S” with 1, “B” with 1 of 2 choices."
     )
     always, _, falling = text.partition("With gravity also: ")
@@ -215,53 +215,51 @@ def late():
 
 @pytest.fixture(scope="module")
 def base():
-    return {name: fit_model(BASE.model(name), BASE.data()) for name in ("S", "B", "H, linear")}
+    return {name: fit_model(BASE.model(name), BASE.data()) for name in ("S", "B")}
 
 
 @pytest.mark.slow
-def test_the_delay_decides_between_s_and_b(base, late):
-    early_lead = score(base["S"]).bic - score(base["B"]).bic
-    late_lead = score(late["S"]).bic - score(late["B"]).bic
-    assert early_lead == pytest.approx(-6.8, abs=0.3)
-    assert late_lead == pytest.approx(43.4, abs=0.5)
+def test_s_is_ahead_of_b_at_either_delay(base, late):
+    leads = [score(fits["S"]).bic - score(fits["B"]).bic for fits in (base, late)]
+    assert leads == pytest.approx([-38.3, -45.8], abs=0.5)
 
 
 @pytest.mark.slow
-def test_gravity_takes_the_lead_from_s(base, late):
+def test_gravity_leaves_neither_s_nor_b(base, late):
     found = {
         name: fit_near(FALLING.model(name), FALLING.data(), [base[name], late[name]])
         for name in ("S", "B")
     }
     assert found["S"].chi_squared == pytest.approx(31.3, abs=0.2)
     assert found["S"].probability == pytest.approx(5e-4, rel=0.1)
-    assert found["B"].chi_squared < 22.7
+    assert found["B"].probability < 1e-6
 
 
 @pytest.mark.slow
-def test_without_the_rolling_pair_a_model_gives_all_values(base):
-    found = fit_near(UNEVEN.model("H, linear"), UNEVEN.data(), [base["H, linear"]])
-    assert found.chi_squared == pytest.approx(6.7, abs=0.2)
-    assert found.probability > 0.3
+def test_without_the_rolling_pair_s_is_doubtful(base):
+    found = fit_near(UNEVEN.model("S"), UNEVEN.data(), [base["S"]])
+    assert found.probability == pytest.approx(0.042, rel=0.1)
 
 
 @pytest.mark.slow
-def test_the_papers_own_law_is_excluded_only_with_the_rolling_pair():
+def test_the_papers_own_law_is_excluded():
     """Linear hysteresis at the floor only, two restitutions: section V's, for all pairs at once."""
     name = "P, fitted"
     near = [fit_model(one.model(name), one.data()) for one in (BASE, LATE)]
-    assert [score(one).probability < 1e-6 for one in near] == [True, True]
     found = fit_near(UNEVEN.model(name), UNEVEN.data(), near)
-    assert found.chi_squared == pytest.approx(11.9, abs=0.2)
-    assert found.probability > 0.05
+    assert max(score(one).probability for one in (*near, found)) < 1e-6
 
 
 @pytest.mark.slow
-def test_with_gravity_linear_hysteresis_gives_all_values_at_either_delay():
+def test_linear_hysteresis_gives_all_values_with_gravity_and_the_long_delay():
     name = "H, linear"
     near = [fit_model(one.model(name), one.data()) for one in (BASE, LATE)]
-    assert near[1].probability < 1e-10
-    for choice in (FALLING, FALLING_LATE):
-        assert fit_near(choice.model(name), choice.data(), near).probability > 0.05
+    early, late = (
+        fit_near(choice.model(name), choice.data(), near).probability
+        for choice in (FALLING, FALLING_LATE)
+    )
+    assert early < 1e-6
+    assert late > 0.05
 
 
 def test_rigid_models_and_theories_are_all_models():

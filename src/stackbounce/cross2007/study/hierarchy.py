@@ -298,7 +298,7 @@ def describe_undecided(whole: Mapping[str, float], cases: list[dict[str, float]]
     Examples
     --------
     >>> describe_undecided({"S": 0.6, "H": 0.4}, [{"S": 0.97, "H": 0.03}, {"S": 0.2, "H": 0.8}])
-    'Which model is right remains undecided: over all choices S has the probability 0.60, and L has
+    'Which model is right remains undecided: over all choices S has the probability 0.60, and H has
     0.40. In 1 of 2 combinations of choices a model (S) exceeds 0.95.'
     """
     (first, p), (second, q), *_ = sorted(whole.items(), key=lambda one: -one[1])
