@@ -102,7 +102,7 @@ def read_with_error(given: object, unit: str, name: str, right: str) -> tuple[fl
     if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
         raise InvalidValue(f"{name} must be {right}, got {shown(given)}")
     value, error = (quantity(one, unit, name) for one in pair)
-    deviation(name, error, unit, zero=False)
+    deviation(name, error, zero=False)
     if not abs(value) <= LARGEST * error:
         raise InvalidValue(f"{name} must be at most {LARGEST:g} of its errors, got {shown(given)}")
     return value, error

@@ -122,11 +122,11 @@ def measured(
     if not isinstance(value, UFloat):
         return known_to(check(name, value, *unit), 0.0)
     check(name, known.nominal_value, *unit)
-    deviation(name, known.std_dev, of)
+    deviation(name, known.std_dev)
     return known
 
 
-def deviation(name: str, value: object, of: str = "", *, zero: bool = True) -> float:
+def deviation(name: str, value: object, *, zero: bool = True) -> float:
     """Return the error of a number, one standard deviation, if its square is a number, too.
 
     Raises
@@ -138,11 +138,11 @@ def deviation(name: str, value: object, of: str = "", *, zero: bool = True) -> f
 
     Examples
     --------
-    >>> deviation("mass", 1e200, "kilograms")
+    >>> deviation("mass", 1e200)
     Traceback (most recent call last):
     stackbounce.errors.InvalidValue: mass's error must be at most 1e+100, got 1e+200
     """
-    found = (finite if zero else positive)(f"{name}'s error", value, of)
+    found = (finite if zero else positive)(f"{name}'s error", value)
     if found < 0.0:
         raise InvalidValue(f"{name}'s error must be 0 or above, got {found:g}")
     if found > LARGEST:
@@ -201,7 +201,7 @@ def quantity_with_error(text: str, unit: str, name: str, written: str = "") -> f
     own = unit_of_both(text) or written
     if error is None:
         return quantity(_with_unit(value, own), unit, name)
-    wide = deviation(name, quantity(_with_unit(error, own), unit, name), unit, zero=False)
+    wide = deviation(name, quantity(_with_unit(error, own), unit, name), zero=False)
     return ufloat(quantity(_with_unit(value, own), unit, name), wide)
 
 

@@ -236,11 +236,11 @@ def _with_error(number: Number, value: Any) -> Any:
         found = quantity_with_error(value, unit, path)
     elif isinstance(value, Sequence) and len(value) == 2:
         mean, error = (quantity(one, unit, path) for one in value)
-        found = known_to(mean, deviation(path, error, unit))
+        found = known_to(mean, deviation(path, error))
     if not hasattr(found, "nominal_value"):
         raise InvalidType(f"{path} must be {right}, got {shown(value)}")
     finite(path, found.nominal_value)
-    deviation(path, found.std_dev, unit)
+    deviation(path, found.std_dev)
     return found
 
 

@@ -92,7 +92,7 @@ def heights(
     points = places(measured_to)
     error = math.nan
     if height_error is not None:
-        error = deviation("height", height_error, "metres", zero=False)
+        error = deviation("height", positive("height_error", height_error, "metres"))
     size = _size(diameter, *points)
     listed = _listed(bounce_heights)
     start = _counted("drop_height", _number("drop_height", drop_height, error), points[0], size)
