@@ -211,18 +211,18 @@ def record_peak(stack: Stack, i: int, compression: float, pressing: float, time:
 @kernel
 def changes_curve(stack: Stack, i: int, kind: int) -> bool:
     """Tell whether the force follows another curve after an event inside an interval."""
+    if not has_hysteresis(stack, i):
+        return kind not in (PEAK, RETURNED)
     if kind == PEAK:
-        return has_hysteresis(stack, i) and stack.returning[i] == 0
-    if kind == DIP:
-        return stack.depth[i] < TURNS
-    return kind != RETURNED or has_hysteresis(stack, i)
+        return stack.returning[i] == 0
+    return kind != DIP or stack.depth[i] < TURNS
 
 
 @kernel
 def change_phase(stack: Stack, i: int, kind: int) -> None:
     """Switch contact i between compressing and releasing on the same curve."""
     stack.phase[i] = RELEASING if kind == PEAK else COMPRESSING
-    if kind == PEAK and stack.law[i] == POWER:
+    if kind == PEAK and not has_hysteresis(stack, i):  # pressed beyond it, it has another peak
         stack.top[i] = stack.peak_compression[i]
 
 

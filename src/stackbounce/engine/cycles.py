@@ -7,10 +7,10 @@ out and in again. Once it has parted it has forgotten H, so that
 
     F(c) = integral over l from 0 to c of r(c/H(l)) dL(l).
 
-At the first loading H = c and F = L; from the peak C all elements unload together, and F = L r(c/C).
+At the first loading H = c and F = L. From the peak C all elements unload together: F = L r(c/C).
 Turning points in between form cycles inside one another, C > h1 > h2 ... and l1 < l2 < ...: the
-elements from l(j) to l(j+1) remember h(j), and those above the last one are on the loading curve, or
-on the way out from the last peak:
+elements from l(j) to l(j+1) remember h(j), and those above the last one are on the loading curve,
+or on the way out from the last peak:
 
     F = sum over j of (L(l(j+1)) - L(l(j))) r(c/h(j)) + (L(c) - L(l)) (1 or r(c/h)).
 
@@ -186,9 +186,7 @@ def loading_work(stack: Stack, i: int, c: float) -> float:
 
 
 @kernel
-def _shared_work(
-    stack: Stack, i: int, peak: float, low: float, high: float
-) -> tuple[float, float]:
+def _shared_work(stack: Stack, i: int, peak: float, low: float, high: float) -> tuple[float, float]:
     """Return the integrals of r(c/peak) L(c) and of r(c/peak) from ``low`` to ``high``."""
     work, length, m = 0.0, 0.0, stack.loss_exponent[i]
     a = low

@@ -9,9 +9,9 @@ compressing the rate falls through 0     PEAK: releasing; with hysteresis along 
                                          from here
 ..          c rises through the peak of  RETURNED: the same, as before that cycle, see `cycles`
             the present cycle
-releasing   c of a lossless contact      RETURNED: compressing
-            rises through its highest peak
-..          c falls through 0            RELEASE: open
+releasing   c falls through 0            RELEASE: open
+..          c of a spring rises through  RETURNED: compressing, to another peak
+            its peak
 ..          c falls to where the present RETURNED: the same, as before that cycle
             cycle began
 ..          the rate of a contact with   DIP: compressing, in a cycle inside the present one

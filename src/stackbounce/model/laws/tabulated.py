@@ -153,10 +153,11 @@ class Tabulated(ContactLaw):
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers: those of its pieces and its loss, see `engine.forces`."""
         loading, shares = self._curves()
-        if self.unloading is not None:
-            return FORMS[self.form], 1.0, 0.0, float(len(loading)), float(len(shares))
         kept = 1.0 if self.restitution is None else self.restitution**2
-        return FORMS[self.form], 1.0, kept, float(len(loading)), _steepness(loading) / kept * (1 - kept)
+        loss = _steepness(loading) * (1.0 / kept - 1.0)  # m
+        if self.unloading is not None:
+            kept, loss = 0.0, float(len(shares))
+        return FORMS[self.form], 1.0, kept, float(len(loading)), loss
 
     def pieces(self) -> list[float]:
         """Return the numbers of the loading pieces, then of those of the share in unloading."""
@@ -288,11 +289,11 @@ def _steepness(pieces: list[Piece]) -> float:
     most, work = 0.0, 0.0
     ends = [piece[0] for piece in pieces[1:]] + [2.0 * pieces[-1][0]]
     for (begin, height, slope, square), end in zip(pieces, ends, strict=True):
+        before = work
         for k in range(1, _PARTS + 1):
             y = (end - begin) * k / _PARTS
-            done = work + y * (height + y * (0.5 * slope + y * square / 3.0))
-            most = max(most, (begin + y) * (height + y * (slope + y * square)) / done)
-        work = done
+            work = before + y * (height + y * (0.5 * slope + y * square / 3.0))
+            most = max(most, (begin + y) * (height + y * (slope + y * square)) / work)
     return _SAFELY * most
 
 
