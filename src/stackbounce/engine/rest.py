@@ -53,12 +53,14 @@ def is_bound(stack: Stack) -> bool:
                 return False
             share = _HYSTERETIC if size > 1 else 1.0
         rest, at_rest = static_state(stack, i, weight)
-        c = stack.compression[i]
-        excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
-        excess += arm_energy(stack, i, c, stack.creep[i])
         opening = weight * rest - at_rest
         if stack.bonded[i] == 0:
             barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
+        if excess >= share * barrier:  # before the potential, which takes long
+            return False
+        c = stack.compression[i]
+        excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
+        excess += arm_energy(stack, i, c, stack.creep[i])
         damped = damped or is_damped(stack, i)
     still = max(_STILL, 100.0 * stack.number[TOLERANCE])
     return excess < share * barrier and (not damped or excess <= still * still * reference)
