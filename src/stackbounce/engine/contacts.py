@@ -44,7 +44,7 @@ from stackbounce.engine.forces import force
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.pieces import crossed_knot, find_piece
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
-from stackbounce.engine.stack import TURNS, Stack
+from stackbounce.engine.stack import Stack
 
 _SHORTER = 0.125  # work under the next trial chord, over that under one that was too long
 _AT_ITS_END = 1e-6  # over a chord's length: below this the contact stays on it until release
@@ -66,7 +66,6 @@ def close_contact(stack: Stack, i: int, time: float) -> None:
     """
     stack.start[i] = time if math.isnan(stack.touching[i]) else stack.touching[i]
     stack.touching[i] = math.nan
-    stack.phase[i] = COMPRESSING
     stack.counter[CLOSED] += 1
     stack.peak_force[i] = 0.0
     stack.peak_time[i] = stack.start[i]
@@ -123,7 +122,7 @@ def _set_shares(stack: Stack, i: int, c: float, up: bool) -> None:
 @kernel
 def _set_present_curve(stack: Stack, i: int, c: float, up: bool) -> None:
     """Set the force of contact i, at c, to the curve of its present cycle."""
-    if stack.returning[i] == 1:
+    if stack.phase[i] == RELEASING:
         _set_unloading_curve(stack, i, loading_force(stack, i, stack.top[i]), c, up)
     else:
         _set_loading_curve(stack, i, c, up)
@@ -211,11 +210,7 @@ def record_peak(stack: Stack, i: int, compression: float, pressing: float, time:
 @kernel
 def changes_curve(stack: Stack, i: int, kind: int) -> bool:
     """Tell whether the force follows another curve after an event inside an interval."""
-    if not has_hysteresis(stack, i):
-        return kind not in (PEAK, RETURNED)
-    if kind == PEAK:
-        return stack.returning[i] == 0
-    return kind != DIP or stack.depth[i] < TURNS
+    return has_hysteresis(stack, i) or kind not in (PEAK, RETURNED)
 
 
 @kernel
@@ -239,7 +234,6 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
     elif kind == DIP:
         if compression < _ALL_BUT_OPEN * stack.top[i]:  # all elements forget their peak
             begin_loading(stack, i)
-            stack.phase[i] = COMPRESSING
             _set_loading_curve(stack, i, compression, True)
             _linearise_at_touch(stack, i)
         else:
@@ -247,11 +241,11 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
             _set_loading_curve(stack, i, compression, True)
     elif kind == RETURNED:
         return_to_turn(stack, i)
-        _set_present_curve(stack, i, compression, stack.returning[i] == 0)
+        _set_present_curve(stack, i, compression, stack.phase[i] == COMPRESSING)
     elif kind == CROSSED:
         knot, up = crossed_knot(stack, i)
         take_shares(stack, i, knot, up)
-        if stack.returning[i] == 1 and stack.curve_exponent[i] == 1.0:
+        if stack.phase[i] == RELEASING and stack.curve_exponent[i] == 1.0:
             stack.rate[i] = stack.curve_force[i] / stack.curve_unit[i]
     elif kind == RESUMED:
         stack.phase[i] = COMPRESSING

@@ -23,7 +23,8 @@ The share is r = f + g (c/H)^M: f = 0, g = 1, and M = n - p for k c^p in and k C
 (HYSTERETIC); see `pieces` for the others (PIECEWISE). The elements that remember a peak therefore
 add ``offset + held_force (c/held_unit)^M`` to the force.
 
-Of cycles inside one another `TURNS` are remembered; one inside them all loses nothing.
+Of cycles inside one another `TURNS` are remembered. From the next one on, the elements that touched
+in between remember the innermost of these peaks, which is above their own: they carry less.
 """
 
 import math
@@ -62,8 +63,8 @@ def lowest_compression(stack: Stack, i: int) -> float:
 @kernel
 def begin_loading(stack: Stack, i: int) -> None:
     """Let contact i forget all its peaks."""
+    stack.phase[i] = COMPRESSING
     stack.depth[i] = 0
-    stack.returning[i] = 0
     stack.top[i] = math.inf
 
 
@@ -73,31 +74,26 @@ def turn_out(stack: Stack, i: int, c: float) -> None:
     while stack.depth[i] > 0 and c >= stack.highs[i * TURNS + stack.depth[i] - 1]:
         stack.depth[i] -= 1
     stack.phase[i] = RELEASING
-    stack.returning[i] = 1
     stack.top[i] = c
 
 
 @kernel
 def turn_in(stack: Stack, i: int, c: float) -> None:
     """Let contact i, which stops unloading, begin to load from c."""
-    depth = stack.depth[i]
     if c > lowest_compression(stack, i):
-        stack.highs[i * TURNS + depth] = stack.top[i]
-        stack.lows[i * TURNS + depth] = c
-        stack.depth[i] = depth + 1
-    stack.phase[i] = COMPRESSING
+        if stack.depth[i] < TURNS:
+            stack.highs[i * TURNS + stack.depth[i]] = stack.top[i]
+            stack.depth[i] += 1
+        stack.lows[i * TURNS + stack.depth[i] - 1] = c
     _go_on_loading(stack, i)
 
 
 @kernel
 def return_to_turn(stack: Stack, i: int) -> None:
     """Let contact i forget the cycle that is closed now, and go on as before it."""
-    if stack.returning[i] == 1 and stack.phase[i] == COMPRESSING:  # a cycle that is not remembered
-        _go_on_loading(stack, i)
-        return
     depth = max(0, stack.depth[i] - 1)
     stack.depth[i] = depth
-    if stack.returning[i] == 1:
+    if stack.phase[i] == RELEASING:
         stack.top[i] = stack.highs[i * TURNS + depth]
     else:
         _go_on_loading(stack, i)
@@ -106,7 +102,7 @@ def return_to_turn(stack: Stack, i: int) -> None:
 @kernel
 def _go_on_loading(stack: Stack, i: int) -> None:
     depth = stack.depth[i]
-    stack.returning[i] = 0
+    stack.phase[i] = COMPRESSING
     stack.top[i] = stack.highs[i * TURNS + depth - 1] if depth > 0 else math.inf
 
 
@@ -116,7 +112,7 @@ def take_shares(stack: Stack, i: int, c: float, up: bool) -> None:
 
     A piecewise contact takes the pieces at c, too, above it if the compression goes up.
     """
-    depth, out = stack.depth[i], stack.returning[i] == 1
+    depth, out = stack.depth[i], stack.phase[i] == RELEASING
     pieces = stack.law[i] == PIECEWISE
     if pieces:
         find_piece(stack, i, c, up)
@@ -170,19 +166,20 @@ def loading_force(stack: Stack, i: int, c: float) -> float:
 
 
 @kernel
-def _moment(stack: Stack, i: int, m: float, c: float) -> float:
-    """Return the integral from 0 to c of (y/c)^m times the loading curve of contact i."""
-    if c <= 0.0:
-        return 0.0
+def _moment(stack: Stack, i: int, m: float, unit: float, low: float, high: float) -> float:
+    """Return the integral of (c/unit)^m times the loading curve of contact i over c."""
     if stack.law[i] == PIECEWISE:
-        return stack.stiffness[i] * pieces_moment(stack, i, m, c)
-    return loading_force(stack, i, c) * c / (stack.exponent[i] + m + 1.0)
+        return stack.stiffness[i] * pieces_moment(stack, i, m, unit, low, high)
+    total = high * loading_force(stack, i, high) * power(high / unit, m)
+    if low > 0.0:
+        total -= low * loading_force(stack, i, low) * power(low / unit, m)
+    return total / (stack.exponent[i] + m + 1.0)
 
 
 @kernel
 def loading_work(stack: Stack, i: int, c: float) -> float:
     """Return the work of the first loading of contact i up to c."""
-    return _moment(stack, i, 0.0, c)
+    return _moment(stack, i, 0.0, 1.0, 0.0, c)
 
 
 @kernel
@@ -195,9 +192,9 @@ def _shared_work(stack: Stack, i: int, peak: float, low: float, high: float) -> 
         b = min(high, end) if end > a else high
         ahead, behind = power(b / peak, m), power(a / peak, m)
         length += f * (b - a) + g * (ahead * b - behind * a) / (m + 1.0)
-        work += g * (ahead * _moment(stack, i, m, b) - behind * _moment(stack, i, m, a))
+        work += g * _moment(stack, i, m, peak, a, b)
         if f != 0.0:
-            work += f * (_moment(stack, i, 0.0, b) - _moment(stack, i, 0.0, a))
+            work += f * _moment(stack, i, 0.0, 1.0, a, b)
         a = b
     return work, length
 
@@ -207,7 +204,7 @@ def returned_work(stack: Stack, i: int, c: float) -> float:
     """Return the work that contact i, with hysteresis, would do from c until it opens."""
     total, low, before, depth = 0.0, 0.0, 0.0, stack.depth[i]
     for j in range(depth + 1):
-        high, peak = c, stack.top[i] if stack.returning[i] == 1 else c
+        high, peak = c, stack.top[i] if stack.phase[i] == RELEASING else c
         if j < depth:
             high, peak = stack.lows[i * TURNS + j], stack.highs[i * TURNS + j]
         work, length = _shared_work(stack, i, peak, low, high)
@@ -239,11 +236,12 @@ def unloaded_state(stack: Stack, i: int, weight: float) -> tuple[float, float]:
         rest = peak * power(weight / top, 1.0 / exponent)
     else:
         low, high = 0.0, stack.scale[i]
-        while _unloading_force(stack, i, peak, high) < weight and high < math.inf:
+        lost = lost_share(stack, i, peak) if stack.returned[i] > 0.0 and peak < math.inf else 0.0
+        while _unloading_force(stack, i, peak, lost, high) < weight and high < math.inf:
             low, high = high, 2.0 * high
         for _ in range(_HALVINGS):
             middle = 0.5 * (low + high)
-            if _unloading_force(stack, i, peak, middle) < weight:
+            if _unloading_force(stack, i, peak, lost, middle) < weight:
                 low = middle
             else:
                 high = middle
@@ -258,10 +256,14 @@ def unloaded_state(stack: Stack, i: int, weight: float) -> tuple[float, float]:
 
 
 @kernel
-def _unloading_force(stack: Stack, i: int, peak: float, c: float) -> float:
-    """Return the force at c of a contact that unloads from its first peak, or loads beyond it."""
-    pressing = loading_force(stack, i, c)
+def _unloading_force(stack: Stack, i: int, peak: float, lost: float, c: float) -> float:
+    """Return the force at c of a piecewise contact that unloads from a peak, or loads beyond it.
+
+    Its g is ``lost``, see `lost_share`, if it is the same everywhere.
+    """
+    pressing, f, g = loading_force(stack, i, c), 1.0 - lost, lost
     if c >= peak or peak == math.inf:
         return pressing
-    f, g, _, _ = _share(stack, i, peak, c, True)
+    if stack.returned[i] == 0.0:
+        f, g, _, _ = piece_share(stack, i, peak, c, True)
     return pressing * (f + g * power(c / peak, stack.loss_exponent[i]))

@@ -143,36 +143,44 @@ def piece_share(
 @kernel
 def lost_share(stack: Stack, i: int, peak: float) -> float:
     """Return g of the share 1 - g + g (c/C)^M with which contact i returns e^2 of its work."""
-    left = pieces_moment(stack, i, stack.loss_exponent[i], peak)
-    whole = pieces_moment(stack, i, 0.0, peak)
+    left = pieces_moment(stack, i, stack.loss_exponent[i], peak, 0.0, peak)
+    whole = pieces_work(stack, i, peak)
     lost = (1.0 - stack.returned[i]) / (1.0 - left / whole)
     return lost if lost < 1.0 - _ROUND_OFF else 1.0
 
 
 @kernel
-def pieces_moment(stack: Stack, i: int, m: float, c: float) -> float:
-    """Return the integral from 0 to c of (y/c)^m times the loading curve, over the stiffness."""
+def pieces_work(stack: Stack, i: int, c: float) -> float:
+    """Return the work of the first loading up to c, over the stiffness."""
+    return pieces_moment(stack, i, 0.0, 1.0, 0.0, c)
+
+
+@kernel
+def pieces_moment(stack: Stack, i: int, m: float, unit: float, low: float, high: float) -> float:
+    """Return the integral of (c/unit)^m times the loading curve over c, over the stiffness."""
     total, count = 0.0, stack.loading_pieces[i]
     for j in range(count):
         at = (i * MOST_PIECES + j) * PIECE_NUMBERS
-        low, high = stack.pieces[at + _BEGIN], c
-        if low >= c:
-            break
+        begin, b = stack.pieces[at + _BEGIN], high
         if j + 1 < count:
-            high = min(c, stack.pieces[at + PIECE_NUMBERS + _BEGIN])
+            b = min(b, stack.pieces[at + PIECE_NUMBERS + _BEGIN])
+        a = max(low, begin)
+        if a >= b:
+            continue
         constant = stack.pieces[at + _CONSTANT]
         slope = stack.pieces[at + _SLOPE]
         square = stack.pieces[at + _SQUARE]
         if m == 0.0:
-            width = high - low
-            total += width * (constant + width * (0.5 * slope + width * square / 3.0))
+            far, near = b - begin, a - begin
+            total += far * (constant + far * (0.5 * slope + far * square / 3.0))
+            total -= near * (constant + near * (0.5 * slope + near * square / 3.0))
             continue
-        constant -= low * (slope - low * square)  # about 0
-        slope -= 2.0 * low * square
+        constant -= begin * (slope - begin * square)  # about 0
+        slope -= 2.0 * begin * square
         constant, slope, square = constant / (m + 1.0), slope / (m + 2.0), square / (m + 3.0)
-        total += high * (constant + high * (slope + high * square)) * power(high / c, m)
-        if low > 0.0:
-            total -= low * (constant + low * (slope + low * square)) * power(low / c, m)
+        total += b * (constant + b * (slope + b * square)) * power(b / unit, m)
+        if a > 0.0:
+            total -= a * (constant + a * (slope + a * square)) * power(a / unit, m)
     return total
 
 
@@ -192,13 +200,13 @@ def compression_of_work(stack: Stack, i: int, work: float) -> float:
     """Return about the compression at which contact i has taken up ``work`` in loading."""
     k = stack.stiffness[i]
     low, high = 0.0, 1.0
-    while k * pieces_moment(stack, i, 0.0, high) > work and high > 0.0:
+    while k * pieces_work(stack, i, high) > work and high > 0.0:
         high *= 0.5
-    while k * pieces_moment(stack, i, 0.0, high) < work and high < math.inf:
+    while k * pieces_work(stack, i, high) < work and high < math.inf:
         low, high = high, 2.0 * high
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        if k * pieces_moment(stack, i, 0.0, middle) < work:
+        if k * pieces_work(stack, i, middle) < work:
             low = middle
         else:
             high = middle

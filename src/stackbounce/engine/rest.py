@@ -61,22 +61,26 @@ def is_bound(stack: Stack) -> bool:
     weight = 0.0
     for i in range(size - 1, -1, -1):
         weight += stack.mass[i] * stack.number[GRAVITY]
-        c = stack.compression[i]
-        if damped and has_hysteresis(stack, i):
+        c, settling = stack.compression[i], damped and has_hysteresis(stack, i)
+        if settling:
             rest, at_rest = c, potential(stack, i, c)
-            off = force(stack, i, c, 0.0, 0.0) - weight
-            excess += 0.5 * off * off * c / weight
         else:
             if has_hysteresis(stack, i):
                 if highest_peak(stack, i) == math.inf:
                     return False
                 share = _HYSTERETIC if size > 1 else 1.0
             rest, at_rest = static_state(stack, i, weight)
-            excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
-            excess += arm_energy(stack, i, c, stack.creep[i])
         opening = weight * rest - at_rest
         if stack.bonded[i] == 0:
             barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
+        if excess >= share * barrier:  # before the potential, which takes long
+            return False
+        if settling:
+            off = force(stack, i, c, 0.0, 0.0) - weight
+            excess += 0.5 * off * off * c / weight
+        else:
+            excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
+            excess += arm_energy(stack, i, c, stack.creep[i])
     still = max(_STILL, 100.0 * stack.number[TOLERANCE])
     return excess < share * barrier and (not damped or excess <= still * still * reference)
 

@@ -55,7 +55,6 @@ class Stack(NamedTuple):
     curve_unit: Floats
     curve_exponent: Floats
     flat: Floats  # its part that is the gain alone, without the power
-    returning: Integers  # 1 on an unloading curve
     top: Floats  # compression at which the present curve ends upwards; inf on the loading curve
     depth: Integers  # number of cycles that the present curve is inside of, see `cycles`
     highs: Floats  # their turning points: peaks, and the compressions where reloading began
