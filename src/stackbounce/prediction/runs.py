@@ -10,7 +10,7 @@ import numpy as np
 from stackbounce.model import Drop
 from stackbounce.prediction.inputs import Array, Inputs, of_draws
 from stackbounce.prediction.linearity import ROUND_OFF, STEP
-from stackbounce.run.driver import simulate
+from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.paths import drop_at
 from stackbounce.run.result import Result
@@ -91,6 +91,4 @@ class Runs:
 
     def _simulate(self, x: Array) -> Result:
         numbers = dict(zip(self.inputs.numbers, x.tolist(), strict=True))
-        until, rtol, limit = self.options
-        end = until if np.isfinite(until) else None
-        return simulate(drop_at(self.drop, numbers), until=end, rtol=rtol, event_limit=limit)
+        return solve_one(drop_at(self.drop, numbers), self.options)

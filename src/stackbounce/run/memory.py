@@ -2,7 +2,7 @@
 
 import functools
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -61,11 +61,22 @@ class Memory(NamedTuple):
         table = Table(samples) if self.compiled else samples
         return functools.partial(self.run.func, *self.arguments, table, 0)
 
-    def run_batch(self, entry: str, drops: Drops, options: Options, out: Outcomes) -> None:
-        """Run many drops by compiled code, and write their outcomes."""
+    def run_batch(
+        self,
+        entry: str,
+        drops: Drops,
+        options: Options,
+        out: Outcomes,
+        pause: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Run many drops by compiled code, and write their outcomes; call `pause` now and then."""
         stack, space, _ = self.arguments
-        run = kernel_named(entry, compiled=True)
-        run(stack, space, Table(drops), self.no_samples, *options, Table(out))
+        run, row = kernel_named(entry, compiled=True), 0
+        out.status[:] = codes.ASK  # none is under way
+        given, written = Table(drops), Table(out)
+        while row < len(out.status):
+            row = run(stack, space, given, self.no_samples, *options, written, row)
+            pause()
 
     def samples(self, times: Sequence[float]) -> Samples:
         """Return room for samples at times in s, in ascending order."""
