@@ -17,7 +17,6 @@ from stackbounce.run.result import Result
 
 __all__ = ["Runs"]
 
-_MOST = 1000  # draws that are run
 _ONE_SIGMA = (0.159, 0.841)
 
 
@@ -34,7 +33,7 @@ class Runs:
     options : Options
         Of each run.
     drawn : ndarray or None
-        (n, numbers) draws, of which the first 1000 are run; None for derivatives.
+        (n, numbers) draws; None for derivatives.
     """
 
     drop: Drop
@@ -51,7 +50,7 @@ class Runs:
     def results(self) -> list[Result]:
         """The runs of draws; or the best one, those with each number larger, those with smaller."""
         if self.drawn is not None:
-            return [self._simulate(x) for x in self.drawn[:_MOST]]
+            return [self._simulate(x) for x in self.drawn]
         values, steps = self.inputs.values, np.diag(STEP * self.inputs.deviations)
         return [self.best, *map(self._simulate, [*(values + steps), *(values - steps)])]
 
