@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 import threading
 import time
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 import stackbounce as sb
+from stackbounce.__main__ import interrupt_again
 
 SOON = 0.3  # s from the start of the work to the interruption
 ANSWERED = 0.5  # s from there to the end
@@ -43,7 +45,8 @@ def _imported():
 
 
 @pytest.mark.parametrize("name", WORK)
-def test_an_interruption_is_answered_at_once(name):
+def test_an_interruption_is_answered_at_once(name, monkeypatch):
+    monkeypatch.setattr(sys, "unraisablehook", interrupt_again)  # as in the program
     sent = []
 
     def interrupt():
