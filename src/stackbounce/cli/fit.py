@@ -136,6 +136,7 @@ def run(
     """Fit parameters of a drop to measured values, with errors."""
     need("fit", "stackbounce fit")
     from stackbounce.cli import fit_results
+    from stackbounce.fitting import Interrupted
 
     check_picture(plot)
     check_picture(corner, "--corner")
@@ -153,7 +154,14 @@ def run(
         return
     fit_results.check_save(save, problem)
     fit_results.check_save(draws, problem, "--draws", ".csv")
-    done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
+    try:
+        done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
+    except Interrupted as stopped:
+        if as_json:
+            print_json({"interrupted": str(stopped), "values": stopped.fit.best})
+        else:
+            typer.echo(f"Interrupted: {stopped}")
+        raise
     draw_picture(plot, "fitted", done.fit)
     draw_picture(corner, "corner", done.posterior)
     saved, drawn = fit_results.save(done, save), fit_results.save_draws(done, draws)

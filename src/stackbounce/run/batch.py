@@ -34,7 +34,7 @@ from stackbounce.run.engines import (
     kernel_named,
     suits_two_springs,
 )
-from stackbounce.run.memory import memory, spring_workspace
+from stackbounce.run.memory import check_room, memory, spring_workspace
 from stackbounce.run.options import Options
 
 __all__ = ["new_outcomes", "solve"]
@@ -128,7 +128,9 @@ def solve(
 
 
 def new_outcomes(count: int, balls: int) -> Outcomes:
-    """Return room for the outcomes of so many drops."""
+    """Return room for the outcomes of so many drops; refuse more than fit into memory."""
+    way = "write a sweep to a file, block by block (stackbounce.sweeps.write), or take fewer"
+    check_room((5 * balls + 3) * count, f"the results of {count} drops", way)
     return Outcomes(
         velocity=np.empty((count, balls)),
         rebound_ratio=np.empty((count, balls)),
