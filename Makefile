@@ -42,7 +42,7 @@ app: kernels  ## open the explorer in the browser
 
 explorer: kernels  ## write the explorer as one HTML file, build/explorer.html
 	@mkdir -p build
-	@$(BIN)/stackbounce app --export build/explorer.html
+	@$(BIN)/stackbounce app --export build/explorer.html --overwrite
 
 test: $(DEV) kernels  ## run the fast tests of every kind, in under four minutes on two cores
 	@$(PYTEST) -m 'not slow' --hypothesis-profile=quick

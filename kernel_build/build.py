@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from kernel_build.targets import TARGETS, Target
-from stackbounce.engine.native import MANIFEST, digest_of_sources
+from stackbounce.engine.native import MANIFEST, digest_of_manifest, digest_of_sources
 
 __all__ = ["build", "is_up_to_date"]
 
@@ -53,6 +53,7 @@ def build(names: list[str], folder: Path) -> None:
         "entries": {name: _kinds(entry) for name, entry in ENTRIES.items()},
         "libraries": libraries,
     }
+    manifest["digest"] = digest_of_manifest(manifest)
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in zip(names, made, strict=True):
         _write(folder / TARGETS[name].file, content)
@@ -139,7 +140,7 @@ def is_up_to_date(folder: Path, names: list[str]) -> bool:
             for library in libraries
         )
         made_of = manifest["sources"], manifest["builder"]
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return False
     return whole and made_of == (digest_of_sources(), _digest_of_builder())
 

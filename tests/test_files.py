@@ -1,6 +1,8 @@
 import os
 import stat
+import zlib
 from pathlib import Path
+from xml.etree import ElementTree as ET
 
 import pytest
 
@@ -32,7 +34,7 @@ def names(folder="."):
 HEIGHTS = ["measure", "--heights", "1, 0.6 m", "--mass", "57g"]
 
 
-@pytest.mark.parametrize(
+FILES = pytest.mark.parametrize(
     ("command", "name"),
     [
         (["simulate", "B1", "--plot"], "a.svg"),
@@ -41,16 +43,94 @@ HEIGHTS = ["measure", "--heights", "1, 0.6 m", "--mass", "57g"]
         ([*HEIGHTS, "--save"], "ball.toml"),
     ],
 )
+
+
+@FILES
 def test_a_full_disk_leaves_the_file_that_was_there(command, name, capsys, disk_of):
     Path(name).write_bytes(b"as it was")
     disk_of(10)
-    code = main([*command, name])
+    code = main([*command, name, "--overwrite"])
     _, err = capsys.readouterr()
     assert code == 2
     assert err.startswith(f"stackbounce: error: {name} cannot be written: ")
     assert err.count("\n") == 1
     assert Path(name).read_bytes() == b"as it was"
     assert names() == [name]
+
+
+@FILES
+def test_a_file_is_replaced_if_it_is_as_it_was_written_here(command, name, capsys):
+    path = Path(name)
+    assert main([*command, name]) == main([*command, name]) == 0
+    before = path.read_bytes()
+    for others in (before + b"\n", before[:99] + b" " + before[99:], b"mine", b""):
+        path.write_bytes(others)
+        capsys.readouterr()
+        assert main([*command, name]) == 2
+        err = capsys.readouterr().err
+        assert err.startswith(f"stackbounce: error: {name} is there, and has no mark that stackbou")
+        assert err.endswith("choose another name, or add --overwrite\n")
+        assert path.read_bytes() == others
+    assert main([*command, name, "--overwrite"]) == 0
+    assert path.read_bytes() == before
+
+
+def test_a_marked_file_is_whole():
+    pytest.importorskip("matplotlib")
+    from matplotlib.image import imread
+
+    assert main(["simulate", "B1", "--plot", "a.png"]) == 0
+    assert main(["simulate", "B1", "--plot", "a.svg"]) == 0
+    assert imread("a.png").ndim == 3
+    assert ET.parse("a.svg").getroot().tag.endswith("svg")
+    content = Path("a.png").read_bytes()
+    chunk = content[content.index(b"tEXtComment") : -16]
+    assert content[-16:-12] == zlib.crc32(chunk).to_bytes(4, "big")
+    assert chunk.startswith(b"tEXtComment\0sha256 of the rest, by stackbounce: ")
+
+
+MEASURED = """
+[measured]
+rebound_ratios = ['0.8 ± 0.01']  # this morning
+[vary]
+"contacts.0.restitution" = ""
+"""
+
+
+def test_a_file_that_is_read_is_not_replaced(capsys):
+    """Not even if it was written here; the fit once replaced its data and the user's comments."""
+    assert main([*HEIGHTS, "--save", "ball.toml"]) == 0
+    ours = Path("ball.toml").read_bytes()
+    Path("mine.toml").write_text(ours.decode() + MEASURED, "utf-8")
+    mine = Path("mine.toml").read_bytes()
+    Path("linked.toml").symlink_to("mine.toml")
+    vary = ["--vary", "contacts.0.restitution", "--measured", "rebound_ratios.0=0.8±0.01"]
+    for command, said in (
+        (["fit", "mine.toml", "--save", "mine.toml"], "mine.toml is read here: "),
+        (["fit", "mine.toml", "--save", "linked.toml"], "linked.toml is read here: "),
+        (["fit", "ball.toml", *vary, "--save", "ball.toml"], "ball.toml is read here: "),
+        (["highest", "ball.toml", "B1", "--balls", "2", "--save", "ball.toml"], "ball.toml is re"),
+        (["fit", "ball.toml", *vary, "--save", "mine.toml"], "mine.toml is there, and has no mark"),
+    ):
+        capsys.readouterr()
+        assert main(command) == 2
+        assert capsys.readouterr().err.startswith(f"stackbounce: error: {said}")
+        assert Path("mine.toml").read_bytes() == mine
+        assert Path("ball.toml").read_bytes() == ours
+    assert main(["fit", "mine.toml", "--save", "fitted.toml"]) == 0
+    assert main(["fit", "mine.toml", "--save", "fitted.toml"]) == 0
+    assert main(["fit", "ball.toml", *vary, "--save", "ball.toml", "--overwrite"]) == 0
+    assert Path("ball.toml").read_bytes() != ours
+
+
+def test_a_table_has_no_mark(capsys):
+    """A comment would be a row of it for other programs."""
+    command = ["fit", "B1", "--measured", "durations.0=2.0±0.1ms", "--sample", "3200"]
+    command += ["--vary", "contacts.0.stiffness", "--draws", "draws.csv"]
+    assert main(command) == 0
+    assert main(command) == 2
+    assert "draws.csv is there" in capsys.readouterr().err
+    assert main([*command, "--overwrite"]) == 0
 
 
 def test_of_several_files_all_are_written_or_none(disk_of):
@@ -69,7 +149,7 @@ def test_permissions_are_those_of_a_plain_write():
         write_file(Path("new"), b"1")
         assert stat.S_IMODE(Path("new").stat().st_mode) == 0o640
         Path("new").chmod(0o604)
-        write_file(Path("new"), b"2")
+        write_file(Path("new"), b"2", overwrite=True)
         assert stat.S_IMODE(Path("new").stat().st_mode) == 0o604
     finally:
         os.umask(before)
@@ -81,7 +161,7 @@ def test_a_write_protected_file_is_not_replaced():
     write_file(Path("kept"), b"1")
     Path("kept").chmod(0o400)
     with pytest.raises(FileError, match="kept cannot be written: Permission denied"):
-        write_file(Path("kept"), b"2")
+        write_file(Path("kept"), b"2", overwrite=True)
 
 
 @posix

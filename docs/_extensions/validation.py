@@ -8,6 +8,7 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from stackbounce.validation import Comparison, validate
+from stackbounce.validation.comparison import format_p
 
 
 def row(one: Comparison) -> str:
@@ -24,22 +25,19 @@ def row(one: Comparison) -> str:
 
 def _laws(comparison: Comparison, verdict: str) -> str:
     found = [one for one in comparison.outcomes if one.verdict == verdict]
-    return ", ".join(f"{one.short_name} {_p(one.p)}" for one in found)
-
-
-def _p(value: float) -> str:
-    return f"({value:.2g})" if value >= 1e-4 else "(<\N{NO-BREAK SPACE}0.0001)"
+    return ", ".join(f"{one.short_name} ({format_p(one.p)})" for one in found)
 
 
 class Validation(SphinxDirective):
-    """Writes the table where it stands."""
+    """Writes the table, and what it adds up to, where it stands."""
 
     def run(self) -> list[Node]:
-        """Return the table."""
+        """Return the table and the sentences below it."""
         names = ("Series", "Speeds, m/s", "Agree", "Doubtful", "Refuted", "Steady")
         head = [f"| {' | '.join(names)} |", "|" + "---|" * len(names)]
-        rows = [row(one) for one in validate().comparisons]
-        lines = StringList([*head, *rows], source="stackbounce.validation")
+        done = validate()
+        rows = [row(one) for one in done.comparisons]
+        lines = StringList([*head, *rows, "", done.summary], source="stackbounce.validation")
         holder = Element()
         self.state.nested_parse(lines, self.content_offset, holder)
         return holder.children

@@ -8,6 +8,7 @@ with the name, so that the reader of a file can prefix the path (``mass must be 
 import math
 from collections.abc import Callable, Iterable
 from numbers import Integral, Real
+from typing import TypeVar
 
 __all__ = [
     "FileError",
@@ -25,8 +26,11 @@ __all__ = [
     "non_negative",
     "positive",
     "shown",
+    "unmasked",
     "whole",
 ]
+
+_Given = TypeVar("_Given")
 
 
 class StackbounceError(Exception):
@@ -169,6 +173,40 @@ def whole(name: str, value: object, low: int = 0, high: float = math.inf) -> int
     if not low <= number <= high:
         raise InvalidValue(message)
     return number
+
+
+def unmasked(name: str, values: _Given) -> _Given:
+    """Return numbers as they are if numpy masks none of them; raise otherwise.
+
+    A masked number is none, but its place in the array holds one, which numpy's functions take.
+
+    Parameters
+    ----------
+    name : str
+        What the numbers are called; the message begins with it.
+    values : object
+        Anything: an array, or a list or tuple of numbers or arrays is looked through.
+
+    Raises
+    ------
+    InvalidType
+        If a number is masked.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> unmasked("gaps", np.ma.array([0.0, 9999.0], mask=[False, True]))
+    Traceback (most recent call last):
+        ...
+    stackbounce.errors.InvalidType: gaps must have no masked numbers, got 1 of 2: leave them out
+    """
+    import numpy as np
+
+    for part in values if isinstance(values, list | tuple) else (values,):
+        if isinstance(part, np.ma.MaskedArray) and (count := int(np.sum(part.mask))):
+            right = f"{name} must have no masked numbers"
+            raise InvalidType(f"{right}, got {count} of {part.size}: leave them out")
+    return values
 
 
 def nearest(name: object, known: Iterable[str]) -> str:

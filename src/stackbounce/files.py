@@ -1,17 +1,25 @@
-"""Files: reading ordinary ones of limited size, and writing them whole or not at all."""
+"""Files: reading ordinary ones of limited size, and writing them whole or not at all.
+
+A file of its own kind ends with a seal: a comment that has the digest of the rest. The package
+replaces a file only if the seal says that it is as it was written here. In a folder that it makes,
+the digests of all files are in ``stackbounce.sha256``.
+"""
 
 import contextlib
 import hashlib
 import os
 import secrets
 import stat
+import struct
 import tempfile
+import zlib
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from stackbounce.errors import FileError, InvalidType, shown
 
 __all__ = [
+    "check_own",
     "check_place",
     "content_of",
     "prepare_folder",
@@ -21,6 +29,14 @@ __all__ = [
 ]
 
 _SUMS = "stackbounce.sha256"
+_COMMENTS = {
+    ".toml": (b"# ", b"\n"),
+    ".pdf": (b"% ", b"\n"),
+    ".svg": (b"<!-- ", b" -->\n"),
+    ".html": (b"<!-- ", b" -->\n"),
+}
+_PNG_END = 12  # bytes of the last chunk, before which a comment has to be
+_LARGEST = 2**30  # bytes of a file of ours
 
 
 def content_of(path: object, most: int) -> tuple[str, bytearray]:
@@ -43,7 +59,7 @@ def content_of(path: object, most: int) -> tuple[str, bytearray]:
     Examples
     --------
     >>> path = getfixture("tmp_path") / "ball.toml"
-    >>> write_file(path, b"height = 1")
+    >>> _ = path.write_bytes(b"height = 1")
     >>> content_of(path, 100)[1]
     bytearray(b'height = 1')
     """
@@ -91,17 +107,85 @@ def check_place(path: Path) -> None:
         raise FileError(f"{path} cannot be written: there is no folder {path.parent}")
 
 
-def write_file(path: Path, content: bytes) -> None:
-    """Write a file whole or not at all; see `write_files`.
+def check_own(path: Path, overwrite: bool = False, read: Iterable[str] = ()) -> None:
+    """Refuse to replace a file that is not as `write_file` wrote it, or that is read.
+
+    Parameters
+    ----------
+    path : Path
+        The file.
+    overwrite : bool, optional
+        Whether any file may be replaced.
+    read : iterable of str, optional
+        Files that the same command reads; other texts do not matter.
+
+    Raises
+    ------
+    FileError
+        If there is such a file. Pipes and devices may be written to.
 
     Examples
     --------
     >>> path = getfixture("tmp_path") / "ball.toml"
-    >>> write_file(path, b"height = 1")
-    >>> path.read_bytes()
-    b'height = 1'
+    >>> _ = path.write_text("height = 1")
+    >>> check_own(path)
+    Traceback (most recent call last):
+    stackbounce.errors.FileError: ...ball.toml is there, and has no mark that stackbounce wrote ...
     """
-    write_files([(path, content)])
+    exists = os.path.exists  # Path.exists raises where a name is too long
+    if overwrite or not exists(path) or _is_stream(path):
+        return
+    if any(exists(one) and path.samefile(one) for one in read):
+        raise FileError(f"{path} is read here: choose another name, or add --overwrite")
+    try:
+        content = path.read_bytes() if path.stat().st_size < _LARGEST else b""
+    except OSError:
+        content = b""
+    seal, end = len(_seal(path, b"")), _end(path)
+    rest = content[: -seal - end] + content[len(content) - end :]
+    if not seal or content != _sealed(path, rest):
+        raise FileError(
+            f"{path} is there, and has no mark that stackbounce wrote it and nobody changed it: "
+            "choose another name, or add --overwrite"
+        )
+
+
+def write_file(path: Path, content: bytes, overwrite: bool = False) -> None:
+    r"""Write a file, sealed, whole or not at all; see `check_own` and `write_files`.
+
+    Examples
+    --------
+    >>> path = getfixture("tmp_path") / "ball.toml"
+    >>> write_file(path, b"height = 1\n")
+    >>> path.read_text().splitlines()
+    ['height = 1', '# sha256 of the rest, by stackbounce: 7e29...']
+    >>> write_file(path, b"height = 2\n")
+    """
+    check_own(path, overwrite)
+    write_files([(path, _sealed(path, content))])
+
+
+def _sealed(path: Path, content: bytes) -> bytes:
+    """Return the content of a file with its seal."""
+    at = len(content) - _end(path)
+    return content[:at] + _seal(path, content) + content[at:]
+
+
+def _seal(path: Path, content: bytes) -> bytes:
+    """Return a comment with the digest of a file's content; nothing if it can have no comment."""
+    digest = hashlib.sha256(content).hexdigest().encode()
+    words = b"sha256 of the rest, by stackbounce: " + digest
+    suffix = path.suffix.lower()
+    if suffix == ".png":
+        chunk = b"tEXtComment\0" + words
+        return struct.pack(">I", len(chunk) - 4) + chunk + struct.pack(">I", zlib.crc32(chunk))
+    before, after = _COMMENTS.get(suffix, (b"", b""))
+    return before + words + after if before else b""
+
+
+def _end(path: Path) -> int:
+    """Return how many bytes of a file come after its seal."""
+    return _PNG_END if path.suffix.lower() == ".png" else 0
 
 
 def write_files(files: Iterable[tuple[Path, bytes]]) -> None:
@@ -152,7 +236,7 @@ def write_files(files: Iterable[tuple[Path, bytes]]) -> None:
                 part.unlink(missing_ok=True)
 
 
-def prepare_folder(folder: Path, names: Iterable[str]) -> None:
+def prepare_folder(folder: Path, names: Iterable[str], overwrite: bool = False) -> None:
     """Make a folder for files, with the folders in it, before these are computed.
 
     Parameters
@@ -161,6 +245,8 @@ def prepare_folder(folder: Path, names: Iterable[str]) -> None:
         The folder.
     names : iterable of str
         The names of the files, such as ``figures/first.svg``.
+    overwrite : bool, optional
+        Whether `write_folder` will replace any file.
 
     Raises
     ------
@@ -182,10 +268,10 @@ def prepare_folder(folder: Path, names: Iterable[str]) -> None:
     except (OSError, ValueError) as error:  # ValueError: a null character in the name
         reason = getattr(error, "strerror", None) or error
         raise FileError(f"{folder} cannot be written to: {reason}") from None
-    _check_ours(folder, names)
+    _check_ours(folder, names, overwrite)
 
 
-def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
+def write_folder(folder: Path, files: Mapping[str, bytes], overwrite: bool = False) -> None:
     """Write files into a folder, all or none, and their digests into ``stackbounce.sha256`` there.
 
     Whenever it is stopped, the digests tell which files are as they were written here. Only such
@@ -197,6 +283,8 @@ def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
         The folder, as `prepare_folder` makes it.
     files : mapping of str to bytes
         The contents of the files by their names.
+    overwrite : bool, optional
+        Whether any file is replaced.
 
     Raises
     ------
@@ -213,7 +301,7 @@ def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
     Traceback (most recent call last):
     stackbounce.errors.FileError: ...index.html is there, and is not as this command writes it: ...
     """
-    known = _check_ours(folder, files)
+    known = _check_ours(folder, files, overwrite)
     new = {f"{hashlib.sha256(content).hexdigest()}  {name}" for name, content in files.items()}
     others = [line for line in known if line.partition("  ")[2] not in files]
     contents = [(folder / name, content) for name, content in files.items()]
@@ -224,11 +312,11 @@ def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
     write_files([before, *contents, after])
 
 
-def _check_ours(folder: Path, names: Iterable[str]) -> list[str]:
+def _check_ours(folder: Path, names: Iterable[str], overwrite: bool) -> list[str]:
     """Refuse files that are not as they were written here; return what was, ``DIGEST  NAME``."""
     sums = folder / _SUMS
     known = sums.read_text("utf-8", "replace").splitlines() if sums.is_file() else []
-    for name in names:
+    for name in () if overwrite else names:
         path = folder / name
         found = hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else ""
         if path.exists() and f"{found}  {name}" not in known:

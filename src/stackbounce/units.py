@@ -150,7 +150,7 @@ def quantity(value: object, unit: str, name: str = "value") -> float:
 
 
 def unit_written(text: str) -> str | None:
-    """Return the unit in the text of a quantity, empty if it has none; None if it has no number.
+    """Return the unit in the text of a quantity, empty if it has none; None of no quantity.
 
     Examples
     --------
@@ -158,7 +158,7 @@ def unit_written(text: str) -> str | None:
     ('mm', '')
     """
     found = _WRITTEN.fullmatch(text.strip())
-    return found[2] if found else None
+    return found[2] if found and (not found[2] or _UNIT.fullmatch(found[2])) else None
 
 
 def count_written(text: str) -> int | None:

@@ -25,12 +25,12 @@ _FIT = (
 COMMANDS = (
     sweep("map.zarr"),
     sweep("map.nc"),
-    [*sweep("map.zarr"), "--plot", "new.png"],
-    ["simulate", *_PAIR, "--plot", "new.svg"],
-    ["simulate", *_PAIR, "--plot", "new.pdf"],
-    ["simulate", *_PAIR, "--plot", "new.png"],
-    [*_FIT, "--save", "new.toml"],
-    [*_FIT, "--plot", "new.svg"],
+    [*sweep("map.zarr"), "--plot", "new.png", "--overwrite"],
+    ["simulate", *_PAIR, "--plot", "new.svg", "--overwrite"],
+    ["simulate", *_PAIR, "--plot", "new.pdf", "--overwrite"],
+    ["simulate", *_PAIR, "--plot", "new.png", "--overwrite"],
+    [*_FIT, "--save", "new.toml", "--overwrite"],
+    [*_FIT, "--plot", "new.svg", "--overwrite"],
 )
 
 

@@ -7,7 +7,7 @@ def test_graze_of_a_hysteretic_contact():
     contacts = [
         sb.PowerLaw(26.50225539929258, 1.5),
         sb.HuntCrossley(0.0001504827645236029, 3.958067304097706, 36.46231193010815),
-        sb.Hysteretic(2469.5500935628634, unloading_exponent=1.0327012734690175, reloading="lossy"),
+        sb.Hysteretic(2469.5500935628634, unloading_exponent=1.0327012734690175),
     ]
     masses = [3.4962897273085667, 0.24277295278900984, 1.0963014427598385]
     drop = sb.Drop(

@@ -6,7 +6,7 @@ import stackbounce as sb
 
 
 def test_lossy_reloading_gains_nothing():
-    lossy = sb.Hysteretic(2.039, exponent=1.5, unloading_exponent=6.651, reloading="lossy")
+    lossy = sb.Hysteretic(2.039, exponent=1.5, unloading_exponent=6.651)
     balls = [sb.Ball(20.22), sb.Ball(16.06)]
     contacts = [lossy, sb.Dashpot(5.793, 2.855e-4)]
     drop = sb.Drop(balls, contacts, velocities=[-1.0, -1.0], gravity=1.0357)

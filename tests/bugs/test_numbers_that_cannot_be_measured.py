@@ -30,6 +30,24 @@ def test_results_or_one_line(tmp_path, monkeypatch, capfd, text, options):
     assert (code, capfd.readouterr().err.count("\n")) in {(0, 0), (2, 1)}
 
 
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("--heights", "1, 0.5 ± 1e308 m"),
+        ("--heights", "1e308, 0.5 m"),
+        ("--heights", "1, 0.6 m", "--height-error", "1e308m"),
+        ("--heights", "1, 0.6 m", "--mass", "57 ± 1e308 g"),
+        ("--contact-time", "5 ms", "--mass", "1e300 ± 1e99", "--restitution", "0.75 ± 0.01",
+         "--law", "hysteretic"),
+    ],
+)  # fmt: skip
+def test_typed_numbers_are_refused_in_one_line(arguments, capfd):
+    assert main(["measure", *arguments]) == 2
+    err = capfd.readouterr().err
+    assert err.count("\n") == 1
+    assert "unexpected" not in err
+
+
 @pytest.mark.parametrize("missing", ["1e300", "-1.23456789E-300", "inf"])
 def test_what_programs_write_for_a_missing_number_is_none(tmp_path, missing):
     path = tmp_path / "scope.csv"

@@ -7,7 +7,7 @@ import stackbounce as sb
 
 def test_reloading_without_loss():
     contacts = [
-        sb.Hysteretic(36.501, exponent=2.0, unloading_exponent=2.0, reloading="lossy"),
+        sb.Hysteretic(36.501, exponent=2.0, unloading_exponent=2.0),
         sb.Spring(26.91283690861319),
     ]
     drop = sb.Drop(
@@ -32,7 +32,7 @@ def test_reloading_without_loss():
 def test_reloading_too_slow_to_matter():
     """Far below the tolerance the loading curve's chord holds more than the curve."""
     contacts = [
-        sb.Hysteretic(1.045e-08, exponent=2.0, unloading_exponent=9.328, reloading="lossy"),
+        sb.Hysteretic(1.045e-08, exponent=2.0, unloading_exponent=9.328),
         sb.Spring(140.73455664736213),
         sb.Hertz(4.661040152669029e-07),
     ]

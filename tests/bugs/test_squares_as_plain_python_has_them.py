@@ -10,7 +10,6 @@ def test_squares_as_plain_python_has_them():
             stiffness=1320.239732465966,
             exponent=1.0,
             unloading_exponent=4.606666693466105,
-            reloading="lossy",
         ),
     ]
     drop = sb.Drop(

@@ -10,7 +10,7 @@ def test_steep_curve_without_a_force():
     force = (0.0, 0.02601113649956332, 0.026290450529335183)
     laws = [
         sb.Tabulated(x, force, unloading=(0.0, 0.013061570526707682, force[2])),
-        sb.Hysteretic(23559.248428320974, restitution=0.05, reloading="lossy"),
+        sb.Hysteretic(23559.248428320974, restitution=0.05),
         sb.Bond(24902.980888266327, damping=0.0170163037599283),
         sb.HuntCrossley(3817924.3498970917, 1.5, dissipation=0.15546519049400043),
     ]

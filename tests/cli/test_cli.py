@@ -794,7 +794,7 @@ def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
 def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
     drawn = []
     monkeypatch.setattr(plots, "lines", lambda _, *asked, **which: drawn.append((asked, which)))
-    monkeypatch.setattr(output, "draw", lambda make, _: make())
+    monkeypatch.setattr(output, "draw", lambda make, *_: make())
     over = ["--over", "balls.0.mass = 50 g, 60 g", "--out", "a.zarr", "--plot", "a.png", "--show"]
     for asked in ("rebound_ratio.0", "collisions"):
         assert run("sweep", "basketball", "tennis", *over, asked)[0] == 0

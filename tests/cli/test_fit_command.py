@@ -228,7 +228,7 @@ def test_a_file_that_cannot_be_written_is_whole_or_not_there(run, tmp_path, monk
         raise OSError(28, "No space left on device", str(path))
 
     monkeypatch.setattr("pathlib.Path.replace", full)
-    code, _, err = run(*ONE, "--save", "fitted.toml")
+    code, _, err = run(*ONE, "--save", "fitted.toml", "--overwrite")
     assert (code, err.count("\n")) == (2, 1)
     assert "fitted.toml cannot be written: No space left on device" in err
     assert [path.read_text("utf-8") for path in tmp_path.iterdir()] == ["before"]

@@ -223,6 +223,11 @@ def test_a_height_that_is_no_number_is_named_as_it_was_typed(text):
         "1 ± 2 s",
         "1 ± -1 m",
         "1 ± 1 ± 1 m",
+        "1 ± 0.1) m",
+        "(1 ± 0.1 m",
+        "1) ± (0.1 m",
+        "((1 ± 0.1)) m",
+        "(1 ± 0.1) (m)",
     ],
 )
 def test_numbers_with_wrong_errors(text):

@@ -84,7 +84,13 @@ def test_a_picture_with_bands(tmp_path, capsys):
         (["--error", "balls.1.mass=1cm"], "--error balls.1.mass must be a mass"),
         (["--error", "height=1cm"], "--error height: only one error can be given, got two"),
         (["--error", "balls.1.mass=-1g"], "balls.1.mass's error must be 0 or above"),
+        (
+            ["--error", "balls.1.mass=1e308"],
+            "balls.1.mass's error must be at most 1e+100, got 1e+30",
+        ),
         (["--gap", "2 mm ± 1 s"], "gaps.0 must be a length"),
+        (["--gap", "2 ± 1) mm"], "gaps.0 must be a length"),
+        (["--gap", "2 ± 1e308 mm"], "gaps.0's error must be at most 1e+100, got 1e+305"),
         (["--contact", "Spring stiffness=1±kN/m", "--contact", "Spring stiffness=1"], "must be"),
     ],
 )
@@ -93,3 +99,11 @@ def test_wrong_errors_are_one_line(arguments, message, capsys):
     err = capsys.readouterr().err
     assert message in err
     assert err.count("\n") == 1
+
+
+def test_a_number_that_the_drop_does_not_give_has_no_error(tmp_path, capsys):
+    path = tmp_path / "drop.toml"
+    path.write_text(sb.Drop([sb.Ball(0.1)], [sb.Spring(1e4)], height=0.6).to_toml(), "utf-8")
+    assert main(["simulate", str(path), "--error", "balls.0.diameter=1mm"]) == 2
+    err = capsys.readouterr().err
+    assert err.endswith("balls.0.diameter needs balls.0.diameter, which the drop does not give\n")

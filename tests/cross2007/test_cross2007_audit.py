@@ -44,6 +44,7 @@ DROPS_OUT = {
     "IV.record_reversed_gap": "fig13.ball_stiffness B1.mass",
     "IV.record_B3_delay": "B3_fit.ball_stiffness B3.mass",
     "IV.record_twin_duration": "superballs.drop_height",
+    "IV.record_twin_late_duration": "superballs.drop_height",
     "V.exponent": "fig13.floor_stiffness",
     "V.restitution": "fig13.floor_stiffness",
     "VI.smallest": "fig13.floor_stiffness fig13.ball_stiffness "
@@ -54,7 +55,7 @@ DROPS_OUT = {
 }
 # Inputs that no row rests on: figures, tables and other readings show them.
 ONLY_SHOWN = re.compile(
-    r"(diameter|static_stiffness|duration|late_delay|upper_height)$|^B3_on_B1.mass|^B3.dynamic"
+    r"((ball|tennis)\.diameter|static_stiffness|duration|late_delay|upper_height)$|^B3_on_B1.mass"
 )
 # The errors that the paper states, by key; that of the static stiffness is relative.
 STATED = {
@@ -109,6 +110,9 @@ def test_no_disagreement_is_left_unexplained(done):
         ("II.second_stop", 5.0 - 20.0**0.5, 12),
         ("II.third_collision", 1.0 / 3.0, 12),
         ("V.exponent", 2.0 / 0.78**2 - 1.0, 12),
+        ("IV.stiffness_by_radius", 0.96, 3),
+        ("IV.steel_times", 38.1 / 27.0, 12),
+        ("IV.record_twin_late_duration", 13.19, 2),
     ],
 )
 def test_known_values(done, name, expected, digits):
@@ -155,7 +159,7 @@ def test_a_floor_force_that_rises_at_once_leaves_no_7_ms(done):
     (row,) = [row for row in done.rows if row.id == "III.quiet"]
     hollow, constant = row.attempts
     assert {hollow.verdict, constant.verdict} == {DIFFERS}
-    assert round(hollow.computed - 5.24, 2) == round(constant.computed - 4.76, 2) == 0
+    assert round(hollow.computed - 5.28, 2) == round(constant.computed - 4.76, 2) == 0
 
 
 def test_a_longer_fall_and_a_smaller_gap_are_the_same():

@@ -100,9 +100,17 @@ def maxima(values):
     return int(np.sum((inner > values[:-2]) & (inner >= values[2:])))
 
 
+def bundle_force(law, c):
+    """Return the force at the last of the compressions c, from the history of each element."""
+    back = c[::-1]
+    parted, highest = np.minimum.accumulate(back), np.maximum.accumulate(back)
+    carried = -law.stiffness * np.diff(parted**law.exponent, append=0.0)
+    return np.sum(carried * (c[-1] / highest) ** (law.unloading_exponent - law.exponent))
+
+
 @pytest.mark.slow
 def test_several_cycles_in_one_interval_follow_the_rule():
-    """Reloading goes up the unloading curve to the old peak, then along the loading curve."""
+    """An element touches and parts at its own compression, and remembers the highest since then."""
     seen = 0
     for row in ROWS[8:]:
         drop = drop_of(row["case"])
@@ -116,14 +124,23 @@ def test_several_cycles_in_one_interval_follow_the_rule():
             c = sample.compression.sel(contact=interval["contact"], time=at).values
             force = sample.force.sel(contact=interval["contact"], time=at).values
             seen += maxima(c) > 1
-            peak = np.maximum.accumulate(c)
+            expected = [bundle_force(law, c[: k + 1]) for k in range(len(c))]
+            # between the samples the turning points lie further out
+            assert force == pytest.approx(np.array(expected), abs=2e-4 * interval["peak_force"])
             loading = law.stiffness * c**law.exponent
-            unloading = law.stiffness * peak**law.exponent * (c / peak) ** law.unloading_exponent
-            expected = np.where(c < peak, unloading, loading)
-            # between the samples the peak may be higher than the highest sample
-            assert force == pytest.approx(expected, abs=2e-4 * interval["peak_force"])
             assert (force <= loading + 1e-11 * interval["peak_force"]).all()
-    assert seen >= 5
+    assert seen >= 20
+
+
+def test_a_vibration_loses_energy_in_more_cycles_than_are_remembered():
+    """The loss of a small cycle is as its third power, so that the amplitude falls as 1/t."""
+    laws = [sb.Hysteretic(1.0, restitution=0.9), sb.Hysteretic(1000.0, restitution=0.9)]
+    balls = [sb.Ball(1.0), sb.Ball(1.0)]
+    drop = sb.Drop(balls, laws, velocities=[-1.0, -1.0], gravity=1.0)
+    result = sb.simulate(drop, until=2000.0)  # 225 cycles
+    c = result.sample(np.linspace(480.0, 2000.0, 15_001)).compression.values[0]
+    early, late = np.ptp(c[:200]), np.ptp(c[-200:])  # 20 s
+    assert late / early == pytest.approx(490.0 / 1990.0, rel=0.05)
 
 
 @given(
@@ -146,4 +163,3 @@ def test_energy_never_rises(mass, stiffness, gap, e, exponent):
     assert np.diff(energy).max() <= 1e-12 * start
     assert energy[-1] == pytest.approx(result.energy_retained * start, rel=1e-12)
     assert result.energy_retained <= 1 + 1e-12
-    assert result.energy_retained >= min(e) ** (2 * result.collisions.sum()) - 1e-12

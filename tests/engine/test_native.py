@@ -78,9 +78,34 @@ def another_manifest(folder, _):
     (folder / "manifest.json").write_text('{"sources": 1, "libraries": [2]}')
 
 
-def write_entry(folder, entry):
-    manifest = {"sources": "", "libraries": {native.platform_name(): entry}}
+def deep(folder, _):
+    (folder / "manifest.json").write_text("[" * 100_000)
+
+
+def change(folder, spoil):
+    manifest = json.loads((folder / "manifest.json").read_text())
+    spoil(manifest)
     (folder / "manifest.json").write_text(json.dumps(manifest))
+
+
+def no_entry(folder, _):
+    change(folder, lambda manifest: manifest["entries"].pop("run_batch"))
+
+
+def odd_kind(folder, _):
+    change(folder, lambda manifest: manifest["entries"]["run_drop"].append("text"))
+
+
+def other_kinds(folder, _):
+    change(folder, lambda manifest: manifest["entries"]["run_drop"].reverse())
+
+
+def no_digest(folder, _):
+    change(folder, lambda manifest: manifest.pop("digest"))
+
+
+def write_entry(folder, entry):
+    change(folder, lambda manifest: manifest.update(libraries={native.platform_name(): entry}))
 
 
 def empty_entry(folder, _):
@@ -93,6 +118,10 @@ def half_an_entry(folder, _):
 
 def odd_levels(folder, _):
     write_entry(folder, {"file": "x.so", "sha256": "", "levels": ["new"]})
+
+
+def negative_levels(folder, _):
+    write_entry(folder, {"file": "x.so", "sha256": "", "levels": ["v-1"]})
 
 
 def truncated(folder, _):
@@ -115,10 +144,8 @@ def unreadable(folder, _):
 
 def not_loadable(folder, _):
     library(folder).write_bytes(b"nothing to run")
-    manifest = json.loads((folder / "manifest.json").read_text())
-    entry = manifest["libraries"][native.platform_name()]
-    entry["sha256"] = hashlib.sha256(b"nothing to run").hexdigest()
-    (folder / "manifest.json").write_text(json.dumps(manifest))
+    digest = {"sha256": hashlib.sha256(b"nothing to run").hexdigest()}
+    change(folder, lambda manifest: manifest["libraries"][native.platform_name()].update(digest))
 
 
 def changed(_, monkeypatch):
@@ -144,6 +171,12 @@ BAD = {
     empty_entry: "manifest.json is damaged: install stackbounce again",
     odd_levels: "manifest.json is damaged: install stackbounce again",
     half_an_entry: "manifest.json is damaged: install stackbounce again",
+    negative_levels: "manifest.json is damaged: install stackbounce again",
+    deep: "manifest.json is damaged: install stackbounce again",
+    no_entry: "manifest.json is damaged: install stackbounce again",
+    odd_kind: "manifest.json is damaged: install stackbounce again",
+    other_kinds: "manifest.json is damaged: install stackbounce again",
+    no_digest: "manifest.json is damaged: install stackbounce again",
     truncated: "is damaged or foreign: install stackbounce again",
     foreign: "is damaged or foreign: install stackbounce again",
     no_library: "cannot be read (No such file or directory): install stackbounce again",

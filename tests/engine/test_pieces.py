@@ -17,36 +17,42 @@ def one_ball(law, speed, mass=1.0):
     return sb.simulate(sb.Drop([sb.Ball(mass)], [law], impact_speed=speed))
 
 
-def two_stages(law):
-    """Return the reference of a hollow ball."""
-    k, knee, ratio = law.stiffness, law.buckling_compression, law.stiffness_ratio
-
-    def force(c):
-        return k * c if c <= knee else k * (knee + ratio * (c - knee))
-
-    return pieces.Contact(force, [knee], law.restitution**2)
-
-
-def by_points(law):
-    """Return the reference of a table, whose curves are the law's own splines."""
-    loading = monotone_spline(law.compression, law.force)
-    back = None
-    if law.unloading is not None:
-        x = [one / law.compression[-1] for one in law.compression]
-        y = [one / law.force[-1] for one in law.unloading]
-        unloading = monotone_spline(x, y)
-        back = (lambda c: at(unloading, c)), [one[0] for one in unloading[1:-1]]
-    share = law.engine_numbers()[2]
-    return pieces.Contact(lambda c: at(loading, c), [one[0] for one in loading[1:]], share, back)
-
-
-def at(spline, x):
-    begin, a, b, s = next(one for one in reversed(spline) if one[0] <= x)
-    return a + (x - begin) * (b + (x - begin) * s)
-
-
 def reference_of(law):
-    return two_stages(law) if isinstance(law, sb.HollowBall) else by_points(law)
+    """Return the reference of a law, whose loading curve has the law's own spline if a table."""
+    if isinstance(law, sb.Hysteretic):
+        p, n = law.exponent, law.unloading_exponent
+        return pieces.Contact(lambda c: law.stiffness * c**p, [], lambda x, _: x ** (n - p))
+    if isinstance(law, sb.HollowBall):
+        k, knee, kept = law.stiffness, law.buckling_compression, law.restitution**2
+        power = 2.0 / kept - 2.0
+
+        def loading(c):
+            return k * (min(c, knee) + law.stiffness_ratio * max(c - knee, 0.0))
+
+        knots = [knee]
+    else:
+        spline = monotone_spline(law.compression, law.force)
+        _, _, kept, _, power = law.engine_numbers()
+
+        def loading(c):
+            begin, a, b, s = next(piece for piece in reversed(spline) if piece[0] <= c)
+            return a + (c - begin) * (b + (c - begin) * s)
+
+        knots = [piece[0] for piece in spline[1:]]
+        if law.unloading is not None:
+            return pieces.Contact(loading, knots, *measured_share(law))
+    if kept == 1.0:
+        return pieces.Contact(loading, knots)
+    return pieces.Contact(loading, knots, pieces.returned_share(loading, knots, power, kept))
+
+
+def measured_share(law):
+    """Return unloading over loading, straight between the points and on to 0, and its corners."""
+    x = np.array(law.compression[1:]) / law.compression[-1]
+    share = np.divide(law.unloading[1:], law.force[1:])
+    share = np.minimum.accumulate(share[::-1])[::-1]
+    foot = max(0.0, share[0] - (share[1] - share[0]) / (x[1] - x[0]) * x[0])
+    return (lambda at, _: np.interp(at, [0.0, *x], [foot, *share])), x[:-1].tolist()
 
 
 @pytest.mark.parametrize("e", [0.05, 0.3, 0.75, 0.999, 1.0])
@@ -118,60 +124,101 @@ def test_one_ball_on_a_table_against_quadrature(speed, loss):
 
 
 def random_stack(seed):
-    """Return a stack of two or three balls with gaps, on hollow balls and tables."""
+    """Return a stack of two or three balls, the upper ones mostly heavier, on lossy contacts."""
     rng = np.random.default_rng(seed)
     count = int(rng.integers(2, 4))
     laws = []
     for _ in range(count):
         k = 10.0 ** rng.uniform(1.0, 3.0)
-        if rng.random() < 0.5:
+        e = rng.uniform(0.3, 1.0)
+        kind = rng.integers(5)
+        if kind == 0:
+            laws.append(sb.Hysteretic(k, exponent=rng.uniform(1.0, 2.0), restitution=e))
+            continue
+        if kind == 1:
             knee = 10.0 ** rng.uniform(-2.5, -1.0)
-            laws.append(sb.HollowBall(k, knee, rng.uniform(0.05, 1.0), rng.uniform(0.3, 1.0)))
+            laws.append(sb.HollowBall(k, knee, rng.uniform(0.05, 1.0), e))
             continue
         points = int(rng.integers(3, 6))
         x = np.concatenate([[0.0], np.cumsum(rng.uniform(0.2, 1.0, points))]) * 0.1
         y = np.concatenate([[0.0], np.cumsum(rng.uniform(0.1, 1.0, points))]) * 0.1 * k
-        kind = rng.integers(3)
-        back = y * np.linspace(rng.uniform(0.2, 0.9), 1.0, points + 1)
-        own = [{}, {"unloading": back}, {"restitution": rng.uniform(0.3, 1.0)}][kind]
+        back = y * np.append(rng.uniform(0.2, 1.0, points), 1.0)
+        own = [{}, {"unloading": np.maximum.accumulate(back)}, {"restitution": e}][kind - 2]
         laws.append(sb.Tabulated(x, y, **own))
     gaps = rng.choice([0.0, 0.01, 0.2], count - 1)
-    return sb.Drop([sb.Ball(m) for m in rng.uniform(0.2, 2.0, count)], laws, gaps, impact_speed=1.0)
+    masses = np.cumprod(rng.uniform(0.5, 5.0, count))
+    return sb.Drop([sb.Ball(m) for m in masses], laws, gaps, impact_speed=1.0)
 
 
-@pytest.mark.parametrize(
-    "seed", [*range(8), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(8, 30))]
+@pytest.mark.parametrize(("first", "count"), [(4, 4), pytest.param(8, 32, marks=pytest.mark.slow)])
+def test_stacks_against_another_integration(first, count):
+    """Contacts are compressed again before they open, in cycles inside one another."""
+    cycles = dict.fromkeys((sb.Hysteretic, sb.HollowBall, sb.Tabulated), 0)
+    for seed in range(first, first + count):
+        drop = random_stack(seed)
+        contacts = [reference_of(law) for law in drop.contacts]
+        masses = [ball.mass for ball in drop.balls]
+        speeds, intervals = pieces.integrate(masses, contacts, drop.gaps, drop.start_velocities)
+        result = sb.simulate(drop)
+        assert result.status is sb.Status.FINISHED
+        assert result.collisions.tolist() == [len(one) for one in intervals]
+        assert result.rebound_speeds == pytest.approx(speeds, abs=1e-9)
+        for found, ends in zip(result.last_release, intervals, strict=True):
+            assert not ends or found == pytest.approx(ends[-1][1], rel=1e-7)
+        energy = result.sample(np.linspace(0.0, 1.1 * result.end_time, 400)).energy.values
+        assert np.diff(energy).max() <= 1e-11 * energy[0]
+        assert energy[-1] == pytest.approx(result.energy_retained * energy[0], rel=1e-11)
+        for law, contact in zip(drop.contacts, contacts, strict=True):
+            cycles[type(law)] += contact.cycles
+    assert min(cycles.values()) >= count
+
+
+STEP = sb.Tabulated(
+    [0.0, 1e-3, 2e-3, 3e-3, 4e-3, 5e-3, 6e-3],
+    [0.0, 20.0, 32.0, 40.0, 50.0, 62.0, 80.0],
+    [0.0, 15.0, 26.0, 34.0, 44.0, 57.0, 80.0],
 )
-def test_stacks_against_another_integration(seed):
-    drop = random_stack(seed)
-    masses = [ball.mass for ball in drop.balls]
-    contacts = [reference_of(law) for law in drop.contacts]
-    speeds, intervals = pieces.integrate(masses, contacts, drop.gaps, drop.start_velocities)
-    result = sb.simulate(drop)
-    assert result.status is sb.Status.FINISHED
-    assert result.collisions.tolist() == [len(one) for one in intervals]
-    assert result.rebound_speeds == pytest.approx(speeds, abs=1e-8)
-    for found, ends in zip(result.last_release, intervals, strict=True):
-        assert not ends or found == pytest.approx(ends[-1][1], rel=1e-7)
-
-
-SOFTENING = sb.Tabulated(
-    [0.0, 1e-3, 2e-3, 3e-3], [0.0, 76.0, 96.0, 99.5], unloading=[0.0, 40.0, 90.0, 99.5]
-)
+TABLES = [
+    STEP,
+    sb.Tabulated([0.0, 1e-3, 2e-3, 3e-3, 4e-3], [0.0, 30, 36, 45, 120], [0.0, 25, 30, 38, 120]),
+    sb.Tabulated([0.0, 1e-3, 2e-3, 3e-3], [0.0, 76.0, 96.0, 99.5], [0.0, 40.0, 90.0, 99.5]),
+    sb.Tabulated([0.0, 1e-3, 2e-3], [0.0, 100.0, 101.0], [0.0, 99.0, 101.0]),
+    sb.Tabulated(*TABLE),
+]
 
 
 @pytest.mark.parametrize("speed", [1e-3, 0.1, 0.5, 1.0, 2.0, 3.0, 30.0])
-@pytest.mark.parametrize(
-    "law",
-    [SOFTENING, sb.Tabulated([0.0, 1e-3, 2e-3], [0.0, 100.0, 101.0], unloading=[0.0, 99.0, 101.0])],
-)
+@pytest.mark.parametrize("law", TABLES)
 def test_a_table_never_returns_more_than_it_took(law, speed):
-    """Where its unloading curve would lie above its loading curve, it returns the same share."""
-    result = one_ball(law, speed, 0.05)
+    result = one_ball(law, speed, 0.1)
     assert result.status is sb.Status.FINISHED
     assert result.rebound_ratios[0] <= 1.0
-    energy = result.sample(np.linspace(0.0, result.end_time, 300)).energy.values
-    assert energy.max() <= energy[0] * (1.0 + 1e-10)
+    sample = result.sample(np.linspace(0.0, result.end_time, 1000))
+    energy, force = sample.energy.values, sample.force.values[0]
+    assert np.diff(energy).max() <= 1e-11 * energy[0]
+    loading = [reference_of(law).loading(max(c, 0.0)) for c in sample.compression.values[0]]
+    assert (force <= np.array(loading) + 1e-11 * force.max()).all()
+
+
+@pytest.mark.parametrize("law", TABLES)
+def test_a_table_unloads_through_its_points_from_the_last_one(law):
+    contact = reference_of(law)
+    work = pieces.work(contact.loading, contact.knots, law.compression[-1])
+    result = one_ball(law, math.sqrt(2.0 * work / 0.1), 0.1)
+    (interval,) = result.intervals
+    assert interval["peak_compression"] == pytest.approx(law.compression[-1], rel=1e-9)
+    back = result.sample(np.linspace(interval["peak_time"], interval["end"], 4000))
+    c, force = back.compression.values[0], back.force.values[0]
+    share = np.divide(law.unloading[1:], law.force[1:])
+    assert (np.diff(share) >= 0.0).all()  # else it is made to rise
+    found = np.interp(law.compression, c[::-1], force[::-1])
+    assert found == pytest.approx(np.array(law.unloading), abs=1e-4 * law.force[-1])
+
+
+def test_a_table_has_a_restitution_without_steps():
+    """It jumped from 0.981 to 0.938 in the middle of these speeds."""
+    restitutions = [STEP.restitution_at(0.057, v) for v in np.linspace(3.5564, 3.5574, 11)]
+    assert np.ptp(restitutions) < 1e-4
 
 
 @pytest.mark.parametrize("width", [1.5e-3, 1e-2, 0.1])
@@ -200,26 +247,6 @@ def test_a_sweep_has_the_same_numbers():
     result = sb.simulate(drop)
     assert swept.rebound_ratio.values[1, 1].tolist() == result.rebound_ratios.tolist()
     assert len(np.unique(swept.rebound_ratio.values)) == 8
-
-
-@pytest.mark.parametrize(
-    "law",
-    [
-        sb.HollowBall(1e4, 1e-3, 0.3, 0.7),
-        sb.HollowBall(1e4, 1e-3, 0.3, 1.0),
-        sb.Tabulated([0.0, 1e-3, 1e-2], [0.0, 10.0, 60.0], unloading=[0.0, 4.0, 60.0]),
-    ],
-)
-def test_energy_is_kept_or_lost_but_never_made(law):
-    drop = sb.Drop([sb.Ball(0.3), sb.Ball(0.1)], [law, law], impact_speed=2.0, gaps=[1e-3])
-    result = sb.simulate(drop)
-    sampled = result.sample(np.linspace(0.0, 1.2 * np.nanmax(result.last_release), 400))
-    whole = sampled.energy.values
-    start = 0.5 * 0.4 * 4.0
-    falls = np.diff(whole) / start
-    assert falls.max() < 1e-10
-    lossless = getattr(law, "restitution", None) == 1.0
-    assert (whole[-1] == pytest.approx(start, rel=1e-11)) == lossless
 
 
 @pytest.mark.parametrize("restitution", [0.6, 1.0])

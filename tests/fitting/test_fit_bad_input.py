@@ -47,6 +47,8 @@ def refused(kind, message, drop=STACK, data=DATA, vary=VARY, **options):
         ({"rebound_ratios.1": (NAN, 0.1)}, InvalidValue, "finite number, got nan"),
         ({"rebound_ratios.1": (-INF, 0.1)}, InvalidValue, "finite number, got -inf"),
         ({"rebound_ratios.1": "1 ± -0.1"}, InvalidValue, "error must be a positive number"),
+        ({"rebound_ratios.1": (1.0, 1e308)}, InvalidValue, "error must be at most 1e+100"),
+        ({"rebound_ratios.1": (1e300, 1e-300)}, InvalidValue, "must be at most 1e+100 of its err"),
         ({"rebound_ratios.1": "1 ± 0.1 ± 0.1"}, UnitError, "rebound_ratios.1 must be a pure"),
         ({"rebound_ratios.1": "a lot"}, UnitError, "rebound_ratios.1 must be a pure number"),
         ({"rebound_ratios.1": "1 ± 0.1 m"}, UnitError, "rebound_ratios.1 must be a pure number"),
@@ -94,10 +96,13 @@ def test_data_that_do_not_fit(data, kind, message):
         ({STIFFNESS: (1, 2, 3)}, InvalidValue, "between two bounds"),
         ({STIFFNESS: 1000.0}, InvalidValue, "between two bounds"),
         ({STIFFNESS: "1000 ± 0"}, InvalidValue, "error must be a positive number"),
+        ({STIFFNESS: "1000 ± 1e308"}, InvalidValue, "'s error must be at most 1e+100, got 1e+308"),
+        ({"gaps.0": (0.0, 1e308)}, InvalidValue, "at most 1e+100 apart, got 0 and 1e+308"),
+        ({"gaps.0": (0.0, 1e-300)}, InvalidValue, "bounds above 1e-12 "),
         ({STIFFNESS: sb.Range(5.0, 9.0, prior=(7.0, -1.0))}, InvalidValue, "positive number"),
         ({STIFFNESS: sb.Range(5.0, 9.0, prior="7")}, InvalidValue, "what is known of it"),
         ([STIFFNESS, "gaps.0"], InvalidValue, "2 numbers for 1 measured number"),
-        (["balls.0.diameter"], InvalidValue, "balls.0.diameter is nan in the drop and needs"),
+        (["balls.0.diameter"], InvalidValue, "balls.0.diameter is not given in the drop and"),
     ],
 )
 def test_bounds_that_do_not_fit(vary, kind, message):

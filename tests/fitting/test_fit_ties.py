@@ -181,6 +181,9 @@ def test_a_function_that_fails_is_told(function, message):
         ({UPPER: "pi"}, {"pi": (1.0, 2.0)}, "pi means something else in formulas"),
         ({UPPER: "lambda"}, {"lambda": (1.0, 2.0)}, "lambda means something else in formulas"),
         ({UPPER: "k"}, {"k": None}, "k needs bounds"),
+        ({UPPER: f"k * {'9' * 400}"}, None, "cannot be read: it may have numbers up to 1e308"),
+        ({UPPER: f"-{'9' * 400} + k"}, None, "cannot be read: it may have numbers up to 1e308"),
+        ({UPPER: "k * 1e400"}, None, "cannot be read: it may have numbers up to 1e308"),
         ({UPPER: "k"}, {"k": ("1 kN/m", "2 kN/m")}, "^k must be a pure number"),
     ],
 )

@@ -32,9 +32,9 @@ LAWS: dict[str, tuple[Any, Any]] = {  # of the floor, and between two balls of 0
         sb.Hysteretic(1e4, restitution=0.8),
         sb.Hysteretic(1e6, exponent=1.5, unloading_exponent=3.0),
     ),
-    "Hysteretic, lossy": (
-        sb.Hysteretic(1e4, restitution=0.8, reloading="lossy"),
-        sb.Hysteretic(1e4, exponent=1.0, restitution=0.7, reloading="lossy"),
+    "Hysteretic, linear": (
+        sb.Hysteretic(1e4, restitution=0.8),
+        sb.Hysteretic(1e4, exponent=1.0, restitution=0.7),
     ),
     "HollowBall": (sb.HollowBall(1e4, 1e-3, 0.3, 0.8), sb.HollowBall(4e4, 5e-4, 0.2, 0.7)),
 }
@@ -42,7 +42,7 @@ MASS_RATIOS = np.geomspace(0.05, 20.0, 20)
 STIFFNESS_RATIOS = np.geomspace(0.1, 50.0, 15)
 RESTITUTIONS = np.linspace(0.1, 1.0, 15)  # of rigid floors, which have no stiffness
 GAP, GRAVITY = 2e-3, 9.81
-EVENTS = 2000  # lossy reloading with gravity never ends at a few points
+EVENTS = 2000
 MASSES, SPEEDS = (0.01, 0.1, 2.0), (0.03, 1.0, 10.0)
 TIMES, RATIOS = (5e-4, 5e-3, 0.05), (0.2, 0.6, 0.9, 1.0)
 

@@ -45,7 +45,7 @@ def can_be_compared_plainly(batch: Batch, row: int) -> bool:
 
 def can_be_integrated(batch: Batch, row: int) -> bool:
     """Tell whether the reference knows a drop's laws, and its end."""
-    other = np.any(np.isin(batch.drops.law[row], (drive.LOSSY, drive.RELAXING)))
+    other = np.any(batch.drops.law[row] == drive.RELAXING)
     ended = batch.found[row, drive.STATUS] in (sb.Status.FINISHED, sb.Status.TIME_REACHED)
     return bool(ended and not other)
 

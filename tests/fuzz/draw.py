@@ -9,7 +9,6 @@ from fuzz.drive import (
     HERTZ,
     HUNT_CROSSLEY,
     HYSTERETIC,
-    LOSSY,
     NONE,
     RELAXING,
     RIGID,
@@ -38,7 +37,6 @@ KINDS = (  # of the laws by their numbers in `drive`
     codes.VISCOELASTIC,
     codes.HUNT_CROSSLEY,
     codes.HYSTERETIC,
-    codes.LOSSY,
     codes.RIGID,
     codes.RELAXING,
 )
@@ -202,9 +200,9 @@ def _laws(
     random: np.random.Generator, shape: tuple[int, int]
 ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return laws, loading exponents and, where they unload otherwise, unloading exponents."""
-    law = random.integers(SPRING, LOSSY + 1, shape)
-    one = random.integers(SPRING, LOSSY + 1, (shape[0], 1))
-    law = np.where(random.random((shape[0], 1)) < 0.3, one, law)
+    law = random.integers(SPRING, HYSTERETIC + 2, shape)  # hysteresis twice as often
+    one = random.integers(SPRING, HYSTERETIC + 2, (shape[0], 1))
+    law = np.minimum(np.where(random.random((shape[0], 1)) < 0.3, one, law), HYSTERETIC)
     exponent = random.choice([1.0, 1.0, 1.5, 1.5, 2.0, 0.0], shape)
     exponent = np.where(exponent == 0.0, random.uniform(1.0, 4.0, shape), exponent)
     exponent = np.where(np.isin(law, (SPRING, DASHPOT)), 1.0, exponent)

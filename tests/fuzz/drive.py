@@ -26,7 +26,7 @@ from stackbounce.engine.work import WORK_LIMIT
 
 # laws of random drops
 NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY = range(7)
-HYSTERETIC, LOSSY, RIGID, RELAXING = range(7, 11)
+HYSTERETIC, RIGID, RELAXING = range(7, 10)
 
 # what can be wrong with a run, as bits
 BAD_NUMBER, GAINS_ENERGY, LOSES_MOMENTUM, OUT_OF_TURN, OUT_OF_ORDER = 1, 2, 4, 8, 16
@@ -102,10 +102,8 @@ def run(
             else max(stack.clock[LAST_EVENT], stack.clock[LAST_CHECK])
         )
     last, terms = energy_at(stack, end)
-    allowed, lossy = _ROUND * (1.0 + 0.1 * stack.counter[EVENTS]), False
-    for i in range(size):
-        lossy = lossy or stack.law[i] == codes.LOSSY  # its reloading need not be linear
-    if lossy or stack.setting[NONLINEAR] == 1:
+    allowed = _ROUND * (1.0 + 0.1 * stack.counter[EVENTS])
+    if stack.setting[NONLINEAR] == 1:
         allowed += _LOOSE * drops.rtol[row] * (1.0 + 0.1 * stack.counter[EVENTS])
     out[ENERGY] = (last - first) / (reference + terms)
     if not out[ENERGY] <= allowed:

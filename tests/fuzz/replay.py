@@ -41,9 +41,7 @@ def law_of(drops: Drops, row: int, i: int) -> sb.model.ContactLaw | None:
             return sb.HuntCrossley(k, p, extra)
         case 7:
             return sb.Hysteretic(k, exponent=p, unloading_exponent=extra)
-        case 8:
-            return sb.Hysteretic(k, exponent=p, unloading_exponent=extra, reloading="lossy")
-        case 10:
+        case 9:
             return sb.StandardLinearSolid(k, extra, float(drops.second[row, i]))
         case _:
             return sb.Rigid(extra)

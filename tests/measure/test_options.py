@@ -47,7 +47,7 @@ def test_the_command_line_offers_each(capfd, monkeypatch):
     offered = set(re.findall(r"--[a-z-]+", out))
     assert {one.on_command_line for one in OPTIONS} <= offered
     assert offered - {one.on_command_line for one in OPTIONS} == {
-        "--name", "--save", "--plot", "--json", "--help"
+        "--name", "--save", "--plot", "--overwrite", "--json", "--help"
     }  # fmt: skip
     assert all(kind in out for kind in KINDS)
 

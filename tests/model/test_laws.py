@@ -57,7 +57,7 @@ def test_a_law_is_a_frozen_value(law):
     name = dataclasses.fields(law)[0].name
     with pytest.raises(dataclasses.FrozenInstanceError):
         setattr(law, name, 1.0)
-    numbers = set(vars(law)) - {"reloading", "derived"}
+    numbers = set(vars(law)) - {"derived"}
     assert all(type(getattr(law, one)) is float for one in numbers)
 
 
@@ -264,7 +264,7 @@ def test_hertz_contacts_with_a_rigid_floor_are_not_in_series_as_spheres():
 
 
 def test_series_of_hysteretic_contacts():
-    law = sb.Hysteretic(2.0, exponent=1.5, restitution=0.5, reloading="lossy")
+    law = sb.Hysteretic(2.0, exponent=1.5, restitution=0.5)
     both = sb.series(law, dataclasses.replace(law, stiffness=5.0))
     assert both.stiffness == pytest.approx(sb.series(sb.Hertz(2.0), sb.Hertz(5.0)).stiffness)
     assert dataclasses.replace(both, stiffness=2.0) == law
@@ -301,11 +301,6 @@ def test_series_of_hysteretic_contacts():
         (
             sb.Hysteretic(1, restitution=0.5), sb.Hysteretic(1, restitution=0.6),
             "must have the same unloading_exponent, got 7.0 and ",
-        ),
-        (
-            sb.Hysteretic(1, restitution=0.5),
-            sb.Hysteretic(1, restitution=0.5, reloading="lossy"),
-            "must have the same reloading, got 'free' and 'lossy': in series they are no Hyst",
         ),
     ],
 )  # fmt: skip

@@ -132,8 +132,8 @@ def test_a_hysteretic_law_needs_exactly_one_of_two():
     ],
 )
 def test_the_rest_of_a_hysteretic_law_can_be_replaced(law):
-    new = dataclasses.replace(law, stiffness=2.0, reloading="lossy")
-    assert (new.stiffness, new.reloading) == (2.0, "lossy")
+    new = dataclasses.replace(law, stiffness=2.0)
+    assert new.stiffness == 2.0
     assert (new.restitution, new.unloading_exponent) == (law.restitution, law.unloading_exponent)
     assert new.derived == law.derived
     for changes in ({"restitution": 0.6}, {"unloading_exponent": 8}, {"exponent": 2.0}):
@@ -141,14 +141,6 @@ def test_the_rest_of_a_hysteretic_law_can_be_replaced(law):
         assert got.endswith("which disagree: set the other to None")
     new = dataclasses.replace(law, restitution=0.6, unloading_exponent=None)
     assert new == Hysteretic(1.0, exponent=law.exponent, restitution=0.6)
-
-
-def test_reloading_names_a_rule():
-    for value in (np.array([1, 2]), 3, None):
-        got = message(errors.InvalidType, Hysteretic, 1.0, restitution=0.5, reloading=value)
-        assert got == f"reloading must be a string, got {value!r}"
-    got = message(errors.InvalidValue, Hysteretic, 1.0, restitution=0.5, reloading="fre")
-    assert got == "reloading must name a rule, got 'fre'; did you mean free? Known: free, lossy"
 
 
 @pytest.mark.parametrize("value", [0.5, -1.0, math.nan, math.inf])

@@ -113,13 +113,14 @@ def test_units_of_a_file_are_read():
 
 
 def test_a_drop_beyond_the_table_says_so(tmp_path, capfd):
-    for speed, beyond in ((0.1, False), (5.0, True)):
+    for speed, beyond, before in ((0.6, False, False), (5.0, True, False), (0.01, False, True)):
         drop = sb.Drop([sb.Ball(0.1)], [sb.Tabulated(X, Y)], impact_speed=speed)
         path = tmp_path / "drop.toml"
         path.write_text(drop.to_toml(), encoding="utf-8")
         assert main(["simulate", str(path)]) == 0
         told = " ".join(capfd.readouterr().out.split())
         assert ("but its table ends at 4.000 mm" in told) == beyond
+        assert ("but its table begins at 1.000 mm: how the force rises" in told) == before
 
 
 def test_tables_are_not_pressed_in_series():

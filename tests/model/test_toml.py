@@ -241,7 +241,7 @@ def test_null_stands_for_a_key_left_out():
             "resitution",
             (
                 "contacts.1.resitution is not a known key; did you mean restitution? "
-                "Known: stiffness, exponent, restitution, unloading_exponent, reloading"
+                "Known: stiffness, exponent, restitution, unloading_exponent"
             ),
         ),
         (

@@ -1,10 +1,15 @@
-"""The contact laws in double precision, compiled, written straight from the table of the laws."""
+"""The contact laws in double precision, compiled, written straight from the table of the laws.
+
+What the elements of a hysteretic contact remember is a row of pairs (l, H), see `laws`, of which
+`depth` are in use; H = inf on the loading curve.
+"""
 
 import numpy as np
 from numba import njit
 
 NONE, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY, HYSTERETIC = range(6)
 OPEN, LOADING, UNLOADING, CLIPPED = range(4)
+MOST_PAIRS = 50
 
 
 def numbers_of(
@@ -43,30 +48,39 @@ def power(x, p):
 
 
 @njit
-def force_of(law, phase, peak, c, rate):
-    """Return the force of the present curve, which may pull, and the sign-giving factor of it."""
-    code, k, p, n, b = law[0], law[1], law[2], law[3], law[4]
-    if code == POWER:
-        return k * power(c, p), 1.0
-    if code == DASHPOT:
-        return k * c + b * rate, k * c + b * rate
-    if code == VISCOELASTIC:
-        factor = c + 1.5 * b * rate
-        return k * np.sqrt(max(c, 0.0)) * factor, factor
-    if code == HUNT_CROSSLEY:
-        return k * power(c, p) * (1.0 + b * rate), 1.0 + b * rate
-    if phase == UNLOADING:
-        return k * power(peak, p) * power(c / peak, n), 1.0
-    return k * power(c, p), 1.0
+def hysteretic_force(law, pairs, depth, c):
+    total, k, p, fade = 0.0, law[1], law[2], law[3] - law[2]
+    for j in range(depth):
+        low, peak = pairs[j]
+        high = pairs[j + 1, 0] if j + 1 < depth else c
+        share = 1.0 if peak == np.inf else power(c / peak, fade)
+        total += share * k * (power(high, p) - power(low, p))
+    return total
 
 
 @njit
-def accelerate(mass, laws, phase, peak, gravity, c, rates, force, a):
+def force_of(law, c, rate):
+    """Return the force of the formula, which may pull."""
+    code, k, p, b = law[0], law[1], law[2], law[4]
+    if code == POWER:
+        return k * power(c, p)
+    if code == DASHPOT:
+        return k * c + b * rate
+    if code == VISCOELASTIC:
+        return k * np.sqrt(max(c, 0.0)) * (c + 1.5 * b * rate)
+    return k * power(c, p) * (1.0 + b * rate)
+
+
+@njit
+def accelerate(mass, laws, phase, pairs, depth, gravity, c, rates, force, a):
     """Write the forces and the second derivatives of the compressions."""
     size = len(mass)
     for i in range(size):
-        active = phase[i] == LOADING or phase[i] == UNLOADING
-        force[i] = force_of(laws[i], phase[i], peak[i], c[i], rates[i])[0] if active else 0.0
+        force[i] = 0.0
+        if laws[i, 0] == HYSTERETIC:
+            force[i] = hysteretic_force(laws[i], pairs[i], depth[i], c[i])
+        elif phase[i] == LOADING or phase[i] == UNLOADING:
+            force[i] = force_of(laws[i], c[i], rates[i])
     below = 0.0  # the acceleration of the ball below; the floor has none
     for i in range(size):
         above = force[i + 1] if i + 1 < size else 0.0

@@ -1,8 +1,8 @@
 """Section V's hysteretic contacts, mixed with springs, by Taylor series to twenty digits and more.
 
-A contact of `Law(stiffness k, loading p, unloading n)` loads along k c**p; from its peak C it
-follows k C**p (c/C)**n, down and up again, until it passes C and loads further. At c = 0 the
-interval ends, and the next one starts afresh. `Law(k)` is a spring, `Law(k, 1.5)` Hertz's contact.
+A contact of `Law(stiffness k, loading p, unloading n)` is a bundle of elements, of which the one
+that touches and parts at the compression l carries k dl**p times (c/H)**(n - p), where H is the
+highest compression since it touched. `Law(k)` is a spring, `Law(k, 1.5)` Hertz's contact.
 
 Powers that are not whole numbers have no Taylor series at c = 0. A force that is less than
 10**-24 of its scale (that of the impact speed, or of the peak) is therefore left out there; the
@@ -11,6 +11,7 @@ steps towards and away from that place shrink and grow with the distance to it.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 from mpmath import mp, mpf
 
@@ -98,9 +99,10 @@ class Polynomial:
             power *= self.step
         return total
 
-    def slope(self) -> "Polynomial":
-        """Return the derivative."""
-        return Polynomial([i * a for i, a in enumerate(self.terms)][1:] or [mpf(0)], self.step)
+    def slope(self, unit: Number) -> "Polynomial":
+        """Return the derivative times a unit of time."""
+        terms = [unit * i * a for i, a in enumerate(self.terms)]
+        return Polynomial(terms[1:] or [mpf(0)], self.step)
 
     def integral(self) -> Number:
         """Return the integral over [0, step]."""
@@ -116,54 +118,80 @@ class Polynomial:
 
 
 class Contact:
-    """One contact: its law, its phase, the peak C of its interval (0: none yet), its interval."""
+    """One contact: its law, its phase, what its elements remember, its interval.
+
+    `bundle` has pairs of l and H: the elements from l to that of the next pair remember H, or None
+    if they are on the loading curve.
+    """
 
     def __init__(self, index: int, law: Law, scale: Number) -> None:
         self.index, self.scale = index, scale
         self.k, self.p = mpf(law.stiffness), mpf(law.loading)
         self.n = self.p if law.unloading is None else mpf(law.unloading)
-        self.phase, self.peak = OPEN, mpf(0)
+        self.phase = OPEN
+        self.bundle: list[tuple[Number, Number | None]] = [(mpf(0), None)]
         self.interval = Interval(index, mpf(0))
 
     @property
     def faint(self) -> Number:
         """Return the compression below which the force is left out."""
-        power, scale = (self.n, self.peak) if self.peak else (self.p, self.scale)
+        peak = self.bundle[0][1]
+        power, scale = (self.n, peak) if peak else (self.p, self.scale)
         return mpf(0) if power == 1 else scale * mpf(10) ** (-NEGLECTED / power)
 
     @property
-    def factor_and_power(self) -> tuple[Number, Number]:
-        """Return the present curve."""
-        if self.phase == LOADING:
-            return self.k, self.p
-        if self.phase == UNLOADING:
-            return self.k * self.peak ** (self.p - self.n), self.n
-        return mpf(0), mpf(1)
+    def terms(self) -> list[tuple[Number, Number]]:
+        """Return the factors and the powers of c that are the present force."""
+        if self.phase in (OPEN, FAINT):
+            return []
+        fade, held = self.n - self.p, mpf(0)
+        for (low, peak), (high, _) in pairwise(self.bundle):
+            held += (self._load(high) - self._load(low)) / peak**fade
+        low, peak = self.bundle[-1]
+        if peak is None:
+            found = [(self.k, self.p), (held, fade), (-self._load(low), mpf(0))]
+        else:
+            found = [(self.k / peak**fade, self.n), (held - self._load(low) / peak**fade, fade)]
+        return [(factor, power) for factor, power in found if factor]
 
-    def events(self, c: Polynomial) -> list[tuple[Polynomial, int]]:
+    def _load(self, c: Number) -> Number:
+        return self.k * c**self.p
+
+    def events(self, c: Polynomial, unit: Number) -> list[tuple[Polynomial, int]]:
         """Return curves that are positive in this phase, and the phase after the zero of each."""
-        loud = UNLOADING if self.peak else LOADING
-        return {
-            OPEN: [(c.below(mpf(0)), FAINT if self.faint else LOADING)],
-            FAINT: [(c, OPEN), (c.below(self.faint), loud)],
-            LOADING: [(c.slope(), UNLOADING)],
-            UNLOADING: [
-                (c.above(self.faint), FAINT if self.faint else OPEN),
-                (c.below(self.peak), LOADING),
-            ],
-        }[self.phase]
+        (low, peak), faint = self.bundle[-1], self.faint
+        turns_back = c.slope(-unit), LOADING
+        if self.phase == OPEN:
+            return [(c.below(mpf(0)), FAINT if faint else LOADING)]
+        if self.phase == FAINT:
+            return [(c, OPEN), turns_back if peak else (c.below(faint), LOADING)]
+        if self.phase == UNLOADING:
+            ends = (c.above(low), UNLOADING) if low else (c.above(faint), FAINT if faint else OPEN)
+            return [turns_back, ends]
+        return [
+            (c.slope(unit), UNLOADING),
+            *((c.below(before), LOADING) for _, before in self.bundle[-2:-1]),
+        ]
 
     def enter(self, phase: int, c: Number, now: Number, done: list[Interval]) -> None:
         """Change the phase."""
-        if self.phase == OPEN:
+        before, self.phase = self.phase, phase
+        low, peak = self.bundle[-1]
+        if before == OPEN:
             self.interval = Interval(self.index, now)
             done.append(self.interval)
-        elif phase == UNLOADING and self.phase == LOADING:
-            self.peak = c
-            self.interval.peak_compression, self.interval.peak_force = c, self.k * c**self.p
         elif phase == OPEN:
-            self.interval.end, self.peak = now, mpf(0)
-        self.phase = phase
+            self.interval.end, self.bundle = now, [(mpf(0), None)]
+        elif phase == UNLOADING and before == LOADING:
+            self.bundle[-1] = (low, c)
+            self.interval.peak_compression = max(self.interval.peak_compression, c)
+            self.interval.peak_force = self._load(self.interval.peak_compression)
+        elif phase == LOADING and peak:
+            self.bundle.append((c, None))
+        elif phase == before:  # at the last but one turning point again
+            del self.bundle[-1]
+            if phase == LOADING:
+                self.bundle[-1] = (self.bundle[-1][0], None)
 
 
 def _differences(q: Sequence[Number]) -> list[Number]:
@@ -176,22 +204,26 @@ def _series(
     contacts: Sequence[Contact | None],
     q: Sequence[Number],
     v: Sequence[Number],
-) -> tuple[list[list[Number]], list[list[Number]], list[list[Number]]]:
-    """Return the Taylor coefficients of the positions, the compressions and the forces."""
+) -> tuple[list[list[Number]], list[list[Number]], list[list[Number]], list[list[Number]]]:
+    """Return the Taylor coefficients of positions, compressions, forces, and powers of these."""
     n = len(q)
     balls = [[a, b] for a, b in zip(q, v, strict=True)]
     c = [[a, b] for a, b in zip(_differences(q), _differences(v), strict=True)]
-    curves = [x.factor_and_power if x else (mpf(0), mpf(1)) for x in contacts]
-    powers: list[list[Number]] = [[] for _ in range(n)]
+    terms = [(i, *term) for i, x in enumerate(contacts) if x for term in x.terms]
+    powers: list[list[Number]] = [[] for _ in terms]
+    forces: list[list[Number]] = [[] for _ in range(n + 1)]  # nothing is above the last ball
     for order in range(TERMS):
-        for i, (factor, power) in enumerate(curves):
-            powers[i].append(_power_term(c[i], powers[i], power) if factor else mpf(0))
-        force = [f * x[order] for (f, _), x in zip(curves, powers, strict=True)] + [mpf(0)]
+        for force in forces:
+            force.append(mpf(0))
+        for (i, factor, power), series in zip(terms, powers, strict=True):
+            series.append(_power_term(c[i], series, power))
+            forces[i][order] += factor * series[order]
         for j in range(n):
-            balls[j].append((force[j] - force[j + 1]) / masses[j] / ((order + 1) * (order + 2)))
+            push = forces[j][order] - forces[j + 1][order]
+            balls[j].append(push / masses[j] / ((order + 1) * (order + 2)))
         for i, x in enumerate(_differences([b[-1] for b in balls])):
             c[i].append(x)
-    return balls, c, [[f * x for x in row] for (f, _), row in zip(curves, powers, strict=True)]
+    return balls, c, forces[:n], powers
 
 
 def _power_term(c: Sequence[Number], before: Sequence[Number], power: Number) -> Number:
@@ -199,6 +231,8 @@ def _power_term(c: Sequence[Number], before: Sequence[Number], power: Number) ->
     k = len(before)
     if power == 1:
         return c[k]
+    if power == 0:
+        return mpf(k == 0)
     if k == 0:
         return c[0] ** power
     terms = ((power * j - (k - j)) * c[j] * before[k - j] for j in range(1, k + 1))
@@ -206,11 +240,11 @@ def _power_term(c: Sequence[Number], before: Sequence[Number], power: Number) ->
 
 
 def _reach(
-    balls: Sequence[Sequence[Number]], forces: Sequence[Sequence[Number]], length: Number
+    balls: Sequence[Sequence[Number]], powers: Sequence[Sequence[Number]], length: Number
 ) -> Number:
     """Return a step on which the Taylor series are precise, well inside their convergence."""
     terms = [(abs(b[i]) / (PRECISION * length), i) for b in balls for i in (TERMS, TERMS + 1)]
-    terms += [(abs(f[-1] / f[0]) / CONVERGED, TERMS - 1) for f in forces if f[0]]
+    terms += [(abs(x[-1] / x[0]) / CONVERGED, TERMS - 1) for x in powers if x[0]]
     return min((a ** (-mpf(1) / i) for a, i in terms if a), default=mp.inf)
 
 
@@ -245,8 +279,8 @@ def _advance(
     energy, now, speed = kinetic(m, v), mpf(0), max(abs(x) for x in v)
     done: list[Interval] = []
     while True:
-        balls, c, forces = _series(m, contacts, q, v)
-        reach = _reach(balls, forces, length)
+        balls, c, forces, powers = _series(m, contacts, q, v)
+        reach = _reach(balls, powers, length)
         curves = [Polynomial(x, reach) for x in c]
         step, contact, phase = _next_event(contacts, curves, reach, length, speed)
         if step == mp.inf or (step > 0 and _parting(contacts, v, speed)):
@@ -270,14 +304,14 @@ def _next_event(
 ) -> tuple[Number, Contact | None, int]:
     """Return the step to the next event, its contact and the phase after it."""
     best: tuple[Number, Contact | None, int] = (reach, None, OPEN)
+    time, tiny = length / speed, TINY * length
     for contact, c in zip(contacts, curves, strict=True):
-        for curve, phase in contact.events(c) if contact else ():
-            tiny = TINY * (speed if contact.phase == LOADING else length)
+        for curve, phase in contact.events(c, time) if contact else ():
             d = curve.derivatives(mpf(0))
-            order = leading_order(curve, d, tiny, length / speed) if d[0] <= tiny else None
+            order = leading_order(curve, d, tiny, time) if d[0] <= tiny else None
             if order and d[order] < 0:
                 return mpf(0), contact, phase
-            found = first_zero(curve, mpf(0), best[0], tiny, length / speed)
+            found = first_zero(curve, mpf(0), best[0], tiny, time)
             if found is not None:
                 best = (found, contact, phase)
     return best

@@ -2,8 +2,8 @@
 
 `integrate` takes the steps of `gauss`, each so short that its last Legendre terms are below
 `TOLERANCE`. After each it looks for a change of sign, in sample points and at peaks between them,
-of every compression, of every force that may be clipped, and of the rate of a contact that loads
-along a loop; the step is repeated up to the first change. All of this is independent of `precise`.
+of every compression, of every force that may be clipped, and of the rate of a hysteretic contact;
+the step is repeated up to the first change. All of this is independent of `precise`.
 """
 
 from collections.abc import Mapping, Sequence
@@ -18,6 +18,7 @@ from reference.forces import (
     HUNT_CROSSLEY,
     HYSTERETIC,
     LOADING,
+    MOST_PAIRS,
     NONE,
     OPEN,
     POWER,
@@ -99,7 +100,7 @@ def integrate(
 
 
 @njit
-def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, speed):
+def _step(mass, laws, phase, pairs, depth, gravity, c, rates, h, acc, forces, scale, speed):
     """Solve the collocation by sweeps; return its error over the tolerance, inf if none is met."""
     size = len(mass)
     x, y, force, a = np.empty(size), np.empty(size), np.empty(size), np.empty(size)
@@ -113,7 +114,7 @@ def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, spe
                 for k in range(NODES):
                     x[i] += h * h * TO_LENGTH[j, k] * acc[i, k]
                     y[i] += h * TO_RATE[j, k] * acc[i, k]
-            accelerate(mass, laws, phase, peak, gravity, x, y, force, a)
+            accelerate(mass, laws, phase, pairs, depth, gravity, x, y, force, a)
             for i in range(size):
                 change = max(change, h * abs(a[i] - acc[i, j]))
                 acc[i, j] = a[i]
@@ -135,8 +136,8 @@ def _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, spe
 
 
 @njit
-def _watch(law, phase, peak, lengths, rates, scale, f):
-    """Write the first polynomial whose rise above 0 ends the phase; return how many there are."""
+def _watch(law, phase, pairs, depth, lengths, rates, scale, f):
+    """Write the polynomials whose rise above 0 ends the phase; return how many there are."""
     f[:] = 0.0
     code = law[0]
     damped = code in (DASHPOT, VISCOELASTIC, HUNT_CROSSLEY)
@@ -159,14 +160,15 @@ def _watch(law, phase, peak, lengths, rates, scale, f):
             unit = 1.0 if code == HUNT_CROSSLEY else scale * (law[1] if code == DASHPOT else 1.0)
             f[1, 0] -= PULL * unit
         return 2
-    if code == HYSTERETIC and phase == LOADING:
-        f[1, :DEGREE] = -rates
+    if code != HYSTERETIC:
+        return 1
+    sign = 1.0 if phase == UNLOADING else -1.0
+    f[1, :DEGREE] = sign * rates
+    if depth == 1:
         return 2
-    if phase == UNLOADING:
-        f[1] = lengths
-        f[1, 0] -= peak
-        return 2
-    return 1
+    f[2] = -sign * lengths
+    f[2, 0] += pairs[depth - 1, 0] if phase == UNLOADING else -pairs[depth - 2, 1]
+    return 3
 
 
 @njit
@@ -176,21 +178,42 @@ def _next_phase(phase, which, code):
         return LOADING
     if which == 0:
         return OPEN
+    if which == 2:
+        return phase
     if phase == LOADING:
         return UNLOADING if code == HYSTERETIC else CLIPPED
     return LOADING
 
 
 @njit
-def _event(laws, phase, peak, fresh, c, rates, acc, h, scales):
+def _remember(pairs, depth, before, phase, c):
+    """Update what the elements of a hysteretic contact remember; return how many pairs it is."""
+    if phase == OPEN:
+        return 0
+    if before == OPEN:
+        pairs[0, 0], pairs[0, 1] = 0.0, np.inf
+        return 1
+    if phase == before:  # at the last but one turning point again
+        if phase == LOADING:
+            pairs[depth - 2, 1] = np.inf
+        return depth - 1
+    if phase == UNLOADING:
+        pairs[depth - 1, 1] = c
+        return depth
+    pairs[depth, 0], pairs[depth, 1] = c, np.inf
+    return depth + 1
+
+
+@njit
+def _event(laws, phase, pairs, depth, fresh, c, rates, acc, h, scales):
     """Return the first event of a step: place, contact, number; and whether it is doubtful."""
-    lengths, speeds, f = np.empty(DEGREE + 1), np.empty(DEGREE), np.empty((2, DEGREE + 1))
+    lengths, speeds, f = np.empty(DEGREE + 1), np.empty(DEGREE), np.empty((3, DEGREE + 1))
     best, contact, which, doubtful = 2.0, -1, -1, False
     for i in range(len(c)):
         if laws[i, 0] == NONE:
             continue
         dense(c[i], rates[i], acc[i], h, lengths, speeds)
-        events = _watch(laws[i], phase[i], peak[i], lengths, speeds, scales[i], f)
+        events = _watch(laws[i], phase[i], pairs[i], depth[i], lengths, speeds, scales[i], f)
         if fresh[i]:
             f[0, 0] -= NOISE * scales[i]
         resting = phase[i] == OPEN and c[i] == 0.0 and rates[i] == 0.0
@@ -232,7 +255,7 @@ def _force_at(law, lengths, speeds, x):
         c = c * x + lengths[k]
     for k in range(DEGREE - 1, -1, -1):
         rate = rate * x + speeds[k]
-    return force_of(law, LOADING, 0.0, c, rate)[0]
+    return force_of(law, c, rate)
 
 
 @njit
@@ -279,7 +302,8 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
     scales = turning_lengths(mass, laws, speed)
     scale = np.min(scales)
     phase, row = np.zeros(size, np.int64), np.zeros(size, np.int64)
-    peak, clipped, pressed = np.zeros(size), np.zeros(size), np.zeros(size)
+    clipped, pressed = np.zeros(size), np.zeros(size)
+    pairs, depth = np.zeros((size, MOST_PAIRS, 2)), np.zeros(size, np.int64)
     touching, fresh = np.zeros(size, np.bool_), np.zeros(size, np.bool_)
     acc, forces = np.zeros((size, NODES)), np.zeros((size, NODES))
     now, h, rows, doubtful, steps = 0.0, 1e-3 * scale / speed, 0, False, 0
@@ -290,7 +314,7 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
                 if phase[i] == CLIPPED and row[i] < len(log):
                     log[row[i], 2] = clipped[i]
             return FINISHED, rows, doubtful or unsure, steps, rates
-        if steps >= limit:
+        if steps >= limit or np.max(depth) == MOST_PAIRS:
             return TOO_LONG, rows, doubtful, steps, rates
         for i in range(size):
             still = phase[i] == OPEN and c[i] == 0.0 and rates[i] == 0.0
@@ -300,7 +324,9 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
             fresh[i] = fresh[i] and phase[i] != OPEN and c[i] < NOISE * scales[i]
         h = min(h, until - now)
         steps += 1
-        error = _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, speed)
+        error = _step(
+            mass, laws, phase, pairs, depth, gravity, c, rates, h, acc, forces, scale, speed
+        )
         if error > 1.0:
             acc[:] = 0.0
             h *= 0.25 if error == np.inf else max(0.1, 0.8 * error ** (-1.0 / NODES))
@@ -308,10 +334,10 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
                 return NO_CONVERGENCE, rows, doubtful, steps, rates
             continue
         longer = h * min(3.0, 0.8 * max(error, 1e-9) ** (-1.0 / NODES))
-        place, i, which, near = _event(laws, phase, peak, fresh, c, rates, acc, h, scales)
+        place, i, which, near = _event(laws, phase, pairs, depth, fresh, c, rates, acc, h, scales)
         if i >= 0:
             h *= 0.5 * (1.0 + place)
-            _step(mass, laws, phase, peak, gravity, c, rates, h, acc, forces, scale, speed)
+            _step(mass, laws, phase, pairs, depth, gravity, c, rates, h, acc, forces, scale, speed)
         else:
             doubtful = doubtful or near
         _record(laws, phase, c, rates, acc, forces, h, row, log)
@@ -325,6 +351,8 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
         if i < 0:
             continue
         before, phase[i] = phase[i], _next_phase(phase[i], which, laws[i, 0])
+        if laws[i, 0] == HYSTERETIC:
+            depth[i] = _remember(pairs[i], depth[i], before, phase[i], c[i])
         if before == OPEN:
             c[i] = 0.0
             row[i], rows = rows, rows + 1
@@ -339,8 +367,8 @@ def _run(mass, laws, start, start_rates, gravity, until, limit, log):
             if row[i] < len(log):
                 log[row[i], 2] = clipped[i] if before == CLIPPED else now
                 doubtful = doubtful or log[row[i], 4] < NEAR * scales[i]
-        elif phase[i] == UNLOADING:
-            rates[i], peak[i] = 0.0, c[i]
+        elif laws[i, 0] == HYSTERETIC and which == 1:
+            rates[i] = 0.0
         elif phase[i] == CLIPPED:
             clipped[i] = now
         if before in (OPEN, CLIPPED):

@@ -3,25 +3,32 @@
 Every finite law is F = k c**r (g0 + g1 c + g2 ċ) while the contact is compressed by c > 0, or zero
 where that would pull:
 
-======================================================  =======  ====  ====  ======
-law                                                     r        g0    g1    g2
-======================================================  =======  ====  ====  ======
-Spring: k c                                             0        0     1     0
-Hertz, PowerLaw: k c**p                                 p        1     0     0
-Dashpot: k c + b ċ                                      0        0     1     b / k
-Viscoelastic: k (c**1.5 + 1.5 A sqrt(c) ċ)              1/2      0     1     1.5 A
-HuntCrossley: k c**p (1 + χ ċ)                          p        1     0     χ
-Hysteretic: k c**p, from the peak C k C**p (c/C)**n     p or n   1     0     0
-======================================================  =======  ====  ====  ======
+===========================================  =======  ====  ====  ======
+law                                          r        g0    g1    g2
+===========================================  =======  ====  ====  ======
+Spring: k c                                  0        0     1     0
+Hertz, PowerLaw: k c**p                      p        1     0     0
+Dashpot: k c + b ċ                           0        0     1     b / k
+Viscoelastic: k (c**1.5 + 1.5 A sqrt(c) ċ)   1/2      0     1     1.5 A
+HuntCrossley: k c**p (1 + χ ċ)               p        1     0     χ
+===========================================  =======  ====  ====  ======
+
+Hysteretic is a bundle of elements, and a sum of such curves. The element that touches and parts at
+the compression l carries k dl**p (c/H)**(n - p), where H is the highest compression since it
+touched. So many of them have the same H: a bundle is a list of pairs of l and H, and the elements
+from l to that of the next pair remember H, or None if they are on the loading curve.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from mpmath import mpf
 
 from reference.common import Number
+
+Bundle = Sequence[tuple[Number, Number | None]]
 
 
 @dataclass(frozen=True)
@@ -51,11 +58,20 @@ class Law:
     exponent: Number
     unloading: Number | None = None
 
-    def unloading_curve(self, peak: Number) -> Curve:
-        """Return k C**p (c/C)**n for the peak compression C."""
-        return power_curve(
-            self.loading.k * peak**self.exponent / peak**self.unloading, self.unloading
-        )
+    def curves(self, bundle: Bundle) -> list[Curve]:
+        """Return the curves whose sum is the force; the first of them matters most near c = 0."""
+        if self.unloading is None:
+            return [self.loading]
+        k, p, fade, held = self.loading.k, self.exponent, self.unloading - self.exponent, mpf(0)
+        for (low, peak), (high, _) in pairwise(bundle):
+            held += k * (high**p - low**p) / peak**fade
+        low, peak = bundle[-1]
+        if peak is None:
+            found = [self.loading, Curve(-k * low**p, mpf(0), mpf(1), mpf(0), mpf(0))]
+        else:
+            found = [power_curve(k / peak**fade, self.unloading)]
+            held -= k * low**p / peak**fade
+        return [*found, power_curve(held, fade)] if low else found[:1]
 
 
 def power_curve(k: Number, exponent: Number) -> Curve:

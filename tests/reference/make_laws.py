@@ -195,6 +195,16 @@ def gravity() -> Iterator[Case]:
         yield {**case, "gravity": 9.81, "until": 0.7}
 
 
+def nested() -> Iterator[Case]:
+    """Yield drops in which a contact has more than twenty cycles inside one another."""
+    for floor, exponent, weight, until in ((0.3, 1.5, 0.045, 35.0), (0.1, 1.0, 0.1, 30.0)):
+        contacts = [
+            {"law": "Hysteretic", "stiffness": k, "exponent": p, "restitution": e}
+            for k, p, e in ((10.0, 2.5 - exponent, floor), (0.1, exponent, 0.9))
+        ]
+        yield {**fall([1.0, 1.0], contacts, [0.0], 1.0), "gravity": weight, "until": until}
+
+
 def solve(case: Case) -> Outcome:
     """Solve a case to thirty digits."""
     return precise.run(**case)
@@ -246,7 +256,7 @@ def digits(number: mpf | None) -> str:
 
 def cases() -> Iterator[Case]:
     """Yield all cases."""
-    return chain(one_ball(), resumed(), gravity(), extremes(), random_stacks())
+    return chain(one_ball(), resumed(), gravity(), extremes(), random_stacks(), nested())
 
 
 def main() -> None:

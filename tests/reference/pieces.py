@@ -1,19 +1,24 @@
-"""Contacts with curves of pieces, solved by SciPy from event to event: nothing of the engine."""
+"""Contacts with hysteresis, solved by SciPy from event to event: nothing of the engine.
 
+A contact is a bundle of elements. The one that touches and parts at the compression l carries dL(l)
+of the loading curve L, times a share r(c/H) once the compression c has been higher, up to H.
+"""
+
+from functools import cache
 from itertools import pairwise
 
 import numpy as np
 from scipy.integrate import quad, solve_ivp
-from scipy.optimize import brentq
 
 TOLERANCE = 1e-13
 PRESSED = 1e-12
 HORIZON = 100.0
+ROUND_OFF = 1e-13
 CLEAR = 1e-10  # a step without events after each: no event is found twice
 
 
 class Contact:
-    """One contact: a loading curve, its corners, and the way back from a peak.
+    """One contact: a loading curve, its corners, and the share of it that is left.
 
     Parameters
     ----------
@@ -21,64 +26,71 @@ class Contact:
         Force in N over compression in m.
     knots : sequence of float
         Its corners, in m.
-    returned : float
-        Share of the work that unloading along ``loading(c) (c/C)**m`` returns.
-    back : (callable, sequence of float), optional
-        The unloading curve in units of the peak, and its corners; used where it suits the peak.
+    share : callable, optional
+        r(c/H, H), which is 1 for c = H; without it no energy is lost.
+    corners : sequence of float
+        Those of r, over c/H.
     """
 
-    def __init__(self, loading, knots, returned=1.0, back=None):
-        self.loading, self.knots, self.returned, self.back = loading, list(knots), returned, back
-        self.closed, self.peak, self.factor, self.rescaled = False, None, 0.0, False
+    def __init__(self, loading, knots, share=None, corners=()):
+        self.loading, self.knots, self.share, self.corners = loading, knots, share, corners
+        self.cycles = 0
+        self.open()
 
     def open(self):
-        self.closed, self.peak = False, None
-
-    def work(self, end, power=0.0):
-        corners = [0.0, *(one for one in self.knots if 0.0 < one < end), end]
-        return sum(
-            quad(lambda c: self.loading(c) * (c / end) ** power, a, b, epsabs=0, epsrel=1e-13)[0]
-            for a, b in pairwise(corners)
-        )
-
-    def turn(self, c):
-        """Take the unloading curve from the peak c."""
-        self.peak = c
-        self.rescaled = self.back is not None and self.suits(c)
-        if not self.rescaled and self.returned < 1.0:
-            whole = self.work(c)
-            self.factor = brentq(
-                lambda m: self.work(c, m) / whole - self.returned, 0.0, 4.0 / self.returned,
-                xtol=1e-14, rtol=1e-14,
-            )  # fmt: skip
-
-    def suits(self, c):
-        """Tell whether the unloading curve, in units of the peak c, is below the loading curve."""
-        curve, corners = self.back
-        ends = [0.0, *corners, 1.0]
-        area = sum(quad(curve, a, b, epsabs=0, epsrel=1e-13)[0] for a, b in pairwise(ends))
-        peak = self.loading(c)
-        if peak * c * area > self.work(c):
-            return False
-        places = [*self.knots, *(one * c for one in corners)]
-        return all(peak * curve(x / c) <= self.loading(x) + 1e-9 * peak for x in places if x < c)
-
-    def corners(self):
-        if self.peak is None or not self.rescaled:
-            return self.knots
-        return [one * self.peak for one in self.back[1]]
+        """Forget all: `bundle` has pairs of l and the H of the elements from there on, if any."""
+        self.closed, self.pressed, self.bundle = False, False, [(0.0, None)]
 
     def force(self, c):
-        c = max(c, 0.0)
-        if self.peak is None or self.has_one_curve:
-            return self.loading(c)
-        if not self.rescaled:
-            return self.loading(c) * (c / self.peak) ** self.factor
-        return self.loading(self.peak) * self.back[0](c / self.peak)
+        total, c = 0.0, max(c, 0.0)
+        for (low, peak), (high, _) in pairwise([*self.bundle, (c, None)]):
+            share = 1.0 if peak is None else self.share(c / peak, peak)
+            total += share * (self.loading(high) - self.loading(low))
+        return total
 
-    @property
-    def has_one_curve(self):
-        return self.back is None and self.returned >= 1.0
+    def places(self):
+        """Return the compressions at which the force may have a corner."""
+        peaks = [peak for _, peak in self.bundle if peak is not None]
+        return [*self.knots, *(x * peak for peak in peaks for x in self.corners)]
+
+    def turns(self):
+        """Return the events that change what the elements remember: name, level, direction."""
+        low, peak = self.bundle[-1]
+        if self.share is None:
+            return []
+        if peak is None:
+            again = [("again", before, 1) for _, before in self.bundle[-2:-1]]
+            return [("peak", None, -1), *again]
+        return [("dip", None, 1), *([("back", low, -1)] if low else [])]
+
+    def turn(self, kind, c):
+        if kind in ("again", "back"):
+            self.bundle.pop()
+        if kind == "dip":
+            self.bundle.append((c, None))
+            self.cycles += 1
+        elif kind != "back":
+            self.bundle[-1] = (self.bundle[-1][0], c if kind == "peak" else None)
+
+
+def work(loading, knots, peak, power=0.0):
+    """Return the work of loading up to a peak, weighted with (c/peak)**power."""
+    ends = [0.0, *(x for x in knots if 0.0 < x < peak), peak]
+    return sum(
+        quad(lambda c: loading(c) * (c / peak) ** power, a, b, epsabs=0, epsrel=1e-13)[0]
+        for a, b in pairwise(ends)
+    )
+
+
+def returned_share(loading, knots, power, returned):
+    """Return r = 1 - g + g x**power, where g(H) is such that a share of the work is returned."""
+
+    @cache
+    def lost(peak):
+        left = work(loading, knots, peak, power) / work(loading, knots, peak)
+        return (1.0 - returned) / (1.0 - left)
+
+    return lambda x, peak: 1.0 - lost(peak) * (1.0 - x**power)
 
 
 def integrate(masses, contacts, gaps, velocities):
@@ -103,53 +115,60 @@ def integrate(masses, contacts, gaps, velocities):
         return np.concatenate([y[count:], (f - np.append(f[1:], 0.0)) / masses])
 
     for one, c, rate in zip(contacts, compressions(state), rates(state), strict=True):
-        one.closed = c == 0.0 and rate >= 0.0
+        one.closed, one.pressed = c == 0.0 and rate >= 0.0, rate > 0.0
     started = [0.0 if one.closed else None for one in contacts]
     for _ in range(2000):
         clear = solve_ivp(slope, (time, time + CLEAR), state, "DOP853", rtol=TOLERANCE, atol=1e-18)
         time, state = clear.t[-1], clear.y[:, -1]
         events, what = [], []
 
-        def watch(kind, i, function, direction, events=events, what=what):
+        def watch(kind, i, level, direction, events=events, what=what):
+            def function(_, y):
+                return rates(y)[i] if level is None else compressions(y)[i] - level
+
             function.terminal, function.direction = True, direction
             events.append(function)
             what.append((kind, i))
 
         for i, one in enumerate(contacts):
             if not one.closed:
-                watch("touch", i, lambda _, y, i=i: compressions(y)[i], 1)
+                watch("touch", i, 0.0, 1)
                 continue
-            if compressions(state)[i] < PRESSED:  # touching since the start, without a force
-                watch("pressed", i, lambda _, y, i=i: compressions(y)[i] - PRESSED, 1)
+            if not one.pressed:  # touching since the start, perhaps without a force
+                watch("pressed", i, PRESSED, 1)
                 continue
-            watch("release", i, lambda _, y, i=i: compressions(y)[i], -1)
-            for corner in one.corners():
-                if corner > 0.0:
-                    watch("knot", i, lambda _, y, i=i, k=corner: compressions(y)[i] - k, 0)
-            if one.has_one_curve:
-                continue
-            if one.peak is None:
-                watch("peak", i, lambda _, y, i=i: rates(y)[i], -1)
-            else:
-                watch("again", i, lambda _, y, i=i, k=one.peak: compressions(y)[i] - k, 1)
+            watch("release", i, 0.0, -1)
+            for place in one.places():
+                if place > 0.0:
+                    watch("knot", i, place, 0)
+            for kind, level, direction in one.turns():
+                watch(kind, i, level, direction)
         step = 2e-2 if any(one.closed for one in contacts) else np.inf
-        run = solve_ivp(slope, (time, time + HORIZON), state, "DOP853", rtol=TOLERANCE, atol=1e-16,
-                        events=events, max_step=step)  # fmt: skip
-        fired = [k for k, hits in enumerate(run.t_events) if len(hits)]
-        if not fired:
-            raise ArithmeticError("no event for a long time")
-        k = min(fired, key=lambda k: run.t_events[k][0])
-        (kind, i), time, state = what[k], run.t_events[k][0], run.y_events[k][0].copy()
+        end, there = time + HORIZON, None
+        for _ in range(9):  # until no level is passed twice inside one step
+            run = solve_ivp(slope, (time, end), state, "DOP853", rtol=TOLERANCE, atol=1e-16,
+                            events=events, max_step=step)  # fmt: skip
+            fired = [k for k, hits in enumerate(run.t_events) if len(hits)]
+            if not fired:
+                raise ArithmeticError("no event for a long time")
+            k = min(fired, key=lambda k: run.t_events[k][0])
+            end, there = run.t_events[k][0], run.y_events[k][0].copy()
+            if all(one.direction * one(end, there) <= ROUND_OFF for one in events):
+                break
+        else:
+            raise ArithmeticError("an event was missed")
+        (kind, i), time, state = what[k], end, there
         one = contacts[i]
         if kind == "touch":
-            one.closed, started[i] = True, time
+            one.closed = one.pressed = True
+            started[i] = time
         elif kind == "release":
             intervals[i].append((started[i], time))
             one.open()
-        elif kind == "peak":
-            one.turn(compressions(state)[i])
-        elif kind == "again":
-            one.peak = None
+        elif kind == "pressed":
+            one.pressed = True
+        elif kind != "knot":
+            one.turn(kind, compressions(state)[i])
         apart = all(not one.closed for one in contacts) and np.all(rates(state) <= 0.0)
         if apart:
             return state[count:], intervals

@@ -33,6 +33,7 @@ from reference.taylor import (
     expand,
     fixed,
     floating,
+    forces_of,
 )
 
 NEGLECTED = mpf(10) ** -38  # momentum, in units of the impact's
@@ -46,26 +47,31 @@ OPEN, FAINT, LOADING, UNLOADING, CLIPPED = range(5)
 
 
 class Contact:
-    """One contact: its law, phase, curve, the peak C (`Hysteretic`; 0: none yet), its interval."""
+    """One contact: its law, phase, what its elements remember (see `laws`), curves, interval."""
 
     def __init__(self, index: int, law: Law, mass: Number, speed: Number) -> None:
         self.index, self.law, self.mass = index, law, mass
         self.momentum = mass * speed
         p, k = law.exponent, law.loading.k
         self.length = ((p + 1) * self.momentum * speed / (2 * k)) ** (1 / (p + 1))
-        self.phase, self.curve, self.peak, self.level = OPEN, law.loading, mpf(0), mpf(0)
+        self.phase, self.level = OPEN, mpf(0)
+        self._open()
         self.touching: Number | None = None  # since when it may have been pressed from rest
         self.clipped: Number | None = None
         self.interval = Interval(index, mpf(0))
 
+    def _open(self) -> None:
+        self.bundle: list[tuple[Number, Number | None]] = [(mpf(0), None)]
+        self.curves = [self.law.loading]
+
     @property
-    def active(self) -> Curve | None:
-        """Return the curve that the force follows now."""
-        return self.curve if self.phase in (LOADING, UNLOADING) else None
+    def active(self) -> list[Curve]:
+        """Return the curves whose sum is the force now."""
+        return self.curves if self.phase in (LOADING, UNLOADING) else []
 
     def faint(self, rate: Number, least: Number) -> Number:
         """Return the compression below which the force is left out at that rate."""
-        curve = self.curve
+        curve = self.curves[0]
         if curve.power == 0:
             return mpf(0)
         factor = curve.k * (curve.constant + curve.slope * self.length + curve.rate * abs(rate))
@@ -79,6 +85,8 @@ class Contact:
                 self.touching = None
             elif self.touching is None:
                 self.touching = now
+        elif self.bundle[-1][0]:
+            self.level = self.bundle[-1][0]
         elif self.phase in (LOADING, UNLOADING):
             level = self.faint(rate, least)
             self.level = level if rate < 0 else min(level, c / 2)
@@ -88,34 +96,39 @@ class Contact:
         c = piece.rescaled(piece.compressions[self.index])
         unit = piece.lengths[self.index]
         above = [c[0] - fixed(self.level / unit), *c[1:]]
+        (low, peak), curve = self.bundle[-1], self.curves[0]
         if self.phase == OPEN:
-            yield _negative(c), FAINT if self.curve.power else LOADING
+            yield _negative(c), FAINT if curve.power else LOADING
         elif self.phase == FAINT:
             yield c, OPEN
-            yield _negative(above), UNLOADING if self.peak else LOADING
+            yield _negative(slope(c) if peak else above), LOADING
         elif self.phase == CLIPPED:
             yield c, OPEN
             yield _negative(self._weight(c, piece)), LOADING
+        elif self.phase == UNLOADING:
+            yield above, UNLOADING if low else FAINT if curve.power else OPEN
+            yield _negative(slope(c)), LOADING
+        elif self.law.unloading is not None:
+            yield slope(c), UNLOADING
+            for _, before in self.bundle[-2:-1]:
+                yield [fixed(before / unit) - c[0], *_negative(c[1:])], LOADING
         else:
-            yield above, FAINT if self.curve.power else OPEN
-            if self.phase == UNLOADING:
-                yield [fixed(self.peak / unit) - c[0], *_negative(c[1:])], LOADING
-            elif self.law.unloading is not None:
-                yield slope(c), UNLOADING
-            elif self.curve.rate:
+            yield above, FAINT if curve.power else OPEN
+            if curve.rate:
                 weight = self._weight(c, piece)
-                if self.curve.constant:
+                if curve.constant:
                     weight[0] += PULL
                 yield weight, CLIPPED
 
     def _weight(self, c: Sequence[int], piece: Piece) -> list[int]:
         """Return the polynomial of the curve's bracket, which has the sign of the force."""
         length = piece.lengths[self.index]
-        factors = [self.curve.slope * length, self.curve.rate * length / piece.duration(ONE)]
-        norm = self.curve.constant + sum(factors)
+        curve = self.curves[0]
+        factors = [curve.slope * length, curve.rate * length / piece.duration(ONE)]
+        norm = curve.constant + sum(factors)
         in_c, in_rate = (fixed(x / norm) for x in factors)
         found = [(in_c * x + in_rate * y) >> BITS for x, y in zip(c, [*slope(c), 0], strict=True)]
-        found[0] += fixed(self.curve.constant / norm)
+        found[0] += fixed(curve.constant / norm)
         return found
 
     def enter(
@@ -123,16 +136,21 @@ class Contact:
     ) -> Interval | None:
         """Change the phase; return the interval that begins."""
         before, self.phase = self.phase, phase
-        if phase == UNLOADING and before == LOADING:
-            self.peak = c
-            self.curve = self.law.unloading_curve(c)
-        elif phase == LOADING and before == UNLOADING:
-            self.curve = self.law.loading
-        elif phase == CLIPPED:
+        low, peak = self.bundle[-1]
+        if phase == CLIPPED:
             self.clipped = now
         elif phase == OPEN:
             self.interval.end = self.clipped if before == CLIPPED else now
-            self.peak, self.curve = mpf(0), self.law.loading
+            self._open()
+        elif phase == before:  # at the last but one turning point again
+            self.bundle.pop()
+            if phase == LOADING:
+                self.bundle[-1] = (self.bundle[-1][0], None)
+        elif phase == UNLOADING:
+            self.bundle[-1] = (low, c)
+        elif phase == LOADING and peak is not None:
+            self.bundle.append((c, None))
+        self.curves = self.law.curves(self.bundle)
         if before != OPEN:
             return None
         self.level = self.faint(rate, least)
@@ -142,14 +160,14 @@ class Contact:
 
     def record(self, piece: Piece, at: int) -> None:
         """Add a step, up to the fraction `at` of the piece, to peaks and impulse."""
-        interval, force = self.interval, piece.forces[self.index]
+        interval, forces = self.interval, piece.forces[self.index]
         interval.impulse += piece.impulse(self.index, at)
         c = piece.compressions[self.index], piece.lengths[self.index]
         interval.peak_compression = _largest(piece, *c, at, interval.peak_compression)
-        if force and self.law.loading.rate:
-            terms = force.terms, force.unit
+        if forces and self.law.loading.rate:
+            terms = forces[0].terms, forces[0].unit
             interval.peak_force = _largest(piece, *terms, at, interval.peak_force)
-        elif force:
+        elif forces:
             top = self.law.loading.force(interval.peak_compression, mpf(0))
             interval.peak_force = top
 
@@ -262,16 +280,14 @@ class Stack:
 
     def _piece(self, c: Sequence[Number], rates: Sequence[Number], time: Number) -> Piece:
         """Return the series, for a time that is not much longer than where they converge."""
-        curves = [x.active if x else None for x in self.contacts]
-        pairs = list(zip(curves, c, rates, strict=True))
-        forces = [x.force(a, b) if x else mpf(0) for x, a, b in pairs]
-        second = accelerations(self.rows, forces, self.gravity)
-        for i, (x, a, b) in enumerate(pairs):
-            if x and x.power:
-                time = min(time, 2 * a / (abs(b) + mp.sqrt(a * abs(second[i]))))
-            if x:
+        curves = [x.active if x else [] for x in self.contacts]
+        second = accelerations(self.rows, forces_of(curves, c, rates), self.gravity)
+        for i, (a, b) in enumerate(zip(c, rates, strict=True)):
+            for x in curves[i]:
+                if x.power:
+                    time = min(time, 2 * a / (abs(b) + mp.sqrt(a * abs(second[i]))))
                 damping = x.k * a**x.power * x.rate / self.contacts[i].mass
-                stiffness = x.k * x.slope * a**x.power / self.contacts[i].mass
+                stiffness = abs(x.k) * x.slope * a**x.power / self.contacts[i].mass
                 time = min(time, 8 / (damping + mp.sqrt(stiffness) + 1 / time))
         return expand(self.rows, self.gravity, curves, c, rates, time, (self.length, self.speed))
 

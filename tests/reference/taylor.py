@@ -11,6 +11,7 @@ follows from u w' = r u' w, that is k w_k = sum over j of ((r + 1) j - k) u_j w_
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from operator import mul
 
 from mpmath import mp, mpf
@@ -51,12 +52,12 @@ class Force:
         self.moments: list[int] = [0]  # of (u**r) u'
         self.weighted: list[int] = [0]  # j u_j
 
-    def extend(self) -> int:
-        """Return the next term; the compression is known one term further."""
+    def extend(self) -> None:
+        """Find the next term; the compression is known one term further."""
         k, u = len(self.terms), self.u
         constant, in_c, in_rate = self.weights
         if self.smooth:
-            term = in_c * u[k] + in_rate * (k + 1) * u[k + 1]
+            term = in_c * u[k] + in_rate * (k + 1) * u[k + 1] + (0 if k else constant * ONE)
         else:
             w = self.powers
             product = sum(map(mul, u[1 : k + 1], w[::-1])) >> BITS
@@ -66,7 +67,6 @@ class Force:
             self.moments.append(sum(map(mul, self.weighted[1:], w[::-1])) >> BITS)
             term = constant * power + in_c * (power + product) + in_rate * self.moments[k + 1]
         self.terms.append(term >> BITS)
-        return self.terms[k]
 
 
 @dataclass
@@ -77,7 +77,7 @@ class Piece:
     reach: int
     lengths: list[Number]
     compressions: list[list[int]]
-    forces: list[Force | None]
+    forces: list[list[Force]]  # of each contact: their sum acts
 
     def rescaled(self, terms: Sequence[int]) -> list[int]:
         """Return coefficients for which `reach` is 1."""
@@ -101,11 +101,11 @@ class Piece:
 
     def impulse(self, index: int, at: int) -> Number:
         """Return the integral of a contact's force from now to the fraction `at` of the reach."""
-        force, x = self.forces[index], at * self.reach >> BITS
-        if force is None:
-            return mpf(0)
-        terms = [0, *(a // (k + 1) for k, a in enumerate(force.terms))]
-        return force.unit * self.time * floating(value(terms, x, BITS))
+        total, x = mpf(0), at * self.reach >> BITS
+        for force in self.forces[index]:
+            terms = [0, *(a // (k + 1) for k, a in enumerate(force.terms))]
+            total += force.unit * self.time * floating(value(terms, x, BITS))
+        return total
 
 
 def couplings(masses: Sequence[Number]) -> list[dict[int, Number]]:
@@ -125,48 +125,60 @@ def accelerations(
     return found
 
 
+def forces_of(
+    curves: Sequence[Sequence[Curve]], c: Sequence[Number], rates: Sequence[Number]
+) -> list[Number]:
+    """Return the force of each contact, the sum of its curves."""
+    return [
+        sum((x.force(a, b) for x in row), mpf(0))
+        for row, a, b in zip(curves, c, rates, strict=True)
+    ]
+
+
 def expand(
     rows: Sequence[dict[int, Number]],
     gravity: Number,
-    curves: Sequence[Curve | None],
+    curves: Sequence[Sequence[Curve]],
     c: Sequence[Number],
     rates: Sequence[Number],
     time: Number,
     scales: tuple[Number, Number],
 ) -> Piece:
     """Return the series; `scales` are the problem's length and speed."""
-    now = [x.force(a, b) if x else mpf(0) for x, a, b in zip(curves, c, rates, strict=True)]
-    a = accelerations(rows, now, gravity)
+    a = accelerations(rows, forces_of(curves, c, rates), gravity)
     lengths = [
-        c[i] if x and x.power else max(abs(c[i]), abs(rates[i] * time), abs(a[i]) * time**2) or time
-        for i, x in enumerate(curves)
+        c[i]
+        if any(x.power for x in row)
+        else max(abs(c[i]), abs(rates[i] * time), abs(a[i]) * time**2) or time
+        for i, row in enumerate(curves)
     ]
     u = [
         [fixed(x / length), fixed(rate * time / length)]
         for x, rate, length in zip(c, rates, lengths, strict=True)
     ]
     forces = [
-        Force(curve, row, length, time) if curve else None
-        for curve, row, length in zip(curves, u, lengths, strict=True)
+        [Force(curve, row, length, time) for curve in several]
+        for several, row, length in zip(curves, u, lengths, strict=True)
     ]
     factors = [
-        [(fixed(a * forces[j].unit * time**2 / length), j) for j, a in row.items() if forces[j]]
+        [(fixed(a * x.unit * time**2 / length), x) for j, a in row.items() for x in forces[j]]
         for row, length in zip(rows, lengths, strict=True)
     ]
     constant = fixed(gravity * time**2 / lengths[0])
     for k in range(TERMS):
-        terms = [force.extend() if force else 0 for force in forces]
+        for force in chain(*forces):
+            force.extend()
         for i, row in enumerate(factors):
-            total = sum(x * terms[j] for x, j in row) >> BITS
+            total = sum(x * force.terms[k] for x, force in row) >> BITS
             if i == k == 0:
                 total += constant
             u[i].append(total // ((k + 1) * (k + 2)))
-    return Piece(time, _reach(u, forces, lengths, time, scales), lengths, u, forces)
+    return Piece(time, _reach(u, [*chain(*forces)], lengths, time, scales), lengths, u, forces)
 
 
 def _reach(
     u: Sequence[Sequence[int]],
-    forces: Sequence[Force | None],
+    forces: Sequence[Force],
     lengths: Sequence[Number],
     time: Number,
     scales: tuple[Number, Number],
@@ -179,7 +191,7 @@ def _reach(
             for unit in (length / scales[0], n * length / (time * scales[1])):
                 best = min(best, (PRECISION - size - _log2(unit)) / n)
     for force in forces:
-        if force and not force.smooth:
+        if not force.smooth:
             for n in (TERMS - 2, TERMS - 1):
                 size = abs(force.powers[n]).bit_length() - BITS
                 best = min(best, (CONVERGED - size) / n)

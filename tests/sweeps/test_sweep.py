@@ -18,7 +18,7 @@ LAWS = {
     "hertz": [sb.Hertz(1e5), sb.PowerLaw(1e5, 1.3)],
     "damped": [sb.Dashpot(2500.0, 1.0), sb.Viscoelastic(1e5, 1e-4)],
     "losses": [sb.HuntCrossley(1e5, 1.5, 0.1), sb.Hysteretic(1e4, restitution=0.8)],
-    "lossy": [sb.Hysteretic(1e4, restitution=0.8, reloading="lossy"), sb.Spring(1e3)],
+    "hysteresis": [sb.Hysteretic(1e4, restitution=0.8), sb.Spring(1e3)],
 }
 OUTPUTS = [
     "rebound_ratio",

@@ -66,6 +66,27 @@ def test_many_draws_of_a_law_have_the_chi_squared_and_the_scatter_that_are_told(
         assert made[0].error == pytest.approx(ERROR / np.sqrt(SPEEDS.size), rel=1e-3)
 
 
+@pytest.mark.parametrize("readings", [2, 3])
+def test_a_true_law_is_refuted_as_often_as_p_says_if_its_errors_are_a_scatter(
+    readings, monkeypatch
+):
+    """With χ² in place of F one true law in ten would be refuted by two readings a height."""
+    monkeypatch.setattr(comparison, "families", only("Rigid"))
+    monkeypatch.setattr(comparison, "_power", lambda _: (0.0, 0.0, None))
+    generator = np.random.default_rng(11)
+    data = datasets.load("golf-marble-heights").drop_vars("rebound_height")
+    del data.drop_height.attrs["assumed_error"]
+    heights = 0.8 * data.drop_height.values[:, None]
+    found = []
+    for _ in range(400):
+        read = heights + 0.005 * generator.standard_normal((4, readings))
+        drawn = data.assign(rebound_height=(("row", "reading"), read))
+        found.append(outcome(compare_laws(make_series(drawn, air=False)), "Rigid").p)
+    for limit in (0.01, 0.05, 0.5):
+        error = np.sqrt(limit * (1.0 - limit) / len(found))
+        assert np.mean(np.array(found) < limit) == pytest.approx(limit, abs=3.0 * error)
+
+
 def test_calibrated_on_one_and_fitted_to_all_say_the_same_of_a_constant(monkeypatch):
     """A constant is linear in its value, and then χ² of the contrasts is that of the best fit."""
     monkeypatch.setattr(comparison, "families", only("Rigid"))

@@ -35,6 +35,7 @@ def test_the_files_hold_what_was_found(tmp_path, capsys):
     asked = [(one["name"], law["law"]) for one in written["datasets"] for law in one["laws"]]
     assert [(row["dataset"], row["law"]) for row in rows] == asked
     page = (out / "index.html").read_text("utf-8")
+    assert written["summary"] in page
     for one in written["datasets"]:
         assert one["summary"] in page
         assert datasets.describe(one["name"]).address in page
@@ -84,6 +85,20 @@ def laws_of(comparison, verdict):
     return {name for one in comparison.outcomes if one.verdict == verdict for name in one.laws}
 
 
+def p_of(comparison, law):
+    return next(one.p for one in comparison.outcomes if law in one.laws)
+
+
+@pytest.mark.slow
+def test_the_summary_counts_verdicts_and_series_that_are_not_steady(everything):
+    rows = [one.verdict for found in everything.comparisons for one in found.outcomes]
+    shaky = [found for found in everything.comparisons if not found.steady]
+    assert everything.summary.startswith(
+        f"{len(everything.comparisons)} series have {len(rows)} verdicts"
+    )
+    assert f" {len(shaky)} of the series are not steady" in everything.summary
+
+
 @pytest.mark.slow
 def test_what_the_docs_say_of_balls_and_laws(everything):
     found = {one.series.name: one for one in everything.comparisons}
@@ -92,11 +107,16 @@ def test_what_the_docs_say_of_balls_and_laws(everything):
     assert golf.steady
     assert {"Rigid", "Dashpot", "Hysteretic"} <= laws_of(golf, AGREES)
     assert {"Viscoelastic", "HuntCrossley"} <= laws_of(golf, REFUTED)
+    assert "Without the drag of the air: Viscoelastic doubtful (p: 0.047)" in golf.summary
+    assert p_of(golf, "Viscoelastic") == pytest.approx(0.0067, abs=5e-5)
+    heights = found["golf-marble-heights"]
+    assert p_of(heights, "Rigid") == pytest.approx(0.48, abs=5e-3)
+    assert p_of(heights, "Viscoelastic") == pytest.approx(0.77, abs=5e-3)
     rubber = found["rubber-ball-two-heights"]
     assert rubber.tells_apart
     assert "HuntCrossley" in laws_of(rubber, AGREES)
-    for name in ("superball-contact-time", "table-tennis-nine-heights"):
-        assert not found[name].tells_apart
+    assert not found["table-tennis-nine-heights"].tells_apart
+    assert "superball-contact-time" in everything.left_out
     assert laws_of(found["superball-knocks"], REFUTED) == {"RigidBySpeed"}
     refuted = [one for one in found.values() if "HuntCrossley" in laws_of(one, REFUTED)]
     assert len(refuted) > len(found) / 2

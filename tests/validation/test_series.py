@@ -2,11 +2,12 @@
 
 import numpy as np
 import pytest
+import xarray as xr
 from scipy.integrate import solve_ivp
 
 from stackbounce import datasets
 from stackbounce.validation.fall import GRAVITY, Fall, through_air
-from stackbounce.validation.series import make_series, why_not
+from stackbounce.validation.series import CONTACT_TIME, make_series, why_not
 
 BALL = Fall(0.126)  # a table tennis ball
 
@@ -109,6 +110,25 @@ def test_the_scatter_of_throws_is_the_error_of_their_mean():
     )
 
 
+def test_contact_times_at_several_heights_are_a_series():
+    columns = {"drop_height": [0.4, 1.6], "contact_time": [9e-3, 8e-3], "restitution": [0.9, 0.9]}
+    rows = {name: ("row", values) for name, values in columns.items()}
+    series = make_series(xr.Dataset(rows, attrs={"name": "made", "title": "made", "ball": "made"}))
+    assert (series.quantity, series.restitution) == (CONTACT_TIME, 0.9)
+    assert series.values.tolist() == [9e-3, 8e-3]
+    assert series.speeds == pytest.approx(np.sqrt(2.0 * GRAVITY * np.array([0.4, 1.6])))
+
+
+def test_errors_have_the_degrees_of_freedom_of_their_scatter():
+    """The more of an error is assumed, the less matters how well its scatter is known."""
+    heights = make_series(datasets.load("rubber-ball-two-heights"))
+    assert heights.freedom(0.0) == pytest.approx(2 * 9)
+    assert heights.freedom(0.0) < heights.freedom() < heights.freedom(2.0)
+    flights = make_series(datasets.load("golf-marble-flights"), air=False)
+    assert 0.9 * 14 * 4 < flights.freedom() < 14 * 4  # neighbouring bounces are correlated
+    assert make_series(datasets.load("steel-on-metallic-glass")).freedom() == np.inf
+
+
 def test_a_drag_that_is_not_known_well_moves_all_values_together():
     series = make_series(datasets.load("table-tennis-bounces"))
     without = make_series(datasets.load("table-tennis-bounces"), air=False)
@@ -122,6 +142,7 @@ def test_a_drag_that_is_not_known_well_moves_all_values_together():
     [
         ("baseball-rule", "it has the limits of rules, no measurement"),
         ("granite-spheres", "it has one value only"),
+        ("superball-contact-time", "it has one value only"),  # one mean over five heights
         (
             "cross2007-table-1",
             "it has no restitutions or contact times of one ball at known speeds",

@@ -62,18 +62,16 @@ def read_errors(
     InvalidValue
         If a text cannot be read, or a number has two errors.
     """
-    from stackbounce.run.paths import number_at, value_in
-    from stackbounce.units import quantity
+    from stackbounce.prediction.inputs import add_value
 
     found: dict[str, Any] = dict(written)
     for text in errors or ():
         path, equals, error = (part.strip() for part in text.partition("="))
         if not equals or not error:
             raise InvalidValue(f"--error must be {_RIGHT}, got {shown(text)}")
-        number = number_at(drop, path)
         if path in found:
             raise InvalidValue(f"--error {path}: only one error can be given, got two")
-        found[path] = (value_in(drop, number), quantity(error, number.unit, f"--error {path}"))
+        found[path] = add_value(drop, path, error, f"--error {path}")
     return found
 
 

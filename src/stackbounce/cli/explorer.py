@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from stackbounce.cli.options import AsJson
+from stackbounce.cli.options import AsJson, Overwrite
 from stackbounce.cli.output import json_text
 
 if TYPE_CHECKING:
@@ -63,6 +63,7 @@ def run(
             show_default=False,
         ),
     ] = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
 ) -> None:
     """Open the explorer in the browser: the bounce in slow motion."""
@@ -70,7 +71,7 @@ def run(
 
     framed_by = [read_origin(one) for one in embed or ()]
     if export is not None:
-        _export(export, framed_by, as_json)
+        _export(export, framed_by, overwrite, as_json)
         return
     import dataclasses
 
@@ -120,7 +121,7 @@ def _tell_others(others: "list[Place]") -> None:
         typer.secho(line.ljust(width), fg="bright_white", bg="black")
 
 
-def _export(path: str, framed_by: list[str], as_json: bool) -> None:
+def _export(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> None:
     """Write the explorer as one file or as a folder, and tell its size and who may frame it."""
     from stackbounce.errors import InvalidValue
     from stackbounce.version import __version__
@@ -129,7 +130,7 @@ def _export(path: str, framed_by: list[str], as_json: bool) -> None:
     if not path:  # Path("") is the current folder
         raise InvalidValue("--export must name a file that ends in .html, or a folder, got ''")
     is_file = path.lower().endswith(".html")
-    sizes = _write_file(Path(path)) if is_file else _write_folder(Path(path))
+    sizes = (_write_file if is_file else _write_folder)(Path(path), overwrite)
     size = sum(sizes)
     kind = "file" if is_file else "folder"
     header = f"Content-Security-Policy: {frame_rule(framed_by)}" if framed_by else None
@@ -146,23 +147,23 @@ def _export(path: str, framed_by: list[str], as_json: bool) -> None:
         )
 
 
-def _write_file(path: Path) -> list[int]:
+def _write_file(path: Path, overwrite: bool) -> list[int]:
     """Write the explorer as one file; return its size."""
-    from stackbounce.files import check_place, write_file
+    from stackbounce.files import check_own, check_place, write_file
     from stackbounce.web.page.one_file import one_file
 
     check_place(path)
-    content = one_file().encode()
-    write_file(path, content)
-    return [len(content)]
+    check_own(path, overwrite)
+    write_file(path, one_file().encode(), overwrite)
+    return [path.stat().st_size]
 
 
-def _write_folder(folder: Path) -> list[int]:
+def _write_folder(folder: Path, overwrite: bool) -> list[int]:
     """Write the explorer as a folder of files; return their sizes."""
     from stackbounce.files import prepare_folder, write_folder
     from stackbounce.web.page.folder import folder_files
 
     files = folder_files()
-    prepare_folder(folder, files)
-    write_folder(folder, files)
+    prepare_folder(folder, files, overwrite)
+    write_folder(folder, files, overwrite)
     return [len(content) for content in files.values()]

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import DROP, AsJson, Plot, add_options, option
+from stackbounce.cli.options import DROP, AsJson, Overwrite, Plot, add_options, option
 from stackbounce.cli.output import check_picture, console, draw_picture, print_files, print_json
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
@@ -130,6 +130,7 @@ def run(
     save: Save = None,
     plot: Plot = None,
     corner: Corner = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
@@ -138,8 +139,8 @@ def run(
     from stackbounce.cli import fit_results
     from stackbounce.fitting import Interrupted
 
-    check_picture(plot)
-    check_picture(corner, "--corner")
+    check_picture(plot, overwrite)
+    check_picture(corner, overwrite, "--corner")
     if corner is not None and sample is None:
         raise InvalidValue("--corner draws the posterior of --sample: give both")
     if draws is not None and sample is None:
@@ -150,10 +151,10 @@ def run(
             raise InvalidValue(f"--compare has models of its own: --{name} is for one fit")
     problem = fit_results.read_problem(what, compared=compare, **given)
     if compare:
-        _compare(problem, starts, seed, plot, as_json)
+        _compare(problem, starts, seed, plot, overwrite, as_json)
         return
-    fit_results.check_save(save, problem)
-    fit_results.check_save(draws, problem, "--draws", ".csv")
+    fit_results.check_save(save, overwrite, problem, what)
+    fit_results.check_save(draws, overwrite, problem, what, "--draws", ".csv")
     try:
         done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
     except Interrupted as stopped:
@@ -162,9 +163,10 @@ def run(
         else:
             typer.echo(f"Interrupted: {stopped}")
         raise
-    draw_picture(plot, "fitted", done.fit)
-    draw_picture(corner, "corner", done.posterior)
-    saved, drawn = fit_results.save(done, save), fit_results.save_draws(done, draws)
+    draw_picture(plot, overwrite, "fitted", done.fit)
+    draw_picture(corner, overwrite, "corner", done.posterior)
+    saved = fit_results.save(done, save, overwrite)
+    drawn = fit_results.save_draws(done, draws, overwrite)
     if as_json:
         print_json(fit_results.as_dict(done, saved, drawn))
         return
@@ -177,12 +179,17 @@ def run(
 
 
 def _compare(
-    problem: "FitProblem", starts: int | None, seed: int, plot: Path | None, as_json: bool
+    problem: "FitProblem",
+    starts: int | None,
+    seed: int,
+    plot: Path | None,
+    overwrite: bool,
+    as_json: bool,
 ) -> None:
     from stackbounce.cli import fit_results
 
     done = fit_results.compare_models(problem, starts=starts, seed=seed)
-    draw_picture(plot, "compared", done)
+    draw_picture(plot, overwrite, "compared", done)
     if as_json:
         print_json(fit_results.comparison_as_dict(done))
         return

@@ -13,7 +13,7 @@ from stackbounce.cli.output import check_file, progress_bar
 from stackbounce.cli.tables import new_table, number
 from stackbounce.cross2007.datasets import PREFIX, load_dataset
 from stackbounce.errors import FileError, InvalidValue, nearest, shown
-from stackbounce.files import check_place, write_file
+from stackbounce.files import check_own, check_place, write_file
 from stackbounce.fitting import (
     Comparison,
     Fit,
@@ -173,35 +173,44 @@ def run(
 
 
 def check_save(
-    path: Path | None, problem: FitProblem, option: str = "--save", suffix: str = ".toml"
+    path: Path | None,
+    overwrite: bool,
+    problem: FitProblem,
+    read: Sequence[str],
+    option: str = "--save",
+    suffix: str = ".toml",
 ) -> None:
     """Refuse a path for --save or --draws that cannot be written, before anything is computed."""
     if path is None or len(problem.drops) == 1:
-        check_file(path, option, suffix)
+        check_file(path, overwrite, option, suffix, read)
     elif path.suffix or (path.exists() and not path.is_dir()):
         raise InvalidValue(
             f"{option} must name a folder for {len(problem.drops)} drops, a file each, got {path}"
         )
     else:
         check_place(path)
+        for name in problem.drops:
+            check_own(path / f"{name}{suffix}", overwrite, read)
 
 
-def save(done: Fitted, path: Path | None) -> list[Path]:
+def save(done: Fitted, path: Path | None, overwrite: bool) -> list[Path]:
     """Write the fitted drop into a file, or several into a folder, and return the files."""
     texts = {key: drop.to_toml() for key, drop in done.fit.drops.items()} if path else {}
-    return _write_each(texts, path, ".toml")
+    return _write_each(texts, path, ".toml", overwrite)
 
 
-def save_draws(done: Fitted, path: Path | None) -> list[Path]:
+def save_draws(done: Fitted, path: Path | None, overwrite: bool) -> list[Path]:
     """Write the draws of the drop into a file, of several into a folder, and return the files."""
     if path is None or done.posterior is None:
         return []
     drops = done.fit.drops
     texts = {key: draws_text(drops[key], done.fit.draws(done.posterior, key)) for key in drops}
-    return _write_each(texts, path, ".csv")
+    return _write_each(texts, path, ".csv", overwrite)
 
 
-def _write_each(texts: Mapping[str, str], path: Path | None, suffix: str) -> list[Path]:
+def _write_each(
+    texts: Mapping[str, str], path: Path | None, suffix: str, overwrite: bool
+) -> list[Path]:
     """Write one text into a file, or several into a folder by their names."""
     if path is None:
         return []
@@ -213,7 +222,7 @@ def _write_each(texts: Mapping[str, str], path: Path | None, suffix: str) -> lis
             raise FileError(f"{path} cannot be written: {error.strerror or error}") from error
         files = {path / f"{name}{suffix}": text for name, text in texts.items()}
     for file, text in files.items():
-        write_file(file, text.encode())
+        write_file(file, text.encode(), overwrite)
     return list(files)
 
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import DROP, AsJson, Plot, Save, add_options
+from stackbounce.cli.options import DROP, AsJson, Overwrite, Plot, Save, add_options
 from stackbounce.cli.output import (
     check_picture,
     check_scenario,
@@ -63,6 +63,7 @@ def run(
     rows: Annotated[int, typer.Option(metavar="NUMBER", help="Stacks to print.", min=1)] = 10,
     save: Save = None,
     plot: Plot = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
@@ -74,16 +75,16 @@ def run(
     from stackbounce.run.result import Status
     from stackbounce.units import quantity
 
-    check_picture(plot)
-    check_scenario(save)
+    check_picture(plot, overwrite)
+    check_scenario(save, overwrite, what or ())
     chosen: dict[str, Any] = {"law": law_named(law), "impact_speed": _impact_speed(**given)}
     if what:
         chosen["balls"] = [Drop.from_toml(one) if is_file(one) else one for one in what]
     if gap:
         chosen["gaps"] = [quantity(one, "m", "--gap") for one in gap]
     data = highest(count=balls, repeat=repeat, **chosen)
-    write_scenario(data.attrs["best"], save)
-    draw_picture(plot, "highest", data)
+    write_scenario(data.attrs["best"], save, overwrite)
+    draw_picture(plot, overwrite, "highest", data)
     if as_json:
         print_json(summary(data))
     else:

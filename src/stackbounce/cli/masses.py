@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import DROP, AsJson, Save, What, add_options
+from stackbounce.cli.options import DROP, AsJson, Overwrite, Save, What, add_options
 from stackbounce.cli.output import (
     check_scenario,
     check_solved,
@@ -40,6 +40,7 @@ def run(
         ),
     ] = None,
     save: Save = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
@@ -47,11 +48,11 @@ def run(
     from stackbounce import best_masses, simulate
     from stackbounce.cli import scenario
 
-    check_scenario(save)
+    check_scenario(save, overwrite, what)
     tried = None if within is None else limits(within)
     chosen = scenario.read(what, **given)
     best = best_masses(chosen.drop, within=tried)
-    write_scenario(best.to_toml(), save)
+    write_scenario(best.to_toml(), save, overwrite)
     found = summary(chosen.drop, best, tried)
     if as_json:
         print_json(found)

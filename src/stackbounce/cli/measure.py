@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import AsJson, Plot
+from stackbounce.cli.options import AsJson, Overwrite, Plot
 from stackbounce.cli.output import (
     check_picture,
     check_scenario,
@@ -62,6 +62,7 @@ def run(
     name: Name = None,
     save: Save = None,
     plot: Plot = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
@@ -72,24 +73,24 @@ def run(
 
     files = files or []
     if plot is not None:
-        check_picture(plot)
+        check_picture(plot, overwrite)
         count = len(files) + (given["heights"] is not None)
         if count != 1:
             raise InvalidValue(f"--plot draws one file or --heights, got {count}")
     known = read_options(given, lambda one: one.on_command_line)
     if save is not None:
-        check_scenario(save)
+        check_scenario(save, overwrite)
         if "mass" not in known:
             raise InvalidValue("--save needs the mass of the ball, such as --mass 57g")
     done = [measure_file(path, known, _words) for path in files] + measure_numbers(known)
     if not done:
         raise InvalidValue("measure needs a file, --heights, --contact-time or --restitution")
     law = _law_of(known, done) if "law" in known else None
-    saved = {} if save is None else _save(done, law, save, known, name)
+    saved = {} if save is None else _save(done, law, save, known, name, overwrite)
     if plot is not None:
         from stackbounce import plots
 
-        draw(lambda: plots.measured(done[0].data, done[0].found[-1]), plot)
+        draw(lambda: plots.measured(done[0].data, done[0].found[-1]), plot, overwrite)
     if as_json:
         print_json(_summary(done, law, saved))
         return
@@ -141,9 +142,9 @@ def _parameter(option: Option) -> inspect.Parameter:
 def _signature() -> inspect.Signature:
     """Return the command's signature, with the table's options between its own."""
     own = inspect.signature(run)
-    files, name, save, plot, as_json, _ = own.parameters.values()
+    files, name, *rest, _ = own.parameters.values()
     mass, diameter, *others = (_parameter(one) for one in OPTIONS)
-    ordered = [mass, diameter, name, *others, save, plot, as_json]
+    ordered = [mass, diameter, name, *others, *rest]
     return own.replace(parameters=[files, *ordered])
 
 
@@ -173,6 +174,7 @@ def _save(
     path: Path,
     known: Mapping[str, Any],
     name: str | None,
+    overwrite: bool,
 ) -> dict[str, Any]:
     """Write the ball that was measured as a scenario file, and return what is in it."""
     from stackbounce.measure import one_ball
@@ -184,7 +186,7 @@ def _save(
     ball = {key: known[key] for key in ("mass", "diameter") if key in known}
     plain = {key: getattr(one, "nominal_value", one) for key, one in ball.items()}
     drop = one_ball(parts, **plain, name=name)
-    write_scenario(drop.to_toml(), path)
+    write_scenario(drop.to_toml(), path, overwrite)
     return drop.to_mapping()
 
 

@@ -9,7 +9,18 @@ import typer
 
 from stackbounce.model.laws import LAWS
 
-__all__ = ["DROP", "AsJson", "Plot", "Save", "Tolerance", "Until", "What", "add_options", "option"]
+__all__ = [
+    "DROP",
+    "AsJson",
+    "Overwrite",
+    "Plot",
+    "Save",
+    "Tolerance",
+    "Until",
+    "What",
+    "add_options",
+    "option",
+]
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
@@ -82,6 +93,14 @@ What = Annotated[
         metavar="SCENARIO|BALLS",
         help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
         show_default=False,
+    ),
+]
+Overwrite = Annotated[
+    bool,
+    typer.Option(
+        "--overwrite",
+        help="Replace files that are there. Without it only those are replaced that stackbounce "
+        "wrote and nobody changed since.",
     ),
 ]
 Until = Annotated[

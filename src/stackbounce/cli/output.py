@@ -3,7 +3,7 @@
 import contextlib
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,7 +11,7 @@ import typer
 
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.extras import need
-from stackbounce.files import check_place, write_file
+from stackbounce.files import check_own, check_place, write_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -69,15 +69,15 @@ def check_solved(counts: Mapping[str, int]) -> None:
         raise Unsolved(f"no result for {drops}: {listed}")
 
 
-def check_picture(path: Path | None, option: str = "--plot") -> None:
-    """Refuse a picture's path with another suffix, or in a folder that does not exist.
+def check_picture(path: Path | None, overwrite: bool, option: str = "--plot") -> None:
+    """Refuse a picture's path with another suffix, or where it cannot be written.
 
     Raises
     ------
     InvalidValue
         If the suffix is none of `SUFFIXES`.
     FileError
-        If the folder does not exist, or `path` is one.
+        If the folder does not exist, or `path` is one, or a file that may not be replaced.
     MissingExtra
         If matplotlib is not installed.
     """
@@ -85,39 +85,42 @@ def check_picture(path: Path | None, option: str = "--plot") -> None:
         return
     if path.suffix.lower() not in SUFFIXES:
         raise InvalidValue(f"{option} must end in {', '.join(SUFFIXES)}, got {path}")
-    _check_file(path)
+    _check_file(path, overwrite)
     need("plots", option)
 
 
-def check_file(path: Path | None, option: str, suffix: str) -> None:
-    """Refuse a file's path with another suffix, or in a folder that does not exist.
+def check_file(
+    path: Path | None, overwrite: bool, option: str, suffix: str, read: Sequence[str] = ()
+) -> None:
+    """Refuse a file's path with another suffix, or where it cannot be written.
 
     Raises
     ------
     InvalidValue
         If it has another suffix.
     FileError
-        If the folder does not exist, or `path` is one.
+        If the folder does not exist, or `path` is one, or a file that may not be replaced.
     """
     if path is None:
         return
     if path.suffix.lower() != suffix:
         raise InvalidValue(f"{option} must end in {suffix}, got {path}")
-    _check_file(path)
+    _check_file(path, overwrite, read)
 
 
-def check_scenario(path: Path | None) -> None:
+def check_scenario(path: Path | None, overwrite: bool, read: Sequence[str] = ()) -> None:
     """Refuse a path of --save; see `check_file`."""
-    check_file(path, "--save", ".toml")
+    check_file(path, overwrite, "--save", ".toml", read)
 
 
-def _check_file(path: Path) -> None:
+def _check_file(path: Path, overwrite: bool, read: Sequence[str] = ()) -> None:
     if path.is_dir():
         raise FileError(f"{path} cannot be written: it is a folder")
     check_place(path)
+    check_own(path, overwrite, read)
 
 
-def draw(make: Callable[[], "Figure"], path: Path) -> None:
+def draw(make: Callable[[], "Figure"], path: Path, overwrite: bool) -> None:
     """Write a picture, in the format that the file's suffix names.
 
     Raises
@@ -127,18 +130,20 @@ def draw(make: Callable[[], "Figure"], path: Path) -> None:
     """
     from stackbounce.plots.style import render
 
-    write_file(path, render(make, path.suffix.lower().removeprefix(".")))
+    write_file(path, render(make, path.suffix.lower().removeprefix(".")), overwrite)
 
 
-def draw_picture(path: Path | None, kind: str, *given: Any, **options: Any) -> None:
+def draw_picture(
+    path: Path | None, overwrite: bool, kind: str, *given: Any, **options: Any
+) -> None:
     """Write a picture of `stackbounce.plots` into a file, if one is asked for."""
     if path is not None:
         from stackbounce import plots
 
-        draw(lambda: getattr(plots, kind)(*given, **options), path)
+        draw(lambda: getattr(plots, kind)(*given, **options), path, overwrite)
 
 
-def write_scenario(text: str, path: Path | None) -> None:
+def write_scenario(text: str, path: Path | None, overwrite: bool) -> None:
     """Write a scenario file, if one is asked for.
 
     Raises
@@ -147,7 +152,7 @@ def write_scenario(text: str, path: Path | None) -> None:
         If it cannot be written.
     """
     if path is not None:
-        write_file(path, text.encode())
+        write_file(path, text.encode(), overwrite)
 
 
 def console() -> "Console":

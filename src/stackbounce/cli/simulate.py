@@ -4,7 +4,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, Until, What, add_options
+from stackbounce.cli.options import (
+    DROP,
+    AsJson,
+    Overwrite,
+    Plot,
+    Tolerance,
+    Until,
+    What,
+    add_options,
+)
 from stackbounce.cli.output import (
     check_picture,
     check_solved,
@@ -40,6 +49,7 @@ def run(
         ),
     ] = None,
     plot: Plot = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
@@ -50,7 +60,7 @@ def run(
     from stackbounce.cli.errors_given import read_errors, split_errors
     from stackbounce.cli.simulation_tables import print_simulation
 
-    check_picture(plot)
+    check_picture(plot, overwrite)
     plain, written = split_errors(given)
     chosen, end = scenario.read(what, with_errors=True, **plain), scenario.read_until(until)
     errors = read_errors(chosen.drop, {**chosen.errors, **written}, error)
@@ -62,7 +72,7 @@ def run(
     laws = chosen.drop.contacts
     joined = any(law is not None and law.pulls for law in laws)  # no collision of the textbook's
     textbook = None if chosen.drop.rigid or joined else simulate(separate(chosen.drop))
-    draw_picture(plot, "bounce", prediction or result)
+    draw_picture(plot, overwrite, "bounce", prediction or result)
     if as_json:
         print_json(summary(chosen, result, textbook, prediction))
     else:

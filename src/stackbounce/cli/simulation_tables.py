@@ -152,14 +152,21 @@ def _closing(console: Console, result: Result, textbook: Result | None) -> None:
 
 
 def _beyond_tables(console: Console, result: Result) -> None:
-    """Say which contacts were pressed beyond the table of their law."""
+    """Say which contacts were pressed beyond the table of their law, or not to its first point."""
     for i, law in enumerate(result.drop.contacts):
-        rows = result.intervals[result.intervals["contact"] == i]
-        peak = max(rows["peak_compression"], default=0.0)
-        if isinstance(law, Tabulated) and peak > law.compression[-1]:
+        peaks = result.intervals["peak_compression"][result.intervals["contact"] == i]
+        if not isinstance(law, Tabulated) or len(peaks) == 0:
+            continue
+        pressed = f"Contact {i} is pressed to {number(1e3 * max(peaks))} mm, but its table"
+        if max(peaks) > law.compression[-1]:
             console.print(
-                f"Contact {i} is pressed to {number(1e3 * peak)} mm, but its table ends at "
-                f"{number(1e3 * law.compression[-1])} mm: from there on the force rises straight."
+                f"{pressed} ends at {number(1e3 * law.compression[-1])} mm: from there on the "
+                "force rises straight."
+            )
+        elif max(peaks) < law.compression[1]:
+            console.print(
+                f"{pressed} begins at {number(1e3 * law.compression[1])} mm: how the force rises "
+                "from 0 to there is a guess, and with it the contact time."
             )
 
 

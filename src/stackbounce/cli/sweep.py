@@ -9,7 +9,16 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, Until, What, add_options
+from stackbounce.cli.options import (
+    DROP,
+    AsJson,
+    Overwrite,
+    Plot,
+    Tolerance,
+    Until,
+    What,
+    add_options,
+)
 from stackbounce.cli.output import (
     check_picture,
     check_solved,
@@ -87,13 +96,14 @@ def run(
         ),
     ] = "rebound_ratio",
     plot: Plot = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
     """Drop a stack for all combinations of other numbers in it, into a Zarr or NetCDF file."""
     from stackbounce.cli import scenario
 
-    check_picture(plot)
+    check_picture(plot, overwrite)
     check_place(out)
     drop = scenario.read(what, **given).drop
     end = scenario.read_until(until)
@@ -102,7 +112,7 @@ def run(
         _check_shown(drop, over or [], show, draws)
     done = _write(drop, values, out, cluster=cluster, until=end, rtol=rtol)
     if plot is not None:
-        _draw(done.load(), show, plot)
+        _draw(done.load(), show, plot, overwrite)
     found = summary(done, out)
     if as_json:
         print_json(found)
@@ -156,11 +166,12 @@ def _check_shown(drop: "Drop", over: Sequence[str], show: str, draws: Path | Non
         )
 
 
-def _draw(data: "xr.Dataset", show: str, path: Path) -> None:
+def _draw(data: "xr.Dataset", show: str, path: Path, overwrite: bool) -> None:
     """Draw the lines or the map of a sweep over one number or two."""
     name, dot, which = show.partition(".")
     kind = "lines" if len(data.status.dims) == 1 else "heatmap"
-    draw_picture(path, kind, data, name, **({"index": int(which)} if dot else {}))
+    index = {"index": int(which)} if dot else {}
+    draw_picture(path, overwrite, kind, data, name, **index)
 
 
 def summary(data: "xr.Dataset", out: Path) -> dict[str, Any]:

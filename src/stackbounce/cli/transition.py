@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from stackbounce.cli.options import DROP, AsJson, Plot, Tolerance, What, add_options
+from stackbounce.cli.options import DROP, AsJson, Overwrite, Plot, Tolerance, What, add_options
 from stackbounce.cli.output import (
     check_picture,
     check_solved,
@@ -52,6 +52,7 @@ def run(
     ] = None,
     rtol: Tolerance = 1e-12,
     plot: Plot = None,
+    overwrite: Overwrite = False,
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
@@ -60,11 +61,11 @@ def run(
     from stackbounce.cli import scenario
     from stackbounce.units import quantity
 
-    check_picture(plot)
+    check_picture(plot, overwrite)
     last = None if stop is None else quantity(stop, "m", "--stop")
     chosen = scenario.read(what, **given)
     data = transition(chosen.drop, only, stop=last, rtol=rtol)
-    draw_picture(plot, "transition", data)
+    draw_picture(plot, overwrite, "transition", data)
     if as_json:
         print_json(summary(chosen, data))
     else:

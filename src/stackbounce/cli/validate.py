@@ -45,4 +45,5 @@ def _print_verdicts(console: "Console", done: "Validation", page: Path) -> None:
     for one in done.comparisons:
         table.add_row(one.series.name, one.summary)
     console.print(table)
+    console.print(f"\n{done.summary}")
     console.print(f"\nOpen {page}", soft_wrap=True)

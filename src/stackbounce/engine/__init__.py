@@ -20,6 +20,9 @@ modes         a linear cluster: normal modes (eqs 5, 6)
 taylor        any other cluster: the Taylor series of its motion
 motion        displacement, velocity and compression at any time
 forces        the forms of force: numbers, force, energy, power series
+pieces        loading curves in pieces, of hollow balls and tables
+cycles        hysteresis: what a contact remembers until it opens
+bodies        balls joined by bonds
 contacts      force curves, and how events change them
 next_event    the next event of a contact, from rigorous bounds that miss no event
 rest          when balls on finite contacts have come to rest under gravity

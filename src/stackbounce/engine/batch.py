@@ -81,7 +81,7 @@ def run_drop(
     status = advance_contacts(stack, until / unit, event_limit, work_limit, space.log, samples)
     if status != codes.RUNNING:
         end = stack.clock[LAST_EVENT]
-        bonded = stack.setting[BONDS] > 0 and status == codes.FINISHED
+        bonded = stack.setting[BONDS] > 0
         if status != codes.FINISHED:
             end = max(end, stack.clock[LAST_CHECK])
             if status == codes.TIME_REACHED:
@@ -90,7 +90,7 @@ def run_drop(
         space.after[END] = end * unit
         for b in range(size):
             known = status != codes.INVALID
-            after = body_velocity_at_end(stack, b) if bonded else velocity_at(stack, b, end)
+            after = body_velocity_at_end(stack, b, end) if bonded else velocity_at(stack, b, end)
             space.after[AFTER + b] = after / unit if known else math.nan
         for k in range(len(samples.velocity)):
             samples.velocity[k] /= unit

@@ -14,7 +14,7 @@ import math
 from stackbounce.engine.codes import ABSENT, OPEN
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.motion import compression_at, velocity_at
-from stackbounce.engine.slots import GRAVITY, LAST_CHECK, LAST_EVENT
+from stackbounce.engine.slots import GRAVITY, LAST_CHECK
 from stackbounce.engine.stack import Stack
 
 
@@ -33,27 +33,31 @@ def load_floor(stack: Stack) -> None:
 @kernel
 def body_velocity(stack: Stack, b: int, time: float) -> float:
     """Return the velocity of the centre of ball b's body; 0 if it is bonded to the floor."""
-    first, last = stack.first[b], stack.last[b]
+    first, above = b, b + 1
+    while first > 0 and stack.bonded[first] == 1:
+        first -= 1
     if stack.bonded[first] == 1:
         return 0.0
+    while above < len(stack.mass) and stack.bonded[above] == 1:
+        above += 1
     mass, momentum = 0.0, 0.0
-    for j in range(first, last + 1):
+    for j in range(first, above):
         mass += stack.mass[j]
         momentum += stack.mass[j] * velocity_at(stack, j, time)
     return momentum / mass
 
 
 @kernel
-def body_velocity_at_end(stack: Stack, b: int) -> float:
-    """Return the velocity of the centre of ball b's body at the last event.
+def body_velocity_at_end(stack: Stack, b: int, end: float) -> float:
+    """Return the velocity of the centre of ball b's body at the end of the run.
 
-    The bodies have been followed longer, until they had parted.
+    Bodies that have parted may have been followed longer, in free flight.
     """
-    time = stack.clock[LAST_CHECK]
+    time = max(end, stack.clock[LAST_CHECK])
     velocity = body_velocity(stack, b, time)
     if stack.bonded[stack.first[b]] == 1:
         return velocity
-    return velocity + stack.number[GRAVITY] * (time - stack.clock[LAST_EVENT])
+    return velocity + stack.number[GRAVITY] * (time - end)
 
 
 @kernel

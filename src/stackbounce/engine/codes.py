@@ -19,7 +19,6 @@ EXTREME = 3  # the masses, or the times of the contacts, are of very different s
 ABSENT = 0  # no floor
 POWER = 1  # a power of the compression, loading and unloading alike
 HYSTERETIC = 2  # another power when unloading
-LOSSY = 3  # the same, with another one after each reloading
 PRODUCT = 4  # in the stack only: all forms from DASHPOT to RELAXING but RIGID, and BOND
 DASHPOT = 5
 VISCOELASTIC = 6
@@ -37,7 +36,6 @@ FORMS = {
     "ABSENT": ABSENT,
     "POWER": POWER,
     "HYSTERETIC": HYSTERETIC,
-    "LOSSY": LOSSY,
     "DASHPOT": DASHPOT,
     "VISCOELASTIC": VISCOELASTIC,
     "HUNT_CROSSLEY": HUNT_CROSSLEY,
@@ -64,10 +62,10 @@ TOUCH = 1
 RELEASE = 2
 COLLISION = 3
 PEAK = 4  # the compression stops growing
-DIP = 5  # the compression of a lossy contact stops falling
+DIP = 5  # the compression of a contact with hysteresis stops falling
 LINEARISED = 6  # the power law is replaced by its chord, see `contacts`
 CURVED = 7  # the chord is replaced by the power law
-RELOADED = 8  # the compression comes back to its old peak
+RETURNED = 8  # the compression comes back to its last turning point but one, see `cycles`
 CLIPPED = 9  # the force would begin to pull
 RESUMED = 10  # the force would stop pulling
 CROSSED = 12  # the compression passes from one piece of a curve into the next, see `pieces`

@@ -20,29 +20,31 @@ from stackbounce.engine.codes import (
     CROSSED,
     DIP,
     LINEARISED,
-    LOSSY,
     PEAK,
     PIECEWISE,
     POWER,
     RELEASING,
-    RELOADED,
     RESUMED,
+    RETURNED,
     UNLOADED,
 )
-from stackbounce.engine.elementary import exp, log, power
-from stackbounce.engine.forces import force, loaded_energy, stored_energy
-from stackbounce.engine.kernels import kernel
-from stackbounce.engine.pieces import (
-    cross_knot,
-    find_piece,
-    may_rescale,
-    take_piece,
-    unloading_factor,
+from stackbounce.engine.cycles import (
+    begin_loading,
+    has_hysteresis,
+    highest_peak,
+    loading_force,
+    lowest_compression,
+    return_to_turn,
+    take_shares,
+    turn_in,
+    turn_out,
 )
+from stackbounce.engine.elementary import power
+from stackbounce.engine.forces import force
+from stackbounce.engine.kernels import kernel
+from stackbounce.engine.pieces import crossed_knot, find_piece
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
-
-_STEEPEST = 10.0  # times the first unloading exponent: the limit after many reloadings
 
 _SHORTER = 0.125  # work under the next trial chord, over that under one that was too long
 _AT_ITS_END = 1e-6  # over a chord's length: below this the contact stays on it until release
@@ -50,9 +52,9 @@ _NO_WORK = 1e-50  # the work under the shortest chord, over the reference energy
 
 _SOFTEST = 1e-60  # times the slope at the curve's unit: the smallest slope of a chord
 _GRAZE = 1e-30  # of a typical compression: the smallest peak
-_STEEPER = 1.0 + 1e-12  # times the exponent: a smaller increase is round-off
 
-_BEYOND = 1.0 + 1e-6  # times the old peak, where the steepest curve has 3 times the force
+_ALL_BUT_OPEN = 1e-12  # of the peak
+_BEYOND = 1.0 + 1e-6  # times a turning point, where the steepest curve has 3 times the force
 
 
 @kernel
@@ -64,31 +66,66 @@ def close_contact(stack: Stack, i: int, time: float) -> None:
     """
     stack.start[i] = time if math.isnan(stack.touching[i]) else stack.touching[i]
     stack.touching[i] = math.nan
-    stack.phase[i] = COMPRESSING
     stack.counter[CLOSED] += 1
     stack.peak_force[i] = 0.0
     stack.peak_time[i] = stack.start[i]
     stack.peak_compression[i] = 0.0
     stack.impulse[i] = 0.0
-    stack.base[i] = 0.0
-    stack.base_energy[i] = 0.0
-    _set_loading_curve(stack, i)
+    begin_loading(stack, i)
+    _set_loading_curve(stack, i, stack.compression[i], True)
+    _linearise_at_touch(stack, i)
+
+
+@kernel
+def _linearise_at_touch(stack: Stack, i: int) -> None:
+    """Take the chord of the loading curve of contact i, if it is curved at 0."""
     if stack.curve_exponent[i] != 0.0 and stack.curve_exponent[i] != 1.0:
         _linearise(stack, i)
 
 
 @kernel
-def _set_loading_curve(stack: Stack, i: int) -> None:
-    """Set the force of contact i to its loading curve: k c^p, or k c^q times the gain."""
+def _set_loading_curve(stack: Stack, i: int, c: float, up: bool) -> None:
+    """Set the force of contact i, at c, to its loading curve: k c^p, or k c^q times the gain."""
     unit = stack.scale[i]
     exponent = stack.factor_exponent[i]
     _set_curve(stack, i, stack.stiffness[i] * power(unit, exponent), unit, exponent)
-    stack.top[i] = math.inf
     if exponent == 1.0:
         stack.rate[i] = stack.stiffness[i]
+    _set_shares(stack, i, c, up)
+
+
+@kernel
+def _set_unloading_curve(stack: Stack, i: int, pressing: float, c: float, up: bool) -> None:
+    """Set the force of contact i, at c, to the curve from its last peak, where it is ``pressing``.
+
+    A piecewise contact unloads along its gain times a power.
+    """
+    peak = stack.top[i]
     if stack.law[i] == PIECEWISE:
-        stack.rescaled[i] = 0
-        find_piece(stack, i, stack.compression[i])
+        _set_curve(stack, i, stack.stiffness[i], peak, stack.loss_exponent[i])
+    else:
+        _set_curve(stack, i, pressing, peak, stack.unloading[i])
+    _set_shares(stack, i, c, up)
+    if stack.curve_exponent[i] == 1.0:
+        stack.rate[i] = stack.curve_force[i] / peak
+
+
+@kernel
+def _set_shares(stack: Stack, i: int, c: float, up: bool) -> None:
+    """Set what elements that remember a peak add, see `cycles`; they part before c is near 0."""
+    if stack.law[i] == PIECEWISE or stack.depth[i] > 0:
+        take_shares(stack, i, c, up)
+    if stack.depth[i] > 0:
+        stack.linearised_below[i] = 0.0
+
+
+@kernel
+def _set_present_curve(stack: Stack, i: int, c: float, up: bool) -> None:
+    """Set the force of contact i, at c, to the curve of its present cycle."""
+    if stack.phase[i] == RELEASING:
+        _set_unloading_curve(stack, i, loading_force(stack, i, stack.top[i]), c, up)
+    else:
+        _set_loading_curve(stack, i, c, up)
 
 
 @kernel
@@ -132,66 +169,33 @@ def reduced_mass(stack: Stack, i: int) -> float:
 def _linearise_if_slow(stack: Stack, i: int) -> None:
     """Linearise opening contact i, anchored now, if the work left under its chord is small enough.
 
-    Otherwise ``linearised_below`` is reduced: the next trial comes at a smaller compression.
+    Otherwise ``linearised_below`` is reduced: the next trial comes at a smaller compression. Where
+    the gain alone is a part of the force, the chord is 0: the power is nothing beside that part.
     """
     compression = stack.compression[i]
     rate = stack.velocity[i]
     if i > 0:
         rate -= stack.velocity[i - 1]
     work = force(stack, i, compression, -rate, 0.0) * compression
+    flat = stack.flat[i]
+    if flat > 0.0:
+        steep = power(compression / stack.curve_unit[i], stack.curve_exponent[i])
+        steep *= stack.curve_force[i]
+        work *= steep / (steep + flat)
     budget = linearised_impulse_limit(stack, i)
     if (
         work <= rate * budget
         or work <= _NO_WORK / stack.number[TOLERANCE] * budget * stack.number[SPEED]
     ):
         _linearise(stack, i)
+        if flat > 0.0:
+            stack.rate[i] = 0.0
         if stack.law[i] == POWER:  # past its peak, see `record_series_peaks`
             stack.phase[i] = RELEASING
             stack.top[i] = math.inf
     else:
         shorter = power(_SHORTER, 1.0 / (stack.curve_exponent[i] + 1.0))
         stack.linearised_below[i] = shorter * compression
-
-
-@kernel
-def _energy_to_return(stack: Stack, i: int, compression: float) -> float:
-    """Return the energy that lossy contact i will give back, after reloading up to a compression.
-
-    That is what it held when the reloading began, plus e^2 of the work of reloading; but at least
-    the energy under the steepest unloading curve.
-    """
-    kept = (stack.exponent[i] + 1.0) / (stack.unloading[i] + 1.0)
-    held = stack.dip_energy[i]
-    energy = held + kept * (stored_energy(stack, i, compression) - held)
-    least = force(stack, i, compression, 0.0, 0.0) * compression / (_steepest(stack, i) + 1.0)
-    return max(energy, least)
-
-
-@kernel
-def _steepest(stack: Stack, i: int) -> float:
-    """Return the largest exponent of the unloading curves of contact i.
-
-    Without a limit the exponent could grow beyond all bounds in infinitely many cycles.
-    """
-    return _STEEPEST * stack.unloading[i]
-
-
-@kernel
-def _steepen(stack: Stack, i: int, compression: float) -> None:
-    """Give lossy contact i, which turns back below its old peak, a steeper unloading curve.
-
-    See `_energy_to_return`.
-    """
-    pressing = force(stack, i, compression, 0.0, 0.0)
-    exponent = stack.exponent[i]
-    steeper = pressing * compression / _energy_to_return(stack, i, compression) - 1.0
-    if not steeper > stack.curve_exponent[i] * _STEEPER:  # nan where there is no force left
-        return
-    # the steeper curve meets the loading curve earlier than the old one
-    meeting = max(0.0, log(stack.stiffness[i] * power(compression, exponent) / pressing))
-    furthest = log(stack.top[i] / compression)
-    _set_curve(stack, i, pressing, compression, steeper)
-    stack.top[i] = compression * exp(min(furthest, meeting / (steeper - exponent)))
 
 
 @kernel
@@ -206,23 +210,15 @@ def record_peak(stack: Stack, i: int, compression: float, pressing: float, time:
 @kernel
 def changes_curve(stack: Stack, i: int, kind: int) -> bool:
     """Tell whether the force follows another curve after an event inside an interval."""
-    if kind == PEAK:
-        return stack.law[i] == LOSSY or (stack.law[i] != POWER and stack.top[i] == math.inf)
-    if kind == RELOADED:
-        return stack.law[i] != POWER
-    return kind != DIP
+    return has_hysteresis(stack, i) or kind not in (PEAK, RETURNED)
 
 
 @kernel
-def change_phase(stack: Stack, i: int, kind: int, compression: float) -> None:
+def change_phase(stack: Stack, i: int, kind: int) -> None:
     """Switch contact i between compressing and releasing on the same curve."""
-    if kind == DIP:
-        stack.dip_energy[i] = stored_energy(stack, i, compression)
-    if kind == PEAK:
-        stack.phase[i] = RELEASING
-        stack.top[i] = max(compression, stack.peak_compression[i])
-    else:
-        stack.phase[i] = COMPRESSING
+    stack.phase[i] = RELEASING if kind == PEAK else COMPRESSING
+    if kind == PEAK and not has_hysteresis(stack, i):  # pressed beyond it, it has another peak
+        stack.top[i] = stack.peak_compression[i]
 
 
 @kernel
@@ -230,30 +226,27 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
     """Switch contact i, anchored now, to the curve that follows an event inside its interval."""
     compression = max(stack.compression[i], _GRAZE * stack.scale[i])
     if kind == PEAK:
-        stack.phase[i] = RELEASING
-        if stack.law[i] == PIECEWISE:
-            if stack.top[i] == math.inf:
-                _turn_back(stack, i, compression)
-        elif stack.top[i] == math.inf:
-            pressing = force(stack, i, compression, 0.0, 0.0)
-            exponent = stack.unloading[i]
-            if stack.base[i] > 0.0:
-                held = loaded_energy(stack, i, compression)
-                given_back = min(pressing * compression / held - 1.0, _steepest(stack, i))
-                exponent = max(stack.exponent[i], given_back)  # never more than the work done
-            _set_curve(stack, i, pressing, compression, exponent)
-            stack.top[i] = compression
+        pressing = force(stack, i, compression, 0.0, 0.0)
+        turn_out(stack, i, compression)
+        if stack.depth[i] > 0:
+            pressing = loading_force(stack, i, compression)
+        _set_unloading_curve(stack, i, pressing, compression, False)
+    elif kind == DIP:
+        if compression < _ALL_BUT_OPEN * stack.top[i]:  # all elements forget their peak
+            begin_loading(stack, i)
+            _set_loading_curve(stack, i, compression, True)
+            _linearise_at_touch(stack, i)
         else:
-            _steepen(stack, i, compression)
-        stack.dip_energy[i] = stored_energy(stack, i, compression)  # until it dips
-    elif kind == RELOADED:
-        stack.phase[i] = COMPRESSING
-        if stack.law[i] == LOSSY:
-            stack.base_energy[i] = _energy_to_return(stack, i, compression)
-            stack.base[i] = compression
-        _set_loading_curve(stack, i)
+            turn_in(stack, i, compression)
+            _set_loading_curve(stack, i, compression, True)
+    elif kind == RETURNED:
+        return_to_turn(stack, i)
+        _set_present_curve(stack, i, compression, stack.phase[i] == COMPRESSING)
     elif kind == CROSSED:
-        cross_knot(stack, i)
+        knot, up = crossed_knot(stack, i)
+        take_shares(stack, i, knot, up)
+        if stack.phase[i] == RELEASING and stack.curve_exponent[i] == 1.0:
+            stack.rate[i] = stack.curve_force[i] / stack.curve_unit[i]
     elif kind == RESUMED:
         stack.phase[i] = COMPRESSING
     elif kind == LINEARISED:
@@ -266,20 +259,16 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
 
 
 @kernel
-def _turn_back(stack: Stack, i: int, compression: float) -> None:
-    """Give piecewise contact i the unloading curve from its peak, see `pieces`."""
-    pressing = force(stack, i, compression, 0.0, 0.0)
-    if may_rescale(stack, i, compression, pressing):
-        _set_curve(stack, i, pressing, compression, 0.0)
-        stack.top[i] = compression
-        stack.rescaled[i] = 1
-        take_piece(stack, i, stack.unloading_pieces[i] - 1)
-        return
-    exponent = unloading_factor(stack, i, compression)
-    _set_curve(stack, i, stack.stiffness[i], compression, exponent)
-    if exponent == 1.0:
-        stack.rate[i] = stack.stiffness[i] / compression
-    stack.top[i] = compression
+def settle_curve(stack: Stack, i: int, compression: float) -> None:
+    """Let contact i lie on the curve that it unloads along from its highest peak."""
+    if has_hysteresis(stack, i):
+        peak = highest_peak(stack, i)
+        begin_loading(stack, i)
+        if compression < peak:
+            turn_out(stack, i, peak)
+        _set_present_curve(stack, i, compression, False)
+    elif stack.law[i] == PIECEWISE:
+        find_piece(stack, i, compression, False)
 
 
 @kernel
@@ -303,14 +292,15 @@ def correct_curve(stack: Stack, i: int) -> None:
     """
     compression = stack.compression[i]
     exponent = stack.curve_exponent[i]
-    if (
-        stack.phase[i] < COMPRESSING
-        or exponent == 0.0
-        or exponent == 1.0
-        or stack.linearised[i] == 1
-    ):
+    if stack.phase[i] < COMPRESSING or stack.linearised[i] == 1:
         return
-    if compression < 0.5 * stack.linearised_below[i]:
+    rises = stack.phase[i] == COMPRESSING
+    if has_hysteresis(stack, i) and (
+        (rises and compression > _BEYOND * stack.top[i])
+        or (not rises and compression * _BEYOND < lowest_compression(stack, i))
+    ):
+        change_curve(stack, i, RETURNED)
+    elif exponent in (0.0, 1.0):
+        return
+    elif compression < 0.5 * stack.linearised_below[i]:
         _linearise(stack, i)
-    elif stack.law[i] != POWER and compression > _BEYOND * stack.top[i]:
-        change_curve(stack, i, RELOADED)

@@ -9,9 +9,8 @@ form          force                                                       z
 ============= =========================================================== ========================
 ABSENT        none: there is no floor
 POWER         k c^p                                                       none
-HYSTERETIC    k c^p loading, k C^p (c/C)^z unloading from the peak C      unloading exponent
-LOSSY         as HYSTERETIC; reloading loses the same share of its work
-              as first loading
+HYSTERETIC    k c^p loading, k C^p (c/C)^z unloading from the peak C;     unloading exponent
+              see `cycles` for cycles in between
 DASHPOT       max(0, k c + z c')                                          damping
 VISCOELASTIC  max(0, k (c^1.5 + 3/2 z c^0.5 c'))                          dissipative time
 HUNT_CROSSLEY max(0, k c^p (1 + z c'))                                    dissipation
@@ -20,8 +19,10 @@ RELAXING      max(0, k (c + z (c - u))), u' = (c - u)/w                   relaxa
                                                                           w: relaxation time
 TWO_STAGE     k c, from z on k (z + w (c - z)); see `pieces`              z: length, w: softening,
                                                                           p: share returned
-TABULATED     k (a + b c + s c^2) in pieces, see `pieces`                 z, w: numbers of pieces,
-                                                                          p: share returned
+TABULATED     k (a + b c + s c^2) in pieces, see `pieces`                 z: number of pieces,
+                                                                          p: share returned; w:
+                                                                          exponent of the loss,
+                                                                          or its pieces if p = 0
 BOND          k c + z c', which may pull; the contact never opens         damping
 RIGID         an instantaneous collision                                  restitution
 RIGID_POWER   the same, with the restitution k v^-p at the speed v        scatter; w: seed
@@ -41,7 +42,7 @@ its force is 0, c = m u/b. While it is open its surface recovers freely, at the 
 and so does its creep: it begins the next interval with what is left.
 
 TWO_STAGE and TABULATED are one form in the stack, too: a PIECEWISE contact is a product with q = 0
-and d = 0 in each piece, when it unloads times a power of c.
+and d = 0 in each piece, when it unloads times f + g c^M.
 
 A new form that is such a product needs a code (`codes`) and its numbers in `take_law`; any other
 one also a force, an energy, a static compression, and the terms of its power series (`find_terms`).
@@ -56,7 +57,6 @@ from stackbounce.engine.codes import (
     DASHPOT,
     HUNT_CROSSLEY,
     HYSTERETIC,
-    LOSSY,
     OPEN,
     PIECEWISE,
     POWER,
@@ -66,13 +66,16 @@ from stackbounce.engine.codes import (
     TWO_STAGE,
     VISCOELASTIC,
 )
+from stackbounce.engine.cycles import (
+    has_hysteresis,
+    loading_work,
+    returned_work,
+    unloaded_state,
+)
 from stackbounce.engine.elementary import power
-from stackbounce.engine.kernels import kernel
+from stackbounce.engine.kernels import Floats, kernel
 from stackbounce.engine.pieces import (
-    compression_of_force,
     compression_of_work,
-    curve_work,
-    energy_given_back,
     has_one_curve,
     take_table,
     take_two_stages,
@@ -95,9 +98,11 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: f
     stack.exponent[i] = p
     stack.unloading[i] = p
     stack.factor_exponent[i] = p
-    if kind in (HYSTERETIC, LOSSY):
-        stack.law[i] = kind
-        stack.unloading[i] = z
+    if kind == HYSTERETIC:
+        if z > p:
+            stack.law[i] = HYSTERETIC
+            stack.unloading[i] = z
+            stack.loss_exponent[i] = z - p
     elif kind == BOND:
         stack.law[i] = PRODUCT
         stack.bonded[i] = 1
@@ -107,7 +112,7 @@ def take_law(stack: Stack, i: int, kind: int, k: float, p: float, z: float, w: f
     elif kind == TWO_STAGE:
         take_two_stages(stack, i, z, w, p)
     elif kind == TABULATED:
-        take_table(stack, i, int(z), int(w), p)
+        take_table(stack, i, int(z), w, p)
     elif kind != POWER and z > 0.0:
         stack.law[i] = PRODUCT
         if kind == DASHPOT:  # k (c + z/k c')
@@ -155,7 +160,7 @@ def is_nonlinear(stack: Stack, i: int) -> bool:
 @kernel
 def is_linear(stack: Stack, i: int) -> bool:
     """Tell whether the force of a pressing contact is now a constant times its compression."""
-    if stack.law[i] >= PRODUCT:
+    if stack.law[i] >= PRODUCT or stack.depth[i] > 0:
         return False
     return stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0
 
@@ -238,7 +243,11 @@ def force(stack: Stack, i: int, compression: float, rate: float, creep: float) -
         gain += stack.gain_rate[i] * rate
         if stack.bonded[i] == 1:
             return pressing * gain
-        return pressing * max(0.0, gain - stack.gain_creep[i] * creep)
+        pressing = (pressing + stack.flat[i]) * max(0.0, gain - stack.gain_creep[i] * creep)
+    if stack.depth[i] > 0:
+        ratio = max(0.0, compression / stack.held_unit[i])
+        held = stack.held_force[i] * power(ratio, stack.loss_exponent[i])
+        pressing = max(0.0, pressing + stack.offset[i] + held)
     return pressing
 
 
@@ -253,15 +262,18 @@ def stored_energy(stack: Stack, i: int, compression: float) -> float:
     if stack.law[i] == PRODUCT:
         held = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
         return _elastic_work(stack, i, held)
-    if stack.law[i] == PIECEWISE:
-        pressing = force(stack, i, compression, 0.0, 0.0)
-        return energy_given_back(stack, i, max(0.0, compression), pressing)
-    if stack.law[i] == LOSSY and stack.top[i] == math.inf:
-        return loaded_energy(stack, i, compression)
+    if stack.law[i] == PIECEWISE or stack.depth[i] > 0:
+        return _held_by_elements(stack, i, max(0.0, compression))
     exponent = stack.curve_exponent[i]
     if stack.law[i] == HYSTERETIC and stack.top[i] == math.inf:
         exponent = stack.unloading[i]
     return force(stack, i, compression, 0.0, 0.0) * compression / (exponent + 1.0)
+
+
+@kernel
+def _held_by_elements(stack: Stack, i: int, c: float) -> float:
+    """Return the work that a contact with pieces or hysteresis would do until it opens."""
+    return returned_work(stack, i, c) if has_hysteresis(stack, i) else loading_work(stack, i, c)
 
 
 @kernel
@@ -285,27 +297,13 @@ def _elastic_work(stack: Stack, i: int, c: float) -> float:
 
 
 @kernel
-def loaded_energy(stack: Stack, i: int, compression: float) -> float:
-    """Return the energy that a lossy contact on its loading curve would give back.
-
-    That is e^2 of the work done on this curve, plus what it held when it came onto the curve.
-    """
-    exponent = stack.exponent[i] + 1.0
-    kept = exponent / (stack.unloading[i] + 1.0)
-    above = power(max(0.0, compression), exponent)
-    base = power(stack.base[i], exponent)
-    work = stack.stiffness[i] * (above - base) / exponent
-    return stack.base_energy[i] + kept * max(0.0, work)
-
-
-@kernel
 def potential(stack: Stack, i: int, compression: float) -> float:
-    """Return the integral from 0 of contact i's elastic force on the curve that it follows."""
+    """Return the work that contact i would do until it opens if it were not damped."""
     c = abs(compression) if stack.bonded[i] == 1 else max(0.0, compression)
     if stack.law[i] == PRODUCT:
         return _elastic_work(stack, i, c)
-    if stack.law[i] == PIECEWISE:
-        return curve_work(stack, i, c)
+    if stack.law[i] in (HYSTERETIC, PIECEWISE):
+        return _held_by_elements(stack, i, c)
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return 0.5 * stack.rate[i] * c * c
     exponent = stack.curve_exponent[i] + 1.0
@@ -314,10 +312,20 @@ def potential(stack: Stack, i: int, compression: float) -> float:
 
 
 @kernel
-def static_compression(stack: Stack, i: int, weight: float) -> float:
-    """Return the compression of contact i at which it carries a weight."""
-    if stack.law[i] == PIECEWISE:
-        return compression_of_force(stack, i, weight)
+def static_state(stack: Stack, i: int, weight: float) -> tuple[float, float]:
+    """Return the compression of contact i at which it carries a weight, and its potential there.
+
+    A contact with hysteresis unloads to it from its highest peak.
+    """
+    if stack.law[i] in (HYSTERETIC, PIECEWISE):
+        return unloaded_state(stack, i, weight)
+    rest = _static_compression(stack, i, weight)
+    return rest, potential(stack, i, rest)
+
+
+@kernel
+def _static_compression(stack: Stack, i: int, weight: float) -> float:
+    """Return the compression at which a contact without hysteresis carries a weight."""
     if stack.law[i] == PRODUCT:
         p, q, square = stack.exponent[i], stack.factor_exponent[i] + 2.0, stack.gain_square[i]
         rest = power(weight / stack.stiffness[i], 1.0 / p)
@@ -360,12 +368,26 @@ def power_needed(stack: Stack, i: int) -> float:
 
 @kernel
 def has_rare_terms(stack: Stack, low: int, high: int) -> bool:
-    """Tell whether a gain of contacts low..high-1 has a term in c^2, an origin, or a creep."""
+    """Return whether a force of contacts low..high-1 has terms that few forces have.
+
+    These are a gain's term in c^2, its origin, a creep, and what elements remember of a peak.
+    """
     largest = 0.0
     for i in range(low, high):
         square = max(abs(stack.gain_square[i]), stack.gain_origin[i])
         largest = max(largest, square, stack.gain_creep[i])
+        largest = max(largest, stack.flat[i], float(stack.depth[i]))
     return largest > 0.0
+
+
+@kernel
+def _add_power_term(c: Floats, u: Floats, p: float, n: int) -> None:
+    """Compute term n of u, a power of c > 0 with its first term known, from c u' = p c' u."""
+    part, total, weight = 1.0 / (n * c[0]), 0.0, p * n
+    for j in range(1, n):
+        weight -= p + 1.0
+        total += weight * (c[n - j] * u[j])
+    u[n] = part * total + part * (p * n * u[0]) * c[n]
 
 
 @kernel
@@ -375,7 +397,7 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
     With x = t^(1/root), a series of terms a_k x^k is the rate of one of terms root a_k/(k + root)
     x^(k + root). Of each power of a compression c, all terms are computed that c is known to. This
     is one function, which takes each array from the stack once: several functions took twice as
-    long. Only if ``rare`` is 1 may a gain have a term in c^2, an origin or a creep: the loop is
+    long. Only if ``rare`` is 1 may a force have the terms of `has_rare_terms`: the loop is
     faster without.
     """
     c_all, v_all, f_all = stack.compression_series, stack.velocity_series, stack.force_series
@@ -386,6 +408,8 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
     gain_square, gain_rate, mass = stack.gain_square, stack.gain_rate, stack.mass
     gain_origin = stack.gain_origin
     creep_all, gain_creep, creep_rate = stack.creep_series, stack.gain_creep, stack.creep_rate
+    held_all, held_force = stack.held_series, stack.held_force
+    depth, offset, flat, loss_exponent = stack.depth, stack.offset, stack.flat, stack.loss_exponent
     for k in range(order + 1):
         n = k + root
         share = root / n
@@ -396,7 +420,8 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
             rate = v_all[i - 1][k] - v_all[i][k] if i > 0 else -v_all[i][k]
             c[n] = share * rate
             if p > 0.0:
-                # u = (c/unit)^p, term by term, from c u' = p c' u; c begins with x^a, u with x^b
+                # u = (c/unit)^p as in `_add_power_term`, whose call would cost a twentieth of
+                # the time; c begins with x^a, u with x^b
                 a = 2 if root == 2 and c[0] == 0.0 else 0
                 b = int(a * p)
                 m = n - b
@@ -441,6 +466,13 @@ def find_terms(stack: Stack, low: int, high: int, order: int, root: int, rare: i
                     for j in range(1, k + 1):
                         total += c[j] * gain[k - j]
                     force = slope[i] * (total + c[0] * gain[k])
+                if rare == 1:
+                    force += flat[i] * gain[k]
+            if rare == 1 and depth[i] > 0:
+                _add_power_term(c, held_all[i], loss_exponent[i], n)
+                force += held_force[i] * held_all[i][k]
+                if k == 0:
+                    force += offset[i]
             f_all[i][k] = force
             if i > 0:
                 v_all[i - 1][n] = share / mass[i - 1] * (below - force) - falling

@@ -2,7 +2,7 @@
 
 import math
 
-from stackbounce.engine.codes import COMPRESSING, EPSILON, HYSTERETIC, LOSSY, POWER
+from stackbounce.engine.codes import COMPRESSING, EPSILON, HYSTERETIC, POWER
 from stackbounce.engine.contacts import correct_curve
 from stackbounce.engine.elementary import exp
 from stackbounce.engine.event_queue import schedule
@@ -332,7 +332,7 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
             stack.compression[i] = evaluate(c, order + stack.root[first], x)
             after = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
             crest = c[stack.root[first]] > 0.0 and after <= 0.0
-            if crest and stack.law[i] not in (HYSTERETIC, LOSSY):  # see `record_series_peaks`
+            if crest and stack.law[i] != HYSTERETIC:  # see `record_series_peaks`
                 stack.counter[WORK] += CREST * order * (1 if stack.law[i] == POWER else 2)
         else:
             stack.compression[i] = closed_compression(stack, i, s)

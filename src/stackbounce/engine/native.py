@@ -1,9 +1,10 @@
 """The package's compiled code: it was made when the package was built, and is only loaded here.
 
 The folder `native` holds a library for each platform of the wheel, `engine.wasm` for browsers, and
-`manifest.json` with their digests and that of the engine's sources. A library that does not fit is
-never loaded: not if its digest is another, not if the sources have changed since, and not on a
-processor without the instructions that it needs. Plain Python then gives the same bits, slowly.
+`manifest.json` with their digests, its own and that of the engine's sources. A library that does
+not fit is never loaded: not if its digest or the manifest's is another, not if the sources have
+changed since, and not on a processor without the instructions that it needs. Plain Python then
+gives the same bits, slowly.
 """
 
 import ctypes
@@ -20,6 +21,7 @@ from typing import Any, NamedTuple
 _HERE = os.path.dirname(__file__)
 FOLDER = os.path.join(_HERE, "native")
 MANIFEST = "manifest.json"
+_LEVELS = {"v2": 2, "v3": 3, "v4": 4}  # of x86-64
 _KINDS: dict[str, Any] = {
     "record": ctypes.c_void_p,
     "float": ctypes.c_double,
@@ -37,6 +39,12 @@ def digest_of_sources() -> str:
     for name in sorted(one for one in os.listdir(_HERE) if one.endswith(".py")):
         digest.update(name.encode() + b"\0" + _content(name) + b"\0")
     return digest.hexdigest()
+
+
+def digest_of_manifest(manifest: dict[str, Any]) -> str:
+    """Return a hash of all of a manifest but its libraries, which a wheel has a part of."""
+    rest = {key: one for key, one in manifest.items() if key not in ("digest", "libraries")}
+    return hashlib.sha256(json.dumps(rest, sort_keys=True).encode()).hexdigest()
 
 
 def platform_name() -> str:
@@ -157,10 +165,10 @@ def _described(name: str) -> _Described:
     """Return what the manifest says of a platform's library."""
     described = None
     try:
-        manifest = json.loads(_content(MANIFEST, FOLDER))
+        manifest = _manifest()
         built, entry = str(manifest["sources"]), manifest["libraries"].get(name)
         if entry is not None:
-            levels = {str(level): int(level[1:]) for level in entry["levels"]}
+            levels = {level: _LEVELS[level] for level in entry["levels"]}
             file, digest = str(entry["file"]), str(entry["sha256"])
             described = _Described(file, digest, levels, manifest["entries"])
     except FileNotFoundError:
@@ -168,7 +176,7 @@ def _described(name: str) -> _Described:
             "the package was built without compiled code (install a wheel that has it, or run "
             "make kernels)"
         ) from None
-    except (OSError, ValueError, KeyError, AttributeError, TypeError):
+    except (OSError, ValueError, KeyError, AttributeError, TypeError, RecursionError):
         raise _NoLibraryError(f"{MANIFEST} is damaged: install stackbounce again") from None
     if described is None:
         raise _NoLibraryError(
@@ -177,6 +185,14 @@ def _described(name: str) -> _Described:
     if built != digest_of_sources():
         raise _NoLibraryError("the engine's sources have changed: run make kernels")
     return described
+
+
+def _manifest() -> dict[str, Any]:
+    """Return the manifest; raise an error if it is not as it was built."""
+    manifest: dict[str, Any] = json.loads(_content(MANIFEST, FOLDER))
+    if manifest["digest"] != digest_of_manifest(manifest):
+        raise ValueError("the manifest has another digest")
+    return manifest
 
 
 def _content(name: str, folder: str = _HERE) -> bytes:

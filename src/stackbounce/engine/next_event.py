@@ -5,16 +5,19 @@ phase       ends when                    event and next phase
 =========== ============================ =====================================================
 open        c rises through 0, or        TOUCH: compressing along the loading curve
 ..          through the surface          (if the contact creeps)
-compressing the rate falls through 0     PEAK: releasing; a hysteretic contact on its loading
-                                         curve takes the unloading curve from here
-..          c of a lossy contact rises   RELOADED: back on the loading curve
-            through its old peak
-releasing   c rises through its old peak RELOADED: compressing, on the loading curve
-..          c falls through 0            RELEASE: open
+compressing the rate falls through 0     PEAK: releasing; with hysteresis along the unloading curve
+                                         from here
+..          c rises through the peak of  RETURNED: the same, as before that cycle, see `cycles`
+            the present cycle
+releasing   c falls through 0            RELEASE: open
+..          c of a spring rises through  RETURNED: compressing, to another peak
+            its peak
+..          c falls to where the present RETURNED: the same, as before that cycle
+            cycle began
+..          the rate of a contact with   DIP: compressing, in a cycle inside the present one
+            hysteresis rises through 0
 any above   c passes a knot              CROSSED: the same, on the next piece of the curve
 ..          the gain falls through 0     CLIPPED: unloaded; of a contact that creeps RELEASE: open
-releasing   the rate of a lossy contact  DIP: compressing
-            rises through 0
 unloaded    the gain rises through 0     RESUMED: compressing
 ..          c falls through 0            RELEASE: open since the force was clipped
 =========== ============================ =====================================================
@@ -41,7 +44,6 @@ from stackbounce.engine.codes import (
     DIP,
     EPSILON,
     LINEARISED,
-    LOSSY,
     OPEN,
     PEAK,
     PIECEWISE,
@@ -49,12 +51,13 @@ from stackbounce.engine.codes import (
     PRODUCT,
     RELEASE,
     RELEASING,
-    RELOADED,
     RESUMED,
+    RETURNED,
     TOUCH,
     UNLOADED,
 )
 from stackbounce.engine.contacts import linearised_impulse_limit
+from stackbounce.engine.cycles import has_hysteresis, lowest_compression
 from stackbounce.engine.elementary import exponent_of, times_power_of_two
 from stackbounce.engine.event_queue import schedule
 from stackbounce.engine.forces import creeps, is_damped
@@ -68,7 +71,6 @@ from stackbounce.engine.motion import (
     series_time,
     subtract_surface,
 )
-from stackbounce.engine.pieces import has_one_curve
 from stackbounce.engine.series import (
     differentiate,
     evaluate,
@@ -150,9 +152,8 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
     if phase >= COMPRESSING and still and stack.modal[stack.first[i]] == 1:
         _schedule(stack, i, time, 0.0, True, RELEASE, horizon)
         return
-    plain = stack.law[i] == PRODUCT
-    plain = plain or (stack.law[i] == POWER and stack.modal[stack.first[i]] == 0)
-    plain = plain or (stack.law[i] == PIECEWISE and has_one_curve(stack, i))
+    plain = not has_hysteresis(stack, i)
+    plain = plain and not (stack.law[i] == POWER and stack.modal[stack.first[i]] == 1)
     if is_damped(stack, i):
         noise = max(noise, 16.0 * EPSILON * abs(a[0])) + tick * rate
         speed = stack.speed[i] + rate
@@ -165,10 +166,10 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
         kind = RELEASE
     elif plain or phase == RELEASING:
         left = min(wait, horizon)
-        knot = stack.piece_low[i] if stack.law[i] == PIECEWISE else 0.0
-        other, there = _safe_wait(stack, a, order, power, tail, 0.0, 1.0, knot, band, left)
+        level, lower_kind = _lower_level(stack, i)
+        other, there = _safe_wait(stack, a, order, power, tail, 0.0, 1.0, level, band, left)
         if other < left or (there and other <= left < horizon):
-            wait, reached, kind = other, there, CROSSED if knot > 0.0 else RELEASE
+            wait, reached, kind = other, there, lower_kind
         level = _linearised_level(stack, i)
         # else the series is valid up to the release
         if level > 0.0 and (wait >= horizon or not reached):
@@ -182,11 +183,11 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
         other, there = _safe_wait(stack, a, order, power, tail, 0.0, -1.0, level, band, left)
         if other < wait:
             wait, reached, kind = other, there, upper_kind
-    if stack.linearised[i] == 1 and phase >= COMPRESSING:
+    if stack.linearised[i] == 1 and stack.rate[i] > 0.0 and phase >= COMPRESSING:
         other, there = _linearised_wait(stack, i, time, order, power, tail, min(wait, horizon))
         if other < wait:
             wait, reached, kind = other, there, CURVED
-    if not plain and (phase == COMPRESSING or stack.law[i] == LOSSY):
+    if not plain and (phase == COMPRESSING or has_hysteresis(stack, i)):
         for k in range(order - root + 1):
             a[k] = (k + root) * a[k + root] / root
         sign, left = 1.0 if phase == COMPRESSING else -1.0, min(wait, horizon)
@@ -232,14 +233,25 @@ def _linearised_level(stack: Stack, i: int) -> float:
 
 
 @kernel
+def _lower_level(stack: Stack, i: int) -> tuple[float, int]:
+    """Return the compression below which contact i opens or changes its curve, and the event."""
+    level, kind = lowest_compression(stack, i), RELEASE
+    if level > 0.0:
+        kind = RETURNED
+    if stack.law[i] == PIECEWISE and stack.piece_low[i] > level:
+        level, kind = stack.piece_low[i], CROSSED
+    return level, kind
+
+
+@kernel
 def _upper_level(stack: Stack, i: int, plain: bool) -> tuple[float, int]:
     """Return the compression above which contact i changes its curve, and the kind of event."""
     level, kind = math.inf, CHECK
     phase = stack.phase[i]
     if phase == UNLOADED:
         return level, kind
-    if not plain and phase == (COMPRESSING if stack.law[i] == LOSSY else RELEASING):
-        level, kind = stack.top[i], RELOADED
+    if not plain and phase == (COMPRESSING if has_hysteresis(stack, i) else RELEASING):
+        level, kind = stack.top[i], RETURNED
     if stack.law[i] == PIECEWISE and stack.piece_high[i] < level:
         level, kind = stack.piece_high[i], CROSSED
     if stack.linearised[i] == 1 and stack.linearised_below[i] < level:

@@ -224,7 +224,7 @@ def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> N
     if kind == PEAK:
         record_peak(stack, i, compression, force(stack, i, compression, 0.0, 0.0), time)
     if kind not in (TOUCH, RELEASE) and not changes_curve(stack, i, kind):
-        change_phase(stack, i, kind, compression)
+        change_phase(stack, i, kind)
         _reschedule(stack, i, time)
         stack.clock[LAST_EVENT] = time
         return

@@ -19,6 +19,7 @@ WIDTH = MODES + 1  # balls of that cluster, without a floor
 TERMS = 40  # numbers of a power series
 MOST_PIECES = 64  # of the curves of a contact, see `pieces`
 PIECE_NUMBERS = 4  # numbers of a piece
+TURNS = 64  # the most cycles inside one another that a contact remembers, see `cycles`
 
 
 class Stack(NamedTuple):
@@ -30,6 +31,7 @@ class Stack(NamedTuple):
     stiffness: Floats
     exponent: Floats
     unloading: Floats  # exponent of the unloading curve
+    loss_exponent: Floats  # M of the share f + g (c/C)^M of the force that is left, see `cycles`
     factor_exponent: Floats  # q of a product k c^q (a + b c + s c^2 + d c' - m u), see `forces`
     gain_constant: Floats  # a of that gain
     gain_slope: Floats  # b
@@ -52,14 +54,17 @@ class Stack(NamedTuple):
     curve_force: Floats  # present force curve: curve_force (c/curve_unit)^curve_exponent
     curve_unit: Floats
     curve_exponent: Floats
-    dip_energy: Floats  # energy stored at the last DIP
-    base: Floats  # compression and energy of a lossy contact when it came onto its loading curve
-    base_energy: Floats
-    top: Floats  # compression at which unloading and loading curve meet; inf on the latter
+    flat: Floats  # its part that is the gain alone, without the power
+    top: Floats  # compression at which the present curve ends upwards; inf on the loading curve
+    depth: Integers  # number of cycles that the present curve is inside of, see `cycles`
+    highs: Floats  # their turning points: peaks, and the compressions where reloading began
+    lows: Floats
+    offset: Floats  # what elements that remember a peak add to the force: offset
+    held_force: Floats  # + held_force (c/held_unit)^loss_exponent
+    held_unit: Floats
     loading_pieces: Integers  # number of them; 0 if the force is no curve of pieces
     unloading_pieces: Integers
     returned: Floats  # share of the work of loading that unloading returns; see `pieces`
-    rescaled: Integers  # 1 on the pieces of unloading, in units of the peak
     piece: Integers  # the present one, and where it begins and ends
     piece_low: Floats
     piece_high: Floats
@@ -106,6 +111,7 @@ class Stack(NamedTuple):
     velocity_series: Rows
     power_series: Rows  # of (c/curve_unit)^power
     gain_series: Rows
+    held_series: Rows  # of (c/held_unit)^loss_exponent
     creep_series: Rows
     power: Floats  # of the power series; 0 if none is needed
     # scratch space and counters
@@ -176,6 +182,7 @@ _SLOTS = {
 _PER_SERIES = {"scratch": TERMS, "watched": TERMS, "margin": TERMS, "changed": TERMS}
 _PER_SLOT = ("due", "event", "heap", "place")  # two slots for each ball
 _PER_MODE = ("shape", "rows")
+_PER_TURN = ("highs", "lows")
 _KEPT = "pieces"  # the caller fills it before a run, which does not clear it
 _INTEGERS = {
     name
@@ -191,6 +198,7 @@ def new_stack(size: int) -> Stack:
     lengths = dict.fromkeys(Stack._fields, size)
     lengths |= dict.fromkeys(_PER_SLOT, 2 * size)
     lengths |= dict.fromkeys(_PER_MODE, size * WIDTH)
+    lengths |= dict.fromkeys(_PER_TURN, size * TURNS)
     lengths[_KEPT] = size * MOST_PIECES * PIECE_NUMBERS
     lengths |= _SLOTS | _PER_SERIES
     rows = {name: [[0.0] * TERMS for _ in range(size)] for name in _ROWS}

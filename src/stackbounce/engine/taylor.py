@@ -14,8 +14,8 @@ exponential, whatever its eigenvalues; the tolerance is then round-off, whatever
 
 import math
 
-from stackbounce.engine.codes import HYSTERETIC, LOSSY, PRODUCT
-from stackbounce.engine.elementary import near_root
+from stackbounce.engine.codes import HYSTERETIC, PRODUCT
+from stackbounce.engine.elementary import near_root, power
 from stackbounce.engine.forces import (
     creeps,
     find_terms,
@@ -57,7 +57,11 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         begin = ratio > 0.0 and stack.power[i] > 0.0
         stack.power_series[i][0] = raised(ratio, stack.power[i]) if begin else 0.0
         stack.power_series[i][1] = 0.0  # the same
-        if not is_linear(stack, i) and stack.curve_exponent[i] != 0.0:
+        if stack.depth[i] > 0:
+            ratio = stack.compression[i] / stack.held_unit[i]
+            stack.held_series[i][0] = power(ratio, stack.loss_exponent[i])
+            stack.held_series[i][1] = 0.0  # the same
+        if not is_linear(stack, i) and (stack.curve_exponent[i] != 0.0 or stack.depth[i] > 0):
             exact = False
     order = ORDER if exact else stack.setting[SERIES_ORDER]
     if root == 2:
@@ -96,7 +100,7 @@ def expand_motion(stack: Stack, low: int, high: int) -> float:
         before = size
     step = min(step, x if root == 1 else x * x)
     for i in range(low, high):
-        if stack.power[i] > 0.0 and stack.compression[i] > 0.0:
+        if (stack.power[i] > 0.0 or stack.depth[i] > 0) and stack.compression[i] > 0.0:
             step = _steep_step(stack, i, order, root, step)
     return step
 
@@ -110,13 +114,21 @@ def _steep_step(stack: Stack, i: int, order: int, root: int, step: float) -> flo
     more, as long as the last term of the series of its power is small.
     """
     compression, c = stack.compression[i], stack.compression_series[i]
-    furthest = 0.5 * order / root / stack.curve_exponent[i] * compression
+    steepness, first, last = 0.0, 0.0, 0.0
+    if stack.power[i] > 0.0:
+        steepness = stack.curve_exponent[i]
+        first, last = stack.power_series[i][0], abs(stack.power_series[i][order])
+    if stack.depth[i] > 0:
+        steepness = max(steepness, stack.loss_exponent[i])
+        held, end = stack.held_series[i][0], abs(stack.held_series[i][order])
+        if end * first >= last * held:
+            first, last = held, end
+    furthest = 0.5 * order / root / steepness * compression
     reach = min(furthest, _BEYOND * compression)
     near = _time_to_rise(abs(c[1]), abs(c[2]), reach)
     if near >= step or c[1] <= 0.0 or root == 2:
         return min(near, step)
     far = min(_time_to_rise(c[1], c[2], furthest), _time_to_rise(-c[1], -c[2], reach))
-    first, last = stack.power_series[i][0], abs(stack.power_series[i][order])
     if far > near and last > 0.0:
         far = min(far, near_root(_CLEAR * stack.number[TOLERANCE] * first / last, order))
     return min(max(near, far), step)
@@ -161,7 +173,7 @@ def _fastest(stack: Stack, low: int, high: int) -> float:
 def record_series_peaks(stack: Stack, low: int, high: int, s: float) -> None:
     """Update the peaks of contacts with one force curve from their series up to s."""
     for i in range(low, high):
-        if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] in (HYSTERETIC, LOSSY):
+        if stack.setting[RECORDS_PEAKS] == 0 or stack.law[i] == HYSTERETIC:
             continue
         first, order = stack.first[i], stack.order[i]
         root = stack.root[first]

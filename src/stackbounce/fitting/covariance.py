@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.quantities import Array
 
-__all__ = ["OPEN", "estimate_covariance", "find_directions"]
+__all__ = ["OPEN", "estimate_covariance", "find_directions", "find_leverages"]
 
 OPEN = 1.0
 """Root of chi squared's change between the bounds below which a direction is undetermined."""
@@ -47,3 +47,15 @@ def estimate_covariance(
     inner = (directions.T * spread**2) @ directions
     scale = objective.widths * objective.value_slopes(x)
     return np.asarray(inner * np.outer(scale, scale))
+
+
+def find_leverages(
+    objective: Objective, slopes: Array, sizes: Array, directions: Array
+) -> NDArray[np.float64]:
+    """Return how far a linearised fit follows each number, from 0 to 1: (residuals,).
+
+    Undetermined directions follow none.
+    """
+    known = sizes > OPEN
+    along = (slopes * objective.widths) @ directions[known].T / sizes[known]
+    return np.asarray(np.sum(along**2, axis=1))

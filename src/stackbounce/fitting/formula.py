@@ -3,6 +3,7 @@
 import ast
 import math
 import re
+import sys
 from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeAlias
 
@@ -87,8 +88,8 @@ def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formu
         run = _function(ast.parse(plain, mode="eval").body, names)
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise InvalidValue(
-            f"tie: {path} = {shown(text)} cannot be read: it may have numbers, names, + - * / **, "
-            f"brackets, {', '.join(sorted(OWN_WORDS))}"
+            f"tie: {path} = {shown(text)} cannot be read: it may have numbers up to 1e308, names, "
+            f"+ - * / **, brackets, {', '.join(sorted(OWN_WORDS))}"
         ) from None
     return run, frozenset(names.values())
 
@@ -96,7 +97,7 @@ def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formu
 def _function(node: ast.AST, names: Mapping[str, str]) -> Formula:
     """Return a part of a formula as a function; numbers become floats, which limits their size."""
     match node:
-        case ast.Constant(int() | float() as value):
+        case ast.Constant(int() | float() as value) if value <= sys.float_info.max:
             number = float(value)
             return lambda _: number
         case ast.Name(name) if name in names:

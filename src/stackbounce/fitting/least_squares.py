@@ -1,5 +1,6 @@
 """The minima of chi squared: many trials are screened, descents by lmfit start at the best."""
 
+import contextlib
 import math
 from typing import Any, NamedTuple
 
@@ -255,7 +256,9 @@ def _cross_kink(objective: Objective, x: Array, fixed: int | None) -> Array:
         _parameters(objective, x, fixed),
         calc_covar=False,
     )
-    return _trial(minimizer.minimize(method="nelder", max_nfev=_SHORT * len(x)).params)
+    with contextlib.suppress(lmfit.minimizer.AbortFitException):  # lmfit counts its end, too
+        minimizer.minimize(method="nelder", max_nfev=_SHORT * len(x))
+    return _trial(minimizer.result.params)
 
 
 def _is_smooth(objective: Objective, x: Array, fixed: int | None) -> bool:

@@ -1,4 +1,4 @@
-"""The notes of a fit: undetermined parameters, bounds that were reached, other minima, misfits."""
+"""The notes of a fit: what is undetermined, bounds reached, other minima, misfits, an outlier."""
 
 from collections.abc import Mapping, Sequence
 
@@ -20,6 +20,9 @@ __all__ = [
 
 _CLOSE = 4.0  # chi squared above the best up to which another minimum is worth a note
 _UNLIKELY = 1e-3  # probability of chi squared below which the model is doubted
+_BAD = 0.05  # probability of chi squared below which an outlier is looked for
+_RARE = 0.01  # probability that one of all data is as far off by chance, for an outlier at most
+_ALONE = 1e-6  # one less the leverage of a number that determines a parameter alone
 _SHARE = 0.3  # of the largest part of an undetermined direction: parameters above it are named
 _EDGE = 1e-3  # of the width between the bounds: how near a bound is reached
 
@@ -84,11 +87,16 @@ def note_misfits(
     objective: Objective,
     minima: Sequence[Minimum],
     residuals: Sequence[Residual],
+    leverages: Array,
     degrees_of_freedom: int,
 ) -> list[str]:
     """Return notes on an unlikely chi squared, differing collisions and other minima."""
+    chi_squared = minima[0].chi_squared
     return [
-        *_note_unlikely(minima[0].chi_squared, degrees_of_freedom),
+        *(
+            _note_outlier(chi_squared, residuals, leverages, degrees_of_freedom)
+            or _note_unlikely(chi_squared, degrees_of_freedom)
+        ),
         *_note_collisions(objective, minima[0]),
         *(f"{one.label}: the fitted drop has none" for one in residuals if _is_absent(one)),
         *_note_other_minima(objective, minima),
@@ -97,6 +105,33 @@ def note_misfits(
 
 def _is_absent(residual: Residual) -> bool:
     return not abs(residual.pull) < ABSENT
+
+
+def _note_outlier(
+    chi_squared: float, residuals: Sequence[Residual], leverages: Array, degrees_of_freedom: int
+) -> list[str]:
+    """Return a note on the one number whose residual makes chi squared unlikely, if there is one.
+
+    Without a number whose pull is r, a linear fit has a chi squared that is smaller by
+    ``r**2 / (1 - h)``, with its leverage h. This square follows that of a normal distribution.
+    """
+    from scipy.stats import chi2
+
+    chance = float(chi2.sf(chi_squared, degrees_of_freedom))
+    if degrees_of_freedom < 2 or chance >= _BAD:  # with one degree of freedom none has a rival
+        return []
+    pulls = np.array([one.pull for one in residuals])
+    less = pulls**2 / np.maximum(1.0 - leverages[: len(pulls)], _ALONE)
+    without = chi2.sf(chi_squared - less, degrees_of_freedom - 1)
+    rare = len(pulls) * chi2.sf(less, 1) < _RARE
+    (found,) = np.nonzero((without >= _BAD) & rare & (np.abs(pulls) < ABSENT))
+    if len(found) != 1:
+        return []
+    label, pull, then = residuals[found[0]].label, pulls[found[0]], without[found[0]]
+    off = f"{label} is {abs(pull):.1f} errors off"
+    said = f"{off}, and without it p is {then:.2g} instead of {chance:.1g}"
+    what_to_do = "check how it was measured, or try another law"
+    return [f"one number makes chi squared improbable: {said}; {what_to_do}"]
 
 
 def _note_unlikely(chi_squared: float, degrees_of_freedom: int) -> list[str]:

@@ -11,6 +11,7 @@ import numpy as np
 from stackbounce.errors import InvalidType, InvalidValue, nearest, shown
 from stackbounce.fitting.formula import OWN_WORDS
 from stackbounce.fitting.quantities import Array, read_with_error
+from stackbounce.measure.quantities import LARGEST
 from stackbounce.model import Drop
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
 from stackbounce.units import quantity
@@ -24,6 +25,7 @@ _RIGHT = (
     "varied between two bounds, such as '1e3 : 1e6', or around what is known of it, such as "
     "'1.3 ± 0.9 mm'"
 )
+_LEAST = 1e-12  # relative: closer bounds are one number to lmfit
 _REACH = 6.0  # default bounds of a parameter with a prior, in its standard deviations
 
 
@@ -183,13 +185,20 @@ def _parameter(drops: Mapping[str, Drop], name: object, given: object) -> Parame
         raise InvalidValue(
             f"{name} must have a lower bound below the upper one, got {low:g} and {high:g}"
         )
+    found = Parameter(name, low, high, prior, unit)
+    apart, size = high - low, max(1.0, abs(low), abs(high))
+    if not (found.logarithmic or _LEAST * size < apart <= LARGEST):
+        raise InvalidValue(
+            f"{name} must have bounds above {_LEAST:g} (of their size, if that is above 1) and "
+            f"at most {LARGEST:g} apart, got {low:g} and {high:g}"
+        )
     for key, number in at:
         for value in (low, high):
             try:
                 drop_at(drops[key], {number: value})
             except (InvalidValue, InvalidType) as error:
                 raise InvalidValue(f"{name} cannot be varied to {value:g}: {error}") from error
-    return Parameter(name, low, high, prior, unit)
+    return found
 
 
 def _bounds(
@@ -223,7 +232,8 @@ def _default(
     if number.field == "restitution":
         return 0.01, 1.0
     if own == 0.0 or math.isnan(own):
-        raise InvalidValue(f"{name} is {own:g} in the drop and needs bounds, such as {name}=0.1:10")
+        told = "not given" if math.isnan(own) else "0"
+        raise InvalidValue(f"{name} is {told} in the drop and needs bounds, such as {name}=0.1:10")
     ends = sorted((own / _WIDE, own * _WIDE))
     return _legal(drops, at, own, *ends)
 

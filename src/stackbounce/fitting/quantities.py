@@ -6,8 +6,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, finite, nearest, positive, shown
-from stackbounce.measure.quantities import quantity_with_error
+from stackbounce.errors import InvalidValue, nearest, shown
+from stackbounce.measure.quantities import LARGEST, deviation, quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.quantities import QUANTITIES
 from stackbounce.units import quantity
@@ -102,4 +102,7 @@ def read_with_error(given: object, unit: str, name: str, right: str) -> tuple[fl
     if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
         raise InvalidValue(f"{name} must be {right}, got {shown(given)}")
     value, error = (quantity(one, unit, name) for one in pair)
-    return finite(name, value), positive(f"{name}'s error", error)
+    deviation(name, error, zero=False)
+    if not abs(value) <= LARGEST * error:
+        raise InvalidValue(f"{name} must be at most {LARGEST:g} of its errors, got {shown(given)}")
+    return value, error

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.errors import InvalidValue, nearest, positive, shown
+from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
 from stackbounce.fitting.course import Progress, announce
-from stackbounce.fitting.covariance import estimate_covariance, find_directions
+from stackbounce.fitting.covariance import estimate_covariance, find_directions, find_leverages
 from stackbounce.fitting.least_squares import Minimum
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.posterior import Posterior
@@ -111,7 +111,11 @@ class Fit:
 
         The directions are orthogonal in coordinates that run from 0 to 1 between the bounds.
         """
-        return find_directions(self.objective, self.objective.linearise(self.x)[1])
+        return find_directions(self.objective, self._slopes)
+
+    @functools.cached_property
+    def _slopes(self) -> Array:
+        return self.objective.linearise(self.x)[1]
 
     @property
     def correlations(self) -> "xr.DataArray":
@@ -186,12 +190,13 @@ class Fit:
     @functools.cached_property
     def notes(self) -> tuple[str, ...]:
         """Warnings about the fit, a sentence each."""
+        leverages = find_leverages(self.objective, self._slopes, *self.directions)
         return (
             *notes.note_search(self.minima[0], self.unsolved),
             *self.undetermined,
             *notes.note_bounds(self.objective, self.x),
             *notes.note_misfits(
-                self.objective, self.minima, self.residuals, self.degrees_of_freedom
+                self.objective, self.minima, self.residuals, leverages, self.degrees_of_freedom
             ),
         )
 
@@ -253,7 +258,7 @@ class Fit:
             If it was not varied, or a value lies outside the bounds.
         """
         k = self.names.index(self._known(name))
-        return self._profile(k).evaluate(np.asarray(values, dtype=float))
+        return self._profile(k).evaluate(np.asarray(unmasked("values", values), dtype=float))
 
     def _profile(self, k: int) -> Profile:
         return Profile(self.objective, self.minima[0], self.covariance.values, k)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, positive, shown, unmasked
 from stackbounce.fitting.quantities import read_index
 from stackbounce.measure.kinds.waveform.analysis import waveform as analysed
 from stackbounce.model import Drop
@@ -157,6 +157,7 @@ def _arrays(value: Any, path: str) -> tuple[Any, Any, Any, bool]:
         stamps = np.asarray(array["time"].values, dtype=float)
         samples = np.asarray(array.values, dtype=float)
         return stamps, samples, array.attrs.get("error"), array.attrs.get("units", "") != "N"
+    unmasked(path, value)
     try:
         times, force, error = value if len(value) == 3 else (*value, None)
         stamps, samples = np.asarray(times, dtype=float), np.asarray(force, dtype=float)

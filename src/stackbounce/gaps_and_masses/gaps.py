@@ -29,7 +29,7 @@ _LOWEST = 1e-4  # the smallest logarithmically spaced gap, over the largest gap
 _BEYOND = 1.1  # the largest gap, over the separation limit
 _NEVER = 20.0  # the same over the fall during the touching impact, where there is no limit
 _STRAIGHT = 2e-3  # tolerated distance of a rebound ratio from the chord of its neighbours
-_EXACT = 1e-7  # relative accuracy of a gap at which a count changes or a curve jumps
+_EXACT = 1e-7  # relative accuracy of a gap at which a count changes
 _MOST = 20_000  # gaps at most
 
 

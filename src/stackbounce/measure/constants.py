@@ -8,7 +8,7 @@ from typing import Any
 
 from stackbounce.calibration import calibrate
 from stackbounce.errors import InvalidValue, between, fraction, positive, shown
-from stackbounce.measure.quantities import Number, Row, measured
+from stackbounce.measure.quantities import Number, Row, deviation, measured
 from stackbounce.measure.statistics.propagation import propagate
 from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
 
@@ -172,6 +172,11 @@ def law_constants(
         return [getattr(law, name) for name in names]
 
     constants = propagate(constants_of, sources, _BOUNDS)
+    try:
+        for name, one in zip(names, constants, strict=True):
+            deviation(name, one.std_dev)
+    except OverflowError:
+        raise InvalidValue(f"{kind.__name__} must have constants in the range of numbers") from None
     return LawConstants(found, dict(zip(names, constants, strict=True)), sources)
 
 

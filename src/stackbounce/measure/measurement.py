@@ -195,7 +195,11 @@ def measure_numbers(options: Mapping[str, Any]) -> list[Measurement]:
             "holds": kind.typed,
         }
         source = " ".join(known[name].on_command_line for name in given)
-        done.append(Measurement(source, told, None, (kind.of_numbers(**own),)))
+        try:
+            found = kind.of_numbers(**own)
+        except ArithmeticError as error:
+            raise InvalidValue(f"{source} has numbers that are too large or too small") from error
+        done.append(Measurement(source, told, None, (found,)))
     return done
 
 

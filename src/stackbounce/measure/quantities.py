@@ -7,13 +7,15 @@ from typing import Any, NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue, non_negative, positive, shown
+from stackbounce.errors import InvalidValue, finite, positive
 from stackbounce.units import quantity, unit_written
 
 __all__ = [
+    "LARGEST",
     "Array",
     "Number",
     "Row",
+    "deviation",
     "known_rows",
     "known_to",
     "measured",
@@ -28,6 +30,11 @@ __all__ = [
 _SHORT = re.compile(
     r"([-+]?[0-9]+)(?:\.([0-9]*))?\s*\(([0-9]+\.?[0-9]*)\)(?:[eE]([-+]?[0-9]{1,3}))?\s*([^±]*)"
 )
+
+_BOTH = re.compile(r"\(([^()]*)\)\s*([^()]*)")  # (57.0 ± 0.5) g
+
+LARGEST = 1e100
+"""The largest error in SI units, so that its square is a number, too."""
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -115,11 +122,32 @@ def measured(
     if not isinstance(value, UFloat):
         return known_to(check(name, value, *unit), 0.0)
     check(name, known.nominal_value, *unit)
-    try:
-        non_negative(name, known.std_dev)
-    except InvalidValue:
-        raise InvalidValue(f"{name} must have a finite error, got {shown(value)}") from None
+    deviation(name, known.std_dev)
     return known
+
+
+def deviation(name: str, value: object, *, zero: bool = True) -> float:
+    """Return the error of a number, one standard deviation, if its square is a number, too.
+
+    Raises
+    ------
+    InvalidType
+        If it is no number.
+    InvalidValue
+        If it is below 0, or 0 where `zero` is false, or above 1e100.
+
+    Examples
+    --------
+    >>> deviation("mass", 1e200)
+    Traceback (most recent call last):
+    stackbounce.errors.InvalidValue: mass's error must be at most 1e+100, got 1e+200
+    """
+    found = (finite if zero else positive)(f"{name}'s error", value)
+    if found < 0.0:
+        raise InvalidValue(f"{name}'s error must be 0 or above, got {found:g}")
+    if found > LARGEST:
+        raise InvalidValue(f"{name}'s error must be at most {LARGEST:g}, got {found:g}")
+    return found
 
 
 def measured_if_given(name: str, value: Any, of: str = "", **how: Any) -> Number | None:
@@ -173,7 +201,7 @@ def quantity_with_error(text: str, unit: str, name: str, written: str = "") -> f
     own = unit_of_both(text) or written
     if error is None:
         return quantity(_with_unit(value, own), unit, name)
-    wide = positive(f"{name}'s error", quantity(_with_unit(error, own), unit, name))
+    wide = deviation(name, quantity(_with_unit(error, own), unit, name), zero=False)
     return ufloat(quantity(_with_unit(value, own), unit, name), wide)
 
 
@@ -213,5 +241,7 @@ def _split(text: str) -> tuple[str, str | None]:
         whole, decimals, digits, power, unit = short.groups("")
         last = int(power or 0) - (0 if "." in digits else len(decimals))
         return f"{whole}.{decimals}e{power or 0} {unit}", f"{digits}e{last} {unit}"
-    value, sign, error = text.replace("+/-", "±").partition("±")
-    return (value.strip(" ()"), error.replace(")", " ").strip()) if sign else (text, None)
+    both = _BOTH.fullmatch(text.strip())
+    plain = f"{both[1]} {both[2]}" if both else text
+    value, sign, error = plain.replace("+/-", "±").partition("±")
+    return (value.strip(), error.strip()) if sign else (text, None)

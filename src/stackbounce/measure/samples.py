@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
 from stackbounce.measure.quantities import Array
 
 __all__ = ["columns", "quantisation_error", "resolution", "runs", "trapezoid"]
@@ -39,7 +39,8 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
     Raises
     ------
     InvalidType
-        If `data` is neither, lacks a variable, or holds something else than numbers.
+        If `data` is neither, lacks a variable, or holds something else than numbers, or masked
+        ones.
     InvalidValue
         If the arrays are not as many as the names, or not of one length.
 
@@ -48,6 +49,7 @@ def columns(data: Any, names: Sequence[str]) -> list[Array]:
     >>> columns(([0, 1], [2, 3]), ("time", "force"))
     [array([0., 1.]), array([2., 3.])]
     """
+    unmasked("data", data)
     try:
         given = [data[name] for name in names] if hasattr(data, "data_vars") else list(data)
         arrays = [np.asarray(one, dtype=np.float64) for one in given]

@@ -5,6 +5,7 @@ that are independent of each other. Numbers that share a variable are correlated
 """
 
 import functools
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -12,15 +13,24 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, finite, shown
-from stackbounce.measure.quantities import known_to, quantity_with_error
+from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
+from stackbounce.measure.quantities import deviation, known_to, quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.columns import check
-from stackbounce.run.paths import Number, drop_at, number_at
+from stackbounce.run.paths import Number, drop_at, number_at, value_in
 from stackbounce.sweeps.dataset import check_together
 from stackbounce.units import quantity
 
-__all__ = ["FEWEST", "Array", "Inputs", "error_of_deviation", "of_draws", "possible", "read_inputs"]
+__all__ = [
+    "FEWEST",
+    "Array",
+    "Inputs",
+    "add_value",
+    "error_of_deviation",
+    "of_draws",
+    "possible",
+    "read_inputs",
+]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -198,6 +208,28 @@ def read_inputs(drop: Drop, errors: object) -> Inputs:
     return inputs
 
 
+def add_value(drop: Drop, path: str, error: float | str, name: str) -> tuple[float, float]:
+    """Return a number of a drop with an error of it, in SI units; messages call the error `name`.
+
+    Raises
+    ------
+    InvalidValue
+        If the drop has no such number or does not give it, or the error is out of range.
+
+    Examples
+    --------
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(0.057)], [sb.Spring(2e4)], height=0.63)
+    >>> add_value(drop, "height", "1 cm", "error of height")
+    (0.63, 0.01)
+    """
+    number = number_at(drop, path)
+    value = value_in(drop, number)
+    if math.isnan(value):
+        raise InvalidValue(f"{name} needs {path}, which the drop does not give")
+    return value, quantity(error, number.unit, name)
+
+
 def _with_error(number: Number, value: Any) -> Any:
     """Return a value with its error as a UFloat in SI units."""
     path, unit = number.path, number.unit
@@ -207,19 +239,17 @@ def _with_error(number: Number, value: Any) -> Any:
         found = quantity_with_error(value, unit, path)
     elif isinstance(value, Sequence) and len(value) == 2:
         mean, error = (quantity(one, unit, path) for one in value)
-        if error < 0.0:
-            raise InvalidValue(f"{path}'s error must be 0 or above, got {error:g}")
-        found = known_to(mean, error)
+        found = known_to(mean, deviation(path, error))
     if not hasattr(found, "nominal_value"):
         raise InvalidType(f"{path} must be {right}, got {shown(value)}")
     finite(path, found.nominal_value)
-    finite(f"{path}'s error", found.std_dev)
+    deviation(path, found.std_dev)
     return found
 
 
 def _draws(path: str, value: Any) -> Array:
     """Return the draws of a number."""
-    draws = np.asarray(value)
+    draws = np.asarray(unmasked(path, value))
     if draws.ndim != 1 or len(draws) < FEWEST or draws.dtype.kind not in "iuf":
         raise InvalidValue(
             f"{path} must be a number with an error or an array of {FEWEST} draws or more, "
@@ -227,6 +257,7 @@ def _draws(path: str, value: Any) -> Array:
         )
     if not np.all(np.isfinite(draws)):
         raise InvalidValue(f"{path} must have finite draws")
+    deviation(path, np.ptp(draws))
     return draws.astype(float)
 
 

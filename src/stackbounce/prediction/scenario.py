@@ -14,7 +14,7 @@ from stackbounce.run.paths import drop_at
 
 __all__ = ["read_scenario", "split_error", "split_errors", "write_scenario"]
 
-_WORDS = ("law", "name", "reloading")
+_WORDS = ("law", "name")
 
 
 def read_scenario(path: str | os.PathLike[str]) -> tuple[Drop, dict[str, str]]:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from stackbounce.engine import codes
 from stackbounce.engine.ratios import energy_kept
-from stackbounce.errors import InvalidType, InvalidValue, finite, shown
+from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
 from stackbounce.model import Drop
 from stackbounce.version import __version__
 
@@ -126,7 +126,8 @@ class Result:
     end_time : float
         Time in s of the last event, or of the stop.
     final_velocities : sequence of float
-        (N,) velocity of each ball in m/s at `end_time`, up-positive; nan if INVALID.
+        (N,) velocity of each ball, or of the centre of its body, in m/s at `end_time`, up-positive;
+        nan if INVALID.
     log : sequence of float
         The engine's log, a row of `stackbounce.engine.codes.LOG_COLUMNS` numbers per event.
     infinite : sequence of int
@@ -180,7 +181,10 @@ class Result:
 
     @functools.cached_property
     def rebound_speeds(self) -> NDArray[np.float64]:
-        """(N,) velocity of each ball after the impact, m/s, up-positive; nan if INVALID."""
+        """(N,) velocity of each ball after the impact, m/s, up-positive; nan if INVALID.
+
+        That of a ball with a `Bond` is the velocity of the centre of its body.
+        """
         return _frozen(np.array(self.final_velocities, dtype=float))
 
     @functools.cached_property
@@ -461,8 +465,7 @@ class Result:
 
 def _numbers(times: object) -> NDArray[np.float64]:
     """Return times as an array of floats; raise if one is not a real number."""
-    if np.ma.isMaskedArray(times):
-        raise InvalidType(f"times must be a list of numbers, got a masked array: {shown(times)}")
+    unmasked("times", times)
     try:
         # Without an array's type, numpy would make one of [1.0, True] and of [1.0, "2"].
         table = np.asarray(times, dtype=None if hasattr(times, "dtype") else object)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, shown
+from stackbounce.errors import InvalidType, InvalidValue, shown, unmasked
 from stackbounce.model import Drop
 from stackbounce.run.batch import solve
 from stackbounce.run.columns import check
@@ -71,7 +71,7 @@ def sweep(
         If the drop has no such path, or a value is not valid; the message gives the element and
         all its numbers. Errors in lazy values are raised when they are computed.
     InvalidType
-        If something has the wrong type.
+        If something has the wrong type, or a value is masked.
 
     Notes
     -----
@@ -151,6 +151,7 @@ def _named(number: Number, value: Any) -> "xr.DataArray":
     own = number.path
     if isinstance(value, tuple) and len(value) == 2 and isinstance(value[0], str):
         own, value = value
+    unmasked(number.path, value)
     if isinstance(value, xr.DataArray):
         array = value
     else:

@@ -1,5 +1,6 @@
 """How well each law follows a series: calibrated at one speed, and fitted to all."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
@@ -10,10 +11,21 @@ from stackbounce.validation.fall import Array
 from stackbounce.validation.family import Family, families, reason_to_skip
 from stackbounce.validation.series import RESTITUTION, Series
 
-__all__ = ["AGREES", "DOUBTFUL", "REFUTED", "Comparison", "Outcome", "compare_laws", "verdict"]
+__all__ = [
+    "AGREES",
+    "DOUBTFUL",
+    "REFUTED",
+    "REFUTED_BELOW",
+    "Comparison",
+    "Outcome",
+    "compare_laws",
+    "format_p",
+    "verdict",
+]
 
 AGREES, DOUBTFUL, REFUTED = "agrees", "doubtful", "refuted"
-_REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05  # p values
+REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
+"""The p values of the verdicts."""
 
 _NODES = 9  # at which a family is computed, for the fit
 _WIDER = 1.5  # logarithm by which the fit may leave the measured values
@@ -113,18 +125,28 @@ class Comparison:
 
     @property
     def summary(self) -> str:
-        """What the series says of the laws, in a sentence."""
+        """What the series says of the laws, and what that owes to the correction for the air."""
         names = {
             kind: [name for one in self.outcomes if one.verdict == kind for name in one.laws]
             for kind in (AGREES, DOUBTFUL, REFUTED)
         }
         if not names[AGREES] and not names[DOUBTFUL]:
-            return "No law follows it within the errors."
+            return f"No law follows it within the errors.{self._without_air}"
         said = [f"{', '.join(names[AGREES])} agree" if names[AGREES] else "No law agrees"]
         if names[DOUBTFUL]:
             said.append(f"{', '.join(names[DOUBTFUL])} doubtful")
         said.append(f"{', '.join(names[REFUTED])} refuted" if names[REFUTED] else "none is refuted")
-        return "; ".join(said) + "."
+        return f"{'; '.join(said)}.{self._without_air}"
+
+    @property
+    def _without_air(self) -> str:
+        """The laws whose verdict changes if the drag of the air is left out; empty for none."""
+        found = [
+            f"{one.short_name} {verdict(one.p_without_air)} (p: {format_p(one.p_without_air)})"
+            for one in self.outcomes
+            if one.p_without_air is not None and verdict(one.p_without_air) != one.verdict
+        ]
+        return f" Without the drag of the air: {'; '.join(found)}." if found else ""
 
 
 def verdict(p: float) -> str:
@@ -135,9 +157,20 @@ def verdict(p: float) -> str:
     >>> verdict(0.3), verdict(0.001)
     ('agrees', 'refuted')
     """
-    if p < _REFUTED_BELOW:
+    if p < REFUTED_BELOW:
         return REFUTED
     return AGREES if p >= _AGREES_FROM else DOUBTFUL
+
+
+def format_p(value: float) -> str:
+    """Return a p value with two digits.
+
+    Examples
+    --------
+    >>> format_p(0.0234), format_p(0.5)
+    ('0.023', '0.5')
+    """
+    return f"{value:.2g}" if value >= 1e-4 else "<\N{NO-BREAK SPACE}0.0001"
 
 
 def compare_laws(series: Series, without_air: Series | None = None) -> Comparison:
@@ -180,8 +213,6 @@ def _outcome(
     name: str, family: Family, series: Series, without_air: Series | None
 ) -> tuple[Array, Outcome]:
     """Return the best curve of a family, and how well it follows the series."""
-    from scipy.stats import chi2
-
     freedom = series.values.size - 1
     curve = _interpolated(family, series)
     value, error, _ = _fitted(curve, series, 1.0)
@@ -191,21 +222,34 @@ def _outcome(
     supposed: dict[str, float | None] = {}
     if series.has_assumed_errors:
         for key, scale in (("p_half", 0.5), ("p_twice", 2.0)):
-            supposed[key] = float(chi2.sf(_fitted(curve, series, scale)[2], freedom))
+            supposed[key] = _probability(_fitted(curve, series, scale)[2], freedom, series, scale)
     if without_air is not None:
         again = replace(family, speed=float(without_air.speeds.max()))
         least = _fitted(_interpolated(again, without_air), without_air, 1.0)[2]
-        supposed["p_without_air"] = float(chi2.sf(least, freedom))
+        supposed["p_without_air"] = _probability(least, freedom, without_air)
     return best, Outcome(
         laws=(name,),
         value=value,
         error=error,
         chi_squared=squares,
         freedom=freedom,
-        p=float(chi2.sf(squares, freedom)),
-        p_calibrated=float(chi2.sf(_of_the_rest(curve, series), freedom)),
+        p=_probability(squares, freedom, series),
+        p_calibrated=_probability(_of_the_rest(curve, series), freedom, series),
         **supposed,
     )
+
+
+def _probability(squares: float, freedom: int, series: Series, scale: float = 1.0) -> float:
+    """Return the probability of a larger χ² if the law holds.
+
+    With errors from the scatter of readings χ² over its degrees of freedom has an F distribution.
+    """
+    from scipy.stats import chi2, f
+
+    errors = series.freedom(scale)
+    if math.isinf(errors):
+        return float(chi2.sf(squares, freedom))
+    return float(f.sf(squares / freedom, freedom, errors))
 
 
 def _scaled(series: Series, values: Array) -> Array:
@@ -290,8 +334,6 @@ def _slope(curve: Callable[[float], Array], start: float, step: float = 1e-5) ->
 
 def _power(series: Series) -> tuple[float, float, float | None]:
     """Return the exponent of the loss, or of the time, in the speed, its error, and p."""
-    from scipy.stats import chi2
-
     values = series.values
     grows = 1.0 - values if series.quantity == RESTITUTION else values
     scaled, change = np.log(grows), np.diag(1.0 / grows)
@@ -301,5 +343,5 @@ def _power(series: Series) -> tuple[float, float, float | None]:
     best = covariance @ design.T @ weight @ scaled
     apart = scaled - design @ best
     freedom = values.size - 2
-    p = float(chi2.sf(apart @ weight @ apart, freedom)) if freedom else None
+    p = _probability(float(apart @ weight @ apart), freedom, series) if freedom else None
     return float(best[1]), float(np.sqrt(covariance[1, 1])), p

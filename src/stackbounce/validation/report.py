@@ -12,6 +12,7 @@ from stackbounce.datasets import describe, names
 from stackbounce.extras import need
 from stackbounce.files import prepare_folder, write_folder
 from stackbounce.plots.style import render
+from stackbounce.validation.comparison import format_p
 from stackbounce.validation.figures import draw
 from stackbounce.validation.results import Validation, validate
 from stackbounce.version import __version__
@@ -80,17 +81,10 @@ def _page(done: Validation, figures: dict[str, bytes]) -> str:
         lstrip_blocks=True,
         undefined=jinja2.StrictUndefined,
     )
-    pages.filters["p"] = _p
+    pages.filters["p"] = lambda value: "–" if value is None else format_p(value)
     return pages.get_template("validation.html.j2").render(
         done=done,
         about={name: describe(name) for name in names()},
         figures={name: data_uri(picture) for name, picture in figures.items()},
         version=__version__,
     )
-
-
-def _p(value: float | None) -> str:
-    """Write a p value with two digits."""
-    if value is None:
-        return "–"
-    return f"{value:.2g}" if value >= 1e-4 else "< 0.0001"

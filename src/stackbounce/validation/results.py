@@ -1,11 +1,17 @@
 """All datasets beside all laws."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
 from stackbounce import datasets
-from stackbounce.validation.comparison import Comparison, Outcome, compare_laws
+from stackbounce.validation.comparison import (
+    REFUTED_BELOW,
+    Comparison,
+    Outcome,
+    compare_laws,
+)
 from stackbounce.validation.series import make_series, why_not
 
 __all__ = ["Validation", "validate"]
@@ -26,9 +32,21 @@ class Validation:
     comparisons: tuple[Comparison, ...]
     left_out: dict[str, str]
 
+    @property
+    def summary(self) -> str:
+        """How many verdicts there are, and how many series rest on errors that are assumed."""
+        verdicts = sum(len(one.outcomes) for one in self.comparisons)
+        shaky = sum(not one.steady for one in self.comparisons)
+        return (
+            f"{len(self.comparisons)} series have {verdicts} verdicts; if all laws were true, "
+            f"chance alone would refute {REFUTED_BELOW * verdicts:.1f} of them. {shaky} of the "
+            "series are not steady: half or twice the assumed errors change a verdict."
+        )
+
     def as_dict(self) -> dict[str, Any]:
         """Return everything as plain values."""
         return {
+            "summary": self.summary,
             "datasets": [_as_dict(one) for one in self.comparisons],
             "left_out": self.left_out,
         }
@@ -77,6 +95,7 @@ def _as_dict(comparison: Comparison) -> dict[str, Any]:
         "values": series.values.tolist(),
         "errors": errors,
         "assumed_errors": series.has_assumed_errors,
+        "freedom_of_errors": None if math.isinf(series.freedom()) else series.freedom(),
         "exponent": comparison.exponent,
         "exponent_error": comparison.exponent_error,
         "p_power": comparison.p_power,

@@ -3,9 +3,10 @@
 Each kind of table has a `View`, which is chosen by the names of its columns.
 """
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 __all__ = ["CONTACT_TIME", "RESTITUTION", "Series", "make_series", "why_not"]
 
 RESTITUTION, CONTACT_TIME = "restitution", "contact time"
+
+Scatter = tuple[Array, float]  # a covariance from the scatter of readings, degrees of freedom
 
 _Points = tuple[Array, Array]  # speeds and values
 _Transform = Callable[[Fall, dict[str, Array]], _Points]
@@ -49,6 +52,9 @@ class Series:
         In 1/m, as in `Fall`; 0 if the air was left out.
     restitution : float, optional
         The restitution that goes with contact times.
+    scatters : tuple of (array, float), optional
+        The parts of `published` that are estimated from the scatter of readings, (n, n), each with
+        its degrees of freedom.
     """
 
     name: str
@@ -61,6 +67,7 @@ class Series:
     assumed: Array
     drag: float
     restitution: float | None = None
+    scatters: tuple[Scatter, ...] = ()
 
     def covariance(self, scale: float = 1.0) -> Array:
         """Return the covariance of the values.
@@ -71,6 +78,22 @@ class Series:
             By which the assumed errors are multiplied.
         """
         return self.published + scale**2 * self.assumed
+
+    def freedom(self, scale: float = 1.0) -> float:
+        """Return the degrees of freedom of the covariance; infinite if no scatter is part of it.
+
+        They are the effective ones of Satterthwaite (Biometrics Bull. 2, 110, 1946): of each part,
+        its share of the covariance squared, over its degrees of freedom, adds to one over them.
+
+        Parameters
+        ----------
+        scale : float, optional
+            By which the assumed errors are multiplied.
+        """
+        whole = self.covariance(scale)
+        shares = [np.trace(np.linalg.solve(whole, part)) / len(part) for part, _ in self.scatters]
+        inverse = sum(share**2 / one for share, (_, one) in zip(shares, self.scatters, strict=True))
+        return float(1.0 / inverse) if inverse else math.inf
 
     @property
     def has_assumed_errors(self) -> bool:
@@ -114,10 +137,10 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
     Series
     """
     fall = (through_air(data.attrs) if air else None) or Fall()
-    speeds, values, published, assumed = _points(fall, data)
+    speeds, values, published, assumed, scatters = _points(fall, data)
     if fall.drag:  # the drag is not known well, and changes all values together
         more = 1.0 + DRAG_ERROR / DRAG_COEFFICIENT
-        shift = _points(Fall(more * fall.drag), data)[1] - values
+        shift = _points(Fall(more * fall.drag), data).values - values
         assumed = assumed + np.outer(shift, shift)
     view = _view_of(data)
     quantity = RESTITUTION if view is None else view.quantity
@@ -133,16 +156,23 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
         assumed=assumed,
         drag=fall.drag if quantity == RESTITUTION else 0.0,
         restitution=None if kept is None else float(kept[0]),
+        scatters=scatters,
     )
 
 
-def _points(fall: Fall, data: "xr.Dataset") -> tuple[Array, Array, Array, Array]:
-    """Return speeds, values and their covariances, from known and from assumed errors."""
+class _Measured(NamedTuple):
+    """Speeds, values, and the covariances of these, as those of a `Series`."""
+
+    speeds: Array
+    values: Array
+    published: Array
+    assumed: Array
+    scatters: tuple[Scatter, ...]
+
+
+def _points(fall: Fall, data: "xr.Dataset") -> _Measured:
     view = _view_of(data)
-    if view is not None:
-        return _propagated(view, fall, data)
-    speeds, values, published = _flights(fall, data)
-    return speeds, values, published, np.zeros_like(published)
+    return _flights(fall, data) if view is None else _propagated(view, fall, data)
 
 
 def _rebounds(fall: Fall, given: dict[str, Array]) -> _Points:
@@ -198,21 +228,22 @@ def _view_of(data: "xr.Dataset") -> _View | None:
     return next((view for view in _VIEWS if set(view.columns) <= set(data)), None)
 
 
-def _propagated(view: _View, fall: Fall, data: "xr.Dataset") -> tuple[Array, Array, Array, Array]:
+def _propagated(view: _View, fall: Fall, data: "xr.Dataset") -> _Measured:
     """Return speeds, values and their covariances, by the derivatives by each number given."""
-    given: dict[str, Array] = {}
-    variances: dict[str, tuple[Array, Array]] = {}
-    for name in view.columns:
-        given[name], *both = _mean(data, name)
-        variances[name] = (both[0], both[1])
+    columns = {name: _read(data, name) for name in view.columns}
+    given = {name: column.means for name, column in columns.items()}
     speeds, values = view.transform(fall, given)
     published, assumed = np.zeros((2, values.size, values.size))
-    for name, (known, supposed) in variances.items():
-        for i in np.flatnonzero(known + supposed):
-            slope = _slope(view.transform, fall, given, name, int(i))
-            published += known[i] * np.outer(slope, slope)
-            assumed += supposed[i] * np.outer(slope, slope)
-    return speeds, values, published, assumed
+    scatters: list[Scatter] = []
+    for name, column in columns.items():
+        rows = range(column.means.size)
+        slopes = np.stack([_slope(view.transform, fall, given, name, i) for i in rows], axis=1)
+        published += (slopes * column.variances) @ slopes.T
+        assumed += column.assumed**2 * slopes @ slopes.T
+        if column.scatter:
+            scatters.append((column.scatter * slopes @ slopes.T, column.freedom))
+    published += sum(part for part, _ in scatters)
+    return _Measured(speeds, values, published, assumed, tuple(scatters))
 
 
 def _slope(transform: _Transform, fall: Fall, given: dict[str, Array], name: str, i: int) -> Array:
@@ -226,24 +257,41 @@ def _slope(transform: _Transform, fall: Fall, given: dict[str, Array], name: str
     return slope
 
 
-def _mean(data: "xr.Dataset", name: str) -> tuple[Array, Array, Array]:
-    """Return the means of a column, and their variances: known, and assumed."""
+class _Column(NamedTuple):
+    """The means of a column, and their variances: as given, of the scatter, and assumed.
+
+    The scatter of the readings is the same in all rows: few readings tell it badly. `freedom` are
+    its degrees of freedom.
+    """
+
+    means: Array
+    variances: Array
+    scatter: float
+    freedom: float
+    assumed: float
+
+
+def _read(data: "xr.Dataset", name: str) -> _Column:
     variable = data[name]
     values = np.asarray(variable.values, dtype=np.float64)
-    known = np.zeros(values.shape[0])
-    if values.ndim == 2:  # the scatter is the same in all rows: few readings tell it badly
-        known += np.mean(np.var(values, axis=1, ddof=1)) / values.shape[1]
+    scatter, freedom = 0.0, 0.0
+    if values.ndim == 2:
+        rows, readings = values.shape
+        scatter = float(np.mean(np.var(values, axis=1, ddof=1))) / readings
+        freedom = rows * (readings - 1.0)
         values = np.mean(values, axis=1)
-    if f"{name}_error" in data:
-        known = known + np.asarray(data[f"{name}_error"].values) ** 2
-    return values, known, np.full(known.shape, variable.attrs.get("assumed_error", 0.0) ** 2)
+    errors = data[f"{name}_error"].values if f"{name}_error" in data else np.zeros(values.size)
+    return _Column(
+        values, np.asarray(errors) ** 2, scatter, freedom, variable.attrs.get("assumed_error", 0.0)
+    )
 
 
-def _flights(fall: Fall, data: "xr.Dataset") -> tuple[Array, Array, Array]:
+def _flights(fall: Fall, data: "xr.Dataset") -> _Measured:
     """Return the restitutions of all bounces between two flights, averaged over the throws.
 
     Neighbouring bounces share a flight, so that their errors are correlated. Variance and
-    covariance are those of the throws, taken together for all bounces.
+    covariance are those of the throws, taken together for all bounces. Correlated errors tell the
+    variance worse: n of them as n / (1 + 2 r**2) others, with the correlation r of neighbours.
     """
     number = np.asarray(data.flight.values, dtype=int)
     leaving, landing = fall.flight(np.asarray(data.flight_time.values, dtype=np.float64))
@@ -251,7 +299,7 @@ def _flights(fall: Fall, data: "xr.Dataset") -> tuple[Array, Array, Array]:
     ratios = leaving[after] / landing[after - 1]
     values = ratios.mean(axis=1)
     apart = ratios - values[:, None]
-    throws = ratios.shape[1]
+    bounces, throws = ratios.shape
     variance = np.mean(apart**2) * throws / (throws - 1.0)
     next_too = np.flatnonzero(np.diff(after) == 1)
     shared = np.mean(apart[next_too] * apart[next_too + 1]) * throws / (throws - 1.0)
@@ -259,4 +307,5 @@ def _flights(fall: Fall, data: "xr.Dataset") -> tuple[Array, Array, Array]:
     covariance[next_too, next_too + 1] = covariance[next_too + 1, next_too] = shared
     speeds: Array = landing[after - 1].mean(axis=1)
     result: Array = covariance / throws
-    return speeds, values, result
+    freedom = bounces * (throws - 1.0) / (1.0 + 2.0 * float(shared / variance) ** 2)
+    return _Measured(speeds, values, result, np.zeros_like(result), ((result, freedom),))

@@ -3,12 +3,13 @@
 import asyncio
 import contextlib
 import functools
+import importlib
 import math
 import multiprocessing
 import os
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from typing import Any
@@ -21,13 +22,17 @@ from stackbounce.web.turns import Turns
 __all__ = ["TooMuch", "Workers"]
 
 _LESS = "ask for fewer balls, points or numbers at once"
+_SHORT = ("stackbounce.web.answers.maps",)
+_LONG = (*_SHORT, "stackbounce.web.answers.records", "scipy.stats", "scipy.signal",
+         "scipy.io.wavfile", "lmfit")  # fmt: skip
+"""What a process imports before its first job: what measures and fits needs seconds."""
 
 
 class TooMuch(StackbounceError):
     """A job exceeded its limit of time or memory, or its process ended."""
 
 
-def _prepare(most_bytes: int, nice: int) -> None:
+def _prepare(most_bytes: int, nice: int, modules: Sequence[str]) -> None:
     """Prepare a process: it ends with the server, has limited memory, and has imported all."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
     with contextlib.suppress(ImportError, AttributeError):  # Windows has neither
@@ -39,13 +44,15 @@ def _prepare(most_bytes: int, nice: int) -> None:
         most = most_bytes if hard == resource.RLIM_INFINITY else min(hard, most_bytes)
         resource.setrlimit(resource.RLIMIT_DATA, (most, hard))
 
-    import stackbounce.web.answers.maps  # noqa: F401
     from stackbounce.cross2007.cases import list_cases
     from stackbounce.web.answers.play import play_drop
 
     play_drop(
         next(list_cases()).drop, until=None, frames=2
     )  # libraries import parts when first used
+    for name in modules:
+        with contextlib.suppress(ImportError):  # of an extra
+            importlib.import_module(name)
 
 
 def _end_with_parent() -> None:
@@ -59,14 +66,14 @@ def _end_with_parent() -> None:
 class _Worker:
     """A process that computes one job at a time."""
 
-    def __init__(self, limits: Limits, nice: int) -> None:
+    def __init__(self, limits: Limits, nice: int, modules: Sequence[str]) -> None:
         self._ended = False
         others = set(multiprocessing.active_children())
         self._executor = ProcessPoolExecutor(
             max_workers=1,
             mp_context=multiprocessing.get_context("spawn"),  # a fork would copy the threads
             initializer=_prepare,
-            initargs=(limits.worker_bytes, nice),
+            initargs=(limits.worker_bytes, nice, modules),
         )
         self._prepared = self._executor.submit(os.getpid)
         (self._process,) = set(multiprocessing.active_children()) - others
@@ -143,19 +150,22 @@ class _Lane:
         How much lower their priority is than the server's.
     abandoned : float
         Time in s after which a job whose client has gone is ended with its process. Another process
-        needs a second until it is ready.
+        needs seconds until it is ready.
+    modules : sequence of str
+        What a process imports before its first job.
     """
 
-    def __init__(self, limits: Limits, nice: int, abandoned: float) -> None:
+    def __init__(self, limits: Limits, nice: int, abandoned: float, modules: Sequence[str]) -> None:
         self._limits, self._nice, self._abandoned = limits, nice, abandoned
+        self._modules = modules
         self._turns = Turns(limits.workers)
         self._idle: list[_Worker] = []
         self._busy: list[_Worker] = []
         self._stopped = False
 
-    def start(self) -> None:
-        """Start all processes, before there are jobs for them."""
-        self._idle = [self._make_worker() for _ in range(self._limits.workers)]
+    def start(self, count: int) -> None:
+        """Start so many processes, before there are jobs for them."""
+        self._idle = [self._make_worker() for _ in range(count)]
 
     def stop(self) -> None:
         """End the processes, also in the middle of a job."""
@@ -188,7 +198,7 @@ class _Lane:
         return worker
 
     def _make_worker(self) -> _Worker:
-        return _Worker(self._limits, self._nice)
+        return _Worker(self._limits, self._nice, self._modules)
 
 
 class Workers:
@@ -208,12 +218,14 @@ class Workers:
 
     def __init__(self, limits: Limits) -> None:
         self._shares = Shares("too many requests", limits.waiting, limits.client_waiting)
-        self._short = _Lane(limits, nice=0, abandoned=math.inf)
-        self._long = _Lane(limits, nice=5, abandoned=2.0)
+        self._workers = limits.workers
+        self._short = _Lane(limits, nice=0, abandoned=math.inf, modules=_SHORT)
+        self._long = _Lane(limits, nice=5, abandoned=2.0, modules=_LONG)
 
     def start(self) -> None:
-        """Start the processes for short jobs; those for long ones start when they are needed."""
-        self._short.start()
+        """Start the processes for short jobs and one for long ones; others start when needed."""
+        self._short.start(self._workers)
+        self._long.start(1)
 
     def stop(self) -> None:
         """End the processes, also in the middle of a job."""

@@ -17,7 +17,6 @@ LAW_NAMES = {
     drive.VISCOELASTIC: "Viscoelastic",
     drive.HUNT_CROSSLEY: "HuntCrossley",
     drive.HYSTERETIC: "Hysteretic",
-    drive.LOSSY: "Hysteretic",
     drive.RIGID: "Rigid",
     drive.RELAXING: "StandardLinearSolid",
 }
@@ -72,9 +71,7 @@ def contact(drops, row, i):
         made[PARAMETERS[made["law"]]] = float(drops.extra[row, i])
     if law == drive.RELAXING:
         made["relaxation_time"] = float(drops.second[row, i])
-    if law == drive.LOSSY:
-        made["reloading"] = "lossy"
-    return {name: made[name] for name in made if name in (*fields, "law", "reloading")}
+    return {name: made[name] for name in made if name in (*fields, "law")}
 
 
 def scenario(chance):
@@ -126,8 +123,6 @@ def law(chance, rigid):
             made[field] = number(chance, field)
     if {"restitution", "unloading_exponent"} <= set(made):
         del made[chance.choice(("restitution", "unloading_exponent"))]
-        if chance.random() < 0.3:
-            made["reloading"] = chance.choice(("free", "lossy", "Lossy", "lost", 3))
     return made
 
 

@@ -181,9 +181,12 @@ def test_a_comma_is_decimal_where_it_is_so(asked, code):
         ["units", "fixed", -0.5, 2],
         ["quantity", "formatMeasured", 0.03, 0.00006, "s"],
         ["units", "splitError", "63,5 ± 0,5 cm"],
+        ["units", "splitError", "(63,5 ± 0,5) cm"],
+        ["units", "splitError", "63,5 ± 0,5) cm"],
     )
     split = {"value": "63,5 cm", "error": "0,5 cm"}
-    assert written == ["1234,5", "1,25e−7", "−0,50", "30,00 ± 0,06 ms", split]
+    assert written[:-1] == ["1234,5", "1,25e−7", "−0,50", "30,00 ± 0,06 ms", split, split]
+    assert written[-1]["error"] == "0,5) cm"  # which is refused
 
 
 def test_in_english_a_comma_may_part_thousands(asked):

@@ -277,7 +277,7 @@ def test_texts_of_a_drop_are_the_same_bytes(asked):
             assert ours["answer"] == theirs
 
 
-ERRORS = (0.0, 1e-3, "1 g", "2 mm", "1 %", -0.1, "0.5", "many", 1e-7)
+ERRORS = (0.0, 1e-3, "1 g", "2 mm", "1 %", -0.1, "0.5", "many", 1e-7, 1e200)
 
 
 def uncertain(seed, count):

@@ -16,9 +16,10 @@ extra error of each ratio   half-normal with scale 0.02, from 0.002 to 0.3; in s
                             printed 0.02
 ==========================  ====================================================================
 
-Normal distributions of restitutions and stiffness are cut at three standard deviations. Table II
-has means of "three or four" bounces: a mean has the variance of a bounce over 3.5. Choices between
-two or three readings of the paper have equal prior shares, and so have the models.
+Both balls fall during the impact: gravity is a fact. Separate collisions take no time, and need
+none. Normal distributions of restitutions and stiffness are cut at three standard deviations.
+Table II has means of "three or four" bounces: a mean has the variance of a bounce over 3.5. Choices
+between two or three readings of the paper have equal prior shares, and so have the models.
 """
 
 import math
@@ -52,12 +53,11 @@ __all__ = [
 
 Array: TypeAlias = NDArray[np.float64]
 
-MODELS = (SEPARATE, "A", "S", "V", "H", "L", "L, linear", "B")
+MODELS = (SEPARATE, "A", "P", "S", "V", "H", "H, linear", "B")
 """The models, by the names of the catalogue."""
 
 CHOICES: dict[str, tuple[str, ...]] = {
     "Table I's COR": tuple(READINGS),
-    "gravity": ("off", "on"),
     "delay of B1 on B3": ("2 ms", "7 ms"),
     "row of two balls B1": ("in", "out"),
 }
@@ -240,25 +240,21 @@ def likelihoods(
     Returns
     -------
     ndarray
-        (readings, gravity, delays, rows, scatter, sets, draws)
+        (readings, delays, rows, scatter, sets, draws)
     """
     normal = draw_normal(7, size.sets, size.each, seed)
     found = np.zeros((*map(len, CHOICES.values()), len(SCATTER), size.sets * size.each))
     for i, reading in enumerate(READINGS):
         progress(f"study: model '{name}', Table I's COR {reading}")
         draws = draw_numbers(normal, reading)
-        for j, gravity in enumerate((False, True)):
-            if gravity and name == SEPARATE:
-                found[i, 1] = found[i, 0]
-                continue
-            for pair in inputs.PAIRS:
-                found[i, j] += _score(name, pair, find_spans(reading), size, draws, gravity)
+        for pair in inputs.PAIRS:
+            found[i] += _score(name, pair, find_spans(reading), size, draws)
     return found.reshape(*found.shape[:-1], size.sets, size.each)
 
 
-def _score(name: str, pair: str, spans: Spans, size: Size, draws: Draws, gravity: bool) -> Array:
+def _score(name: str, pair: str, spans: Spans, size: Size, draws: Draws) -> Array:
     """Return a pair's part of the likelihood: (delays, rows, scatter, n)."""
-    table = tabulate(name, pair, spans, size, gravity=gravity)
+    table = tabulate(name, pair, spans, size, gravity=True)
     weights = table.weights(draws.values)
     found = np.empty((2, 2, len(SCATTER), len(draws.extra)))
     for k, scatter in enumerate(SCATTER):

@@ -6,7 +6,7 @@ from stackbounce.cross2007.study.inputs import PRINTED
 from stackbounce.cross2007.study.theories import ELASTIC, OWN, SHARED, Theory
 from stackbounce.model import HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
 
-__all__ = ["AS_HEIGHTS", "AS_PRINTED", "CHOSEN", "MISPRINT", "NAMES", "THEORIES"]
+__all__ = ["AS_HEIGHTS", "AS_PRINTED", "CHOSEN", "FLOOR_ONLY", "MISPRINT", "NAMES", "THEORIES"]
 
 AS_PRINTED = {f"e_{ball}": value for ball, value in PRINTED.items()}
 """Table I's COR taken as restitutions."""
@@ -26,6 +26,21 @@ THEORIES: dict[str, Theory] = {
     "A, fitted": Theory(
         "loss at the floor only, two restitutions", HuntCrossley, ELASTIC, {}, _BOTH
     ),
+    "P": Theory(
+        "the paper's law, linear hysteresis at the floor only, as printed",
+        Hysteretic,
+        ELASTIC,
+        AS_PRINTED,
+        exponent=1.0,
+    ),
+    "P, fitted": Theory(
+        "the paper's law, two restitutions",
+        Hysteretic,
+        ELASTIC,
+        {},
+        _BOTH,
+        exponent=1.0,
+    ),
     "X": Theory("loss in every contact, Table I as printed", HuntCrossley, SHARED, AS_PRINTED),
     "S": Theory("loss in every contact, roots of Table I", HuntCrossley, SHARED, AS_HEIGHTS),
     "S, one factor": Theory(
@@ -39,23 +54,14 @@ THEORIES: dict[str, Theory] = {
     "V": Theory(
         "viscoelastic spheres in every contact, two restitutions", Viscoelastic, SHARED, {}, _BOTH
     ),
-    "H": Theory("hysteresis in every contact, two restitutions", Hysteretic, SHARED, {}, _BOTH),
-    "L": Theory(
-        "hysteresis that loses on reloading too, B1's restitution",
-        Hysteretic,
-        SHARED,
-        _SMALL,
-        ("e_B1",),
-        reloading="lossy",
+    "H": Theory(
+        "hysteresis in every contact, B1's restitution", Hysteretic, SHARED, _SMALL, ("e_B1",)
     ),
-    "L, linear": Theory(
-        "as L, from linear springs, two restitutions",
-        Hysteretic,
-        SHARED,
-        {},
-        _BOTH,
-        exponent=1.0,
-        reloading="lossy",
+    "H, fitted": Theory(
+        "hysteresis in every contact, two restitutions", Hysteretic, SHARED, {}, _BOTH
+    ),
+    "H, linear": Theory(
+        "the same from linear springs", Hysteretic, SHARED, {}, _BOTH, exponent=1.0
     ),
     "Z": Theory(
         "linear solid that relaxes in every contact, two restitutions",
@@ -90,8 +96,11 @@ THEORIES: dict[str, Theory] = {
 }
 """The models with finite contacts; `NAMES` has those with separate collisions."""
 
-CHOSEN = ("A", "S", "L", "B")
-"""The models whose predictions are shown: the paper's idea, and three that fit better."""
+CHOSEN = ("A", "S", "H", "B")
+"""The models whose predictions are shown: a loss at the floor only, and three that fit better."""
+
+FLOOR_ONLY = ("A", "A, fitted", "P", "P, fitted")
+"""The models that lose energy at the floor only, the paper's idea; P has its law (section V)."""
 
 NAMES = {"rigid, one": ("e",), "rigid, two": ("e_floor", "e_between")}
 """The models with separate collisions, and the restitutions that they fit."""

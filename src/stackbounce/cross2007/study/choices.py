@@ -11,7 +11,17 @@ from stackbounce.cross2007.study.theories import Theory, make_rigid_model
 from stackbounce.fitting import FitProblem
 from stackbounce.model import STANDARD_GRAVITY
 
-__all__ = ["ALL_EARLY", "ALL_LATE", "BASE", "CHOICES", "LATE", "Choice", "known_errors"]
+__all__ = [
+    "ALL_EARLY",
+    "ALL_LATE",
+    "BASE",
+    "CHOICES",
+    "FALLING",
+    "FALLING_LATE",
+    "LATE",
+    "Choice",
+    "known_errors",
+]
 
 _LOOSE = 1e-3  # s: the least error of a delay, if delays are known less well
 _ROLLING = "B1_on_B1"
@@ -110,6 +120,8 @@ def known_errors(theory: Theory) -> dict[str, tuple[float, float]]:
 
 BASE = Choice("base: B1 on B3 at 2 ms")
 LATE = Choice("B1 on B3 at 7 ms", late=True)
+FALLING = Choice("with gravity", gravity=True)
+FALLING_LATE = Choice("with gravity, 7 ms", late=True, gravity=True)
 ALL_EARLY = Choice(
     "all at once, 2 ms",
     loose=True,
@@ -124,7 +136,9 @@ CHOICES: tuple[Choice, ...] = (
     BASE,
     LATE,
     Choice("without the rolling pair", rolling=False),
-    Choice("with gravity", gravity=True),
+    FALLING,
+    FALLING_LATE,
+    FALLING._replace(name="with gravity, without the rolling pair", rolling=False),
     Choice("Table I ± its errors", table_errors=True),
     Choice("drop height ± 1 cm", height_error=True),
     Choice("delays ± 1 ms", loose=True),
@@ -132,4 +146,5 @@ CHOICES: tuple[Choice, ...] = (
     ALL_EARLY,
     ALL_LATE,
 )
-"""The columns of the table: the base, each choice alone, and the careful ones together."""
+"""The columns of the table: the base, each choice alone, gravity with the two that decide most, and
+the careful ones together."""

@@ -21,7 +21,7 @@ __all__ = ["LINES", "draw_comparison", "draw_delays", "draw_misfits", "make_wide
 
 _WIDE = 7.4  # inches
 _GREEN = "#009E73"
-LINES = {"A": (FLOOR, "--"), "S": (BLACK, "-"), "L": (_GREEN, "-."), "B": (UPPER, ":")}
+LINES = {"A": (FLOOR, "--"), "S": (BLACK, "-"), "H": (_GREEN, "-."), "B": (UPPER, ":")}
 """Colour and line style of each chosen model."""
 
 _SHOWN = (-0.28, 0.28)  # of a ratio, around what was measured

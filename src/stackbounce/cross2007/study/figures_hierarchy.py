@@ -16,11 +16,11 @@ __all__ = ["draw_information", "draw_probabilities"]
 _STYLES = {
     SEPARATE: ("#FFFFFF", "xxxx"),
     "A": (FLOOR, ""),
+    "P": ("#E69F00", "\\\\\\\\"),
     "S": ("#56B4E9", "...."),
     "V": ("#F0E442", ""),
-    "H": ("#CC79A7", "////"),
-    "L": ("#009E73", ""),
-    "L, linear": ("#A6DCC9", "\\\\\\\\"),
+    "H": ("#009E73", ""),
+    "H, linear": ("#A6DCC9", "\\\\\\\\"),
     "B": (UPPER, ""),
 }
 """Colour and hatching of each model."""
@@ -51,7 +51,7 @@ def draw_probabilities(found: Hierarchy) -> Picture:
     ax.tick_params(axis="y", which="both", left=False, right=False)
     handles, labels = ax.get_legend_handles_labels()
     figure.legend(
-        handles, labels, loc="upper center", ncols=8, frameon=False, fontsize=9,
+        handles, labels, loc="upper center", ncols=9, frameon=False, fontsize=9,
         handlelength=1.2, columnspacing=1.1,
     )  # fmt: skip
     return Picture(
@@ -70,7 +70,7 @@ def _draw_bar(ax: "Axes", at: float, shares: dict[str, float], *, labelled: bool
     for name, share in sorted(shares.items(), key=lambda one: -one[1]):
         color, hatch = _STYLES[name]
         ax.barh(at, share, 0.78, left, color=color, hatch=hatch, edgecolor=GREY, lw=0.5)
-        short = {"L, linear": "L lin.", SEPARATE: "rigid"}.get(name, name)
+        short = {"H, linear": "H lin.", SEPARATE: "rigid"}.get(name, name)
         if share > _NARROW * (1.0 + 0.12 * len(short)):
             box = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none", "alpha": 0.85}
             ax.text(left + 0.5 * share, at, short, ha="center", va="center", fontsize=8, bbox=box)

@@ -67,11 +67,11 @@ GROUPS: dict[str, dict[str, tuple[str, ...]]] = {
         "separate collisions": (SEPARATE,),
         "Hunt and Crossley": ("A", "S"),
         "viscoelastic": ("V",),
-        "hysteresis": ("H", "L", "L, linear", "B"),
+        "hysteresis": ("P", "H", "H, linear", "B"),
     },
     "where energy is lost": {
-        "floor only": ("A",),
-        "every contact, by material": ("S", "V", "H", "L", "L, linear"),
+        "floor only": ("A", "P"),
+        "every contact, by material": ("S", "V", "H", "H, linear"),
         "every contact, balls by a number of their own": (SEPARATE, "B"),
     },
 }
@@ -141,19 +141,19 @@ class Hierarchy:
         return np.asarray(sum_logs(every) - np.log(cases))
 
     def _weighed(self, name: str, priors: Priors) -> Array:
-        """Return logarithms (readings, gravity, delays, rows, sets, draws), over the scatter."""
+        """Return logarithms (readings, delays, rows, sets, draws), over the scatter."""
         logs = self.found.logs[name]
         with np.errstate(divide="ignore"):
             shares = np.log(np.array(priors.scatter))
-        whole = sum_logs(np.moveaxis(logs + shares[:, None, None], 4, -1))
+        whole = sum_logs(np.moveaxis(logs + shares[:, None, None], 3, -1))
         ratios = [weigh_draws(one, priors) for one in self.found.draws.values()]
-        return whole + np.reshape(ratios, (len(ratios), 1, 1, 1, *logs.shape[-2:]))
+        return whole + np.reshape(ratios, (len(ratios), 1, 1, *logs.shape[-2:]))
 
     def _masses(self, priors: Priors) -> Array:
-        """Return posterior shares (models, readings, gravity, delays, rows, sets)."""
+        """Return posterior shares (models, readings, delays, rows, sets)."""
         logs = np.array([self._weighed(name, priors) for name in self.found.logs])
         found = np.exp(logs - logs.max()).mean(axis=-1)
-        return np.asarray(found / found.sum(axis=(0, 1, 2, 3, 4)).mean())
+        return np.asarray(found / found.sum(axis=(0, 1, 2, 3)).mean())
 
     @functools.cached_property
     def _shares(self) -> Array:
@@ -166,12 +166,12 @@ class Hierarchy:
     @functools.cached_property
     def probabilities(self) -> dict[str, float]:
         """The probability of each model, averaged over all choices."""
-        return self._named(self._shares.sum(axis=(1, 2, 3, 4)))
+        return self._named(self._shares.sum(axis=(1, 2, 3)))
 
     @functools.cached_property
     def errors(self) -> dict[str, float]:
         """The numerical error of each probability, from the independent sets of draws."""
-        own = self._masses(Priors()).sum(axis=(1, 2, 3, 4))  # (models, sets)
+        own = self._masses(Priors()).sum(axis=(1, 2, 3))  # (models, sets)
         own = own / own.sum(axis=0)
         spread = own.std(axis=1, ddof=1) / np.sqrt(own.shape[1])
         return dict(zip(self.found.logs, spread.tolist(), strict=True))
@@ -181,7 +181,7 @@ class Hierarchy:
         """The posterior probability of each value of each choice."""
         found = {}
         for k, (choice, values) in enumerate(CHOICES.items()):
-            others = tuple(axis for axis in range(5) if axis != k + 1)
+            others = tuple(axis for axis in range(4) if axis != k + 1)
             own = self._shares.sum(axis=others) / self._shares.sum()
             found[choice] = dict(zip(values, own.tolist(), strict=True))
         return found
@@ -191,7 +191,7 @@ class Hierarchy:
         """The probabilities of the models for each value of each choice."""
         found = {}
         for k, (choice, values) in enumerate(CHOICES.items()):
-            others = tuple(axis for axis in range(1, 5) if axis != k + 1)
+            others = tuple(axis for axis in range(1, 4) if axis != k + 1)
             own = self._shares.sum(axis=others)
             found[choice] = {value: self._named(own[:, i]) for i, value in enumerate(values)}
         return found
@@ -214,7 +214,7 @@ class Hierarchy:
     def by_prior(self) -> dict[str, dict[str, float]]:
         """The probabilities of the models for each of `PRIORS`."""
         return {
-            what: self._named(self._masses(priors).sum(axis=(1, 2, 3, 4, 5)))
+            what: self._named(self._masses(priors).sum(axis=(1, 2, 3, 4)))
             for what, priors in PRIORS.items()
         }
 
@@ -239,7 +239,7 @@ class Hierarchy:
         return {name: self._numbers(name) for name in self.found.logs}
 
     def _numbers(self, name: str) -> dict[str, tuple[float, float]]:
-        shares = self.shares(name).sum(axis=1)  # (readings, n)
+        shares = self.shares(name)
         draws = self.found.draws.values()
         columns = {key: np.array([one.values[key] for one in draws]) for key in _RESTITUTIONS}
         if name != SEPARATE:
@@ -249,17 +249,16 @@ class Hierarchy:
         columns["speed"] = np.array([one.speed for one in draws])
         columns["extra"] = np.array([one.extra for one in draws])
         found = {key: _moments(values, shares) for key, values in columns.items()}
-        logs = np.moveaxis(self.found.logs[name], 4, 0)
+        logs = np.moveaxis(self.found.logs[name], 3, 0)
         ratios = np.array([weigh_draws(one, Priors()) for one in draws])
-        logs = logs + ratios.reshape(len(ratios), 1, 1, 1, *logs.shape[-2:])
+        logs = logs + ratios.reshape(len(ratios), 1, 1, *logs.shape[-2:])
         own = np.exp(logs - logs.max()).reshape(len(SCATTER), -1).sum(axis=1)
         return {**found, "scatter": _moments(SCATTER, own / own.sum())}
 
     def shares(self, name: str) -> Array:
-        """Return the posterior shares (readings, gravity, n) of a model's draws; their sum is 1."""
+        """Return the posterior shares (readings, n) of a model's draws; their sum is 1."""
         logs = self._weighed(name, Priors())
-        found = np.exp(logs - logs.max()).sum(axis=(2, 3))
-        found = found.reshape(*found.shape[:2], -1)
+        found = np.exp(logs - logs.max()).sum(axis=(1, 2)).reshape(len(logs), -1)
         return np.asarray(found / found.sum())
 
     @property
@@ -298,8 +297,8 @@ def describe_undecided(whole: Mapping[str, float], cases: list[dict[str, float]]
 
     Examples
     --------
-    >>> describe_undecided({"S": 0.6, "L": 0.4}, [{"S": 0.97, "L": 0.03}, {"S": 0.2, "L": 0.8}])
-    'Which model is right remains undecided: over all choices S has the probability 0.60, and L has
+    >>> describe_undecided({"S": 0.6, "H": 0.4}, [{"S": 0.97, "H": 0.03}, {"S": 0.2, "H": 0.8}])
+    'Which model is right remains undecided: over all choices S has the probability 0.60, and H has
     0.40. In 1 of 2 combinations of choices a model (S) exceeds 0.95.'
     """
     (first, p), (second, q), *_ = sorted(whole.items(), key=lambda one: -one[1])

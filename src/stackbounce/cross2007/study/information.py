@@ -112,7 +112,7 @@ def draw_samples(found: Hierarchy, each: int, seed: int = _SEED) -> list[Sample]
         places = (np.arange(each) + random.random()) / each
         picked = np.searchsorted(np.cumsum(shares.ravel()), places)
         picked = random.permutation(np.minimum(picked, shares.size - 1))
-        reading, gravity, k = np.unravel_index(picked, shares.shape)
+        reading, k = np.unravel_index(picked, shares.shape)
         normal = random.standard_normal((each, 5))
         if name == SEPARATE:
             continue
@@ -121,7 +121,7 @@ def draw_samples(found: Hierarchy, each: int, seed: int = _SEED) -> list[Sample]
             for key in draws[0].values
         }
         extra = np.array([draws[i].extra[j] for i, j in zip(reading, k, strict=True)])
-        samples.append(Sample(name, values, extra, gravity == 1, reading, normal))
+        samples.append(Sample(name, values, extra, reading, normal))
     return samples
 
 

@@ -44,15 +44,14 @@ _OWN_PAIR = {"B1": "B1_on_B1", "B2": "B1_on_B2", "B3": "B1_on_B3"}  # with the b
 class Sample(NamedTuple):
     """Equally probable draws (n,) of one model's posterior.
 
-    `values` are the shared numbers, `extra` the extra errors of ratios, `gravity` says whether the
-    balls fall during the impact, `reading` numbers the readings of Table I, and `normal` has
-    (n, 5) standard normal numbers for what differs from bounce to bounce.
+    `values` are the shared numbers, `extra` the extra errors of ratios, `reading` numbers the
+    readings of Table I, and `normal` has (n, 5) standard normal numbers for what differs from
+    bounce to bounce.
     """
 
     name: str
     values: dict[str, Array]
     extra: Array
-    gravity: NDArray[np.bool_]
     reading: NDArray[np.int64]
     normal: Array
 
@@ -136,7 +135,7 @@ def measure_loops(name: str, restitutions: Array) -> Array:
     --------
     A linear spring without loss has π/2, half of the contact time, and nothing:
 
-    >>> measure_loops("L, linear", np.array([0.9999]))[0].round(2)
+    >>> measure_loops("H, linear", np.array([0.9999]))[0].round(2)
     array([1.57, 0.5 , 0.  ])
     """
     ball = make_drop(name, "B1_on_B1").balls[:1]
@@ -182,12 +181,7 @@ def _ratios(sample: Sample, pairs: tuple[str, ...], at: Array, *, timed: bool = 
     columns = []
     for pair in pairs:
         gaps = fall_gaps(sample.name, pair, values, at) if timed else at
-        found = np.empty((*gaps.shape, 2))
-        for falling in (False, True):
-            own = sample.gravity == falling
-            if np.any(own):
-                some = {key: array[own] for key, array in values.items()}
-                found[own] = run_rows(sample.name, pair, some, gaps[own], gravity=falling)
+        found = run_rows(sample.name, pair, values, gaps, gravity=True)
         columns.append(np.moveaxis(found, 1, 0))
     whole = np.concatenate(columns, axis=-1)
     error = np.hypot(inputs.ERROR, sample.extra)

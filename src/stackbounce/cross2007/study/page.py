@@ -8,7 +8,14 @@ from typing import Any
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.study import inputs
 from stackbounce.cross2007.study.catalogue import CHOSEN
-from stackbounce.cross2007.study.choices import ALL_EARLY, ALL_LATE, BASE, LATE
+from stackbounce.cross2007.study.choices import (
+    ALL_EARLY,
+    ALL_LATE,
+    BASE,
+    FALLING,
+    FALLING_LATE,
+    LATE,
+)
 from stackbounce.cross2007.study.claims import EXCLUDED, FITS
 from stackbounce.cross2007.study.cross_validation import HeldOut
 from stackbounce.cross2007.study.figures import (
@@ -19,9 +26,10 @@ from stackbounce.cross2007.study.figures import (
 )
 from stackbounce.cross2007.study.figures_hierarchy import draw_information, draw_probabilities
 from stackbounce.cross2007.study.figures_predictions import draw_decisive, draw_energy
+from stackbounce.cross2007.study.hierarchy import GROUPS
 from stackbounce.cross2007.study.inner_mode_ranges import RANGES
 from stackbounce.cross2007.study.readings import LAWS, READINGS, penalty
-from stackbounce.cross2007.study.results import BOTH, Study, run_study
+from stackbounce.cross2007.study.results import Study, run_study
 from stackbounce.cross2007.style import Picture, render, use_style
 from stackbounce.fitting import Residual
 from stackbounce.version import __version__
@@ -84,8 +92,15 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         late=LATE.name,
         cells=cells,
         leaders=done.fits.leaders,
+        delays={
+            "2 ms": BASE.name,
+            "7 ms": LATE.name,
+            "2 ms, with gravity": FALLING.name,
+            "7 ms, with gravity": FALLING_LATE.name,
+        },
         likeliest={
-            one.name: max(row[one.name].score.probability for row in cells.values()) for one in BOTH
+            choice: max(row[choice].score.probability for row in cells.values())
+            for choice in done.fits.columns
         },
         fitting={
             choice: sum(row[choice].score.probability >= FITS for row in cells.values())
@@ -112,6 +127,7 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         laws=list(LAWS),
         chosen=CHOSEN,
         mode_ranges=RANGES,
+        groups=GROUPS,
         version=__version__,
     )
 

@@ -25,8 +25,7 @@ LAWS: dict[str, Theory] = {
     "Hunt and Crossley": Theory("", HuntCrossley, SHARED),
     "viscoelastic": Theory("", Viscoelastic, SHARED),
     "hysteresis": Theory("", Hysteretic, SHARED),
-    "hysteresis, lossy reloading": Theory("", Hysteretic, SHARED, reloading="lossy"),
-    "the same, linear": Theory("", Hysteretic, SHARED, exponent=1.0, reloading="lossy"),
+    "hysteresis, linear": Theory("", Hysteretic, SHARED, exponent=1.0),
     "a solid that relaxes": Theory("", StandardLinearSolid, SHARED, exponent=1.0),
 }
 """The laws, with the loss of both balls in every contact."""

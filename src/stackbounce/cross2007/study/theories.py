@@ -69,8 +69,6 @@ class Theory:
         `StandardLinearSolid` over the contact time of each ball, by default that of `calibrate`.
     exponent : float
         Of the law.
-    reloading : str
-        Of a hysteretic contact that is compressed again before it has opened.
     heavy, height : float
         B1's mass in kg, and the drop height of the pairs in m; single balls fall from 20 cm.
     longer : mapping of str to float
@@ -97,7 +95,6 @@ class Theory:
     known: Mapping[str, float] = field(default_factory=dict)
     vary: tuple[str, ...] = ()
     exponent: float = 1.5
-    reloading: str = "free"
     heavy: float = inputs.HEAVY
     height: float = inputs.HEIGHT
     longer: Mapping[str, float] = field(default_factory=dict)
@@ -201,8 +198,6 @@ class Theory:
             options["exponent"] = float(values["exponent"])
         if self.law.second_parameter == _RELAXES:
             options[_RELAXES] = float(own.relaxation)
-        if self.reloading != "free":
-            options["reloading"] = self.reloading
         return self.law(**options)
 
     def _values(self, varied: Mapping[str, Any]) -> dict[str, Any]:

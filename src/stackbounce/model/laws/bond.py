@@ -23,8 +23,9 @@ class Bond(ContactLaw):
     a measured frequency and decay.
 
     The rebound speed of a ball with bonds is that of the centre of its body, and 0 for a body that
-    is bonded to the floor: the vibration that is left is no motion of the body. It ends with the
-    run, once the bodies can no longer meet, however they vibrate. A bond has no contact intervals.
+    is bonded to the floor, wherever the run ends: the vibration is no motion of the body.
+    `Result.sample` has the velocities of the parts. A run without `until` ends once the bodies can
+    no longer meet, however they vibrate. A bond has no contact intervals.
 
     Parameters
     ----------

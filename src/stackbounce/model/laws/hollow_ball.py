@@ -40,10 +40,10 @@ class HollowBall(ContactLaw):
 
     Loading follows ``F = k c`` up to the compression c_b at which the wall buckles, then
     ``F = k (c_b + r (c - c_b))``. From the peak compression C on the ball unloads along its loading
-    curve times ``(c/C)**m``, where m is such that the fraction e**2 of the work of loading is
-    returned, at any speed. If the contact is compressed again before it has opened, it follows its
-    unloading curve back to the old peak, and then the loading curve. For r = 1 this is a
-    `Hysteretic` contact with a linear loading curve.
+    curve times ``1 - g + g (c/C)**m`` with ``m = 2/e**2 - 2``, where g is such that the fraction
+    e**2 of the work of loading is returned, at any speed; g is 1 below c_b. Compressed again before
+    it has opened, the contact follows the rule of `Hysteretic`. For r = 1 it is a `Hysteretic`
+    contact with a linear loading curve.
 
     Parameters
     ----------
@@ -80,7 +80,8 @@ restitution 0.75'
     says = "A hollow ball: stiff until its wall buckles, softer then, with hysteresis."
     formula = (
         "F = stiffness c up to buckling_compression b, then stiffness (b + stiffness_ratio (c - b))"
-        "; from the peak C on times (c/C)**m, so that restitution**2 of the work is returned"
+        "; from the peak C on times 1 - g + g (c/C)**m, so that restitution**2 of the work is "
+        "returned"
     )
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section III"
     form = "TWO_STAGE"

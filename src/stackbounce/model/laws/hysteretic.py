@@ -6,7 +6,7 @@ from dataclasses import KW_ONLY, dataclass, field
 from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine.codes import FORMS
-from stackbounce.errors import InvalidType, InvalidValue, between, fraction, nearest, shown
+from stackbounce.errors import InvalidValue, between, fraction, shown
 from stackbounce.model.collision import elastic
 from stackbounce.model.laws.law import (
     EXPONENT,
@@ -32,15 +32,16 @@ _SOFTEST, _STEEPEST_FLANK = 6.0, 100.0  # exponents of a release that is not kno
 class Hysteretic(ContactLaw):
     """A lossy spring with hysteresis: it unloads along another curve than it loads.
 
-    This is a spring with hysteresis: it unloads along another curve than it loads.
     Loading follows ``F = k c**p``; from the peak compression C it unloads along
-    ``F = k C**p (c/C)**n``. If the contact is compressed again before it has opened, and
-    `reloading` is free, it follows its unloading curve back to the old peak C, and then the loading
-    curve, so that no cycle gains energy. If `reloading` is lossy, the contact returns what it held
-    when the reloading began, and e**2 of all work since then, whether it turns back below or beyond
-    the old peak; below, it unloads along a steeper power law, whose exponent is at most 10 n. The
-    contact ends when force and compression are zero. The next contact has no memory of it.
-    Unloading returns the fraction ``e**2 = (p + 1)/(n + 1)`` of the work of loading, at any speed.
+    ``F = k C**p (c/C)**n``. This returns the fraction ``e**2 = (p + 1)/(n + 1)`` of the work of
+    loading, at any speed. The contact ends when force and compression are zero, and the next one
+    has no memory of it.
+
+    If the contact is compressed again before it has opened, it acts as a bundle of elements, each
+    of which parts at its own compression. Elements that have parted load afresh; the others go
+    back along their unloading curve to the old peak. From c0 the force is ``F = k c**p - k c0**p +
+    k c0**p (c/C)**(n - p)`` up to the old peak C. No cycle gains energy, and a contact that just
+    opens and one that just does not do the same.
 
     Parameters
     ----------
@@ -54,10 +55,6 @@ class Hysteretic(ContactLaw):
         n of the unloading curve, from `exponent` to 1e6. Give one of this and `restitution`; the
         other is derived, and both can be read. Both can be given where they agree exactly, so that
         `dataclasses.replace` can change the rest; to change one of them, set the other to None.
-    reloading : str, optional
-        The energy lost when the contact is compressed again before it has opened: ``"free"``, none
-        up to the old peak, or ``"lossy"``, the same fraction of the work as in the first loading.
-        The behaviour of real balls is not known; ``"lossy"`` shows what difference the rule makes.
 
     Raises
     ------
@@ -65,12 +62,13 @@ class Hysteretic(ContactLaw):
         If a number is out of its range, or neither `restitution` nor `unloading_exponent` is given,
         or both and they disagree.
     InvalidType
-        If one is no number, or `reloading` no string.
+        If one is no number.
 
     Notes
     -----
     Source: R. Cross, Am. J. Phys. 75, 1009 (2007), section V. The paper has a single loading and
-    unloading; the rule for reloading is this package's own.
+    unloading; the rule for reloading is this package's own, a Preisach model (I. D. Mayergoyz,
+    Mathematical Models of Hysteresis, 1991) whose first-order reversal curves are these.
 
     Examples
     --------
@@ -98,15 +96,9 @@ class Hysteretic(ContactLaw):
     # One of these is given and __post_init__ derives the other: neither is ever None to read.
     restitution: Annotated[float, Quantity("", slider=(0.8, 0.05, 1.0))] = None  # type: ignore[assignment]
     unloading_exponent: Annotated[float, Quantity("", slider=(2.0, 1.0, 20.0))] = None  # type: ignore[assignment]
-    reloading: str = "free"
     derived: str = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.reloading, str):
-            raise InvalidType(f"reloading must be a string, got {shown(self.reloading)}")
-        if self.reloading not in _RELOADINGS:
-            words = nearest(self.reloading, _RELOADINGS)
-            raise InvalidValue(f"reloading must name a rule, got {shown(self.reloading)}; {words}")
         k = _STIFFNESS.check("stiffness", self.stiffness)
         p = EXPONENT.check("exponent", self.exponent)
         e, n, derived = _losses(p, self.restitution, self.unloading_exponent)
@@ -118,10 +110,9 @@ class Hysteretic(ContactLaw):
 
     def __repr__(self) -> str:
         given = next(name for name in _ONE_OF if name != self.derived)
-        rule = "" if self.reloading == "free" else f", reloading={self.reloading!r}"
         return (
             f"Hysteretic(stiffness={self.stiffness!r}, exponent={self.exponent!r}, "
-            f"{given}={getattr(self, given)!r}{rule})"
+            f"{given}={getattr(self, given)!r})"
         )
 
     @classmethod
@@ -141,11 +132,9 @@ class Hysteretic(ContactLaw):
         return super().replaced({**others, **changes})
 
     def to_mapping(self) -> dict[str, Any]:
-        """Return the law as plain values, without the derived field and the default `reloading`."""
+        """Return the law as plain values, without the derived field."""
         plain = super().to_mapping()
         del plain[self.derived]
-        if self.reloading == "free":
-            del plain["reloading"]
         return plain
 
     def _described_fields(self) -> list[str]:
@@ -154,7 +143,6 @@ class Hysteretic(ContactLaw):
 
     def engine_numbers(self, varied: Mapping[str, Any] = {}) -> EngineNumbers:
         """Return the law's numbers, with n from e where e is what is known of the loss."""
-        form = FORMS["LOSSY" if self.reloading == "lossy" else self.form]
         k, p = (varied.get(name, getattr(self, name)) for name in ("stiffness", "exponent"))
         n = varied.get("unloading_exponent", self.unloading_exponent)
         by_restitution = self.derived == "unloading_exponent" and "unloading_exponent" not in varied
@@ -163,7 +151,7 @@ class Hysteretic(ContactLaw):
 
             e = varied.get("restitution", self.restitution)
             n = np.maximum(p, (p + 1.0) / e / e - 1.0)
-        return form, k, p, n, 0.0
+        return FORMS[self.form], k, p, n, 0.0
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution, which is the same for all collisions."""
@@ -193,7 +181,7 @@ class Hysteretic(ContactLaw):
 
     def series_constants(self) -> dict[str, Any]:
         """Return what two laws in series must have in common: all but the stiffness."""
-        names = ("exponent", "unloading_exponent", "reloading")
+        names = ("exponent", "unloading_exponent")
         return {name: getattr(self, name) for name in names}
 
     def as_hysteretic(self) -> "Hysteretic":
@@ -203,7 +191,7 @@ class Hysteretic(ContactLaw):
     def pressed_on(self, other: "Hysteretic") -> "Hysteretic":
         """Return the law with the loading curve and the energy loss of this and another in series.
 
-        Both must have the same exponent and the same `reloading`. This law takes the fraction f of
+        Both must have the same exponent. This law takes the fraction f of
         the compression, and therefore of the work: ``e**2 = f e_a**2 + (1 - f) e_b**2``.
         """
         p = self.exponent
@@ -211,14 +199,11 @@ class Hysteretic(ContactLaw):
         f = soft_a / (soft_a + soft_b)
         kept = f * self.restitution**2 + (1.0 - f) * other.restitution**2
         stiffness = (soft_a + soft_b) ** -p
-        return Hysteretic(
-            stiffness, exponent=p, restitution=math.sqrt(kept), reloading=self.reloading
-        )
+        return Hysteretic(stiffness, exponent=p, restitution=math.sqrt(kept))
 
 
 _ONE_OF = ("restitution", "unloading_exponent")
 _OTHER = dict(zip(_ONE_OF, reversed(_ONE_OF), strict=True))
-_RELOADINGS = ("free", "lossy")
 
 
 def _losses(p: float, restitution: object, unloading: object) -> tuple[float, float, str]:

@@ -42,7 +42,7 @@ def series(law_a: _Law, law_b: _Law) -> _Law:
     k2**(-1/p))``. This holds for springs and power laws; for `Dashpot` if b/k is the same; for
     `StandardLinearSolid` if Δ and τ are the same; for `Viscoelastic` if A is the same (its force is
     ``k (s + A ṡ)`` with ``s = c**1.5``); for `HuntCrossley` if ``χ1 f = χ2 (1 - f)``, which then is
-    the χ of both in series; for `Hysteretic` if `restitution` and `reloading` are the same.
+    the χ of both in series; for `Hysteretic` if `restitution` is the same.
 
     Springs: R. Cross, Am. J. Phys. 75, 1009 (2007), section V.
 

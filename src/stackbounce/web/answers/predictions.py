@@ -6,8 +6,7 @@ from stackbounce.errors import InvalidValue
 from stackbounce.json_values import as_json
 from stackbounce.model import Drop
 from stackbounce.prediction import predict
-from stackbounce.run.paths import number_at, value_in
-from stackbounce.units import quantity
+from stackbounce.prediction.inputs import add_value
 from stackbounce.version import __version__
 from stackbounce.web.answers.play import RTOL, choose_times
 from stackbounce.web.limits import LIMITS
@@ -65,8 +64,6 @@ def add_values(drop: Drop, errors: Mapping[str, float | str]) -> dict[str, tuple
     >>> add_values(drop, {"height": "1 cm"})
     {'height': (0.63, 0.01)}
     """
-    pairs = {}
-    for path, error in errors.items():
-        number = number_at(drop, path)
-        pairs[path] = value_in(drop, number), quantity(error, number.unit, f"error of {path}")
-    return pairs
+    return {
+        path: add_value(drop, path, error, f"error of {path}") for path, error in errors.items()
+    }

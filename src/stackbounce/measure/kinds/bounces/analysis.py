@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown, unmasked
 from stackbounce.measure.drag import Drag, speed_after_fall
 from stackbounce.measure.error_of_drag import with_error_of_drag
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
@@ -240,6 +240,7 @@ def _plain(times: Any) -> list[Any]:
         return list(known)
     if isinstance(times, str | bytes):
         raise InvalidType(f"times must be a sequence of seconds, got {shown(times)}")
+    unmasked("times", times)
     try:
         values = list(times)
         for one in values:

@@ -10,7 +10,7 @@ from stackbounce.errors import InvalidType, InvalidValue, positive, shown
 from stackbounce.measure.drag import Drag
 from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.heights.result import Heights
-from stackbounce.measure.quantities import Number, nominal
+from stackbounce.measure.quantities import Number, deviation, nominal
 from stackbounce.measure.statistics.regression import widening
 
 __all__ = ["Place", "above_bottom", "fallen", "heights", "places"]
@@ -92,7 +92,7 @@ def heights(
     points = places(measured_to)
     error = math.nan
     if height_error is not None:
-        error = positive("height_error", height_error, "metres")
+        error = deviation("height", positive("height_error", height_error, "metres"))
     size = _size(diameter, *points)
     listed = _listed(bounce_heights)
     start = _counted("drop_height", _number("drop_height", drop_height, error), points[0], size)

@@ -14,7 +14,7 @@ __all__ = ["MOST_POINTS", "fitted_table"]
 _FEWEST = 6
 _ROUNDS = 3  # each fits what the spline of the last one leaves over
 _STEEP = 1e-6  # of the mean rise: the smallest rise of the loading from point to point
-_FIRM = 1e3  # weight of the condition that unloading begins where loading ends
+_FIRM = 1e3  # weight of the condition that unloading begins where loading ends, over all points
 
 Array = NDArray[np.float64]
 
@@ -38,15 +38,13 @@ def fitted_table(loading: Any, unloading: Any, points: int) -> Tabulated:
     c, f = _pressed("loading", *loading)
     most = float(c.max())
     knots = np.linspace(0.0, most, points)
-    force = _fitted(knots, c, f, None)
+    force = _fitted_loading(knots, c, f)
     force = np.cumsum(np.maximum(np.diff(force, prepend=0.0), 0.0))
     force[1:] += _STEEP * force[-1] * np.arange(1, points) / points
     if unloading is None:
         return Tabulated(knots.tolist(), force.tolist())
     c, f = _pressed("unloading", *unloading)
-    back = _fitted(knots, c, f, float(force[-1]))
-    back = np.maximum.accumulate(np.minimum(np.maximum(back, 0.0), force))
-    back[0], back[-1] = 0.0, force[-1]
+    back = np.append(0.0, force[1:] * _fitted_shares(knots, c, f, _spline_at(knots, force, c)))
     return Tabulated(knots.tolist(), force.tolist(), back.tolist())
 
 
@@ -61,26 +59,32 @@ def _pressed(name: str, c: Array, f: Array) -> tuple[Array, Array]:
     return c[keep], f[keep]
 
 
-def _fitted(knots: Array, c: Array, f: Array, end: float | None) -> Array:
-    """Return the values at the knots whose monotone spline fits points best, from 0 to ``end``."""
+def _fitted_loading(knots: Array, c: Array, f: Array) -> Array:
+    """Return the forces at the knots whose monotone spline from 0 fits points best."""
     from scipy.optimize import nnls
 
-    widths = np.diff(knots)
-    ramps = np.clip((c[:, None] - knots[None, :-1]) / widths, 0.0, 1.0)
-    rows, aims = ramps, f
-    if end is not None:  # the sum of all rises, with a weight
-        rows = np.vstack([ramps, np.full(len(widths), _FIRM * len(c) ** 0.5)])
+    ramps = np.clip((c[:, None] - knots[None, :-1]) / np.diff(knots), 0.0, 1.0)
     values = np.zeros(len(knots))
     wanted = f
     for _ in range(_ROUNDS):
-        aims = wanted
-        if end is not None:
-            aims = np.append(wanted, _FIRM * len(c) ** 0.5 * end)
-        rises, _ = nnls(rows, aims)
+        rises, _ = nnls(ramps, wanted)
         values = np.concatenate([[0.0], np.cumsum(rises)])
         straight = np.interp(c, knots, values)
         wanted = f - (_spline_at(knots, values, c) - straight)
     return values
+
+
+def _fitted_shares(knots: Array, c: Array, f: Array, loading: Array) -> Array:
+    """Return the shares of the loading at the knots, rising to 1, that fit points best."""
+    from scipy.optimize import nnls
+
+    ramps = np.clip((c[:, None] - knots[None, 1:-1]) / np.diff(knots)[1:], 0.0, 1.0)
+    rows = loading[:, None] * np.column_stack([np.ones(len(c)), ramps])
+    firm = _FIRM * len(c) ** 0.5 * loading.max()  # that all rises together are 1
+    rises, _ = nnls(np.vstack([rows, np.full(rows.shape[1], firm)]), np.append(f, firm))
+    shares: Array = np.minimum(np.cumsum(rises), 1.0)
+    shares[-1] = 1.0
+    return shares
 
 
 def _spline_at(knots: Array, values: Array, c: Array) -> Array:

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown
+from stackbounce.errors import InvalidType, InvalidValue, finite, positive, shown, unmasked
 from stackbounce.measure.kinds.bounces.knocks import Dropped, Knocks
 from stackbounce.measure.kinds.sound.alignment import aligned
 from stackbounce.measure.kinds.sound.consistency import misjudgement
@@ -155,6 +155,7 @@ def _samples(data: Any, rate: float | None) -> tuple[NDArray[np.float32], float,
             origin = float(times[0])
             rate = rate or (len(times) - 1) / (float(times[-1]) - origin)
     else:
+        unmasked("data", data)
         try:
             values = np.asarray(data, dtype=np.float32)
         except (TypeError, ValueError):

@@ -6,7 +6,7 @@ import { isLanguage } from "./language_choice.js";
 import { FIRST, VIEWS } from "./store.js";
 
 const DROP = ["balls", "contacts", "gaps", "velocities", "impact_speed", "height", "gravity"];
-const WORDS = new Set(["name", "law", "reloading", "path", "show", "x", "y"]);
+const WORDS = new Set(["name", "law", "path", "show", "x", "y"]);
 const SETTINGS = { line: ["x", "show"], map: ["x", "y", "show"] }; // of a view, by the first part of their paths
 const SIDE = ["path", "low", "high", "log"];
 const SWITCHES = ["ghosts", "arrows", "momentum", "centre", "sound", "loop", "predict"];

@@ -64,7 +64,7 @@ async function answer(api, drop, until, frames) {
 
 /** Return whether a drop has texts with units, as a link may bring them: the result has them as numbers. */
 function hasTexts(value, key = "") {
-  if (typeof value === "string") return !["name", "law", "reloading"].includes(key);
+  if (typeof value === "string") return !["name", "law"].includes(key);
   if (value === null || typeof value !== "object") return false;
   return Object.entries(value).some(([name, member]) => hasTexts(member, name));
 }

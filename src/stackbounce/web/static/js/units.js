@@ -85,7 +85,8 @@ export function read(text, unit, shown) {
 
 /** Split "63 ± 1 cm" into `{value, error}`, each with the unit that only one has; without ± the error is null. */
 export function splitError(text) {
-  const [value, error, ...more] = text.split(/±|\+\/-/).map((part) => part.replace(/[()]/g, "").trim());
+  const plain = text.trim().replace(/^\(([^()]*)\)\s*([^()]*)$/, "$1 $2"); // (63 ± 1) cm
+  const [value, error, ...more] = plain.split(/±|\+\/-/).map((part) => part.trim());
   if (error === undefined || more.length) return { value: text, error: null };
   const unit = (part) => QUANTITY.exec(pointed(part))?.[2] ?? "";
   const own = unit(value) || unit(error);

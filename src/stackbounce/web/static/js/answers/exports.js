@@ -26,7 +26,9 @@ function addValues(drop, errors) {
   return Object.entries(errors).map(([path, error]) => {
     const number = all.get(path);
     if (!number) throw new InvalidValue(`${path.slice(0, 60)} is not a parameter of this drop; ${nearest(path, [...all.keys()])}`);
-    return { number, value: valueIn(drop, number) ?? NaN, error: quantity(error, number.unit, `error of ${path}`) };
+    const value = valueIn(drop, number);
+    if (value === undefined) throw new InvalidValue(`error of ${path} needs ${path}, which the drop does not give`);
+    return { number, value, error: quantity(error, number.unit, `error of ${path}`) };
   });
 }
 
@@ -53,6 +55,7 @@ function checkErrors(pairs) {
   for (const { number, value, error } of pairs) {
     quantity(value, number.unit, number.path);
     if (error < 0) throw new InvalidValue(`${number.path}'s error must be 0 or above, got ${general(error)}`);
+    if (error > 1e100) throw new InvalidValue(`${number.path}'s error must be at most 1e+100, got ${general(error)}`);
   }
   if (pairs.length && pairs.every(({ error }) => error === 0)) throw new InvalidValue("errors must have a number with an error above 0, got none");
 }
