@@ -13,8 +13,9 @@ from rich.console import Console
 
 from benchmarks.random_drops import random
 from stackbounce.engine import codes, native
-from stackbounce.engine.records import Drops, Outcomes
+from stackbounce.engine.records import Drops
 from stackbounce.engine.tables import Table
+from stackbounce.run.batch import new_outcomes
 from stackbounce.run.memory import spring_workspace
 
 _LIMIT = 10**6
@@ -34,16 +35,14 @@ def job(count: int, seed: int = 1) -> tuple[Callable[[], None], Any]:
         velocity=np.full(table, -1.0),
         gravity=np.zeros(count),
     )
-    pairs = [np.empty(table) for _ in range(4)]
-    collisions, status = np.empty(table, np.int64), np.empty(count, np.int64)
-    out = Outcomes(*pairs[:2], collisions, *pairs[2:], np.empty(count), status)
+    out = new_outcomes(count, 2)
     solve = native.compiled("run_two_springs")
     given = Table(drops), _LIMIT, Table(out), Table(spring_workspace(compiled=True))
 
     def call() -> None:
         solve(*given)
 
-    return call, status
+    return call, out.status
 
 
 def time_per_drop(threads: int, count: int = 40_000, rounds: int = 30) -> float:

@@ -1,7 +1,7 @@
 /* Call the kernels of a library on the memory in a file: check_library LIBRARY SUFFIX BEFORE AFTER
 
    The file has words of 64 bits, little-endian: the numbers of addresses, calls and words of memory;
-   then the places of the addresses in memory; the calls, each an entry and eight arguments; and the
+   then the places of the addresses in memory; the calls, each an entry and eleven arguments; and the
    memory. Addresses are offsets in bytes. The memory after the calls is written to another file. */
 
 #include <dlfcn.h>
@@ -10,9 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { ARGUMENTS = 8, LINE = 64 };
+enum { ARGUMENTS = 11, LINE = 64 };
 static const char *const entries[] = {"run_batch", "run_rigid_batch", "run_two_springs", "find_ratios"};
-typedef int64_t Batch(void *, void *, void *, void *, double, double, int64_t, void *);
+typedef int64_t Batch(void *, void *, void *, void *, double, double, int64_t, int64_t, void *, int64_t);
 typedef int64_t Springs(void *, int64_t, void *, void *);
 typedef int64_t Ratios(void *, void *);
 
@@ -44,10 +44,11 @@ int main(int count, char **given) {
     snprintf(name, sizeof name, "%s%s", entries[entry], given[2]);
     void *found = dlsym(library, name);
     if (!found) return 4;
-    int64_t answer;
+    int64_t answer = 0;
     if (entry < 2)
-      answer = ((Batch *)found)(begin + a[0], begin + a[1], begin + a[2], begin + a[3], real(a[4]),
-                                real(a[5]), a[6], begin + a[7]);
+      do answer = ((Batch *)found)(begin + a[0], begin + a[1], begin + a[2], begin + a[3], real(a[4]),
+                                   real(a[5]), a[6], a[7], begin + a[8], answer);
+      while (answer >= 0 && answer < a[10]);
     else if (entry == 2)
       answer = ((Springs *)found)(begin + a[0], a[1], begin + a[2], begin + a[3]);
     else

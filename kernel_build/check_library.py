@@ -25,11 +25,13 @@ from fuzz import draw
 from kernel_build.targets import TARGETS
 from stackbounce.engine import codes, native
 from stackbounce.engine.records import Drops, Outcomes
+from stackbounce.engine.work import WORK_LIMIT
+from stackbounce.run.batch import new_outcomes
 from stackbounce.run.engines import FINITE, RIGID
 from stackbounce.run.memory import memory, spring_workspace
 
 _ENTRIES = ("run_batch", "run_rigid_batch", "run_two_springs", "find_ratios")
-_ARGUMENTS = 8
+_ARGUMENTS = 11
 _WORD, _LINE = 8, 8  # bytes of a word, words of a cache line
 _LIMIT, _RTOL = 300, 1e-9
 _PROGRAM = Path(__file__).with_suffix(".c")
@@ -97,7 +99,8 @@ def random_image(batch: int, count: int) -> Image:
     out = image.record(_outcomes(count, balls))
     none = image.record(room.no_samples.record)
     entry = engine.run_batch
-    image.call(entry, stack, space, drops, none, math.inf, _RTOL, _LIMIT, out)
+    options = math.inf, _RTOL, _LIMIT, WORK_LIMIT
+    image.call(entry, stack, space, drops, none, *options, out, 0, count)
     image.call("find_ratios", drops, out)
     return image
 
@@ -118,11 +121,11 @@ def springs_image(count: int) -> Image:
 
 
 def _outcomes(count: int, balls: int) -> Outcomes:
-    wide = (np.zeros((count, balls)) for _ in range(4))
-    integers = np.zeros((count, balls), dtype=np.int64)
-    return Outcomes(
-        next(wide), next(wide), integers, *wide, np.zeros(count), np.zeros(count, dtype=np.int64)
-    )
+    """Return room for outcomes, all of the same bits; no drop is under way."""
+    out = new_outcomes(count, balls)
+    for array in out:
+        array[...] = codes.ASK
+    return out
 
 
 def run_here(image: Image) -> np.ndarray:
@@ -141,7 +144,9 @@ def run_here(image: Image) -> np.ndarray:
             word + base if kind == "c_void_p" else _real(word) if kind == "c_double" else word
             for kind, word in zip(kinds, words, strict=False)
         ]
-        function(*given)
+        row = function(*given)
+        while row < words[-1]:  # of a batch, whose last word is the number of its drops
+            row = function(*given[:-1], row)
     there[image.places] -= base
     return there
 

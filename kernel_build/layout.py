@@ -31,6 +31,7 @@ from stackbounce.engine.stack import (
     new_samples,
     new_stack,
 )
+from stackbounce.engine.work import EVENT_LIMIT, WORK_LIMIT
 
 FILE = "layout.json"
 _LOG_ROWS = 512  # besides one for each ball
@@ -63,9 +64,11 @@ def layout() -> dict[str, Any]:
             name: getattr(records, name) for name in ("CONTINUE", "BEGIN", "BEGIN_WITH_PEAKS")
         },
         "after": {name: getattr(records, name) for name in ("UNIT", "END", "AFTER")},
-        "counter": {"LOG_ROWS": slots.LOG_ROWS},
+        "counter": {"LOG_ROWS": slots.LOG_ROWS, "CAUSE": slots.CAUSE},
+        "limits": {"events": EVENT_LIMIT, "work": WORK_LIMIT},
         "log": _numbered(f"{_COLUMNS} IMPULSE PEAK_TIME"),
         "statuses": _numbered(_STATUSES),
+        "causes": _numbered("ENDLESS STIFF EXTREME"),
         "events": _numbered(_EVENTS),
         "forms": FORMS,
     }

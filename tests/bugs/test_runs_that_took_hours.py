@@ -1,11 +1,16 @@
 """Runs whose limits of events and steps multiplied went on for minutes or hours."""
 
+import time
+
 import pytest
 
 import stackbounce as sb
 from stackbounce.engine.slots import EVENTS, STEPS
+from stackbounce.engine.work import WORK_LIMIT
+from stackbounce.run.batch import solve
 from stackbounce.run.engines import FINITE
 from stackbounce.run.memory import memory
+from stackbounce.run.options import run_options
 
 
 def counts(drop, **options):
@@ -30,16 +35,65 @@ def test_a_stack_that_swings_with_many_events_is_left():
     assert "stop earlier with until" in status.advice
 
 
+LIGHT, HEAVY = [sb.Ball(1e-12), sb.Ball(1.0)], [sb.Ball(1e308), sb.Ball(1.0)]
+STEPS_OF_ALL_KINDS = {
+    "a heavy ball bounces for ever on a light one with a bond": sb.Drop(
+        [sb.Ball(0.419), sb.Ball(0.184), sb.Ball(8.4505)],
+        [sb.Bond(13354.8), sb.Bond(8123.41), sb.Hertz(678211.0)],
+        [0.0, 4.3e-8],
+        impact_speed=0.01,
+        gravity=9.81,
+    ),
+    "time stands still": sb.Drop(HEAVY, [sb.Spring(1e4)] * 2, impact_speed=1.0),
+    "an overdamped contact": sb.Drop(LIGHT, [sb.HuntCrossley(1e4, 1.5, 0.2)] * 2, impact_speed=1.0),
+    "a force in each step": sb.Drop(
+        LIGHT, [sb.StandardLinearSolid(1e4, 0.5, 0.01)] * 2, impact_speed=1.0
+    ),
+    "a tall stack": sb.Drop(
+        [sb.Ball(10.0 ** (i % 3)) for i in range(300)],
+        [sb.Viscoelastic(10.0 ** (i % 4), 1e-3) for i in range(300)],
+        impact_speed=1.0,
+    ),
+    "collisions": sb.Drop([sb.Ball(1.0)], [sb.Rigid(1.0)], impact_speed=1.0, gravity=9.81),
+}
+
+
 @pytest.mark.slow
-def test_many_steps_between_many_events_end():
-    """A heavy ball bounces for ever on a light one with a bond: thousands of steps each time."""
-    laws = [sb.Bond(13354.8), sb.Bond(8123.41), sb.Hertz(678211.0)]
-    balls = [sb.Ball(0.419), sb.Ball(0.184), sb.Ball(8.4505)]
-    drop = sb.Drop(balls, laws, gaps=[0.0, 4.3e-8], impact_speed=0.01, gravity=9.81)
-    status, events, steps = counts(drop)
-    assert (status, steps) == (sb.Status.EVENT_LIMIT, 1_000_000)
-    assert events < 100_000
-    assert counts(drop, event_limit=1_200_000)[2] == 1_200_000
+@pytest.mark.parametrize("name", STEPS_OF_ALL_KINDS)
+def test_no_run_of_the_default_limits_lasts_over_five_seconds(name):
+    begun = time.thread_time()
+    result = sb.simulate(STEPS_OF_ALL_KINDS[name], until=1e300 if name == "collisions" else None)
+    assert time.thread_time() - begun < 5.0
+    assert result.status is sb.Status.EVENT_LIMIT
+    assert result.work < 1.01 * WORK_LIMIT
+
+
+@pytest.mark.slow
+def test_who_asks_for_more_gets_more_by_each_way():
+    """The work is counted alike in a sweep and in plain Python, which is slower."""
+    drop, work = STEPS_OF_ALL_KINDS["time stands still"], []
+    for limit in (1_000_000, 1_200_000):
+        result = sb.simulate(drop, event_limit=limit)
+        out = solve(drop, {}, (1,), run_options(drop, None, 1e-12, limit))
+        assert (out.status[0], out.work[0]) == (result.status, result.work)
+        assert out.velocity[0].tolist() == list(result.final_velocities)
+        work.append(result.work)
+    assert work[1] == pytest.approx(1.2 * work[0], rel=1e-3)
+    few = [sb.simulate(drop, event_limit=100, compiled=way).work for way in (True, False)]
+    assert few[0] == few[1] > 0
+
+
+def test_the_status_says_why():
+    soft = [sb.Spring(1.0), sb.Dashpot(1.0, 1e3)]
+    stiff = sb.Drop([sb.Ball(1.0)] * 2, soft, impact_speed=1.0)
+    said = {sb.simulate(stiff, event_limit=100).advice: "so stiff or so damped"}
+    extreme = STEPS_OF_ALL_KINDS["an overdamped contact"]
+    said[sb.simulate(extreme, event_limit=100).advice] = "of very different sizes"
+    endless = STEPS_OF_ALL_KINDS["collisions"]
+    said[sb.simulate(endless, until=1e9, event_limit=100).advice] = "perhaps for ever: stop earlier"
+    assert len(said) == 3
+    assert all(words in advice and "raise event_limit" in advice for advice, words in said.items())
+    assert sb.simulate(endless).advice == sb.Status.FINISHED.advice
 
 
 @pytest.mark.parametrize("returned", [1e-5, 1e-4, 1e-3, 1e-2])

@@ -13,6 +13,7 @@ from fuzz.replay import drop_of, options_of
 from stackbounce.engine import native
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
+from stackbounce.run.batch import new_outcomes
 from stackbounce.run.engines import FINITE, RIGID
 from stackbounce.run.memory import memory, spring_workspace
 from stackbounce.run.options import Options
@@ -91,13 +92,8 @@ def batches():
 
 
 def empty(drops):
-    """Return room for outcomes."""
-    table = drops.mass.shape
-    return Outcomes(
-        *(np.zeros(table), np.zeros(table), np.zeros(table, np.int64)),
-        *(np.zeros(table), np.zeros(table)),
-        *(np.zeros(table[0]), np.zeros(table[0], np.int64)),
-    )
+    """Return room for outcomes; some of them are not computed."""
+    return Outcomes._make(map(np.zeros_like, new_outcomes(*drops.mass.shape)))
 
 
 def outcomes():

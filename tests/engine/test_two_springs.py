@@ -6,9 +6,10 @@ import pytest
 import stackbounce as sb
 from reference import make_data, springs
 from stackbounce.engine import codes, native
-from stackbounce.engine.records import Drops, Outcomes
+from stackbounce.engine.records import Drops
 from stackbounce.engine.tables import Table
 from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
+from stackbounce.run.batch import new_outcomes
 from stackbounce.run.memory import spring_workspace
 
 SPEED = 1e-12
@@ -30,15 +31,7 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
         velocity=-np.column_stack([speed, speed]),
         gravity=np.zeros(n),
     )
-    out = Outcomes(
-        velocity=np.empty(table),
-        rebound_ratio=np.empty(table),
-        collisions=np.empty(table, np.int64),
-        first_touch=np.empty(table),
-        last_release=np.empty(table),
-        energy_retained=np.empty(n),
-        status=np.empty(n, np.int64),
-    )
+    out = new_outcomes(n, 2)
     space = spring_workspace(not plain)
     if plain:
         run_two_springs(drops, event_limit, out, space)

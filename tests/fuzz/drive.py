@@ -22,6 +22,7 @@ from stackbounce.engine.slots import (
     NONLINEAR,
     UNIT,
 )
+from stackbounce.engine.work import WORK_LIMIT
 
 # laws of random drops
 NONE, SPRING, HERTZ, POWER, DASHPOT, VISCOELASTIC, HUNT_CROSSLEY = range(7)
@@ -81,7 +82,9 @@ def run(
     status, fault = RUNNING, 0
     while status == RUNNING:
         stack.counter[LOG_ROWS] = 0
-        status = advance_contacts(stack, drops.until[row] / unit, drops.limit[row], log, samples)
+        status = advance_contacts(
+            stack, drops.until[row] / unit, drops.limit[row], WORK_LIMIT, log, samples
+        )
         fault |= read(log, stack.counter[LOG_ROWS], turns, out)
     if status == codes.INVALID and comes_too_late(stack):
         out[STATUS], out[EVENT_COUNT], out[END] = (
@@ -148,7 +151,9 @@ def in_parts(
         status = RUNNING
         while status == RUNNING:
             stack.counter[LOG_ROWS] = 0
-            status = advance_contacts(stack, stop / unit, drops.limit[row], log, samples)
+            status = advance_contacts(
+                stack, stop / unit, drops.limit[row], WORK_LIMIT, log, samples
+            )
         if status == TIME_REACHED:
             energy, _ = energy_at(stack, stop / unit)
             if not energy - before <= allowed:

@@ -11,8 +11,9 @@ import pytest
 
 from fuzz import draw
 from stackbounce.engine import codes, native
-from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, Drops, Outcomes
+from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, Drops
 from stackbounce.engine.tables import Table
+from stackbounce.run.batch import new_outcomes
 from stackbounce.run.engines import FINITE, RIGID
 from stackbounce.run.memory import memory, spring_workspace
 from stackbounce.run.options import Options
@@ -62,18 +63,12 @@ def simulated(drop, rigid, options, times=()):
     samples = room.samples(list(times))
     run, log, stage, status = room.run_with(samples), [], BEGIN_WITH_PEAKS, 0
     while status == codes.RUNNING:
-        status, stage = run(stage, options.until, options.rtol, options.event_limit), CONTINUE
+        status, stage = run(stage, *options), CONTINUE
         log += room.take_log()
     infinite = room.stack.infinite if rigid else np.zeros(balls)
     after = room.space.after.copy()
     parts = [[status, after[END], len(log)], after[AFTER:], log, infinite, *samples[1:]]
     return np.concatenate(parts), after[END]
-
-
-def new_outcomes(count, balls):
-    wide, whole = np.empty((4, count, balls)), np.empty((count, balls), dtype=np.int64)
-    status = np.empty(count, dtype=np.int64)
-    return Outcomes(wide[0], wide[1], whole, wide[2], wide[3], np.empty(count), status)
 
 
 def swept(drops, rigid, options, springs=False):

@@ -110,7 +110,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         code = 130
     except MemoryError:
-        return _failed("out of memory: ask for fewer balls", 1)
+        return _failed("out of memory: ask for fewer balls, drops or draws", 1)
     except Exception as error:
         if not _follows_an_interruption(error):
             return _failed(f"unexpected {type(error).__name__}: {error} (please report it)", 1)

@@ -137,6 +137,7 @@ def run(
     """Fit parameters of a drop to measured values, with errors."""
     need("fit", "stackbounce fit")
     from stackbounce.cli import fit_results
+    from stackbounce.fitting import Interrupted
 
     check_picture(plot, overwrite)
     check_picture(corner, overwrite, "--corner")
@@ -154,7 +155,14 @@ def run(
         return
     fit_results.check_save(save, overwrite, problem, what)
     fit_results.check_save(draws, overwrite, problem, what, "--draws", ".csv")
-    done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
+    try:
+        done = fit_results.run(problem, starts=starts, seed=seed, interval=interval, sample=sample)
+    except Interrupted as stopped:
+        if as_json:
+            print_json({"interrupted": str(stopped), "values": stopped.fit.best})
+        else:
+            typer.echo(f"Interrupted: {stopped}")
+        raise
     draw_picture(plot, overwrite, "fitted", done.fit)
     draw_picture(corner, overwrite, "corner", done.posterior)
     saved = fit_results.save(done, save, overwrite)

@@ -18,6 +18,7 @@ from stackbounce.fitting import (
     Comparison,
     Fit,
     FitProblem,
+    Interrupted,
     Interval,
     Posterior,
     compare,
@@ -149,13 +150,25 @@ def _own_name(parts: Parts, name: str) -> tuple[str, str]:
 def run(
     problem: FitProblem, *, starts: int | None, seed: int, interval: bool, sample: int | None
 ) -> Fitted:
-    """Make the fit, with intervals and draws if they are asked for."""
-    found = problem.fit(starts=starts, seed=seed)
-    intervals = found.intervals() if interval else None
-    if sample is None:
-        return Fitted(found, intervals, None)
-    with progress_bar("draws") as progress:
-        drawn = found.sample(sample, seed=seed, progress=progress)
+    """Make the fit, with intervals and draws if they are asked for.
+
+    Raises
+    ------
+    Interrupted
+        After Ctrl+C; it has the fit as far as it is made.
+    """
+    intervals = drawn = None
+    with progress_bar("trials") as progress:
+        found = problem.fit(starts=starts, seed=seed, progress=progress)
+    try:
+        if interval:
+            with progress_bar("trials of intervals") as progress:
+                intervals = found.intervals(progress=progress)
+        if sample is not None:
+            with progress_bar("draws") as progress:
+                drawn = found.sample(sample, seed=seed, progress=progress)
+    except KeyboardInterrupt as stopped:
+        raise Interrupted(found) from stopped
     return Fitted(found, intervals, drawn)
 
 
@@ -338,7 +351,8 @@ def compare_models(problem: FitProblem, *, starts: int | None, seed: int) -> Com
     """Fit the usual models to what was measured."""
     timed = any(_is_timed(one) for one in problem.data.values())
     models = standard_models(problem.drops, times=timed)
-    return compare(models, problem.data, starts=starts, seed=seed)
+    with progress_bar("trials of a model") as progress:
+        return compare(models, problem.data, starts=starts, seed=seed, progress=progress)
 
 
 def comparison_as_dict(done: Comparison) -> dict[str, Any]:

@@ -2,6 +2,7 @@
 
 import contextlib
 import sys
+import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -164,15 +165,24 @@ def console() -> "Console":
 
 @contextlib.contextmanager
 def progress_bar(what: str) -> Iterator[Any]:
-    """Show a progress bar on stderr, if that is a terminal."""
+    """Show a progress bar on stderr, if that is a terminal, from the first second's end on."""
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
-    console = Console(stderr=True)
-    columns = (BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
-    with Progress(*columns, console=console, disable=not console.is_terminal) as bar:
-        task = bar.add_task(what, total=None)
-        yield lambda done, total: bar.update(task, completed=done, total=total)
+    console, begun = Console(stderr=True), time.monotonic()
+    columns = ("{task.description}", BarColumn(), MofNCompleteColumn(), TimeRemainingColumn())
+    bar = Progress(*columns, console=console, disable=not console.is_terminal)
+    task = bar.add_task(what, total=None)
+
+    def update(done: int, total: int) -> None:
+        bar.update(task, completed=done, total=total)
+        if time.monotonic() > begun + 1.0:
+            bar.start()
+
+    try:
+        yield update
+    finally:
+        bar.stop()
 
 
 def json_text(value: object) -> str:

@@ -21,6 +21,7 @@ from stackbounce.cli.output import (
     draw_picture,
     print_files,
     print_json,
+    progress_bar,
 )
 
 if TYPE_CHECKING:
@@ -63,7 +64,10 @@ def run(
     plain, written = split_errors(given)
     chosen, end = scenario.read(what, with_errors=True, **plain), scenario.read_until(until)
     errors = read_errors(chosen.drop, {**chosen.errors, **written}, error)
-    prediction = predict(chosen.drop, errors, until=end, rtol=rtol) if errors else None
+    prediction = None
+    if errors:
+        with progress_bar("draws") as progress:
+            prediction = predict(chosen.drop, errors, until=end, rtol=rtol, progress=progress)
     result = simulate(chosen.drop, until=end, rtol=rtol)
     laws = chosen.drop.contacts
     joined = any(law is not None and law.pulls for law in laws)  # no collision of the textbook's

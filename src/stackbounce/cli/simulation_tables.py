@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 __all__ = ["print_simulation"]
 
 _APEXES = 4  # highest points shown for each ball
-_LONG = 1_000_000  # numbers in the log of a run that is not repeated to find its conditioning
+_LONG = 5_000_000  # work of a run that is not repeated to find its conditioning
 
 
 def print_simulation(
@@ -148,7 +148,7 @@ def _closing(console: Console, result: Result, textbook: Result | None) -> None:
     _conditioning(console, result)
     for title, one in (("Status", result), ("Status of the separate collisions", textbook)):
         if one is not None and one.status is not Status.FINISHED:
-            console.print(f"{title}: {one.status.name}: {one.status.advice}")
+            console.print(f"{title}: {one.status.name}: {one.advice}")
 
 
 def _beyond_tables(console: Console, result: Result) -> None:
@@ -172,7 +172,7 @@ def _beyond_tables(console: Console, result: Result) -> None:
 
 def _conditioning(console: Console, result: Result) -> None:
     """Say from which time on no digit of the speeds is known, if there is one."""
-    if len(result.log) > _LONG or result.status is Status.INVALID:
+    if result.work > _LONG or result.status is Status.INVALID:
         return
     if math.isfinite(result.known_until):
         console.print(

@@ -24,8 +24,17 @@ from stackbounce.engine.records import (
 )
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
-from stackbounce.engine.slots import BONDS, LAST_CHECK, LAST_EVENT, LOG_ROWS, RECORDS_PEAKS
+from stackbounce.engine.slots import (
+    BONDS,
+    EVENTS,
+    LAST_CHECK,
+    LAST_EVENT,
+    LOG_ROWS,
+    RECORDS_PEAKS,
+    WORK,
+)
 from stackbounce.engine.stack import RigidStack, Samples, Stack
+from stackbounce.engine.work import COLLISION, DROP, SLICE
 
 
 @kernel
@@ -39,11 +48,13 @@ def run_drop(
     until: float,
     rtol: float,
     event_limit: int,
+    work_limit: int,
 ) -> int:
-    """Run a drop with finite contacts until it ends or the log is full; return its status.
+    """Run a drop with finite contacts; return its status.
 
-    With the status RUNNING, the caller empties the log and continues. The number of rows in the log
-    is ``counter[LOG_ROWS]``. The times in ``samples`` are in s; they are changed.
+    With the status RUNNING, the caller empties the log and continues: the log is full, or a slice
+    of work is done, so that the caller can also stop. The number of rows in the log is
+    ``counter[LOG_ROWS]``. The times in ``samples`` are in s; they are changed.
     """
     size = len(stack.mass)
     if stage != CONTINUE:
@@ -67,7 +78,7 @@ def run_drop(
         begin_contacts(stack)
     unit = space.after[UNIT]
     stack.counter[LOG_ROWS] = 0
-    status = advance_contacts(stack, until / unit, event_limit, space.log, samples)
+    status = advance_contacts(stack, until / unit, event_limit, work_limit, space.log, samples)
     if status != codes.RUNNING:
         end = stack.clock[LAST_EVENT]
         bonded = stack.setting[BONDS] > 0
@@ -100,8 +111,9 @@ def run_rigid_drop(
     until: float,
     rtol: float,
     event_limit: int,
+    work_limit: int,  # noqa: ARG001 - the limit of events is that of the work, too
 ) -> int:
-    """Run a drop of rigid balls until it ends or the log is full; see `run_drop`."""
+    """Run a drop of rigid balls; see `run_drop`."""
     if stage != CONTINUE:
         clear_arrays(space.floats, space.integers)
         space.after[UNIT] = prepare_rigid(
@@ -121,6 +133,7 @@ def run_rigid_drop(
     stack.counter[LOG_ROWS] = 0
     status = collide_all(stack, until, event_limit, space.log, samples)
     if status != codes.RUNNING:
+        stack.counter[WORK] = COLLISION * stack.counter[EVENTS]
         end = stack.clock[LAST_EVENT]
         if status != codes.FINISHED:
             end = until if status == codes.TIME_REACHED else max(end, stack.clock[LAST_CHECK])
@@ -140,20 +153,27 @@ def run_batch(
     until: float,
     rtol: float,
     event_limit: int,
+    work_limit: int,
     out: Outcomes,
-) -> None:
-    """Run drops with finite contacts one after the other and write their results to ``out``.
+    row: int,
+) -> int:
+    """Run drops with finite contacts one after the other, from a row on, for a slice of work.
 
-    The same stack is used for all drops.
+    Returns the first row whose drop has not ended: the caller continues there until all have. The
+    same stack is used for all drops. At first no status in ``out`` may be RUNNING.
     """
-    for row in range(len(out.status)):
-        _reset(out, row)
-        status, stage = codes.RUNNING, BEGIN
-        while status == codes.RUNNING:
-            status = run_drop(stack, space, drops, samples, row, stage, until, rtol, event_limit)
-            _read_log(space.log, stack.counter[LOG_ROWS], out, row)
-            stage = CONTINUE
-        _read_end(space.after, status, out, row)
+    work = 0
+    while row < len(out.status) and work < SLICE:
+        stage = _stage(out, row)
+        status = run_drop(
+            stack, space, drops, samples, row, stage, until, rtol, event_limit, work_limit
+        )
+        _read_log(space.log, stack.counter[LOG_ROWS], out, row)
+        work += DROP + stack.counter[WORK] - out.work[row]
+        _read_end(space.after, status, stack.counter[WORK], out, row)
+        if status != codes.RUNNING:
+            row += 1
+    return row
 
 
 @kernel
@@ -165,22 +185,26 @@ def run_rigid_batch(
     until: float,
     rtol: float,
     event_limit: int,
+    work_limit: int,
     out: Outcomes,
-) -> None:
+    row: int,
+) -> int:
     """Run drops of rigid balls and write their results to ``out``; see `run_batch`."""
-    for row in range(len(out.status)):
-        _reset(out, row)
-        status, stage = codes.RUNNING, BEGIN
-        while status == codes.RUNNING:
-            status = run_rigid_drop(
-                stack, space, drops, samples, row, stage, until, rtol, event_limit
-            )
-            _read_log(space.log, stack.counter[LOG_ROWS], out, row)
-            stage = CONTINUE
-        _read_end(space.after, status, out, row)
-        for i in range(len(stack.infinite)):
-            if stack.infinite[i] == 1:
-                out.collisions[row, i] = -1
+    work = 0
+    while row < len(out.status) and work < SLICE:
+        stage = _stage(out, row)
+        status = run_rigid_drop(
+            stack, space, drops, samples, row, stage, until, rtol, event_limit, work_limit
+        )
+        _read_log(space.log, stack.counter[LOG_ROWS], out, row)
+        work += DROP + COLLISION * stack.counter[LOG_ROWS]
+        _read_end(space.after, status, stack.counter[WORK], out, row)
+        if status != codes.RUNNING:
+            for i in range(len(stack.infinite)):
+                if stack.infinite[i] == 1:
+                    out.collisions[row, i] = -1
+            row += 1
+    return row
 
 
 @kernel
@@ -207,11 +231,16 @@ def _convert_log(log: Floats, rows: int, unit: float) -> None:
 
 
 @kernel
-def _reset(out: Outcomes, row: int) -> None:
+def _stage(out: Outcomes, row: int) -> int:
+    """Return the stage of a row: a drop that is not under way begins, with empty outcomes."""
+    if out.status[row] == codes.RUNNING:
+        return CONTINUE
+    out.work[row] = 0
     for i in range(len(out.collisions[row])):
         out.collisions[row, i] = 0
         out.first_touch[row, i] = math.nan
         out.last_release[row, i] = math.nan
+    return BEGIN
 
 
 @kernel
@@ -232,8 +261,8 @@ def _read_log(log: Floats, rows: int, out: Outcomes, row: int) -> None:
 
 
 @kernel
-def _read_end(after: Floats, status: int, out: Outcomes, row: int) -> None:
-    """Write the velocities after a run, and its status."""
+def _read_end(after: Floats, status: int, work: int, out: Outcomes, row: int) -> None:
+    """Write the velocities after a run or a slice of it, its status and its work."""
     for b in range(len(out.velocity[row])):
         out.velocity[row, b] = after[AFTER + b]
-    out.status[row] = status
+    out.status[row], out.work[row] = status, work

@@ -10,6 +10,11 @@ EVENT_LIMIT = 5
 INVALID = 6
 ASK = 7  # the fast engine left a drop undecided: the general one solves it
 
+# why a run met a limit, see `Result.advice`
+ENDLESS = 1  # events go on and on, or a stack that lies swings on
+STIFF = 2  # a contact needs many steps between two events
+EXTREME = 3  # the masses, or the times of the contacts, are of very different sizes
+
 # forms of the force of a contact, see `forces`
 ABSENT = 0  # no floor
 POWER = 1  # a power of the compression, loading and unloading alike

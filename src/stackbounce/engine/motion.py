@@ -2,7 +2,7 @@
 
 import math
 
-from stackbounce.engine.codes import COMPRESSING, EPSILON
+from stackbounce.engine.codes import COMPRESSING, EPSILON, HYSTERETIC, POWER
 from stackbounce.engine.contacts import correct_curve
 from stackbounce.engine.elementary import exp
 from stackbounce.engine.event_queue import schedule
@@ -16,13 +16,14 @@ from stackbounce.engine.modes import (
     start_modes,
 )
 from stackbounce.engine.series import ORDER, evaluate, integrate, shift
-from stackbounce.engine.slots import GRAVITY, NONLINEAR, RECORDS_PEAKS, SPEED, TOLERANCE
+from stackbounce.engine.slots import GRAVITY, NONLINEAR, RECORDS_PEAKS, SPEED, TOLERANCE, WORK
 from stackbounce.engine.stack import MODES, TERMS, WIDTH, Stack
 from stackbounce.engine.taylor import (
     ROOT_POWERS,
     expand_motion,
     record_series_peaks,
 )
+from stackbounce.engine.work import CREST, EXPANSION, MODES_WORK
 
 KNOWN = 100.0  # times the tolerance of a step: the error after many steps
 _ENTERS = 1e-6  # of the reference speed: contacts that begin faster need no chord
@@ -329,6 +330,10 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
         if moves:
             c = stack.compression_series[i]
             stack.compression[i] = evaluate(c, order + stack.root[first], x)
+            after = stack.velocity[i - 1] - stack.velocity[i] if i > 0 else -stack.velocity[i]
+            crest = c[stack.root[first]] > 0.0 and after <= 0.0
+            if crest and stack.law[i] != HYSTERETIC:  # see `record_series_peaks`
+                stack.counter[WORK] += CREST * order * (1 if stack.law[i] == POWER else 2)
         else:
             stack.compression[i] = closed_compression(stack, i, s)
         if creeps(stack, i):
@@ -394,7 +399,9 @@ def form_clusters(stack: Stack, bottom: int, top: int, time: float) -> None:
         end = math.inf
         if stack.modal[first] == 0:
             end = time + expand_motion(stack, low, high)
+            stack.counter[WORK] += EXPANSION + (high - low) * stack.order[first]
         elif low < high:
+            stack.counter[WORK] += MODES_WORK * (high - low)
             find_modes(stack, low, high)
             start_modes(stack, low, high)
         schedule(stack.due, stack.heap, stack.place, size + first, end)

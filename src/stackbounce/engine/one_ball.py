@@ -7,8 +7,9 @@ from stackbounce.engine import codes
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts
-from stackbounce.engine.slots import LAST_EVENT
+from stackbounce.engine.slots import LAST_EVENT, LOG_ROWS
 from stackbounce.engine.stack import new_samples, new_stack
+from stackbounce.engine.work import WORK_LIMIT
 
 _TOLERANCE = 1e-12
 _EVENTS = 1_000  # events or steps: a collision that can be followed takes some hundred
@@ -50,7 +51,9 @@ def bounce(
     contact = [form], [k], [p], [z], [w]
     unit = prepare(stack, [mass], *contact, [0.0], [-speed], 0.0, _TOLERANCE)
     begin_contacts(stack)
-    status = advance_contacts(stack, math.inf, _EVENTS, log, new_samples([], 1))
+    status, none = codes.RUNNING, new_samples([], 1)
+    while status == codes.RUNNING and stack.counter[LOG_ROWS] < _ROWS - 1:
+        status = advance_contacts(stack, math.inf, _EVENTS, WORK_LIMIT, log, none)
     if status != codes.FINISHED:
         raise ArithmeticError
     rows = [log[at : at + codes.LOG_COLUMNS] for at in range(0, len(log), codes.LOG_COLUMNS)]

@@ -11,7 +11,9 @@ from stackbounce.engine.codes import (
     COLLAPSED,
     COLLISION,
     CONTACT,
+    ENDLESS,
     EVENT_LIMIT,
+    EXTREME,
     FINISHED,
     IMPULSE,
     INVALID,
@@ -47,6 +49,7 @@ from stackbounce.engine.restitution import loses_energy, next_restitution
 from stackbounce.engine.settling import earliest_other, settle
 from stackbounce.engine.slots import (
     BALLS_AT_REST,
+    CAUSE,
     EVENTS,
     GRAVITY,
     KEEP_AFTER,
@@ -60,6 +63,7 @@ from stackbounce.engine.slots import (
 from stackbounce.engine.stack import RigidStack, Samples
 
 _ROWS = 5  # rows of the log that one collision can fill
+_EXTREME = 1e8  # from here on, a ratio of masses explains that a run meets a limit
 _SMALL = 2.0**-600  # slower speeds are scaled up by its inverse: only ratios matter
 
 
@@ -85,9 +89,10 @@ def begin_collisions(stack: RigidStack) -> None:
 def collide_all(
     stack: RigidStack, until: float, event_limit: int, log: Floats, samples: Samples
 ) -> int:
-    """Follow the collisions until none is left, a time or a limit is reached, or the log is full.
+    """Follow the collisions until none is left or a time or a limit is reached.
 
     Fills ``samples`` on the way and returns the status; counter[LOG_ROWS] is the length of the log.
+    The status is RUNNING if the log is full: the caller continues.
     """
     room = len(log) // LOG_COLUMNS
     while True:
@@ -105,6 +110,7 @@ def collide_all(
         if time == math.inf:
             return _final_status(stack)
         if stack.counter[EVENTS] >= event_limit:
+            stack.counter[CAUSE] = _cause_of_limit(stack)
             return EVENT_LIMIT
         if stack.counter[LOG_ROWS] + _ROWS > room:
             return RUNNING
@@ -137,6 +143,15 @@ def _is_over(stack: RigidStack, until: float) -> bool:
     if stack.law[contact] != ABSENT and rate_after(stack, contact, 0.0) > noise:
         return False
     return earliest_other(stack, contact) == math.inf
+
+
+@kernel
+def _cause_of_limit(stack: RigidStack) -> int:
+    """Return the code of why a run has met a limit."""
+    lightest, heaviest = math.inf, 0.0
+    for mass in stack.mass:
+        lightest, heaviest = min(lightest, mass), max(heaviest, mass)
+    return EXTREME if heaviest > _EXTREME * lightest else ENDLESS
 
 
 @kernel

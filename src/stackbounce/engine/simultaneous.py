@@ -14,8 +14,10 @@ from stackbounce.engine.codes import (
     CLIPPED,
     COMPRESSING,
     CONTACT,
+    ENDLESS,
     EPSILON,
     EVENT_LIMIT,
+    EXTREME,
     FINISHED,
     IMPULSE,
     INVALID,
@@ -32,6 +34,7 @@ from stackbounce.engine.codes import (
     RUNNING,
     SETTLED,
     START,
+    STIFF,
     TIME,
     TIME_REACHED,
     TOUCH,
@@ -70,6 +73,7 @@ from stackbounce.engine.rest import is_bound, set_static_state
 from stackbounce.engine.slots import (
     APPROACHING,
     BONDS,
+    CAUSE,
     CHECKS,
     CLOSED,
     EVENTS,
@@ -78,19 +82,20 @@ from stackbounce.engine.slots import (
     LAST_EVENT,
     LOG_ROWS,
     NEXT_SAMPLE,
-    NONLINEAR,
     STEPS,
     STEPS_BEFORE,
     TOLERANCE,
+    WORK,
 )
 from stackbounce.engine.stack import Samples, Stack
 from stackbounce.engine.taylor import record_series_peaks
+from stackbounce.engine.work import SLICE, STANDSTILL, STEP
 
 _COARSE = 1e-5  # of a contact's duration: the coarsest resolution of time
 _NOTICED = 1e-3  # of the energy of approach: the largest energy stored before a touch is noticed
 _SWINGING = 50_000  # steps since a touch or release: a stack that lies is left, if no end is set
-_STEPS = 1_000_000  # in all: the least limit; it is the limit of events where that is larger
-_LINEAR = 10  # times as many where all motion has a closed form, which takes a tenth of the time
+_EXTREME = 1e4  # a ratio of the contacts' times, or root of one of masses, that explains a limit
+_STIFF = 20  # so does this number of steps for each event
 _NEWTON = 4  # Newton steps from a time at which the sign is certain to its change
 
 
@@ -114,15 +119,17 @@ def begin_contacts(stack: Stack) -> None:
 
 @kernel
 def advance_contacts(
-    stack: Stack, until: float, event_limit: int, log: Floats, samples: Samples
+    stack: Stack, until: float, event_limit: int, work_limit: int, log: Floats, samples: Samples
 ) -> int:
-    """Advance a stack until it is finished, a time or a limit is reached, or the log is full.
+    """Advance a stack until it is finished or a time or a limit is reached.
 
     Fills ``samples`` on the way and returns the status; counter[LOG_ROWS] is the length of the log.
+    The status is RUNNING if the log is full, or after a slice of work: the caller continues.
     """
     size = len(stack.mass)
     room = len(log) // LOG_COLUMNS - size  # the rest is for `log_unfinished`
-    if stack.counter[EVENTS] == 0 and until == math.inf and _all_separating(stack):
+    pause = min(stack.counter[WORK] + SLICE, work_limit)
+    if stack.counter[STEPS] == 0 and until == math.inf and _all_separating(stack):
         _record_samples(stack, samples, math.inf)
         return _final_status(stack)
     while True:
@@ -135,12 +142,16 @@ def advance_contacts(
             return TIME_REACHED
         if time == math.inf:
             return _final_status(stack)
-        if _meets_limit(stack, until, event_limit):
+        if stack.counter[WORK] >= pause and pause < work_limit:
+            return RUNNING
+        if stack.counter[WORK] >= pause or _meets_limit(stack, until, event_limit):
+            stack.counter[CAUSE] = _cause_of_limit(stack)
             return EVENT_LIMIT
         if stack.counter[LOG_ROWS] == room:
             return RUNNING
         stack.clock[LAST_CHECK] = time
         stack.counter[STEPS] += 1
+        stack.counter[WORK] += STEP
         if slot >= size:
             stack.counter[CHECKS] += 1
             _expand_again(stack, slot - size, time)
@@ -163,17 +174,29 @@ def advance_contacts(
 
 @kernel
 def _meets_limit(stack: Stack, until: float, event_limit: int) -> bool:
-    """Tell whether a run ends because it has had too many events or steps.
+    """Tell whether a run ends because it has had too many events, or steps between two of them.
 
     A stack that lies is left where no contact has opened or closed for long, if no end is set.
     """
     if max(stack.counter[EVENTS], stack.counter[CHECKS]) >= event_limit:
         return True
     steps = stack.counter[STEPS]
-    if steps - stack.counter[STEPS_BEFORE] >= _SWINGING and until == math.inf and _lies(stack):
-        return True
-    least = _STEPS if stack.setting[NONLINEAR] == 1 else _LINEAR * _STEPS
-    return steps >= max(least, event_limit)
+    swings = steps - stack.counter[STEPS_BEFORE] >= _SWINGING
+    return swings and until == math.inf and _lies(stack)
+
+
+@kernel
+def _cause_of_limit(stack: Stack) -> int:
+    """Return the code of why a run has met a limit."""
+    lightest, heaviest, shortest, longest = math.inf, 0.0, math.inf, 0.0
+    for i in range(len(stack.mass)):
+        lightest, heaviest = min(lightest, stack.mass[i]), max(heaviest, stack.mass[i])
+        if stack.law[i] != ABSENT:
+            shortest, longest = min(shortest, stack.scale[i]), max(longest, stack.scale[i])
+    if longest > _EXTREME * shortest or heaviest > _EXTREME * _EXTREME * lightest:
+        return EXTREME
+    stiff = not _lies(stack) and stack.counter[STEPS] > _STIFF * stack.counter[EVENTS]
+    return STIFF if stiff else ENDLESS
 
 
 @kernel
@@ -191,6 +214,8 @@ def _lies(stack: Stack) -> bool:
 @kernel
 def _apply_event(stack: Stack, i: int, kind: int, time: float, log: Floats) -> None:
     """Apply an event of contact i."""
+    if time <= stack.clock[LAST_EVENT]:
+        stack.counter[WORK] += STANDSTILL
     stack.counter[EVENTS] += 1
     stack.counter[CHECKS] = 0
     if kind in (TOUCH, RELEASE):

@@ -6,8 +6,8 @@ array      `Stack`       `RigidStack`  slots
 `number`   6             6             GRAVITY, SPEED, TOLERANCE, LINEARISED_WORK, UNIT,
                                        KEPT_TIME
 `setting`  4                           SERIES_ORDER, NONLINEAR, RECORDS_PEAKS, BONDS
-`counter`  8             8             LOG_ROWS, EVENTS, CHECKS, NEXT_SAMPLE, CLOSED,
-                                       APPROACHING, STEPS, STEPS_BEFORE
+`counter`  10            10            LOG_ROWS, EVENTS, CHECKS, NEXT_SAMPLE, CLOSED,
+                                       APPROACHING, STEPS, STEPS_BEFORE, WORK, CAUSE
 `clock`    2             2             LAST_EVENT, LAST_CHECK
 `resting`                2             BALLS_AT_REST, LOWEST_LOSSY
 `memory`                 5             KEPT_CONTACT, KEEP_AFTER, SINCE_KEPT,
@@ -40,7 +40,9 @@ CLOSED = 4  # finite: contacts that are not open
 APPROACHING = 5  # finite: a contact that was approaching when all were last checked
 STEPS = 6  # finite: events and checks since the start
 STEPS_BEFORE = 7  # finite: those up to the last touch or release
-COUNTERS = 8
+WORK = 8  # what the run has cost since the start, in the unit of `work`
+CAUSE = 9  # why the run met a limit, see `codes`
+COUNTERS = 10
 
 # `clock`: times
 LAST_EVENT = 0

@@ -7,6 +7,7 @@ quantities    what can be measured of a drop, and how it follows from a run
 waveforms     force records as data
 measurements  what was measured of a drop, with errors
 formula       the formulas of ties
+course        what a search costs, and the best trial so far
 parameters    what is varied, with bounds and priors
 ties          what follows from what is varied
 objective     residuals and chi squared of many trials at once
@@ -30,7 +31,7 @@ from stackbounce.fitting.comparison import Comparison, compare
 from stackbounce.fitting.files import read_question
 from stackbounce.fitting.parameters import Range
 from stackbounce.fitting.posterior import Posterior
-from stackbounce.fitting.problem import FitProblem, Model, fit
+from stackbounce.fitting.problem import FitProblem, Interrupted, Model, fit
 from stackbounce.fitting.profile import Interval
 from stackbounce.fitting.residuals import Record, Residual
 from stackbounce.fitting.result import Fit
@@ -41,6 +42,7 @@ __all__ = [
     "Comparison",
     "Fit",
     "FitProblem",
+    "Interrupted",
     "Interval",
     "Model",
     "Posterior",

@@ -167,7 +167,7 @@ def compare(models: Mapping[str, FitProblem], data: Any, **options: Any) -> Comp
     data : mapping
         What was measured, as `fit` takes it.
     **options
-        The options of `fit`: `starts`, `seed`, `rtol`.
+        The options of `fit`: `starts`, `seed`, `rtol`, `progress`.
 
     Returns
     -------

@@ -10,7 +10,15 @@ from stackbounce.fitting.covariance import OPEN, find_directions
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.quantities import Array
 
-__all__ = ["EQUAL", "Minimum", "descend", "find_minima", "spread_trials"]
+__all__ = [
+    "EQUAL",
+    "Minimum",
+    "descend",
+    "expected_trials",
+    "find_minima",
+    "spread",
+    "spread_trials",
+]
 
 EQUAL = 1e-3
 """Minima whose chi squared differs by less are equally good."""
@@ -24,6 +32,7 @@ _APART = 0.05  # distance between the starts of two descents, at least
 _SAME = 1e-3  # distance below which two ends are the same minimum
 _BARRIER, _LOOKS = 1.0, 9  # rise of chi squared between two minima; trials on the line between
 _STEPS = 60  # evaluations of one descent, at most
+_LINEARISED = 100  # evaluations with derivatives of a whole search, about
 _EXACT, _ROUGH = 1e-10, 1e-4  # relative gain in chi squared at which a descent, a first one stops
 _NEAR, _HOPE = 0.01, 20.0  # rough ends that are followed further: distance, chi squared above best
 _FLAT = 1e-3  # gain in chi squared that a linear step may promise at a smooth minimum
@@ -115,6 +124,18 @@ def descend(objective: Objective, x: Array, fixed: int | None = None) -> Minimum
     return min(other, end, key=lambda one: one.chi_squared)
 
 
+def expected_trials(objective: Objective, count: int | None) -> int:
+    """Return about how many trials a search makes; `count` is the number of screened ones."""
+    return (count or _screened(objective)) + _LINEARISED * (2 * len(objective.spans) + 1)
+
+
+def _screened(objective: Objective) -> int:
+    """Return the usual number of screened trials."""
+    if objective.records:
+        return _SCREENED_RECORDS
+    return min(_SCREENED * len(objective.spans), _MOST_SCREENED)
+
+
 def spread_trials(objective: Objective, count: int | None, seed: int) -> Array:
     """Return (n, parameters) trials spread evenly between the bounds by a Sobol sequence.
 
@@ -125,14 +146,11 @@ def spread_trials(objective: Objective, count: int | None, seed: int) -> Array:
     own = {key: objective.own(key) for key in objective.measured if objective.own(key)}
     shared = [k for k in range(len(spans)) if not any(k in some for some in own.values())]
     if len(objective.measured) == 1 or not own or objective.records:
-        usual = (
-            _SCREENED_RECORDS if objective.records else min(_SCREENED * len(spans), _MOST_SCREENED)
-        )
-        return _spread(spans, count or usual, seed)
+        return spread(spans, count or _screened(objective), seed)
     size = count or (_SHARED * len(shared) if shared else 1)
-    trials = _spread(spans, size, seed)
+    trials = spread(spans, size, seed)
     for key, some in own.items():
-        each = _spread(spans[some], _OWN * len(some), seed)
+        each = spread(spans[some], _OWN * len(some), seed)
         wide = np.repeat(trials, len(each), axis=0)
         wide[:, some] = np.tile(each, (size, 1))
         chi = objective.alone(key).chi_squared(wide).reshape(size, len(each))
@@ -140,7 +158,8 @@ def spread_trials(objective: Objective, count: int | None, seed: int) -> Array:
     return trials
 
 
-def _spread(spans: Array, count: int, seed: int) -> Array:
+def spread(spans: Array, count: int, seed: int) -> Array:
+    """Return (count, parameters) trials spread evenly between bounds."""
     from scipy.stats import qmc
 
     drawn = qmc.Sobol(len(spans), rng=seed).random_base2(math.ceil(math.log2(count)))

@@ -11,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.engine.records import Outcomes
+from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.fitting.course import Course
 from stackbounce.fitting.measurements import Measured
 from stackbounce.fitting.parameters import Parameter, find_numbers
 from stackbounce.fitting.quantities import QUANTITIES, Array
@@ -32,6 +34,7 @@ ABSENT = 1e4
 
 _STEP = 1e-5  # of the width of the bounds: the step of a numerical derivative
 _EVENTS = 10_000  # limit for one trial; no measurement has so many
+_WORK, _FEW = WORK_LIMIT // 100, 10  # what it may cost for each ball, and at least as for so many
 _DONE = (Status.FINISHED, Status.SETTLED, Status.COLLAPSED)
 
 
@@ -56,6 +59,8 @@ class Objective:
     unsolved : Counter
         The number of runs so far that did not finish, by the name of their `Status`. All residuals
         of such a run are `ABSENT`.
+    course : Course
+        What the trials so far cost, and the best one.
 
     Examples
     --------
@@ -74,6 +79,7 @@ class Objective:
     ties: tuple[Tie, ...]
     rtol: float
     unsolved: Counter[str] = field(default_factory=Counter, init=False)
+    course: Course = field(default_factory=Course, init=False)
 
     @property
     def names(self) -> list[str]:
@@ -180,8 +186,9 @@ class Objective:
     def outcomes(self, key: str, x: Array) -> tuple[Outcomes, Array, Array]:
         """Return outcomes, impact speeds and gravity (n,) of one drop in trials (n, parameters)."""
         drop, rows = self.drops[key], self.rows(key, x)
-        options = Options(math.inf, self.rtol, _EVENTS)
+        options = Options(math.inf, self.rtol, _EVENTS, _WORK * max(_FEW, len(drop.balls)))
         out = solve(drop, rows, (len(x),), options)
+        self.course.work += int(np.sum(out.work))
         bad = ~np.isin(out.status, _DONE)
         if np.any(bad):
             self.unsolved.update(Status(code).name for code in out.status[bad])
@@ -215,7 +222,8 @@ class Objective:
         )
         times = stamps - start
         forces = np.zeros((len(drop.balls), len(times)))
-        status, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
+        status, work, forces[:, times >= 0.0] = forces_at(drop, times[times >= 0.0], self.rtol)
+        self.course.work += work
         if status not in _DONE:
             self.unsolved[status.name] += 1
             forces[:] = np.nan
@@ -249,7 +257,9 @@ class Objective:
             parts.append(((values[one.name] - mean) / known_to)[:, None])
         parts += [np.stack([self._of_records(key, one) for one in x]) for key in self.records]
         whole = np.concatenate(parts, axis=1)
-        return np.where(np.isfinite(whole), np.clip(whole, -ABSENT, ABSENT), ABSENT)
+        found = np.where(np.isfinite(whole), np.clip(whole, -ABSENT, ABSENT), ABSENT)
+        self.course.add(x, np.sum(found**2, axis=1))
+        return found
 
     def _of_records(self, key: str, x: Array) -> Array:
         waves = self.measured[key].waveforms

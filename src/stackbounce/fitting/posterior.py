@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown, whole
+from stackbounce.fitting.course import announce
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.quantities import Array
+from stackbounce.run.memory import check_room
 
 if TYPE_CHECKING:
     from uncertainties import UFloat
@@ -19,6 +21,7 @@ _WALKERS = 32  # walkers, at least; also at least four per parameter
 _STEPS = 1000  # of a walker: more draws mean more walkers
 _BURNT = 0.25  # share of the draws discarded as burn-in
 _SPREAD = 0.5  # scatter of the walkers' first places, in standard deviations
+_NUMBERS = 3  # that are kept of each parameter of a draw, at most at one time
 _ENOUGH = 50  # length of a sufficient chain, in autocorrelation times
 
 
@@ -183,7 +186,7 @@ def sample(
     Raises
     ------
     InvalidValue
-        If the draws are too few.
+        If the draws are too few, do not fit into memory, or would take more than a day.
     InvalidType
         If a number is not a whole one.
     """
@@ -193,6 +196,8 @@ def sample(
     least = max(_WALKERS, 4 * size)
     walkers = max(least, 2 * (whole("draws", draws, 20 * least) // (2 * _STEPS)))
     steps = draws // walkers
+    check_room(_NUMBERS * (size + 1) * draws, f"{draws} draws", "take fewer")
+    announce(f"{draws} draws", objective.course.cost(draws), "take fewer")
     random = np.random.RandomState(whole("seed", seed, 0, 2**32 - 1))
     before = objective.unsolved.total()
     sampler = emcee.EnsembleSampler(

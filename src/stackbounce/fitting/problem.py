@@ -8,23 +8,46 @@ from typing import Any
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, between, nearest, shown, whole
-from stackbounce.fitting.least_squares import find_minima
+from stackbounce.fitting.course import Progress, announce
+from stackbounce.fitting.least_squares import Minimum, expected_trials, find_minima, spread
 from stackbounce.fitting.measurements import Measured, read_measured
 from stackbounce.fitting.objective import Objective, touch_name
 from stackbounce.fitting.parameters import Parameter, find_numbers, read_parameters
+from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.result import Fit
 from stackbounce.fitting.ties import read_ties
 from stackbounce.model import Drop
 from stackbounce.run.paths import value_in
 
-__all__ = ["FitProblem", "Model", "TooFewData", "fit"]
+__all__ = ["FitProblem", "Interrupted", "Model", "TooFewData", "fit"]
 
 _MOST_STARTS = 1_000_000
 _RTOL = 1e-9
+_PROBES = 7  # trials besides the first one, by which it is known how long a search takes
 
 
 class TooFewData(InvalidValue):
     """A fit has more free numbers than data."""
+
+
+class Interrupted(KeyboardInterrupt):
+    """Ctrl+C ended a fit; its message has the best values so far.
+
+    Parameters
+    ----------
+    fit : Fit
+        With these values.
+    """
+
+    def __init__(self, fit: Fit) -> None:
+        values = ", ".join(
+            f"{name} = {value:.6g} {fit.units[name]}".rstrip() for name, value in fit.best.items()
+        )
+        super().__init__(
+            f"the best of {fit.objective.course.trials} trials, with a chi squared of "
+            f"{fit.chi_squared:.4g}: {values}"
+        )
+        self.fit = fit
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,8 +149,17 @@ class FitProblem:
             for key, one in data.items()
         }
 
-    def fit(self, *, starts: int | None = None, seed: int = 0, rtol: float | None = None) -> Fit:
+    def fit(
+        self,
+        *,
+        starts: int | None = None,
+        seed: int = 0,
+        rtol: float | None = None,
+        progress: Progress | None = None,
+    ) -> Fit:
         """Fit what is varied to the data, by least squares.
+
+        A warning says how long it takes if that is more than a minute.
 
         Parameters
         ----------
@@ -137,16 +169,35 @@ class FitProblem:
             The seed of their places.
         rtol : float, optional
             Another relative tolerance than that of the problem.
+        progress : callable, optional
+            Is called with the number of trials done and about the number of all.
 
         Returns
         -------
         Fit
+
+        Raises
+        ------
+        InvalidValue
+            If it would take more than a day.
+        Interrupted
+            After Ctrl+C; it has the best values so far.
         """
         accuracy = self.rtol if rtol is None else between("rtol", rtol, 1e-14, 1e-3)
         objective = replace(self.objective, rtol=accuracy)  # with its own count of unsolved runs
         count = None if starts is None else whole("starts", starts, 1, _MOST_STARTS)
-        first = _first_trial(objective)
-        minima = find_minima(objective, first[None], count, whole("seed", seed, 0))
+        first, start = _first_trial(objective), whole("seed", seed, 0)
+        expected = expected_trials(objective, count)
+        _announce(objective, first, expected)
+        course = objective.course
+        try:
+            with course.told(progress, expected):
+                minima = find_minima(objective, first[None], count, start)
+        except KeyboardInterrupt as stopped:
+            if course.best is None:
+                raise
+            best = Minimum(course.best, course.chi_squared, converged=False)
+            raise Interrupted(Fit(objective, [best], dict(objective.unsolved))) from stopped
         return Fit(objective, minima, dict(objective.unsolved))
 
 
@@ -185,6 +236,7 @@ def fit(
     starts: int | None = None,
     seed: int = 0,
     rtol: float = _RTOL,
+    progress: Progress | None = None,
 ) -> Fit:
     """Fit parameters of one or several drops to measured values, by least squares.
 
@@ -214,6 +266,8 @@ def fit(
         The seed of their places.
     rtol : float, optional
         The relative tolerance of each run if the contact laws are not linear.
+    progress : callable, optional
+        Is called with the number of trials done and about the number of all.
 
     Returns
     -------
@@ -225,9 +279,11 @@ def fit(
     ------
     InvalidValue
         If a name is unknown, a number has no error, bounds are not possible, or there is more to
-        vary than was measured.
+        vary than was measured, or if the fit would take more than a day.
     InvalidType
         If something has the wrong type.
+    Interrupted
+        After Ctrl+C; it has the best values so far.
 
     Notes
     -----
@@ -249,7 +305,8 @@ def fit(
     >>> print(f"{found['contacts.1.stiffness']:.1u} N/m")
     (1.48+/-0.06)e+03 N/m
     """
-    return FitProblem(drop, data, vary, tie, rtol).fit(starts=starts, seed=seed)
+    problem = FitProblem(drop, data, vary, tie, rtol)
+    return problem.fit(starts=starts, seed=seed, progress=progress)
 
 
 def _read_drops(drops: object) -> dict[str, Drop]:
@@ -286,6 +343,17 @@ def _first_trial(objective: Objective) -> Any:
         inside = one.low <= value <= one.high
         found.append(one.coordinate(value) if inside else 0.5 * sum(one.span))
     return np.array(found)
+
+
+def _announce(objective: Objective, first: Array, expected: int) -> None:
+    """Say how long a search takes, by the costs of some trials."""
+    some = replace(objective)  # with a course of its own
+    some.residuals(np.concatenate([first[None], spread(objective.spans, _PROBES, 0)]))
+    announce(
+        f"a fit of {_count(len(objective.parameters), 'number')}",
+        some.course.cost(expected),
+        "fix some, or take fewer balls or a larger rtol",
+    )
 
 
 def _is_empty(given: object) -> bool:

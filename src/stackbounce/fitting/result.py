@@ -10,6 +10,7 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, positive, shown, unmasked
 from stackbounce.fitting import notes, posterior
+from stackbounce.fitting.course import Progress, announce
 from stackbounce.fitting.covariance import estimate_covariance, find_directions, find_leverages
 from stackbounce.fitting.least_squares import Minimum
 from stackbounce.fitting.objective import Objective
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Fit"]
 
+_LINEARISED = 60  # evaluations with derivatives for an interval, about
 _STEP = 1e-5  # of the width of the bounds: the step of a numerical derivative
 _GOODNESS = ("chi_squared", "degrees_of_freedom", "probability", "aicc", "bic")
 
@@ -203,7 +205,9 @@ class Fit:
         """What the data cannot determine, a sentence each; empty if they determine everything."""
         return notes.describe_undetermined(self.names, *self.directions)
 
-    def intervals(self, *, sigma: float = 1.0) -> dict[str, Interval]:
+    def intervals(
+        self, *, sigma: float = 1.0, progress: Progress | None = None
+    ) -> dict[str, Interval]:
         """Return the confidence interval of each parameter from the profile of chi squared.
 
         At a limit chi squared, minimised over all other parameters, is `sigma` squared above its
@@ -214,6 +218,8 @@ class Fit:
         ----------
         sigma : float, optional
             In standard deviations, above 0.
+        progress : callable, optional
+            Is called with the number of trials done and about the number of all.
 
         Returns
         -------
@@ -223,10 +229,13 @@ class Fit:
         Raises
         ------
         InvalidValue
-            If `sigma` is not above 0.
+            If `sigma` is not above 0, or it would take more than a day.
         """
-        reach = positive("sigma", sigma)
-        return {name: self._profile(k).interval(reach) for k, name in enumerate(self.names)}
+        reach, count = positive("sigma", sigma), len(self.names)
+        course, expected = self.objective.course, _LINEARISED * count * (2 * count + 1)
+        announce(f"intervals of {count} numbers", course.cost(expected), "fit fewer numbers")
+        with course.told(progress, expected):
+            return {name: self._profile(k).interval(reach) for k, name in enumerate(self.names)}
 
     def profile(self, name: str, values: Any) -> Array:
         """Return chi squared at values of one parameter, with all others refitted at each.

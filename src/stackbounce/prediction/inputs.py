@@ -22,6 +22,7 @@ from stackbounce.sweeps.dataset import check_together
 from stackbounce.units import quantity
 
 __all__ = [
+    "FEWEST",
     "Array",
     "Inputs",
     "add_value",
@@ -33,7 +34,9 @@ __all__ = [
 
 Array: TypeAlias = NDArray[np.float64]
 
-_FEWEST = 100  # draws that an array must hold
+FEWEST = 100
+"""The least number of draws."""
+
 _ROUND_OFF = 1e-12  # relative: an error of this size is none
 _ATTEMPTS = 50  # rounds of draws, of which some are possible drops
 
@@ -247,9 +250,9 @@ def _with_error(number: Number, value: Any) -> Any:
 def _draws(path: str, value: Any) -> Array:
     """Return the draws of a number."""
     draws = np.asarray(unmasked(path, value))
-    if draws.ndim != 1 or len(draws) < _FEWEST or draws.dtype.kind not in "iuf":
+    if draws.ndim != 1 or len(draws) < FEWEST or draws.dtype.kind not in "iuf":
         raise InvalidValue(
-            f"{path} must be a number with an error or an array of {_FEWEST} draws or more, "
+            f"{path} must be a number with an error or an array of {FEWEST} draws or more, "
             f"got an array of {draws.dtype} {draws.shape}"
         )
     if not np.all(np.isfinite(draws)):

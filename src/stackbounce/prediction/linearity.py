@@ -1,7 +1,6 @@
 """Derivatives of what follows from a drop, and whether it follows them within the errors."""
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -9,10 +8,10 @@ from numpy.typing import NDArray
 from stackbounce.model import Drop
 from stackbounce.prediction.inputs import Array, Inputs
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, solve_quantities
+from stackbounce.run.quantities import QUANTITIES, Solved, solve_quantities
 from stackbounce.run.result import Status
 
-__all__ = ["ROUND_OFF", "STEP", "Slopes", "Solved", "differentiate"]
+__all__ = ["ROUND_OFF", "STEP", "Slopes", "differentiate"]
 
 STEP = 0.1  # of a standard deviation, for central differences
 ROUND_OFF = 1e-10  # relative: differences of this size are none
@@ -23,17 +22,10 @@ Slopes = Mapping[str, tuple[Array, Array]]
 """Values (parts,) by the name of a quantity, and derivatives (parts, numbers); nan where none."""
 
 
-class Solved(NamedTuple):
-    """All quantities of some drops: (n, parts) by name, and (n,) how the runs ended."""
-
-    tables: dict[str, Array]
-    status: NDArray[np.int64]
-
-
 def differentiate(
-    drop: Drop, inputs: Inputs, draws: Array, options: Options
-) -> tuple[Slopes, Solved, str, float]:
-    """Return the derivatives of all quantities, the draws, and why derivatives do not do, if so.
+    drop: Drop, inputs: Inputs, draws: Array, solved: Solved, options: Options
+) -> tuple[Slopes, str, float]:
+    """Return the derivatives of all quantities, and why they do not do, if so.
 
     Parameters
     ----------
@@ -43,6 +35,8 @@ def differentiate(
         The numbers with errors.
     draws : ndarray
         (n, numbers) draws of them, by which the derivatives are tested.
+    solved : Solved
+        The quantities of the draws.
     options : Options
         Of each run.
 
@@ -50,8 +44,6 @@ def differentiate(
     -------
     slopes : mapping
         By the name of a quantity.
-    solved : Solved
-        The quantities of the draws.
     reason : str
         Why derivatives do not describe the draws; empty if they do.
     difference : float
@@ -60,12 +52,13 @@ def differentiate(
     """
     count = len(inputs.numbers)
     steps = np.diag(STEP * inputs.deviations)
-    x = np.concatenate([inputs.values[None], inputs.values + steps, inputs.values - steps, draws])
-    rows = dict(zip(inputs.numbers, x.T, strict=True))
-    found, status = solve_quantities(drop, rows, len(x), options)
-    first = 2 * count + 1
-    solved = Solved({name: table[first:] for name, table in found.items()}, status[first:])
-    reason = _changed_status(status) or _changed_counts(found.pop("collisions"))
+    x = np.concatenate([inputs.values[None], inputs.values + steps, inputs.values - steps])
+    near = solve_quantities(drop, inputs.rows(x), len(x), options)
+    found = {
+        name: np.concatenate([table, solved.tables[name]]) for name, table in near.tables.items()
+    }
+    reason = _changed_status(np.concatenate([near.status, solved.status]))
+    reason = reason or _changed_counts(found.pop("collisions"))
     widths = np.where(inputs.deviations > 0.0, 2.0 * STEP * inputs.deviations, np.inf)
     slopes, largest = {}, 0.0
     for name, table in found.items():
@@ -88,7 +81,7 @@ def differentiate(
             largest = max(largest, off / spread if spread > 0.0 else np.inf)
             if off > _ALLOWED * spread:
                 reason = reason or f"{here} does not change in proportion to the errors"
-    return slopes, solved, reason, largest
+    return slopes, reason, largest
 
 
 def _changed_status(status: NDArray[np.int64]) -> str:

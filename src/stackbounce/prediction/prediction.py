@@ -8,18 +8,18 @@ import numpy as np
 from stackbounce.errors import whole
 from stackbounce.extras import need
 from stackbounce.model import Drop
-from stackbounce.prediction.inputs import read_inputs
-from stackbounce.prediction.linearity import Slopes, Solved, differentiate
+from stackbounce.prediction.budget import DRAWS, Progress, solve_draws
+from stackbounce.prediction.inputs import FEWEST, read_inputs
+from stackbounce.prediction.linearity import Slopes, differentiate
 from stackbounce.prediction.result import Prediction
-from stackbounce.run.driver import simulate
+from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options, run_options
 from stackbounce.run.paths import drop_at
-from stackbounce.run.quantities import solve_quantities
 from stackbounce.run.result import ROUND_OFF
 
 __all__ = ["predict"]
 
-_MOST, _DRAWS, _FEWEST = 10_000_000, 10_000, 100
+_MOST = 10_000_000  # draws
 _EVENTS, _NONLINEAR_EVENTS = 1_000_000, 200_000  # of all draws together, by default
 _FEW = 1e-3  # share of draws that are not possible, which derivatives do without
 
@@ -33,6 +33,7 @@ def predict(
     event_limit: int = 1_000_000,
     draws: int | None = None,
     seed: int = 0,
+    progress: Progress | None = None,
 ) -> Prediction:
     """Run a drop whose numbers have errors; return speeds, times and energy with errors.
 
@@ -49,9 +50,13 @@ def predict(
     draws : int, optional
         The number of draws, 100 or above; by default 10 000, and fewer where these would have more
         than a million events (200 000 under nonlinear contact laws), but 100 at least. Given draws
-        have their own number.
+        have their own number. All draws together may cost what takes up to half a minute, and more
+        where more draws or a larger `event_limit` are asked for. If they cost more, fewer are run,
+        and a note says so.
     seed : int, optional
         Of the random numbers: the same seed gives the same draws, bit for bit.
+    progress : callable, optional
+        Is called with the number of draws done and the number of all.
 
     Returns
     -------
@@ -60,7 +65,8 @@ def predict(
     Raises
     ------
     InvalidValue
-        If the drop has no such number, an error is negative, or few draws are possible drops.
+        If the drop has no such number, an error is negative, few draws are possible drops, or they
+        cost so much that few can be run.
     InvalidType
         If something has the wrong type.
     MissingExtra
@@ -87,25 +93,23 @@ def predict(
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
     best = drop_at(drop, dict(zip(inputs.numbers, inputs.values.tolist(), strict=True)))
-    count = (
-        _default_draws(best, options) if draws is None else whole("draws", draws, _FEWEST, _MOST)
-    )
+    count = _default_draws(best, options) if draws is None else whole("draws", draws, FEWEST, _MOST)
     drawn, refused, share = inputs.draw(best, count, whole("seed", seed, 0, 2**32 - 1))
     reason = "draws were given" if inputs.given else ""
     if share > _FEW and not reason:
         reason = f"numbers within the errors are not possible and left out: {refused}"
-    if reason:
-        slopes: Slopes = {}
-        solved = Solved(*solve_quantities(best, inputs.rows(drawn), len(drawn), options))
-        difference = np.inf
-    else:
-        slopes, solved, reason, difference = differentiate(best, inputs, drawn, options)
-    return Prediction(best, inputs, options, reason, difference, slopes, drawn, solved, refused)
+    asked, solved = len(drawn), solve_draws(best, inputs, drawn, options, progress)
+    drawn, difference = drawn[: len(solved.status)], np.inf
+    slopes: Slopes = {}
+    if not reason:
+        slopes, reason, difference = differentiate(best, inputs, drawn, solved, options)
+    return Prediction(
+        best, inputs, options, reason, difference, slopes, drawn, solved, refused, asked
+    )
 
 
 def _default_draws(drop: Drop, options: Options) -> int:
     """Return how many draws of a drop have a reasonable number of events together."""
-    until = options.until if np.isfinite(options.until) else None
-    result = simulate(drop, until=until, rtol=options.rtol, event_limit=options.event_limit)
+    result = solve_one(drop, options)
     most = _NONLINEAR_EVENTS if result.precision > ROUND_OFF else _EVENTS
-    return min(_DRAWS, max(_FEWEST, most // max(1, len(result.events))))
+    return min(DRAWS, max(FEWEST, most // max(1, len(result.events))))

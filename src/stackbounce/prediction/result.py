@@ -10,12 +10,20 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
-from stackbounce.prediction.inputs import Array, Inputs, error_of_deviation, of_draws, possible
-from stackbounce.prediction.linearity import Slopes, Solved
+from stackbounce.prediction.budget import budget
+from stackbounce.prediction.inputs import (
+    FEWEST,
+    Array,
+    Inputs,
+    error_of_deviation,
+    of_draws,
+    possible,
+)
+from stackbounce.prediction.linearity import Slopes
 from stackbounce.prediction.runs import Runs
 from stackbounce.prediction.sensitivity import fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, solve_quantities
+from stackbounce.run.quantities import QUANTITIES, Solved, solve_quantities
 from stackbounce.run.result import Result, Status
 from stackbounce.units import rounded
 from stackbounce.version import __version__
@@ -28,6 +36,7 @@ __all__ = ["Apex", "Prediction"]
 
 _CURVES = ("position", "velocity", "force", "compression")
 _ROUGH = 0.02  # the relative error of a standard deviation above which a note says so
+_RUNS = 1000  # single runs of draws, at most
 _FLOATS = [name for name in QUANTITIES if name != "collisions"]
 
 
@@ -81,6 +90,8 @@ class Prediction:
         The quantities of the draws.
     refused : str
         Why some draws were left out; empty if none was.
+    asked : int
+        The number of draws that were to be run.
 
     Examples
     --------
@@ -101,6 +112,7 @@ class Prediction:
     drawn: Array = field(repr=False)
     solved: Solved = field(repr=False)
     refused: str = field(repr=False)
+    asked: int = field(repr=False)
 
     @property
     def method(self) -> str:
@@ -119,7 +131,13 @@ class Prediction:
 
     @functools.cached_property
     def _runs(self) -> Runs:
-        return Runs(self.drop, self.inputs, self.options, self.drawn if self.reason else None)
+        few = self.drawn[: min(_RUNS, self._affordable(3))] if self.reason else None
+        return Runs(self.drop, self.inputs, self.options, few)
+
+    def _affordable(self, each: int) -> int:
+        """Return how often so many runs cost no more than all draws may; see `budget`."""
+        most = budget(self.options, self.asked) * len(self.drawn)
+        return most // max(1, each * int(np.sum(self.solved.work)))
 
     def __getitem__(self, name: str) -> "UFloat":
         """Return a value with its error, such as ``rebound_speeds.1``, in SI units."""
@@ -221,7 +239,9 @@ class Prediction:
         """
         import xarray as xr
 
-        found = self._sobol() if self.reason and self.inputs.independent else self._linear()
+        half = min(len(self.drawn) // 2, self._affordable(len(self.inputs.numbers)))
+        enough = self.reason and self.inputs.independent and half >= FEWEST // 2
+        found = self._sobol(half) if enough else self._linear()
         labels = [_label(name, k) for name, one in found.items() for k in range(len(one.first))]
         fields = {
             key: (("quantity", "number"), np.concatenate([getattr(s, key) for s in found.values()]))
@@ -286,6 +306,11 @@ class Prediction:
         found = []
         if self.refused and self.refused not in self.reason:
             found.append(f"draws that no drop can have were left out, the first as {self.refused}")
+        if len(self.drawn) < self.asked:
+            found.append(
+                f"{len(self.drawn)} of {self.asked} draws were run, for they take long; a larger "
+                "event_limit allows more"
+            )
         status = self.solved.status
         bad = int(np.isin(status, (Status.EVENT_LIMIT, Status.INVALID)).sum())
         if bad:
@@ -425,7 +450,7 @@ class Prediction:
         if self.refused:
             good, _ = possible(self.drop, inputs.numbers, x)
         rows = inputs.rows(np.where(good[:, None], x, inputs.values))
-        tables, _ = solve_quantities(self.drop, rows, len(x), self.options)
+        tables = solve_quantities(self.drop, rows, len(x), self.options).tables
         return {name: np.where(good[:, None], table, np.nan) for name, table in tables.items()}
 
     def _linear(self) -> dict[str, Any]:
@@ -437,8 +462,7 @@ class Prediction:
             for name, one in slopes.items()
         }
 
-    def _sobol(self) -> dict[str, Any]:
-        half = len(self.drawn) // 2
+    def _sobol(self, half: int) -> dict[str, Any]:
         answers = {name: self.solved.tables[name][: 2 * half] for name in _FLOATS}
         first, second = self.drawn[:half], self.drawn[half : 2 * half]
         return sobol_indices(self._solve, first, second, answers)

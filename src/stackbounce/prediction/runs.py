@@ -10,14 +10,13 @@ import numpy as np
 from stackbounce.model import Drop
 from stackbounce.prediction.inputs import Array, Inputs, of_draws
 from stackbounce.prediction.linearity import ROUND_OFF, STEP
-from stackbounce.run.driver import simulate
+from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.paths import drop_at
 from stackbounce.run.result import Result
 
 __all__ = ["Runs"]
 
-_MOST = 1000  # draws that are run
 _ONE_SIGMA = (0.159, 0.841)
 
 
@@ -34,7 +33,7 @@ class Runs:
     options : Options
         Of each run.
     drawn : ndarray or None
-        (n, numbers) draws, of which the first 1000 are run; None for derivatives.
+        (n, numbers) draws; None for derivatives.
     """
 
     drop: Drop
@@ -51,7 +50,7 @@ class Runs:
     def results(self) -> list[Result]:
         """The runs of draws; or the best one, those with each number larger, those with smaller."""
         if self.drawn is not None:
-            return [self._simulate(x) for x in self.drawn[:_MOST]]
+            return [self._simulate(x) for x in self.drawn]
         values, steps = self.inputs.values, np.diag(STEP * self.inputs.deviations)
         return [self.best, *map(self._simulate, [*(values + steps), *(values - steps)])]
 
@@ -91,6 +90,4 @@ class Runs:
 
     def _simulate(self, x: Array) -> Result:
         numbers = dict(zip(self.inputs.numbers, x.tolist(), strict=True))
-        until, rtol, limit = self.options
-        end = until if np.isfinite(until) else None
-        return simulate(drop_at(self.drop, numbers), until=end, rtol=rtol, event_limit=limit)
+        return solve_one(drop_at(self.drop, numbers), self.options)

@@ -2,14 +2,17 @@
 
 A grid of drops is cut into blocks, which several threads work on. For each block, the parameters of
 the base drop are repeated, and those that vary are replaced (`columns.fill`). The engine's batch
-kernel then runs the drops of the block one after the other and writes their rows of `Outcomes`.
+kernel then runs the drops of the block one after the other and writes their rows of `Outcomes`. It
+returns after a slice of work, so that an interruption (Ctrl+C) is answered at once: in the main
+thread by Python itself, in the others because they look at a flag.
 """
 
 import functools
 import math
 import os
+import threading
 from collections.abc import Callable, Iterable, Sequence
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from itertools import accumulate
 from typing import TypeAlias
 
@@ -31,16 +34,25 @@ from stackbounce.run.engines import (
     kernel_named,
     suits_two_springs,
 )
-from stackbounce.run.memory import memory, spring_workspace
+from stackbounce.run.memory import check_room, memory, spring_workspace
 from stackbounce.run.options import Options
 
-__all__ = ["solve"]
+__all__ = ["new_outcomes", "solve"]
 
 _BLOCKS = range(1024, 16384)  # drops in a block: enough for the lanes, few enough for the caches
 _EACH = 8  # blocks per thread of a large grid, so that all threads end at about the same time
 
-_Runner: TypeAlias = Callable[[Drops, Outcomes, Options, bool], None]
+_LOOK = 0.1  # s: how often the main thread looks for an interruption; Windows needs that
+
+_Pause: TypeAlias = Callable[[], None]
+"""Is called now and then; it raises an exception if the work is to be stopped."""
+
+_Runner: TypeAlias = Callable[[Drops, Outcomes, Options, bool, _Pause], None]
 """Runs drops and writes their outcomes, except rebound ratios and retained energies."""
+
+
+class _StoppedError(Exception):
+    """Ends a thread, because the main thread was interrupted or another one failed."""
 
 
 def solve(
@@ -80,7 +92,11 @@ def solve(
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
     threads = os.cpu_count() or 1
     most = min(max(count // (_EACH * threads), _BLOCKS.start), _BLOCKS.stop)
-    out = _new_outcomes(count, balls)
+    out, stop = new_outcomes(count, balls), threading.Event()
+
+    def pause() -> None:
+        if stop.is_set():
+            raise _StoppedError
 
     def work(todo: Iterable[tuple[Block, int]]) -> None:
         room = base_rows(drop, min(count, most))
@@ -90,7 +106,7 @@ def solve(
             shaped = (array.reshape((*sizes, *array.shape[1:])) for array in drops)
             fill(Drops._make(shaped), drop, {one: values[block] for one, values in wide.items()})
             part = Outcomes._make(array[stop - size(block) : stop] for array in out)
-            run(drops, part, options, chosen)
+            run(drops, part, options, chosen, pause)
             _find_ratios(drops, part, chosen)
 
     cut = list(blocks(shape, sides(shape, most)))
@@ -98,13 +114,23 @@ def solve(
     if len(cut) == 1:
         work(todo)
         return out
-    with ThreadPoolExecutor(threads) as pool:  # each takes the next block
-        list(pool.map(work, [todo] * threads))
+    pool = ThreadPoolExecutor(threads)
+    try:
+        jobs = {pool.submit(work, todo) for _ in range(threads)}  # each takes the next block
+        while jobs:
+            done, jobs = wait(jobs, _LOOK, FIRST_EXCEPTION)
+            for job in done:
+                job.result()
+    finally:
+        stop.set()
+        pool.shutdown()
     return out
 
 
-def _new_outcomes(count: int, balls: int) -> Outcomes:
-    """Return room for the outcomes of so many drops."""
+def new_outcomes(count: int, balls: int) -> Outcomes:
+    """Return room for the outcomes of so many drops; refuse more than fit into memory."""
+    way = "write a sweep to a file, block by block (stackbounce.sweeps.write), or take fewer"
+    check_room((5 * balls + 3) * count, f"the results of {count} drops", way)
     return Outcomes(
         velocity=np.empty((count, balls)),
         rebound_ratio=np.empty((count, balls)),
@@ -113,10 +139,13 @@ def _new_outcomes(count: int, balls: int) -> Outcomes:
         last_release=np.empty((count, balls)),
         energy_retained=np.empty(count),
         status=np.empty(count, dtype=np.int64),
+        work=np.zeros(count, dtype=np.int64),
     )
 
 
-def _run_two_springs(drops: Drops, out: Outcomes, options: Options, compiled: bool) -> None:
+def _run_two_springs(
+    drops: Drops, out: Outcomes, options: Options, compiled: bool, pause: _Pause
+) -> None:
     """Run drops by the engine for two springs, and those with the status ASK by the general one."""
     space, run = spring_workspace(compiled), kernel_named("run_two_springs", compiled)
     if compiled:
@@ -127,7 +156,7 @@ def _run_two_springs(drops: Drops, out: Outcomes, options: Options, compiled: bo
     if len(asked):
         some = Drops._make(array[asked] for array in drops)
         answers = Outcomes._make(array[asked] for array in out)
-        _run_rows(FINITE, (), some, answers, options, compiled)
+        _run_rows(FINITE, (), some, answers, options, compiled, pause)
         for array, answer in zip(out, answers, strict=True):
             array[asked] = answer
 
@@ -139,13 +168,14 @@ def _run_rows(
     out: Outcomes,
     options: Options,
     compiled: bool,
+    pause: _Pause,
 ) -> None:
     """Run drops by one engine; of their laws it needs the tables, which do not vary."""
     balls = drops.mass.shape[1]
     if compiled:
         room = memory(engine, balls, compiled)
         room.put_pieces(laws)
-        room.run_batch(engine.run_batch, drops, options, out)
+        room.run_batch(engine.run_batch, drops, options, out, pause)
         return
     run = kernel_named(engine.run_batch, compiled)
     for row in range(len(out.status)):
@@ -154,8 +184,10 @@ def _run_rows(
         stack, space, _ = room.arguments
         one = Drops._make(array[row : row + 1].tolist() for array in drops)
         outcome = Outcomes._make(array[row : row + 1] for array in out)
+        outcome.status[0] = codes.ASK  # it is not under way
         try:
-            run(stack, space, one, room.no_samples, *options, outcome)
+            while run(stack, space, one, room.no_samples, *options, outcome, 0) == 0:
+                pause()
         except OUT_OF_RANGE:
             outcome.status[0] = codes.INVALID
             outcome.velocity[0] = math.nan

@@ -142,7 +142,7 @@ def _impact(drop: Drop) -> _Impact:
     if result.status not in (Status.FINISHED, Status.SETTLED, Status.COLLAPSED):
         raise InvalidValue(
             f"drop must have impacts that can be computed, got {result.status.name} at "
-            f"{drop.impact_speed!r} m/s: {result.status.advice}"
+            f"{drop.impact_speed!r} m/s: {result.advice}"
         )
     end = float(result.intervals["end"][-1])
     if not math.isfinite(end):

@@ -12,20 +12,20 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from stackbounce.engine import codes
 from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, UNIT
-from stackbounce.engine.slots import LAST_EVENT, NONLINEAR
+from stackbounce.engine.slots import CAUSE, LAST_EVENT, NONLINEAR, WORK
 from stackbounce.engine.stack import Samples
 from stackbounce.model import Drop
 from stackbounce.run.engines import OUT_OF_RANGE, RIGID, choose_compiled, choose_engine
 from stackbounce.run.memory import memory
 from stackbounce.run.options import Options, run_options
 from stackbounce.run.parameters import drop_numbers
-from stackbounce.run.result import ROUND_OFF, Result, Status
+from stackbounce.run.result import ROUND_OFF, Cause, Result, Status
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-__all__ = ["forces_at", "simulate"]
+__all__ = ["forces_at", "simulate", "solve_one"]
 
 
 def simulate(
@@ -52,8 +52,10 @@ def simulate(
     event_limit : int, optional
         Events (touches, releases, and changes of the force between them), or steps between two
         events, after which to stop with the status EVENT_LIMIT and the results so far. A run also
-        stops after a million steps in all, ten million where all contacts are linear, or after
-        `event_limit` steps where that is more.
+        stops when it has cost as much as takes up to five seconds; its steps are counted, not
+        timed, each by the number of contacts that it moves together and the order of their power
+        series. A limit above a million allows more in proportion. `Result.advice` says why a limit
+        was met.
     compiled : bool, optional
         Whether to run compiled code rather than plain Python; by default wherever there is some for
         this machine. Both give the same bits.
@@ -83,25 +85,42 @@ def simulate(
     >>> sb.simulate(sb.Drop(balls, springs, impact_speed=1.0)).rebound_ratios.round(4)
     array([0.7664, 1.1886])
     """
-    options = run_options(drop, until, rtol, event_limit)
+    return solve_one(drop, run_options(drop, until, rtol, event_limit), compiled)
+
+
+def solve_one(drop: Drop, options: Options, compiled: bool | None = None) -> Result:
+    """Run a drop with options that have been validated; see `simulate`."""
     chosen = choose_compiled(compiled)
     run = _run(drop, options, chosen, ())
     again = functools.partial(_run, drop, options, chosen)
     precision = max(options.rtol, ROUND_OFF) if run.nonlinear else ROUND_OFF
-    status = Status(run.status)
-    return Result(drop, status, run.time, run.velocities, run.log, run.infinite, precision, again)
+    return Result(
+        drop,
+        Status(run.status),
+        run.time,
+        run.velocities,
+        run.log,
+        run.infinite,
+        precision,
+        again,
+        run.work,
+        Cause(run.cause) if run.status == codes.EVENT_LIMIT else None,
+    )
 
 
 def forces_at(
     drop: Drop, times: "NDArray[np.float64]", rtol: float
-) -> tuple[Status, "NDArray[np.float64]"]:
-    """Return a run's status, and its forces in N, (contacts, times), at ascending times in s."""
+) -> tuple[Status, int, "NDArray[np.float64]"]:
+    """Return a run's status, its work, and its forces in N, (contacts, times), at ascending times.
+
+    Times are in s.
+    """
     import numpy as np
 
     options = run_options(drop, None, rtol, 1_000_000)
     run = _run(drop, options, choose_compiled(None), times.tolist())
     forces = np.reshape(np.asarray(run.samples.force, dtype=float), (-1, len(drop.balls))).T
-    return Status(run.status), forces
+    return Status(run.status), run.work, forces
 
 
 class _Run(NamedTuple):
@@ -114,6 +133,8 @@ class _Run(NamedTuple):
     infinite: list[int]
     samples: Samples
     nonlinear: bool  # whether rtol sets the error of a step
+    work: int
+    cause: int
 
 
 def _run(
@@ -152,4 +173,5 @@ def _run(
     rigid = engine is RIGID
     infinite = room.numbers(room.stack.infinite) if rigid else [0] * balls
     nonlinear = not rigid and room.stack.setting[NONLINEAR] == 1
-    return _Run(status, after[END], after[AFTER:], log, infinite, samples, nonlinear)
+    work, cause = (int(room.stack.counter[slot]) for slot in (WORK, CAUSE))
+    return _Run(status, after[END], after[AFTER:], log, infinite, samples, nonlinear, work, cause)

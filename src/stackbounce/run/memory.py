@@ -1,8 +1,9 @@
 """The memory in which drops are run: lists for plain Python, arrays and their tables otherwise."""
 
 import functools
+import os
 import threading
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,13 +20,15 @@ from stackbounce.engine.stack import (
     new_samples,
 )
 from stackbounce.engine.tables import Table
+from stackbounce.errors import InvalidValue
 from stackbounce.model import ContactLaw
 from stackbounce.run.engines import Engine, Kernel, kernel_named
 from stackbounce.run.options import Options
 
-__all__ = ["Memory", "memory", "spring_workspace"]
+__all__ = ["Memory", "check_room", "memory", "spring_workspace"]
 
 _ROWS = 512  # of the log, besides one for each ball
+_USUAL = 16e9  # bytes of memory, where it is not known
 _MOST = 16  # stacks of different height that a thread keeps
 _local = threading.local()
 
@@ -61,11 +64,22 @@ class Memory(NamedTuple):
         table = Table(samples) if self.compiled else samples
         return functools.partial(self.run.func, *self.arguments, table, 0)
 
-    def run_batch(self, entry: str, drops: Drops, options: Options, out: Outcomes) -> None:
-        """Run many drops by compiled code, and write their outcomes."""
+    def run_batch(
+        self,
+        entry: str,
+        drops: Drops,
+        options: Options,
+        out: Outcomes,
+        pause: Callable[[], None] = lambda: None,
+    ) -> None:
+        """Run many drops by compiled code, and write their outcomes; call `pause` now and then."""
         stack, space, _ = self.arguments
-        run = kernel_named(entry, compiled=True)
-        run(stack, space, Table(drops), self.no_samples, *options, Table(out))
+        run, row = kernel_named(entry, compiled=True), 0
+        out.status[:] = codes.ASK  # none is under way
+        given, written = Table(drops), Table(out)
+        while row < len(out.status):
+            row = run(stack, space, given, self.no_samples, *options, written, row)
+            pause()
 
     def samples(self, times: Sequence[float]) -> Samples:
         """Return room for samples at times in s, in ascending order."""
@@ -81,6 +95,38 @@ class Memory(NamedTuple):
     def numbers(self, values: Any) -> list[Any]:
         """Return an array or a list as a list."""
         return list(values.tolist() if self.compiled else values)
+
+
+def check_room(numbers: int, what: str, way: str) -> None:
+    """Refuse what has more numbers of 64 bits than this machine has memory for.
+
+    Parameters
+    ----------
+    numbers : int
+        How many.
+    what, way : str
+        What has them, and how to do without.
+
+    Raises
+    ------
+    InvalidValue
+        If they do not fit.
+
+    Examples
+    --------
+    >>> check_room(10**15, "a million drops", "take fewer")
+    Traceback (most recent call last):
+    stackbounce.errors.InvalidValue: a million drops would take 8e+06 GB of memory, and ...
+    """
+    try:
+        most = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError):  # Windows
+        most = _USUAL
+    if 8 * numbers > most:
+        needed, there = 8e-9 * numbers, 1e-9 * most
+        raise InvalidValue(
+            f"{what} would take {needed:.3g} GB of memory, and this machine has {there:.3g}: {way}"
+        )
 
 
 def memory(engine: Engine, balls: int, compiled: bool) -> Memory:

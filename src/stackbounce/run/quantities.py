@@ -13,7 +13,7 @@ from stackbounce.run.columns import Rows, incidence
 from stackbounce.run.options import Options
 from stackbounce.run.result import Status
 
-__all__ = ["QUANTITIES", "Quantity", "solve_quantities"]
+__all__ = ["QUANTITIES", "Quantity", "Solved", "solve_quantities"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -73,9 +73,26 @@ Collisions are compared, not fitted.
 """
 
 
-def solve_quantities(
-    drop: Drop, rows: Rows, count: int, options: Options
-) -> tuple[dict[str, Array], NDArray[np.int64]]:
+class Solved(NamedTuple):
+    """What came of some drops.
+
+    Parameters
+    ----------
+    tables : dict of str to ndarray
+        All quantities by the names of `QUANTITIES`, (count, parts) each, with one part for the
+        whole stack. nan where a drop has no such number, and for all of a run that did not finish.
+    status : ndarray
+        (count,) numbers of `Status`.
+    work : ndarray
+        (count,) what the runs cost, in the unit of `stackbounce.engine.work`.
+    """
+
+    tables: dict[str, Array]
+    status: NDArray[np.int64]
+    work: NDArray[np.int64]
+
+
+def solve_quantities(drop: Drop, rows: Rows, count: int, options: Options) -> Solved:
     """Run many drops; return all quantities, and how the runs ended.
 
     Parameters
@@ -91,18 +108,14 @@ def solve_quantities(
 
     Returns
     -------
-    quantities : dict of str to ndarray
-        By the names of `QUANTITIES`, (count, parts) each, with one part for the whole stack. nan
-        where a drop has no such number, and for all of a run that did not finish.
-    status : ndarray
-        (count,) numbers of `Status`.
+    Solved
 
     Examples
     --------
     >>> import stackbounce as sb
     >>> from stackbounce.run.options import run_options
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Rigid(0.5)], impact_speed=2.0)
-    >>> found, _ = solve_quantities(drop, {}, 1, run_options(drop, None, 1e-12, 1000))
+    >>> found = solve_quantities(drop, {}, 1, run_options(drop, None, 1e-12, 1000)).tables
     >>> found["rebound_speeds"], found["energy_retained"]
     (array([[1.]]), array([[0.25]]))
     """
@@ -115,4 +128,4 @@ def solve_quantities(
         if table.dtype.kind == "f":
             table = np.where(np.isfinite(table) & ~unsolved[:, None], table, np.nan)
         found[name] = table
-    return found, out.status
+    return Solved(found, out.status, out.work)

@@ -19,7 +19,7 @@ from stackbounce.version import __version__
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["Result", "Status"]
+__all__ = ["Cause", "Result", "Status"]
 
 INTERVAL = np.dtype(
     [
@@ -53,10 +53,8 @@ class Status(enum.IntEnum):
 
     Examples
     --------
-    >>> Status.EVENT_LIMIT.advice
-    'the limit of events or of steps was met, as by balls that swing or bounce on each other almost
-    without loss, or by a contact that is far stiffer or far more damped than the others: stop
-    earlier with until, raise event_limit, or bring the numbers of the contacts closer together'
+    >>> Status.TIME_REACHED.advice
+    'the time asked for was reached first: raise until to see more'
     """
 
     FINISHED = codes.FINISHED
@@ -78,13 +76,37 @@ _ADVICE = {
     Status.COLLAPSED: "infinitely many collisions took place in a finite time and ended at their "
     "limit: their count is given as -1",
     Status.TIME_REACHED: "the time asked for was reached first: raise until to see more",
-    Status.EVENT_LIMIT: "the limit of events or of steps was met, as by balls that swing or bounce "
-    "on each other almost without loss, or by a contact that is far stiffer or far more damped "
-    "than the others: stop earlier with until, raise event_limit, or bring the numbers of the "
-    "contacts closer together",
+    Status.EVENT_LIMIT: "a limit was met, by balls that swing or bounce on each other almost "
+    "without loss, by a contact that is far stiffer or far more damped than the others, or because "
+    "masses or stiffnesses are of very different sizes: stop earlier with until, bring these "
+    "numbers closer together, or raise event_limit",
     Status.INVALID: "numbers left the range of floating point, or a contact was shorter than the "
     "resolution of time, so that no speeds are known: bring masses, stiffnesses, gaps and "
     "speeds closer together",
+}
+
+
+class Cause(enum.IntEnum):
+    """Why a run met a limit; `advice` says what to do about it."""
+
+    ENDLESS = codes.ENDLESS
+    STIFF = codes.STIFF
+    EXTREME = codes.EXTREME
+
+    @property
+    def advice(self) -> str:
+        """What the cause means and what can be done about it, in one line."""
+        return _LIMITED[self]
+
+
+_LIMITED = {
+    Cause.ENDLESS: "a limit was met, because the balls swing or bounce on each other almost "
+    "without loss, perhaps for ever: stop earlier with until, or raise event_limit",
+    Cause.STIFF: "a limit was met, because a contact is so stiff or so damped that all steps are "
+    "short: lower its stiffness or its damping, raise rtol, or raise event_limit",
+    Cause.EXTREME: "a limit was met, because masses or stiffnesses are of very different sizes, so "
+    "that the fastest contact swings countless times during the slowest: bring them closer "
+    "together, or raise event_limit",
 }
 
 
@@ -115,6 +137,10 @@ class Result:
     rerun : callable
         Repeats the run, with samples at the times given in s, and where they are given, with the
         standard deviation of relative errors of all numbers and the seed of these.
+    work : int
+        What the run cost, in the unit of `stackbounce.engine.work`.
+    cause : Cause or None
+        Why a limit was met, if one was.
 
     Examples
     --------
@@ -133,10 +159,25 @@ class Result:
     infinite: Sequence[int] = dataclasses.field(repr=False)
     precision: float = dataclasses.field(repr=False)
     rerun: Callable[..., Any] = dataclasses.field(repr=False)
+    work: int = dataclasses.field(repr=False, default=0)
+    cause: Cause | None = dataclasses.field(repr=False, default=None)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields only. Cached arrays are left out: unpickled ones would be writeable."""
         return {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+
+    @property
+    def advice(self) -> str:
+        """What the status means, why a limit was met, and what can be done about it, in one line.
+
+        Examples
+        --------
+        >>> import stackbounce as sb
+        >>> drop = sb.Drop([sb.Ball(1e-12), sb.Ball(1.0)], [sb.Spring(1.0)] * 2, impact_speed=1.0)
+        >>> sb.simulate(drop, event_limit=100).advice[:76]
+        'a limit was met, because masses or stiffnesses are of very different sizes, '
+        """
+        return self.cause.advice if self.cause else self.status.advice
 
     @functools.cached_property
     def rebound_speeds(self) -> NDArray[np.float64]:
@@ -292,7 +333,7 @@ class Result:
         """
         return {
             "status": self.status.name,
-            "advice": self.status.advice,
+            "advice": self.advice,
             "rebound_speeds": self.rebound_speeds,
             "rebound_ratios": self.rebound_ratios,
             "collisions": self.collisions,

@@ -10,7 +10,7 @@ from stackbounce.cross2007.lines import list_lines
 from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, STEEPEST
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, pressed, stack
-from stackbounce.run.result import Status
+from stackbounce.run.result import Cause, Status
 from stackbounce.units import examples
 from stackbounce.web.answers import catalogue, maps, play
 from stackbounce.web.limits import LIMITS
@@ -33,7 +33,7 @@ def model_json() -> str:
     return as_json(
         known
         | {
-            "advice": {status.name: status.advice for status in Status},
+            "advice": {one.name: one.advice for one in (*Status, *Cause)},
             "contacts": _list_contacts(),
             "energy": maps.ENERGY,
             "gravity": STANDARD_GRAVITY,

@@ -62,14 +62,16 @@ class Engine {
       const parts = [];
       let status = statuses.RUNNING;
       for (let stage = peaks ? stages.BEGIN_WITH_PEAKS : stages.BEGIN; status === statuses.RUNNING; stage = stages.CONTINUE) {
-        status = this.call(entry, stack, space, one, samples, 0, stage, until, rtol, events(eventLimit));
+        status = this.call(entry, stack, space, one, samples, 0, stage, until, rtol, ...this.limits(eventLimit));
         const rows = room.read(stack, "counter")[counter.LOG_ROWS];
         parts.push(room.floats(space, "log").slice(0, rows * sizes.log_columns));
       }
       const ends = room.read(space, "after");
+      const limited = status === statuses.EVENT_LIMIT;
       return {
         status,
         time: ends[after.END],
+        cause: limited ? room.read(stack, "counter")[counter.CAUSE] : 0,
         velocity: ends.slice(after.AFTER),
         log: joined(parts),
         infinite: drop.rigid ? room.read(stack, "infinite") : new Int32Array(balls),
@@ -93,12 +95,15 @@ class Engine {
       const given = room.make("Drops", { balls, drops: count });
       const out = room.make("Outcomes", { balls, drops: count });
       this.put(given, drops);
+      room.write(out, "status", new Array(count).fill(this.layout.statuses.ASK)); // none is under way
+      room.write(out, "work", new Array(count).fill(0)); // that of two springs is not counted
       if (springs) {
         const scratch = room.make("Workspace", { balls, scratch: this.layout.sizes.scratch });
         this.call("run_two_springs", given, events(eventLimit), out, scratch);
       } else {
         const entry = drops.rigid ? "run_rigid_batch" : "run_batch";
-        this.call(entry, stack, space, given, none, until, rtol, events(eventLimit), out);
+        const limits = this.limits(eventLimit);
+        for (let row = 0; row < count; ) row = this.call(entry, stack, space, given, none, until, rtol, ...limits, out, row);
       }
       this.call("find_ratios", given, out);
       return room.readAll(out);
@@ -121,6 +126,12 @@ class Engine {
       const each = values.length / rows.length;
       rows.forEach((row, k) => outcomes[name].set(values.subarray(k * each, (k + 1) * each), row * each));
     }
+  }
+
+  /** Return the limits of a run: events, and the work that a run may cost, which is more where more events are asked for. */
+  limits(eventLimit) {
+    const { work, events: usual } = this.layout.limits;
+    return [events(eventLimit), Math.floor((work * Math.max(usual, eventLimit)) / usual)];
   }
 
   /** Return the memory of runs of stacks of one height, which is kept. */

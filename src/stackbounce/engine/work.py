@@ -1,0 +1,23 @@
+"""What a run costs: counted, not timed, so that a limit of it gives the same result everywhere.
+
+The unit is one term of the power series of one contact: 5 to 30 ns, with all that goes with it. The
+prices were fitted to the times of 300 runs of 1 to 500 balls, so that no run took longer than its
+work times 30 ns, and most took half of that.
+"""
+
+EVENT_LIMIT = 1_000_000
+"""The events after which a run stops by default."""
+
+WORK_LIMIT = 150_000_000
+"""The work after which a run stops by default: one to five seconds."""
+
+SLICE = 2**17
+"""The work after which a kernel returns to its caller, who may stop it: some milliseconds."""
+
+DROP = 100  # to begin a drop, in the work of a slice only
+STEP = 10  # to choose the next contact and find its next event
+EXPANSION = 40  # to expand the motion of a cluster in a power series, besides its terms
+MODES_WORK = 60  # to find normal modes, times the number of contacts
+STANDSTILL = 1000  # for an event since the last of which no time has passed: more than it costs
+CREST = 12  # to find the largest compression or force in a step, times the order of the series
+COLLISION = 30  # of two rigid balls
