@@ -28,7 +28,7 @@ from stackbounce.run.options import Options
 __all__ = ["Memory", "check_room", "memory", "spring_workspace"]
 
 _ROWS = 512  # of the log, besides one for each ball
-_USUAL = 16e9  # bytes of memory, where it is not known
+_USUAL = 16 * 10**9  # bytes of memory, where it is not known
 _MOST = 16  # stacks of different height that a thread keeps
 _local = threading.local()
 
