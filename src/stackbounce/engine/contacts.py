@@ -31,7 +31,6 @@ from stackbounce.engine.codes import (
 from stackbounce.engine.cycles import (
     begin_loading,
     has_hysteresis,
-    highest_peak,
     loading_force,
     lowest_compression,
     return_to_turn,
@@ -42,7 +41,7 @@ from stackbounce.engine.cycles import (
 from stackbounce.engine.elementary import power
 from stackbounce.engine.forces import force
 from stackbounce.engine.kernels import kernel
-from stackbounce.engine.pieces import crossed_knot, find_piece
+from stackbounce.engine.pieces import crossed_knot
 from stackbounce.engine.slots import CLOSED, LINEARISED_WORK, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
@@ -256,19 +255,6 @@ def change_curve(stack: Stack, i: int, kind: int) -> None:
     else:
         stack.linearised[i] = 0
         stack.linearised_below[i] = min(stack.linearised_below[i], compression)
-
-
-@kernel
-def settle_curve(stack: Stack, i: int, compression: float) -> None:
-    """Let contact i lie on the curve that it unloads along from its highest peak."""
-    if has_hysteresis(stack, i):
-        peak = highest_peak(stack, i)
-        begin_loading(stack, i)
-        if compression < peak:
-            turn_out(stack, i, peak)
-        _set_present_curve(stack, i, compression, False)
-    elif stack.law[i] == PIECEWISE:
-        find_piece(stack, i, compression, False)
 
 
 @kernel

@@ -40,7 +40,9 @@ from stackbounce.engine.pieces import (
     pieces_moment,
     pieces_value,
 )
+from stackbounce.engine.slots import WORK
 from stackbounce.engine.stack import TURNS, Stack
+from stackbounce.engine.work import CYCLE
 
 _HALVINGS = 120
 
@@ -107,12 +109,19 @@ def _go_on_loading(stack: Stack, i: int) -> None:
 
 
 @kernel
+def count_cycles(stack: Stack, i: int) -> None:
+    """Add to the work of a run what it costs to go through the cycles of contact i."""
+    stack.counter[WORK] += CYCLE * (stack.depth[i] + 1) * (stack.loading_pieces[i] + 1)
+
+
+@kernel
 def take_shares(stack: Stack, i: int, c: float, up: bool) -> None:
     """Set what the elements of contact i that remember a peak add to its force at c.
 
     A piecewise contact takes the pieces at c, too, above it if the compression goes up.
     """
     depth, out = stack.depth[i], stack.phase[i] == RELEASING
+    count_cycles(stack, i)
     pieces = stack.law[i] == PIECEWISE
     if pieces:
         find_piece(stack, i, c, up)
@@ -218,52 +227,17 @@ def returned_work(stack: Stack, i: int, c: float) -> float:
 
 
 @kernel
-def highest_peak(stack: Stack, i: int) -> float:
-    """Return the highest compression that any element of contact i remembers; inf while loading."""
-    return stack.highs[i * TURNS] if stack.depth[i] > 0 else stack.top[i]
-
-
-@kernel
-def unloaded_state(stack: Stack, i: int, weight: float) -> tuple[float, float]:
-    """Return where contact i, unloading from its highest peak, carries a weight, and the work left.
-
-    Without hysteresis it is where its one curve does.
-    """
-    peak = highest_peak(stack, i) if has_hysteresis(stack, i) else math.inf
+def loading_compression(stack: Stack, i: int, pressing: float) -> float:
+    """Return the compression at which the loading curve of contact i has a force."""
     if stack.law[i] == HYSTERETIC:
-        top = loading_force(stack, i, peak)
-        exponent = stack.unloading[i] if weight < top else stack.exponent[i]
-        rest = peak * power(weight / top, 1.0 / exponent)
-    else:
-        low, high = 0.0, stack.scale[i]
-        lost = lost_share(stack, i, peak) if stack.returned[i] > 0.0 and peak < math.inf else 0.0
-        while _unloading_force(stack, i, peak, lost, high) < weight and high < math.inf:
-            low, high = high, 2.0 * high
-        for _ in range(_HALVINGS):
-            middle = 0.5 * (low + high)
-            if _unloading_force(stack, i, peak, lost, middle) < weight:
-                low = middle
-            else:
-                high = middle
-        rest = 0.5 * (low + high)
-    if rest >= peak:
-        work, _ = _shared_work(stack, i, peak, 0.0, peak)
-        return rest, work + loading_work(stack, i, rest) - loading_work(stack, i, peak)
-    if peak == math.inf:
-        return rest, loading_work(stack, i, rest)
-    work, _ = _shared_work(stack, i, peak, 0.0, rest)
-    return rest, work
-
-
-@kernel
-def _unloading_force(stack: Stack, i: int, peak: float, lost: float, c: float) -> float:
-    """Return the force at c of a piecewise contact that unloads from a peak, or loads beyond it.
-
-    Its g is ``lost``, see `lost_share`, if it is the same everywhere.
-    """
-    pressing, f, g = loading_force(stack, i, c), 1.0 - lost, lost
-    if c >= peak or peak == math.inf:
-        return pressing
-    if stack.returned[i] == 0.0:
-        f, g, _, _ = piece_share(stack, i, peak, c, True)
-    return pressing * (f + g * power(c / peak, stack.loss_exponent[i]))
+        return power(pressing / stack.stiffness[i], 1.0 / stack.exponent[i])
+    low, high = 0.0, stack.scale[i]
+    while loading_force(stack, i, high) < pressing and high < math.inf:
+        low, high = high, 2.0 * high
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if loading_force(stack, i, middle) < pressing:
+            low = middle
+        else:
+            high = middle
+    return 0.5 * (low + high)

@@ -68,9 +68,9 @@ from stackbounce.engine.codes import (
 )
 from stackbounce.engine.cycles import (
     has_hysteresis,
+    loading_compression,
     loading_work,
     returned_work,
-    unloaded_state,
 )
 from stackbounce.engine.elementary import power
 from stackbounce.engine.kernels import Floats, kernel
@@ -315,17 +315,15 @@ def potential(stack: Stack, i: int, compression: float) -> float:
 def static_state(stack: Stack, i: int, weight: float) -> tuple[float, float]:
     """Return the compression of contact i at which it carries a weight, and its potential there.
 
-    A contact with hysteresis unloads to it from its highest peak.
+    It has no hysteresis.
     """
-    if stack.law[i] in (HYSTERETIC, PIECEWISE):
-        return unloaded_state(stack, i, weight)
     rest = _static_compression(stack, i, weight)
     return rest, potential(stack, i, rest)
 
 
 @kernel
 def _static_compression(stack: Stack, i: int, weight: float) -> float:
-    """Return the compression at which a contact without hysteresis carries a weight."""
+    """Return the compression at which contact i carries a weight."""
     if stack.law[i] == PRODUCT:
         p, q, square = stack.exponent[i], stack.factor_exponent[i] + 2.0, stack.gain_square[i]
         rest = power(weight / stack.stiffness[i], 1.0 / p)
@@ -335,6 +333,8 @@ def _static_compression(stack: Stack, i: int, weight: float) -> float:
                 one, two = power(rest, p), square * power(rest, q)
                 rest -= (one + two - weight / stack.stiffness[i]) * rest / (p * one + q * two)
         return rest
+    if stack.law[i] == PIECEWISE:
+        return loading_compression(stack, i, weight)
     if stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0:
         return weight / stack.rate[i]
     share = power(weight / stack.curve_force[i], 1.0 / stack.curve_exponent[i])

@@ -12,20 +12,27 @@ come back to c = 0: to open it at once takes 1/(1 + z) of that energy.
 
 A vibration about the static state remains. If it is damped, it is followed until its speeds are
 1e-9 of the reference speed, or as small as their error. If it is not, it would never end, as
-hysteresis takes from it in proportion to the cube of its amplitude: the stack is set to its static
-state at once.
+hysteresis takes from it in proportion to the cube of its amplitude: it is followed until its energy
+is a hundredth of what opens a contact.
 
-A contact with hysteresis carries a weight at many compressions, the largest of which is on the
-unloading curve from its highest peak: there is the static state. A damped vibration leads to
-another one, where the contact stays. What is left of it there is known by the force, as that rises
-about as F/c: (F - W)^2 c/(2 W).
+A contact with hysteresis carries a weight at many compressions, and stays near the one to which the
+vibration leads. From c on, whose force is F, it can give no more than it does on its direct way to
+the nearest of them, D <= |F - W| |d - c|: other ways take more of its loss. Going in, the force
+rises at least as the loading curve L does, L(d) = L(c) + W - F; going out, it falls at least as
+much in proportion, L(d) = L(c) W/F. So D takes the place of U(c) - U(s) - W (c - s), and W c - U(c)
+that of the work that opens it.
 """
 
 import math
 
-from stackbounce.engine.codes import COMPRESSING
-from stackbounce.engine.contacts import settle_curve
-from stackbounce.engine.cycles import has_hysteresis, highest_peak
+from stackbounce.engine.codes import COMPRESSING, DIP, PEAK, PIECEWISE
+from stackbounce.engine.contacts import change_curve
+from stackbounce.engine.cycles import (
+    count_cycles,
+    has_hysteresis,
+    loading_compression,
+    loading_force,
+)
 from stackbounce.engine.forces import (
     arm_energy,
     creeps,
@@ -35,11 +42,13 @@ from stackbounce.engine.forces import (
     static_state,
 )
 from stackbounce.engine.kernels import kernel
+from stackbounce.engine.pieces import find_piece
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
 from stackbounce.engine.stack import TERMS, Stack
 
 _STILL = 1e-9
-_HYSTERETIC = 0.5  # of that energy: the limit where a higher peak can still change the static state
+_HALVINGS = 60
+_NEAR = 0.01  # of that energy: what may be left of a vibration that hysteresis alone damps
 
 
 @kernel
@@ -55,34 +64,68 @@ def is_bound(stack: Stack) -> bool:
     for b in range(size):
         excess += 0.5 * stack.mass[b] * stack.velocity[b] * stack.velocity[b]
         reference += 0.5 * stack.mass[b] * stack.number[SPEED] * stack.number[SPEED]
-    damped = _is_damped(stack)
-    share = 1.0
+    damped, hysteresis = _is_damped(stack), False
     barrier = math.inf
     weight = 0.0
     for i in range(size - 1, -1, -1):
         weight += stack.mass[i] * stack.number[GRAVITY]
-        c, settling = stack.compression[i], damped and has_hysteresis(stack, i)
-        if settling:
-            rest, at_rest = c, potential(stack, i, c)
+        c = stack.compression[i]
+        if has_hysteresis(stack, i):
+            hysteresis = True
+            excess += _leeway(stack, i, weight)
+            if excess >= min(barrier, weight * c):  # before the potential, which takes long
+                return False
+            count_cycles(stack, i)
+            opening = weight * c - potential(stack, i, c)
         else:
-            if has_hysteresis(stack, i):
-                if highest_peak(stack, i) == math.inf:
-                    return False
-                share = _HYSTERETIC if size > 1 else 1.0
             rest, at_rest = static_state(stack, i, weight)
-        opening = weight * rest - at_rest
-        if stack.bonded[i] == 0:
-            barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
-        if excess >= share * barrier:  # before the potential, which takes long
-            return False
-        if settling:
-            off = force(stack, i, c, 0.0, 0.0) - weight
-            excess += 0.5 * off * off * c / weight
-        else:
+            opening = weight * rest - at_rest
             excess += max(0.0, potential(stack, i, c) - at_rest - weight * (c - rest))
             excess += arm_energy(stack, i, c, stack.creep[i])
+        if stack.bonded[i] == 0:
+            barrier = min(barrier, opening / stack.gain_slope[i] if creeps(stack, i) else opening)
+        if excess >= barrier:
+            return False
     still = max(_STILL, 100.0 * stack.number[TOLERANCE])
-    return excess < share * barrier and (not damped or excess <= still * still * reference)
+    if damped:
+        return excess < barrier and excess <= still * still * reference
+    return excess < (_NEAR if hysteresis else 1.0) * barrier
+
+
+@kernel
+def _leeway(stack: Stack, i: int, weight: float) -> float:
+    """Return the most energy that contact i, with hysteresis, can give under a weight."""
+    off = abs(force(stack, i, stack.compression[i], 0.0, 0.0) - weight)
+    return off * abs(_far_side(stack, i, weight) - stack.compression[i])
+
+
+@kernel
+def _far_side(stack: Stack, i: int, weight: float) -> float:
+    """Return a compression before which contact i, with hysteresis, will carry a weight."""
+    c = stack.compression[i]
+    pressing, pressed = force(stack, i, c, 0.0, 0.0), loading_force(stack, i, c)
+    if pressing <= 0.0 or pressed <= 0.0:
+        return math.inf
+    there = pressed * weight / pressing if pressing > weight else pressed + weight - pressing
+    return loading_compression(stack, i, there)
+
+
+@kernel
+def _settle(stack: Stack, i: int, weight: float) -> None:
+    """Put contact i, with hysteresis, where it carries a weight on the direct way there."""
+    c = stack.compression[i]
+    out = force(stack, i, c, 0.0, 0.0) > weight
+    end = _far_side(stack, i, weight)
+    if out == (stack.phase[i] == COMPRESSING):
+        change_curve(stack, i, PEAK if out else DIP)
+    low, high = min(c, end), max(c, end)
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        if force(stack, i, middle, 0.0, 0.0) < weight:
+            low = middle
+        else:
+            high = middle
+    stack.compression[i] = high
 
 
 @kernel
@@ -97,13 +140,15 @@ def _is_damped(stack: Stack) -> bool:
 @kernel
 def set_static_state(stack: Stack) -> None:
     """Put a bound stack into its static state, for all later times."""
-    size, damped = len(stack.mass), _is_damped(stack)
-    weight = 0.0
+    size, weight = len(stack.mass), 0.0
     for i in range(size - 1, -1, -1):
         weight += stack.mass[i] * stack.number[GRAVITY]
-        if not (damped and has_hysteresis(stack, i)):
+        if has_hysteresis(stack, i):
+            _settle(stack, i, weight)
+        else:
             stack.compression[i], _ = static_state(stack, i, weight)
-            settle_curve(stack, i, stack.compression[i])
+            if stack.law[i] == PIECEWISE:
+                find_piece(stack, i, stack.compression[i], False)
         stack.velocity[i] = 0.0
         stack.creep[i] = stack.compression[i] if creeps(stack, i) else 0.0
         for k in range(TERMS):

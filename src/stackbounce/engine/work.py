@@ -20,4 +20,5 @@ EXPANSION = 40  # to expand the motion of a cluster in a power series, besides i
 MODES_WORK = 60  # to find normal modes, times the number of contacts
 STANDSTILL = 1000  # for an event since the last of which no time has passed: more than it costs
 CREST = 12  # to find the largest compression or force in a step, times the order of the series
+CYCLE = 6  # for each cycle that a contact remembers, and each of its pieces, at a change of curve
 COLLISION = 30  # of two rigid balls
