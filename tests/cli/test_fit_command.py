@@ -198,7 +198,7 @@ def test_a_picture(run, tmp_path, picture):
 def test_a_terminal_sees_how_far_the_draws_are(tmp_path):
     ours, theirs = os.openpty()
     code = "import sys; from stackbounce.cli import main; sys.exit(main(sys.argv[1:]))"
-    command = [sys.executable, "-c", code, "fit", *ONE, "--sample", "3200"]
+    command = [sys.executable, "-c", code, "fit", *ONE, "--sample", "320000"]
     options = {"stderr": theirs, "stdout": subprocess.DEVNULL, "cwd": tmp_path}
     with subprocess.Popen(command, **options) as process:
         os.close(theirs)
@@ -208,7 +208,7 @@ def test_a_terminal_sees_how_far_the_draws_are(tmp_path):
                 seen += more
     os.close(ours)
     assert process.returncode == 0
-    assert b"3200/3200" in seen
+    assert b"320000/320000" in seen
 
 
 def test_an_interruption_leaves_nothing_behind(run, tmp_path, monkeypatch):
@@ -217,7 +217,11 @@ def test_an_interruption_leaves_nothing_behind(run, tmp_path, monkeypatch):
 
     monkeypatch.setattr(Fit, "sample", interrupted)
     asked = (*ONE, "--sample", "3200", "--save", "fitted.toml", "--plot", "fit.png")
-    assert run(*asked) == (130, "", "stackbounce: interrupted\n")
+    code, out, err = run(*asked)
+    assert (code, err) == (130, "stackbounce: interrupted\n")
+    assert re.fullmatch(
+        r"Interrupted: the best of \d+ trials, .*: contacts.1.stiffness = 1477.* N/m\n", out
+    )
     assert list(tmp_path.iterdir()) == []
 
 

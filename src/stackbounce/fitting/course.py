@@ -51,6 +51,8 @@ class Course:
         self.progress, self.expected = progress, self.trials + expected
         try:
             yield
+            if progress is not None:
+                progress(self.trials, self.trials)
         finally:
             self.progress = None
 

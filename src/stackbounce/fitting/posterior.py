@@ -21,6 +21,7 @@ _WALKERS = 32  # walkers, at least; also at least four per parameter
 _STEPS = 1000  # of a walker: more draws mean more walkers
 _BURNT = 0.25  # share of the draws discarded as burn-in
 _SPREAD = 0.5  # scatter of the walkers' first places, in standard deviations
+_MOST_DRAWS = 10**15
 _NUMBERS = 3  # that are kept of each parameter of a draw, at most at one time
 _ENOUGH = 50  # length of a sufficient chain, in autocorrelation times
 
@@ -194,7 +195,7 @@ def sample(
 
     size = len(best)
     least = max(_WALKERS, 4 * size)
-    walkers = max(least, 2 * (whole("draws", draws, 20 * least) // (2 * _STEPS)))
+    walkers = max(least, 2 * (whole("draws", draws, 20 * least, _MOST_DRAWS) // (2 * _STEPS)))
     steps = draws // walkers
     check_room(_NUMBERS * (size + 1) * draws, f"{draws} draws", "take fewer")
     announce(f"{draws} draws", objective.course.cost(draws), "take fewer")

@@ -347,11 +347,11 @@ def _first_trial(objective: Objective) -> Any:
 
 def _announce(objective: Objective, first: Array, expected: int) -> None:
     """Say how long a search takes, by the costs of some trials."""
-    some = replace(objective)  # with a course of its own
-    some.residuals(np.concatenate([first[None], spread(objective.spans, _PROBES, 0)]))
+    objective.residuals(np.concatenate([first[None], spread(objective.spans, _PROBES, 0)]))
+    objective.unsolved.clear()
     announce(
         f"a fit of {_count(len(objective.parameters), 'number')}",
-        some.course.cost(expected),
+        objective.course.cost(expected),
         "fix some, or take fewer balls or a larger rtol",
     )
 
