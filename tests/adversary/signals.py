@@ -1,7 +1,7 @@
-"""Commands that are stopped by signals: `python -m adversary.signals --count 156`, in tests.
+"""Commands that are stopped by signals: `python -m adversary.signals --count 182`, in tests.
 
-No traceback, an exit status that says so, no half a file; afterwards the same command answers as
-if it had never been stopped.
+No traceback, an exit status that says so, no half a file, no wait; afterwards the same command
+answers as if it had never been stopped.
 """
 
 import itertools
@@ -19,8 +19,10 @@ from adversary.processes import Ended, Started, content, random_of, run, sweep
 from adversary.table import Failure, begin
 
 START = 0.15  # s; every third signal comes that early
+ANSWERED = 1.0  # s from a signal to the end; half of it on an idle machine
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _PAIR = ("basketball", "tennis", "--height", "63cm")
+_HERTZ = ("--contact", "Hertz stiffness=1e6", "--contact", "Hertz stiffness=1e6")
 _OURS = re.compile(r'File "(?!<frozen )(?!.*lib.python3)')  # a place outside of Python's own
 _SITE = 'File "<frozen site>"'  # Python sets itself up, .pth files of any package included
 _FALL = np.abs((np.arange(120) / 60.0) % 0.9 - 0.45)  # s from the top of each of three flights
@@ -47,6 +49,7 @@ COMMANDS = (
         ],
         ("new.toml",),
     ),
+    Command(["simulate", *_PAIR, *_HERTZ, "--error", "balls.0.mass=1000kg"], ()),  # slow drops
     Command(["measure", "ball.csv", "--json"], ()),
     Command(["paper", "--out", "paper"], ("paper",)),
 )
@@ -70,8 +73,10 @@ def attack(count: int, seed: int, folder: Path) -> list[Failure]:
         )
         process = Started(command.arguments, own, folder / "logs")
         process.send(number, delay)
+        sent = time.monotonic()
         ended = process.wait()
-        wrong = judge(command, number, ended, own, whole[key][1])
+        late = time.monotonic() - sent > ANSWERED
+        wrong = "late" if late else judge(command, number, ended, own, whole[key][1])
         if not wrong:
             again = run(command.arguments, own, folder / "logs", Started)
             if (again.code, again.out) != (0, whole[key][0].out):
@@ -121,4 +126,4 @@ def judge(
 
 
 if __name__ == "__main__":
-    sys.exit(begin("signals", attack, 156))
+    sys.exit(begin("signals", attack, 182))
