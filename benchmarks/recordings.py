@@ -12,9 +12,9 @@ from rich.table import Table
 import stackbounce as sb
 from benchmarks.timing import best
 from stackbounce.measure import knocks, press, waveform
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.press import press_record
-from stackbounce.synthetic.sound import sound
+from synthetic.falls import falls
+from synthetic.press import press_record
+from synthetic.sound import sound
 
 __all__ = ["CASES"]
 

@@ -4,10 +4,15 @@ Run `python -m sphinx` at the top of the repository, as `make docs` does: from t
 extensions in `docs/_extensions`.
 """
 
+import sys
+from pathlib import Path
+
 import matplotlib as mpl
 
 from stackbounce.cross2007.style import use_style
 from stackbounce.version import __version__
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))  # for the records of `synthetic`
 
 project = "stackbounce"
 author = "The stackbounce developers"

@@ -1,8 +1,8 @@
 """The records that the explorer offers for a try: made from simulated drops, with noise."""
 
 import stackbounce as sb
-from stackbounce.synthetic.track import track
-from stackbounce.synthetic.waveform import waveform
+from synthetic.track import track
+from synthetic.waveform import waveform
 
 __all__ = ["floor_force", "two_tracks"]
 

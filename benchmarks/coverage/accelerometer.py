@@ -6,8 +6,8 @@ from typing import Any
 
 import stackbounce as sb
 from stackbounce.measure.kinds.acceleration.analysis import accelerometer
-from stackbounce.synthetic.accelerometer import accelerometer as record_of
-from stackbounce.synthetic.falls import Falls, falls
+from synthetic.accelerometer import accelerometer as record_of
+from synthetic.falls import Falls, falls
 
 __all__ = ["CASES"]
 

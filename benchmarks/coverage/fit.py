@@ -8,7 +8,7 @@ from uncertainties import UFloat, ufloat
 
 import stackbounce as sb
 from benchmarks.coverage.shares import Trial
-from stackbounce.synthetic.waveform import waveform
+from synthetic.waveform import waveform
 
 __all__ = ["CASES"]
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import stackbounce as sb
 from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
-from stackbounce.synthetic.waveform import waveform as record_of
+from synthetic.waveform import waveform as record_of
 
 __all__ = ["CASES", "runs"]
 

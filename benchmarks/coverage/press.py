@@ -8,7 +8,7 @@ from uncertainties import UFloat, ufloat
 
 import stackbounce as sb
 from stackbounce.measure import press, split_series
-from stackbounce.synthetic.press import press_record
+from synthetic.press import press_record
 
 __all__ = ["CASES"]
 

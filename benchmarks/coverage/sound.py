@@ -12,8 +12,8 @@ import numpy as np
 from benchmarks.coverage.shares import Trial
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.sound.analysis import knocks
-from stackbounce.synthetic.falls import Falls, falls
-from stackbounce.synthetic.sound import sound
+from synthetic.falls import Falls, falls
+from synthetic.sound import sound
 
 __all__ = ["CASES"]
 

@@ -7,8 +7,8 @@ from stackbounce.calibration import calibrate
 from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.model import Ball, Drop, HuntCrossley, Rigid
 from stackbounce.run.driver import simulate
-from stackbounce.synthetic.falls import Falls, falls
-from stackbounce.synthetic.track import track as tracked
+from synthetic.falls import Falls, falls
+from synthetic.track import track as tracked
 
 __all__ = ["CASES"]
 

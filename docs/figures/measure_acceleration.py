@@ -5,8 +5,8 @@ from shown import show
 import stackbounce as sb
 from stackbounce.measure.kinds.acceleration.analysis import accelerometer
 from stackbounce.plots.measurements.acceleration import draw as draw_acceleration
-from stackbounce.synthetic.accelerometer import accelerometer as record_of
-from stackbounce.synthetic.falls import falls
+from synthetic.accelerometer import accelerometer as record_of
+from synthetic.falls import falls
 
 
 def fall():

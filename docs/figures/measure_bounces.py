@@ -11,9 +11,9 @@ from stackbounce.plots.measurements.bounces import draw as draw_bounces
 from stackbounce.plots.measurements.heights import draw as draw_heights
 from stackbounce.plots.measurements.sound import draw as draw_sound
 from stackbounce.plots.measurements.track import draw as draw_track
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.sound import sound as recorded
-from stackbounce.synthetic.track import track as tracked
+from synthetic.falls import falls
+from synthetic.sound import sound as recorded
+from synthetic.track import track as tracked
 
 FALL = falls(0.6, lambda speed: 0.86 - 0.025 * speed, bounces=14)
 STACK = sb.Drop(

@@ -5,7 +5,7 @@ from shown import show
 import stackbounce as sb
 from stackbounce.measure import press
 from stackbounce.plots.measurements.press import draw
-from stackbounce.synthetic.press import press_record
+from synthetic.press import press_record
 
 BALL = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
 """The law that the page's ball follows."""

@@ -7,7 +7,7 @@ from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.gap.floor_gap import floor_gap
 from stackbounce.plots.measurements.gap import draw as draw_gap
 from stackbounce.plots.measurements.waveform import draw
-from stackbounce.synthetic.waveform import waveform as record_of
+from synthetic.waveform import waveform as record_of
 
 FLOOR, BETWEEN = sb.Hysteretic(56e3, restitution=0.78), sb.Spring(16e3)
 PAIR = sb.Drop([sb.Ball(0.101), sb.Ball(0.0248)], [FLOOR, BETWEEN], gaps=[0.001], height=0.2)

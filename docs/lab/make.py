@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import stackbounce as sb
-from stackbounce.synthetic import press, sound, track, waveform
-from stackbounce.synthetic.falls import falls
+from synthetic import press, sound, track, waveform
+from synthetic.falls import falls
 
 TENNIS, BASKETBALL = sb.Ball(0.057, 0.066, "tennis"), sb.Ball(0.150, 0.160, "basketball")
 TENNIS_LAW = sb.Hysteretic(2.25e4, restitution=0.75)

@@ -13,8 +13,8 @@ from stackbounce.measure import analyse, heights, one_law
 from stackbounce.measure.kinds.contact.analysis import known_contact
 from stackbounce.measure.option_values import read_options
 from stackbounce.measure.quantities import quantity_with_error
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.track import track as tracked
+from synthetic.falls import falls
+from synthetic.track import track as tracked
 
 LAB = Path(__file__).parents[2] / "docs" / "lab"
 SPEED = (2.0 * 9.80665) ** 0.5  # m/s, after 1 m

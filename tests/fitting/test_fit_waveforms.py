@@ -7,7 +7,7 @@ import xarray as xr
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.fitting import FitProblem
-from stackbounce.synthetic.waveform import waveform
+from synthetic.waveform import waveform
 
 ONE = sb.Drop([sb.Ball(0.150)], [sb.Spring(2500.0)], impact_speed=3.5)
 TWO = sb.Drop(

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from stackbounce.synthetic.falls import Falls
+from synthetic.falls import Falls
 
 BALL = 2.7e-3, 0.040  # a table tennis ball: kg, m
 GRAVITY, DENSITY = 9.80665, 1.204

@@ -10,8 +10,8 @@ from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import accelerometer, analyse
 from stackbounce.plots import measured
-from stackbounce.synthetic.accelerometer import accelerometer as record_of
-from stackbounce.synthetic.falls import falls
+from synthetic.accelerometer import accelerometer as record_of
+from synthetic.falls import falls
 
 G = 9.80665
 

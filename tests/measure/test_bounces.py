@@ -12,7 +12,7 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.bounces.knocks import missed_between
 from stackbounce.measure.kinds.heights.analysis import heights
-from stackbounce.synthetic.falls import falls
+from synthetic.falls import falls
 
 FALL = falls(1.0, lambda speed: 0.9 - 0.02 * speed, bounces=10)
 

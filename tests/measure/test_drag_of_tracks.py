@@ -13,8 +13,8 @@ from stackbounce import plots
 from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import Drag, track
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.track import track as tracked
+from synthetic.falls import falls
+from synthetic.track import track as tracked
 
 AIR = Drag(*BALL, 0.45)
 UNSURE = Drag(*BALL, ufloat(0.45, 0.05))

@@ -9,7 +9,7 @@ import stackbounce as sb
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.droop import drooped, undrooped
-from stackbounce.synthetic.waveform import waveform as record_of
+from synthetic.waveform import waveform as record_of
 
 ONE = sb.simulate(sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0))
 TIME = float(ONE.intervals["end"][0])

@@ -10,7 +10,7 @@ from stackbounce.cli import main
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse, floor_gap, sensor_gap
 from stackbounce.plots import measured
-from stackbounce.synthetic.waveform import waveform as record_of
+from synthetic.waveform import waveform as record_of
 
 SPEED = 1.98
 BALLS = (sb.Ball(0.101), sb.Ball(0.0248))  # the paper's B1 and B2

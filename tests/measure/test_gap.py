@@ -10,7 +10,7 @@ from stackbounce.cross2007 import PAPER
 from stackbounce.errors import InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.gap.delay import delay, gap_from_delay
-from stackbounce.synthetic.waveform import waveform as record_of
+from synthetic.waveform import waveform as record_of
 
 SPEED = math.sqrt(2.0 * 9.80665 * 0.20)
 

@@ -11,9 +11,9 @@ from motions import TRACKS, G, jumps, rectified_sine, swings
 from stackbounce.errors import InvalidValue
 from stackbounce.measure import accelerometer, analyse
 from stackbounce.measure.kinds.track.analysis import track
-from stackbounce.synthetic.accelerometer import accelerometer as record_of
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.track import track as tracked
+from synthetic.accelerometer import accelerometer as record_of
+from synthetic.falls import falls
+from synthetic.track import track as tracked
 
 FALL = falls(1.0, 0.8)
 LAW = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.012, restitution=0.6)

@@ -12,7 +12,7 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import press, series_stiffness, split_series
 from stackbounce.measure.kinds.press.notes import sentences
 from stackbounce.plots.measurements.press import draw
-from stackbounce.synthetic.press import press_record
+from synthetic.press import press_record
 from work import calls_of, memory_of
 
 BALL = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from stackbounce.measure.samples import resolution
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.track import track as track_record
+from synthetic.falls import falls
+from synthetic.track import track as track_record
 
 RANDOM = np.random.default_rng(1)
 PARABOLA = 1.0 - 4.9 * np.linspace(0.0123, 0.45, 30) ** 2

@@ -10,8 +10,8 @@ from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.sound.analysis import knocks
 from stackbounce.plots.measurements.bounces import draw as draw_bounces
 from stackbounce.plots.measurements.sound import draw as draw_sound
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.sound import sound
+from synthetic.falls import falls
+from synthetic.sound import sound
 from work import calls_of, memory_of
 
 FALL = falls(0.5, 0.8, bounces=10)

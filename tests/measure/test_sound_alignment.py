@@ -14,8 +14,8 @@ from stackbounce.measure.kinds.sound.analysis import knocks
 from stackbounce.measure.kinds.sound.consistency import misjudgement
 from stackbounce.measure.kinds.sound.loudness import whitened
 from stackbounce.measure.kinds.sound.onset import onsets
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.sound import sound
+from synthetic.falls import falls
+from synthetic.sound import sound
 
 RATE = 44100.0
 

@@ -6,8 +6,8 @@ import pytest
 from stackbounce.measure.kinds.bounces.analysis import bounces
 from stackbounce.measure.kinds.sound.analysis import knocks
 from stackbounce.measure.kinds.sound.loudness import rounding
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.sound import sound
+from synthetic.falls import falls
+from synthetic.sound import sound
 
 FALL = falls(0.5, 0.8, bounces=9)
 BEFORE = 0.5

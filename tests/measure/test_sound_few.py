@@ -12,8 +12,8 @@ from stackbounce.errors import InvalidValue
 from stackbounce.measure import analyse
 from stackbounce.measure.kinds.bounces.analysis import Bounces, bounces
 from stackbounce.measure.kinds.sound.few_bounces import FewBounces
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.sound import sound
+from synthetic.falls import falls
+from synthetic.sound import sound
 
 TWO = falls(0.5, 0.8, bounces=2)
 

@@ -10,8 +10,8 @@ import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.plots.measurements.track import draw as draw_track
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.track import track as tracked
+from synthetic.falls import falls
+from synthetic.track import track as tracked
 
 FALL = falls(1.0, 0.8)
 STACK = sb.Drop(

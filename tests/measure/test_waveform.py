@@ -10,7 +10,7 @@ from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.measure.kinds.waveform.peaks import impulse_of
 from stackbounce.plots.measurements.waveform import draw
-from stackbounce.synthetic.waveform import waveform as record_of
+from synthetic.waveform import waveform as record_of
 from work import calls_of, memory_of
 
 ONE = sb.simulate(sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0))

@@ -12,7 +12,7 @@ from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.measure import analyse
 from stackbounce.measure.kinds.waveform.analysis import waveform
-from stackbounce.synthetic.waveform import waveform as record_of
+from synthetic.waveform import waveform as record_of
 
 LAB = Path(__file__).parents[2] / "docs" / "lab"
 

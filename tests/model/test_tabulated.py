@@ -11,7 +11,7 @@ from stackbounce import errors
 from stackbounce.cli import main
 from stackbounce.measure import one_ball, press
 from stackbounce.model.laws.tabulated import MOST_POINTS, monotone_spline
-from stackbounce.synthetic.press import press_record
+from synthetic.press import press_record
 
 X, Y, BACK = [0.0, 1e-3, 2e-3, 4e-3], [0.0, 10.0, 15.0, 60.0], [0.0, 0.0, 8.0, 60.0]
 

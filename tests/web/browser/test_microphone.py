@@ -9,8 +9,8 @@ from playwright.sync_api import sync_playwright
 
 import stackbounce as sb
 from stackbounce.measure import bounces, knocks
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.sound import sound
+from synthetic.falls import falls
+from synthetic.sound import sound
 
 pytestmark = pytest.mark.slow
 

@@ -9,8 +9,8 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.measure import bounces, knocks
-from stackbounce.synthetic.falls import falls
-from stackbounce.synthetic.sound import sound
+from synthetic.falls import falls
+from synthetic.sound import sound
 
 _WRITE = Path(__file__).with_name("write_wav.mjs")
 

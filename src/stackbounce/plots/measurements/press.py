@@ -33,10 +33,12 @@ def draw(data: Any, found: Any) -> "Figure":
 
     Examples
     --------
-    >>> import stackbounce as sb
+    >>> import numpy as np
+    >>> import xarray as xr
     >>> from stackbounce.measure import press
-    >>> from stackbounce.synthetic.press import press_record
-    >>> data = press_record(sb.Hysteretic(1e4, restitution=0.8), peak=5e-3, noise=0.1)
+    >>> c = 5e-3 * (1.0 - abs(np.linspace(-1.0, 1.0, 401)))  # m, in and out
+    >>> force = 1e4 * c * np.where(np.arange(401) <= 200, 1.0, c / 5e-3)  # N
+    >>> data = xr.Dataset({"force": ("point", force), "compression": ("point", c)})
     >>> [axes.get_ylabel() for axes in draw(data, press(data)).axes]
     ['force (N)', 'force − fit (N)']
     """

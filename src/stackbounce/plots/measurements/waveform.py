@@ -38,11 +38,13 @@ def draw(data: Any, found: Any) -> "Figure":
 
     Examples
     --------
-    >>> import stackbounce as sb
-    >>> from stackbounce.synthetic.waveform import waveform as record_of
+    >>> import numpy as np
+    >>> import xarray as xr
     >>> from stackbounce.measure.kinds.waveform.analysis import waveform
-    >>> drop = sb.Drop([sb.Ball(0.1)], [sb.Spring(6e4)], impact_speed=2.0)
-    >>> record = record_of(drop, rate=1e5, noise=1.0)
+    >>> times = np.arange(-2e-3, 6e-3, 1e-5)  # s
+    >>> force = 155.0 * np.sin(np.pi * np.clip(times / 4e-3, 0.0, 1.0))
+    >>> noise = np.random.default_rng(1).normal(0.0, 1.0, len(times))
+    >>> record = xr.Dataset({"force": ("time", force + noise, {"units": "N"})}, {"time": times})
     >>> draw(record, waveform(record)).axes[0].get_ylabel()
     'force (N)'
     """

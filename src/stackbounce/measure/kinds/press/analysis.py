@@ -75,13 +75,15 @@ def press(
 
     Examples
     --------
-    >>> import stackbounce as sb
-    >>> from stackbounce.synthetic.press import press_record
-    >>> law = sb.Hysteretic(4e4, exponent=1.3, restitution=0.78)
-    >>> data = press_record(law, peak=5e-3, slack=1e-3, noise=0.1, seed=1)
-    >>> found = press(data)
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> c = 5e-3 * (1.0 - abs(np.linspace(-1.2, 1.2, 401)))  # m, in and out
+    >>> share = np.clip(c / 5e-3, 0.0, None)
+    >>> force = 40.0 * np.where(np.arange(401) <= 200, share**1.3, share**2.78)  # N
+    >>> force += np.random.default_rng(1).normal(0.0, 0.1, 401)
+    >>> found = press(xr.Dataset({"force": ("point", force), "compression": ("point", c)}))
     >>> print(f"exponent {found.exponent:.1uS}, restitution {found.restitution:.1uS}")
-    exponent 1.298(3), restitution 0.7798(6)
+    exponent 1.299(3), restitution 0.7800(6)
     >>> found.parts()["contact"]["law"]
     'Hysteretic'
     """

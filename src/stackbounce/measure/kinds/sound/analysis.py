@@ -79,12 +79,15 @@ def knocks(
 
     Examples
     --------
-    >>> from stackbounce.synthetic.falls import falls
-    >>> from stackbounce.synthetic.sound import sound
-    >>> fall = falls(0.5, 0.8, bounces=8)
-    >>> found = knocks(sound(fall, seed=1))
+    >>> import numpy as np
+    >>> rate, times = 44_100, np.cumsum([0.2, 0.5, 0.4, 0.32, 0.256])  # s
+    >>> sound = np.random.default_rng(1).normal(0.0, 1e-3, 2 * rate)
+    >>> since = np.arange(2000) / rate
+    >>> for loud, first in zip(0.8 ** np.arange(5), (times * rate).astype(int)):
+    ...     sound[first : first + 2000] += loud * np.exp(-since / 5e-3) * np.sin(6000.0 * since)
+    >>> found = knocks(sound, rate=rate)
     >>> len(found.times), len(found.dropped)
-    (8, 0)
+    (5, 0)
     """
     from uncertainties import ufloat
 

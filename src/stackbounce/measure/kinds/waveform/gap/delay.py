@@ -124,12 +124,16 @@ def delay(floor: Any, balls: Any) -> Number:
 
     Examples
     --------
+    >>> import numpy as np
     >>> import stackbounce as sb
-    >>> from stackbounce.synthetic.waveform import waveform as record_of
+    >>> import xarray as xr
     >>> balls, laws = [sb.Ball(0.101), sb.Ball(0.0248)], [sb.Spring(5.6e4), sb.Spring(1.6e4)]
     >>> drop = sb.Drop(balls, laws, gaps=[1e-3], height=0.2)
-    >>> record = record_of(drop, rate=1e5, noise=0.5, contacts=[0, 1], seed=1)
-    >>> later = delay(record[["force"]], record[["force_2"]])
+    >>> times = np.arange(-2e-3, 1e-2, 1e-5)  # s
+    >>> forces = sb.simulate(drop).sample(np.maximum(times, 0.0)).force.values * (times >= 0.0)
+    >>> forces += np.random.default_rng(1).normal(0.0, 0.5, forces.shape)
+    >>> floor, balls = (xr.Dataset({"force": ("time", one)}, {"time": times}) for one in forces)
+    >>> later = delay(floor, balls)
     >>> round(later.nominal_value * 1e3, 1), float(sb.simulate(drop).first_touch[1].round(4)) * 1e3
     (1.8, 1.8)
     """

@@ -71,12 +71,18 @@ def floor_gap(
 
     Examples
     --------
+    >>> import numpy as np
     >>> import stackbounce as sb
-    >>> from stackbounce.synthetic.waveform import waveform as record_of
+    >>> import xarray as xr
     >>> balls, laws = [sb.Ball(0.101), sb.Ball(0.0248)], [sb.Spring(5.6e4), sb.Spring(1.6e4)]
     >>> both = sb.Drop(balls, laws, gaps=[1e-3], height=0.2)
     >>> one = sb.Drop(balls[:1], laws[:1], height=0.2)
-    >>> records = [record_of(drop, rate=1e5, noise=0.3, seed=1) for drop in (both, one)]
+    >>> random, times, records = np.random.default_rng(1), np.arange(-2e-3, 1e-2, 1e-5), []
+    >>> for drop in (both, one):
+    ...     force = sb.simulate(drop).sample(np.maximum(times, 0.0)).force.values[0]
+    ...     force = force * (times >= 0.0) + random.normal(0.0, 0.3, len(times))
+    ...     column = {"force": ("time", force, {"units": "N"})}
+    ...     records.append(xr.Dataset(column, {"time": times}))
     >>> found = floor_gap(*records, mass=0.101)
     >>> abs(found.gap.nominal_value - 1e-3) < 2.0 * found.gap.std_dev < 1e-3
     True

@@ -35,11 +35,16 @@ def sensor_gap(data: Any, *, impact_speed: Any = None, contact_time: Any = None)
 
     Examples
     --------
+    >>> import numpy as np
     >>> import stackbounce as sb
-    >>> from stackbounce.synthetic.waveform import waveform as record_of
+    >>> import xarray as xr
     >>> balls, laws = [sb.Ball(0.101), sb.Ball(0.0248)], [sb.Spring(5.6e4), sb.Spring(1.6e4)]
     >>> drop = sb.Drop(balls, laws, gaps=[1e-3], impact_speed=2.0)
-    >>> record = record_of(drop, rate=1e5, noise=0.5, contacts=[0, 1], seed=1)
+    >>> times = np.arange(-2e-3, 1e-2, 1e-5)  # s
+    >>> forces = sb.simulate(drop).sample(np.maximum(times, 0.0)).force.values * (times >= 0.0)
+    >>> forces += np.random.default_rng(1).normal(0.0, 0.5, forces.shape)
+    >>> columns = {name: ("time", force) for name, force in zip(("force", "force_2"), forces)}
+    >>> record = xr.Dataset(columns, {"time": times})
     >>> found = sensor_gap(record, impact_speed=2.0, contact_time=4.22e-3)
     >>> abs(found.gap.nominal_value - 1e-3) < 3.0 * found.gap.std_dev < 2e-4
     True

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, fraction, non_negative, positive, whole
-from stackbounce.synthetic.disturbances import coded, reverberated, wind_noise
-from stackbounce.synthetic.falls import Falls
+from synthetic.disturbances import coded, reverberated, wind_noise
+from synthetic.falls import Falls
 
 if TYPE_CHECKING:
     import xarray
@@ -89,7 +89,7 @@ def sound(
 
     Examples
     --------
-    >>> from stackbounce.synthetic.falls import falls
+    >>> from synthetic.falls import falls
     >>> data = sound(falls(0.5, 0.7, bounces=3), rate=8000)
     >>> data.sound.dims, data.attrs["holds"]
     (('time',), 'sound')

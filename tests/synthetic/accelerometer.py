@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue, fraction, non_negative, positive
-from stackbounce.synthetic.falls import Falls
+from synthetic.falls import Falls
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -68,7 +68,7 @@ def accelerometer(
     Examples
     --------
     >>> import stackbounce as sb
-    >>> from stackbounce.synthetic.falls import falls
+    >>> from synthetic.falls import falls
     >>> law = sb.calibrate(sb.Dashpot, mass=0.2, contact_time=0.01, restitution=0.6)
     >>> record = accelerometer(falls(0.5, law, mass=0.2, bounces=4), rate=400)
     >>> float(record.acceleration_absolute[:50].mean().round(1))

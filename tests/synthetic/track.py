@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, fraction, non_negative, positive, shown
 from stackbounce.run.result import Result
-from stackbounce.synthetic.falls import Falls
+from synthetic.falls import Falls
 
 if TYPE_CHECKING:
     import xarray
@@ -79,7 +79,7 @@ def track(
 
     Examples
     --------
-    >>> from stackbounce.synthetic.falls import falls
+    >>> from synthetic.falls import falls
     >>> data = track(falls(1.0, 0.8), frame_rate=30, until=1.0)
     >>> data.y.dims, data.sizes["time"]
     (('time', 'track'), 33)
