@@ -26,7 +26,7 @@ RUNTIME := $(VENV)/runtime.stamp
 DEV := $(VENV)/dev.stamp
 
 .DEFAULT_GOAL := help
-.PHONY: help venv kernels paper app explorer test lowest coverage browsers bench check lint types imports docs format fuzz attack frozen constraints clean \
+.PHONY: help venv kernels paper study app explorer test lowest coverage browsers bench check lint types imports docs format fuzz attack frozen constraints clean \
 	distclean
 
 help:  ## list the targets
@@ -36,6 +36,10 @@ help:  ## list the targets
 paper: kernels  ## recompute the paper: figures, tables and audit, in build/paper
 	@$(BIN)/stackbounce paper --out build/paper
 	@echo "Open $(CURDIR)/build/paper/index.html"
+
+study: $(DEV) kernels  ## the study of Table II, in build/study, and its tests: half an hour
+	@$(BIN)/python -m studies.table2 --out build/study
+	@$(PYTEST) studies
 
 app: kernels  ## open the explorer in the browser
 	@$(BIN)/stackbounce app

@@ -622,9 +622,8 @@ def write(monkeypatch):
     """Stands in for the report, which has tests of its own, and takes its time."""
     written = []
 
-    def stand_in(out, progress, *, study, workers):
-        assert workers >= 1
-        progress("study" if study else "figure 2a")
+    def stand_in(out, progress):
+        progress("figure 2a")
         written.append(out)
         rows = (Row("agrees", True), Row("agrees", True), Row("differs", False))
         return Audit(rows, {"agrees": 2, "differs": 1})
@@ -642,12 +641,6 @@ def test_paper_says_what_it_does_and_what_came_out(run, write):
     assert rows(out, "all") == [["all", "3"]]
     assert "Rows that disagree without an explanation: 1\n" in out
     assert out.endswith("Open new/folder/index.html\n")
-
-
-def test_paper_with_its_study(run, write):
-    code, _, err = run("paper", "--out", "new", "--study")
-    assert (code, err) == (0, "study\n")
-    assert write == [Path("new")]
 
 
 def test_paper_as_json(run, write):

@@ -1,6 +1,5 @@
 """The command ``stackbounce paper``: the paper recomputed."""
 
-import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -23,13 +22,6 @@ def run(
     out: Annotated[
         str, typer.Option(metavar="DIR", help="Folder to write to.", show_default=False)
     ],
-    study: Annotated[
-        bool,
-        typer.Option(
-            "--study",
-            help="All of Table II by one model after the other, too: some minutes more.",
-        ),
-    ] = False,
     as_json: AsJson = False,
 ) -> None:
     """Recompute the paper: its figures, its tables, and an audit of every number in it."""
@@ -39,12 +31,7 @@ def run(
     if not out:  # Path("") is the current folder
         raise InvalidValue("--out must name a folder, got ''")
     folder = Path(out)
-    audit = cross2007.write(
-        folder,
-        lambda line: typer.echo(line, err=True),
-        study=study,
-        workers=os.cpu_count() or 1,
-    )
+    audit = cross2007.write(folder, lambda line: typer.echo(line, err=True))
     if as_json:
         print_json(audit.as_dict())
     else:

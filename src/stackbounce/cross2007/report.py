@@ -22,7 +22,7 @@ from stackbounce.version import __version__
 
 __all__ = ["write"]
 
-_NAMES = ("index.html", "audit.csv", "audit.json", "study.html", "study.json")
+_NAMES = ("index.html", "audit.csv", "audit.json")
 _COLUMNS = (
     "id", "where", "what", "printed", "unit", "computed", "tolerance", "error", "verdict", "reason",
     "other readings", "computed by", "library calls", "inputs",
@@ -33,8 +33,6 @@ def write(
     out: Path,
     progress: Callable[[str], None] = lambda _: None,
     *,
-    study: bool = False,
-    workers: int = 1,
     explorer: str | None = None,
 ) -> Audit:
     """Recompute the paper and write the results to files.
@@ -49,11 +47,6 @@ def write(
         same bytes.
     progress : callable, optional
         Receives a line of text for each step.
-    study : bool, optional
-        Whether to add the study of Table II: ``study.html``, ``study.json`` and its figures.
-    workers : int, optional
-        Processes that share the study's fits; the files do not depend on it. A script that asks for
-        several needs ``if __name__ == "__main__":`` around its call.
     explorer : str, optional
         The address of the explorer from the page. The page then has a way back to it, and links
         that play the drops of the figures. By default there are none: the page needs no server.
@@ -70,7 +63,7 @@ def write(
     """
     need("paper", "stackbounce paper")
     figures = [f"figures/figure-{name}.svg" for name in FIGURES]
-    prepare_folder(out, [*(_NAMES if study else _NAMES[:3]), *figures])
+    prepare_folder(out, [*_NAMES, *figures])
     done = audit(PAPER, progress)
     files: dict[str, bytes] = {}
     drawn: list[tuple[Picture, str]] = []
@@ -80,14 +73,10 @@ def write(
         drawn.append((picture, data_uri(images["svg"])))
     progress("tables I and II")
     tables = [make_table_one(Bench(PAPER)), make_table_two(Bench(PAPER))]
-    if study:
-        from stackbounce.cross2007.study.page import make_files as study_files
-
-        files |= study_files(progress, workers)
     progress(f"writing to {out}")
     files["audit.csv"] = _csv(done).encode()
     files["audit.json"] = _json(done, [picture for picture, _ in drawn], tables).encode()
-    files["index.html"] = _page(done, drawn, tables, study=study, explorer=explorer).encode()
+    files["index.html"] = _page(done, drawn, tables, explorer).encode()
     write_folder(out, files)
     return done
 
@@ -138,8 +127,6 @@ def _page(
     done: Audit,
     drawn: list[tuple[Picture, str]],
     tables: list[Table],
-    *,
-    study: bool,
     explorer: str | None,
 ) -> str:
     pages = make_environment()
@@ -151,7 +138,6 @@ def _page(
         tables=tables,
         version=__version__,
         total=len(done.rows),
-        study=study,
         explorer=explorer,
         links=link_figures(explorer) if explorer else {},
     )

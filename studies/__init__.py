@@ -1,0 +1,1 @@
+"""Research that is written with stackbounce, and is no part of it."""
