@@ -78,7 +78,7 @@ def announce(what: str, work: float, way: str) -> None:
     --------
     >>> announce("a fit of 60 numbers", 1e13, "fix some")
     Traceback (most recent call last):
-    stackbounce.errors.InvalidValue: a fit of 60 numbers would take about 2 days: fix some
+    stackbounce.errors.InvalidValue: a fit of 60 numbers would take about 2.3 days: fix some
     """
     seconds = work / _SECOND
     unit = next((unit for unit, size in _UNITS.items() if seconds >= 1.5 * size), "min")
