@@ -13,12 +13,11 @@ _PAPER = (*_FIT, *_PLOTS, "jinja2")
 
 EXTRAS = {
     "sweep": ("dask", "zarr"),
-    "netcdf": ("h5netcdf", "h5py"),
     "cluster": ("distributed",),
     "plots": _PLOTS,
     "masses": ("scipy",),
     "measure": _MEASURE,
-    "sheets": ("openpyxl", "xlrd"),
+    "sheets": ("openpyxl",),
     "fit": _FIT,
     "paper": _PAPER,
     "web": (*_PAPER, "fastapi", "psutil", "pydantic", "python_multipart", "segno", "uvicorn"),

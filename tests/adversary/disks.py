@@ -24,7 +24,6 @@ _FIT = (
 )
 COMMANDS = (
     sweep("map.zarr"),
-    sweep("map.nc"),
     [*sweep("map.zarr"), "--plot", "new.png", "--overwrite"],
     ["simulate", *_PAIR, "--plot", "new.svg", "--overwrite"],
     ["simulate", *_PAIR, "--plot", "new.pdf", "--overwrite"],

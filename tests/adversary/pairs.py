@@ -9,7 +9,7 @@ import time
 from pathlib import Path
 
 from adversary.processes import (
-    KINDS,
+    STORE,
     Ended,
     Forked,
     Undisturbed,
@@ -29,38 +29,33 @@ _ANOTHER = re.compile(r"map\.\w+ exists, and is not this sweep")
 
 def attack(count: int, seed: int, folder: Path) -> list[Failure]:
     """Start so many pairs; in every fourth the second writer has another sweep."""
-    whole = {
-        (suffix, masses): undisturbed(folder, suffix, masses)
-        for suffix in KINDS
-        for masses in MASSES
-    }
+    whole = {masses: undisturbed(folder, masses) for masses in MASSES}
     failures = []
     for index in range(count):
-        random, suffix = random_of(seed, index), KINDS[index % len(KINDS)]
-        both = [MASSES[0], MASSES[index // len(KINDS) % 4 == 0]]
+        random, both = random_of(seed, index), [MASSES[0], MASSES[index % 4 == 0]]
         own = folder / str(index)
         own.mkdir()
-        delay = random.uniform(0.0, 1.2 * whole[suffix, MASSES[0]].seconds)
+        delay = random.uniform(0.0, 1.2 * whole[MASSES[0]].seconds)
         writers = []
         for masses, wait in zip(both, (0.0, delay * random.integers(2)), strict=True):
             time.sleep(wait)
-            writers.append(Forked(sweep(f"map{suffix}", masses), own, folder / "logs"))
+            writers.append(Forked(sweep(STORE, masses), own, folder / "logs"))
         ends = [writer.wait() for writer in writers]
-        wrong = _wrong(own, suffix, ends, [whole[suffix, masses] for masses in both])
+        wrong = _wrong(own, ends, [whole[masses] for masses in both])
         if wrong:
             said = " / ".join(f"{end.code} {end.err.strip()}" for end in ends)
-            failures.append(Failure(wrong, f"{index} ({suffix}): {said}"))
+            failures.append(Failure(wrong, f"{index}: {said}"))
     return failures
 
 
-def _wrong(own: Path, suffix: str, ends: list[Ended], wholes: list[Undisturbed]) -> str:
+def _wrong(own: Path, ends: list[Ended], wholes: list[Undisturbed]) -> str:
     """Return what is wrong with the ends of both writers, and with what they left."""
     if any(end.inner for end in ends):
         return "inner error"
     done = [whole for end, whole in zip(ends, wholes, strict=True) if end.code == 0]
     if not done:
         return "no success"
-    store = content(own / f"map{suffix}")
+    store = content(own / STORE)
     if any(store != whole.files for whole in done):
         return "success with a damaged store"
     same = wholes[0] is wholes[1]
@@ -68,7 +63,7 @@ def _wrong(own: Path, suffix: str, ends: list[Ended], wholes: list[Undisturbed])
         told = _TOLD.search(end.err) or (_ANOTHER.search(end.err) and not same)
         if end.code and not (end.refused and told):
             return "not told who writes"
-    return "junk left" if [path.name for path in own.iterdir()] != [f"map{suffix}"] else ""
+    return "junk left" if [path.name for path in own.iterdir()] != [STORE] else ""
 
 
 if __name__ == "__main__":

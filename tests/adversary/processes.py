@@ -140,16 +140,14 @@ def _listen_to_signals() -> None:
 def _warm() -> None:
     """Import what the commands need, once for all copies, and give sweeps small blocks."""
     with tempfile.TemporaryDirectory() as folder:
-        arguments = [*sweep(f"{folder}/map.nc"), "--plot", f"{folder}/map.svg"]
+        arguments = [*sweep(f"{folder}/{STORE}"), "--plot", f"{folder}/map.svg"]
         with contextlib.redirect_stdout(io.StringIO()):
             _main(arguments)
-    for name in ("zarr", "xarray.backends.zarr"):
-        importlib.import_module(name)
     importlib.import_module("stackbounce.sweeps").write.__kwdefaults__["block"] = BLOCK
 
 
 BLOCK = 64
-KINDS = (".zarr", ".nc")
+STORE = "map.zarr"
 _DROP = ("basketball", "tennis", "--height", "1m")
 
 
@@ -173,17 +171,17 @@ class Undisturbed(NamedTuple):
     seconds: float
 
 
-def undisturbed(folder: Path, suffix: str, masses: int = 30) -> Undisturbed:
+def undisturbed(folder: Path, masses: int = 30) -> Undisturbed:
     """Return what comes of a sweep."""
-    folder = folder / f"undisturbed-{masses}{suffix}"
+    folder = folder / f"undisturbed-{masses}"
     folder.mkdir()
     for _ in range(2):  # the first time some modules are imported
         begun = time.monotonic()
-        ended = run(sweep(f"map{suffix}", masses), folder, folder.parent / "logs")
+        ended = run(sweep(STORE, masses), folder, folder.parent / "logs")
         seconds = time.monotonic() - begun
     if ended.code:
         raise RuntimeError(f"the sweep does not run at all: {ended.err}")
-    return Undisturbed(content(folder / f"map{suffix}"), ended.out, seconds)
+    return Undisturbed(content(folder / STORE), ended.out, seconds)
 
 
 def random_of(seed: int, index: int) -> np.random.Generator:

@@ -1,4 +1,4 @@
-"""Commands that are stopped by signals: `python -m adversary.signals --count 182`, in tests.
+"""Commands that are stopped by signals: `python -m adversary.signals --count 156`, in tests.
 
 No traceback, an exit status that says so, no half a file, no wait; afterwards the same command
 answers as if it had never been stopped.
@@ -40,7 +40,6 @@ class Command(NamedTuple):
 
 COMMANDS = (
     Command(sweep("map.zarr", 3000), ("map.zarr",)),
-    Command(sweep("map.nc", 3000), ("map.nc",)),
     Command(["simulate", *_PAIR, "--plot", "new.svg"], ("new.svg",)),
     Command(
         [
@@ -126,4 +125,4 @@ def judge(
 
 
 if __name__ == "__main__":
-    sys.exit(begin("signals", attack, 182))
+    sys.exit(begin("signals", attack, 156))

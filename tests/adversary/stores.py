@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from adversary.processes import (
-    KINDS,
+    STORE,
     Forked,
     content,
     random_of,
@@ -75,16 +75,6 @@ def array(store: Path, random: Random) -> None:
         (store / name).mkdir()
 
 
-def file(store: Path, random: Random) -> None:
-    """Shorten or garble a file, its first bytes or all of it."""
-    if random.integers(2):
-        _shorten(store, random)
-    else:
-        size = (64, store.stat().st_size)[int(random.integers(2))]
-        with store.open("r+b") as open_file:
-            open_file.write(random.bytes(size))
-
-
 def log(store: Path, random: Random) -> None:
     """Damage the file beside the store that says what is done."""
     path = store.with_name(f"{store.name.removesuffix('.partial')}.progress")
@@ -108,37 +98,33 @@ def nothing(_: Path, __: Random) -> None:
     """Leave the store as it is: the foreign files alone are to be kept."""
 
 
-HARMS: dict[str, tuple[Harm, ...]] = {
-    ".zarr": (chunk, chunk, metadata, array, log, nothing),
-    ".nc": (file, log, nothing),
-}
+HARMS: tuple[Harm, ...] = (chunk, chunk, metadata, array, log, nothing)
 
 
 def attack(count: int, seed: int, folder: Path) -> list[Failure]:
     """Damage so many stores, half of them complete, the others part of a sweep; sweep again."""
-    whole = {suffix: undisturbed(folder, suffix) for suffix in KINDS}
+    whole = undisturbed(folder)
     failures = []
     for index in range(count):
-        random, suffix = random_of(seed, index), KINDS[index % 3 == 2]
+        random = random_of(seed, index)
         own = folder / str(index)
         own.mkdir()
-        store = _made(own, suffix, folder / "logs", complete=bool(index % 2))
-        harms = HARMS[suffix]
-        harm = harms[int(random.integers(len(harms)))]
+        store = _made(own, folder / "logs", complete=bool(index % 2))
+        harm = HARMS[int(random.integers(len(HARMS)))]
         before = content(store)
         harm(store, random)
         harmed = content(store) != before
         foreign = _add_foreign(store, random)
-        ended = run(sweep(f"map{suffix}"), own, folder / "logs")
+        ended = run(sweep(STORE), own, folder / "logs")
         wrong = ""
         if ended.inner or (ended.code and not ended.refused):
             wrong = "inner error"
         elif [path for path in foreign if not _is_kept(path, own)]:
             wrong = "foreign file deleted"
         elif ended.code == 0:
-            files = content(own / f"map{suffix}")
+            files = content(own / STORE)
             ours = {name: file for name, file in files.items() if file != FOREIGN}
-            if ours != whole[suffix].files:
+            if ours != whole.files:
                 wrong = "wrong success"
             elif harmed and store.suffix != ".partial" and not ended.err:
                 wrong = "mended without a word"
@@ -149,9 +135,9 @@ def attack(count: int, seed: int, folder: Path) -> list[Failure]:
     return failures
 
 
-def _made(own: Path, suffix: str, logs: Path, *, complete: bool) -> Path:
+def _made(own: Path, logs: Path, *, complete: bool) -> Path:
     """Return a complete store, or a part of one whose writer was killed."""
-    out = own / f"map{suffix}"
+    out = own / STORE
     partial = out.with_name(f"{out.name}.partial")
     progress = out.with_name(f"{out.name}.progress")
     while True:

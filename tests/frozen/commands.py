@@ -69,7 +69,7 @@ def _written(arguments: Sequence[str]) -> dict[str, Any]:
             files = sorted(path.iterdir()) if path.is_dir() else [path]
             written |= {str(file): _without_mark(file) for file in files}
         elif option == "--out":
-            with _opened(path) as dataset:
+            with xr.open_zarr(path) as dataset:
                 written[value] = {"attributes": dataset.attrs, "values": dataset.load()}
     return written
 
@@ -77,9 +77,3 @@ def _written(arguments: Sequence[str]) -> dict[str, Any]:
 def _without_mark(path: Path) -> str:
     """Return a file without its last line, the digest of the rest, which has no tolerance."""
     return path.read_text(encoding="utf-8").rpartition("# sha256")[0]
-
-
-def _opened(path: Path) -> xr.Dataset:
-    if path.suffix == ".nc":
-        return xr.open_dataset(path, engine="h5netcdf")
-    return xr.open_zarr(path)

@@ -98,7 +98,6 @@ def test_a_plain_install_sweeps():
         (["app"], "web", "stackbounce app"),
         (["simulate", "B1", "--plot", "b1.png"], "plots", "--plot"),
         (["simulate", "B1", "--height", "63 ± 1 cm"], "measure", "a number with an error"),
-        (["sweep", "B1", "--over", "balls.0.mass=1,2", "--out", "a.nc"], "netcdf", "a .nc file"),
         (["sweep", "B1", "--over", "balls.0.mass=1,2", "--out", "a.zarr"], "sweep", "a .zarr file"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",

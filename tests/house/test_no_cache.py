@@ -38,7 +38,6 @@ LIGHT = [
 HEAVY = [
     ["simulate", "B1", "B2", "--plot", "bounce.svg"],
     ["sweep", "B1", "B2", "--over", "gaps.0=0mm:5mm:10", "--out", "gap.zarr"],
-    ["sweep", "B1", "B2", "--over", "gaps.0=0mm:5mm:10", "--out", "gap.nc"],
     [
         "fit", "basketball", "tennis", "--height", "63cm", "--save", "fitted.toml", "--measured",
         "rebound_ratios.1=1.64 ± 0.02", "--vary", "contacts.1.stiffness=0.7kN/m:2.5kN/m",

@@ -13,7 +13,6 @@ from stackbounce.errors import FileError
 from stackbounce.sweeps import grid, write
 from stackbounce.sweeps.progress import only_writer
 
-KINDS = [".zarr", ".nc"]
 VALUES = grid(DROP, OVER)
 
 
@@ -26,11 +25,9 @@ def content(store):
     return {str(one.relative_to(store)): one.read_bytes() for one in paths if one.is_file()}
 
 
-@pytest.fixture(scope="module", params=KINDS)
-def whole(request, tmp_path_factory):
-    if request.param == ".nc":
-        pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
-    return write(tmp_path_factory.mktemp("whole") / f"map{request.param}", DROP, VALUES, block=64)
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    return write(tmp_path_factory.mktemp("whole") / "map.zarr", DROP, VALUES, block=64)
 
 
 @pytest.fixture
@@ -85,22 +82,10 @@ def test_blocks_of_another_shape_than_the_stores(tmp_path):
 
 
 @pytest.mark.parametrize("sides", ["0 0", "7 7 7", "-3 2"])
-def test_sides_that_cannot_be_are_named(out, sides):
+def test_sides_that_cannot_be_are_those_of_the_store(whole, out, sides):
     begin(out)
     log_of(out).write_text(f"# process 1 on x since then\n{sides}\n1\n")
-    with pytest.raises(sb.StackbounceError, match=r"progress is damaged, it has .* remove it"):
-        write(out, DROP, VALUES, block=64)
-
-
-def test_a_netcdf_file_without_a_block_is_not_complete(tmp_path):
-    h5netcdf = pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
-    out = write(tmp_path / "map.nc", DROP, VALUES, block=64)
-    expected = out.read_bytes()
-    with h5netcdf.File(out, "r+") as file:
-        file["status"][4:6, 3:5] = 0
-    with pytest.warns(UserWarning, match="1 of 1 blocks are missing or damaged"):
-        write(out, DROP, VALUES)
-    assert out.read_bytes() == expected
+    assert content(write(out, DROP, VALUES, block=64)) == content(whole)
 
 
 def test_files_of_others_in_a_store_are_kept(tmp_path):

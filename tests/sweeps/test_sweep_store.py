@@ -1,6 +1,5 @@
 """Sweeps larger than memory: killed and resumed to the same bytes, on a cluster, lazily."""
 
-import errno
 import hashlib
 import os
 import signal
@@ -19,8 +18,6 @@ import stackbounce as sb
 from slow_sweep import DROP, OVER
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.sweeps import grid, opened, write
-
-KINDS = [".zarr", ".nc"]
 
 
 class Stopped(Exception):
@@ -41,11 +38,9 @@ def digest(store):
     return found.hexdigest()
 
 
-@pytest.fixture(scope="module", params=KINDS)
-def whole(request, tmp_path_factory):
-    if request.param == ".nc":
-        pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
-    path = tmp_path_factory.mktemp("whole") / f"map{request.param}"
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    path = tmp_path_factory.mktemp("whole") / "map.zarr"
     write(path, DROP, grid(DROP, OVER), block=64)
     return path, digest(path)
 
@@ -94,11 +89,8 @@ PAIRED = {
 }
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_numbers_that_vary_together_are_resumed_to_the_same_bytes(tmp_path, kind):
-    if kind == ".nc":
-        pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
-    one, other = tmp_path / f"one{kind}", tmp_path / f"other{kind}"
+def test_numbers_that_vary_together_are_resumed_to_the_same_bytes(tmp_path):
+    one, other = tmp_path / "one.zarr", tmp_path / "other.zarr"
     write(one, DROP, PAIRED, block=50)
     for _ in range(2):
         with pytest.raises(Stopped):
@@ -341,51 +333,18 @@ def test_a_complete_file_is_read_where_nothing_can_be_written(whole, monkeypatch
     assert write(whole[0], DROP, grid(DROP, OVER), block=64) == whole[0]
 
 
-def test_a_file_that_cannot_be_read_is_named(tmp_path):
-    pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
-    out = write(tmp_path / "map.nc", DROP, grid(DROP, OVER), block=64)
-    os.truncate(out, out.stat().st_size // 2)
-    with pytest.raises(sb.StackbounceError, match=r"map\.nc exists, and cannot be read"):
-        write(out, DROP, grid(DROP, OVER), block=64)
-
-
-def test_netcdf_on_a_full_disk(tmp_path, monkeypatch):
-    pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
-
-    def full(*_):
-        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    out = tmp_path / "map.nc"
-    with monkeypatch.context() as patch:
-        patch.setattr(os, "posix_fallocate", full, raising=False)
-        with pytest.raises(sb.StackbounceError, match="cannot be written: No space left on"):
-            write(out, DROP, grid(DROP, OVER), block=64)
-    write(out, DROP, grid(DROP, OVER), block=64)
-    assert list(tmp_path.iterdir()) == [out]
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_tall_stack_and_no_number_that_varies(tmp_path, kind):
-    if kind == ".nc":
-        pytest.importorskip("h5netcdf", reason="the extra 'netcdf' is not installed")
+def test_a_tall_stack_and_no_number_that_varies(tmp_path):
     tall = sb.Drop([sb.Ball(0.01)] * 1500, [sb.Rigid(0.5)] * 1500, impact_speed=1.0)
     for number, values in enumerate([{}, {"impact_speed": np.array([1.0, 2.0])}]):
-        out = write(tmp_path / f"{number}{kind}", tall, values, event_limit=100)
+        out = write(tmp_path / f"{number}.zarr", tall, values, event_limit=100)
         with opened(out) as data:
             assert data.attrs["drop"] == tall.to_toml()
             assert np.isfinite(data.rebound_ratio.values).all()
 
 
 def test_a_name_that_is_no_kind_of_file(tmp_path):
-    with pytest.raises(sb.StackbounceError, match=r"must end in .zarr or .nc, got 'map.h5'"):
+    with pytest.raises(sb.StackbounceError, match=r"must end in .zarr, got 'map.h5'"):
         write(tmp_path / "map.h5", DROP, grid(DROP, OVER))
-    assert not list(tmp_path.iterdir())
-
-
-def test_netcdf_that_is_not_installed(tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "h5netcdf", None)
-    with pytest.raises(sb.StackbounceError, match=r"pip install 'stackbounce\[netcdf\]'"):
-        write(tmp_path / "map.nc", DROP, grid(DROP, OVER))
     assert not list(tmp_path.iterdir())
 
 

@@ -76,8 +76,8 @@ def run(
         typer.Option(
             metavar="FILE",
             readable=False,
-            help="File to write all results to: a Zarr store such as map.zarr, or NetCDF such as "
-            "map.nc. Stopped, the same command goes on where it was.",
+            help="Zarr store to write all results to, such as map.zarr. Stopped, the same command "
+            "goes on where it was.",
             show_default=False,
         ),
     ],
@@ -100,7 +100,7 @@ def run(
     as_json: AsJson = False,
     **given: Any,
 ) -> None:
-    """Drop a stack for all combinations of other numbers in it, into a Zarr or NetCDF file."""
+    """Drop a stack for all combinations of other numbers in it, into a Zarr store."""
     from stackbounce.cli import scenario
 
     check_picture(plot, overwrite)

@@ -1,21 +1,17 @@
-"""The file formats of a sweep larger than memory: a Zarr store, or NetCDF-4.
+"""The file of a sweep larger than memory: a Zarr store of format 2.
 
-A file is first made with all its coordinates and no results. The results are then written block by
-block; a block whose writing was interrupted is written again. A block is a chunk of the Zarr store.
-In a NetCDF file each array is contiguous, so that a block has a fixed place. In neither format do
-the bytes depend on the order of writing.
+It is first made with all its coordinates and no results. The results are then written block by
+block, each a chunk of the store; one whose writing was interrupted is written again. The bytes do
+not depend on the order of writing.
 """
 
 import contextlib
-import errno
 import json
 import math
-import os
 import re
-import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +23,8 @@ from stackbounce.run.blocks import Block, blocks
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["Form", "Format", "format_of"]
+__all__ = ["Form", "check_name", "create", "lost", "opened", "writer"]
 
-_HEADER = 2**20  # bytes of a NetCDF file besides its results, about
 _UNFINISHED = re.compile(r"\.[0-9a-f]{32}\.partial$")  # a chunk that zarr was writing
 Writer: TypeAlias = Callable[[Block, "xr.Dataset"], None]
 
@@ -94,152 +89,66 @@ class Form:
         )
 
 
-class Format(Protocol):
-    """The operations that a file format must provide."""
+def create(path: Path, form: Form) -> None:
+    """Create a store with all its coordinates and no results."""
+    import zarr
 
-    def create(self, path: Path, form: Form) -> None:
-        """Create a file with all its coordinates and no results."""
-
-    def writer(self, path: Path) -> contextlib.AbstractContextManager[Writer]:
-        """Open a file for writing; yield a function that writes the results of one block."""
-
-    def opened(self, path: Path) -> "xr.Dataset":
-        """Open a file; numbers are read lazily."""
-
-    def lost(
-        self, path: Path, form: Form, sides: Sequence[int]
-    ) -> tuple[tuple[int, ...], list[int]]:
-        """Return the sides of a block, and the numbers of the blocks that are not there.
-
-        The sides are those of the file if it has blocks of its own.
-        """
-
-    def remove(self, path: Path) -> None:
-        """Remove a file."""
+    group = zarr.create_group(path, zarr_format=2, attributes=form.marked)
+    for name, one in (form.results | form.coordinates).items():
+        own = name in form.coordinates
+        array = group.create_array(
+            name,
+            shape=form.shape(one),
+            chunks=form.shape(one) if own else form.chunk(one),
+            dtype=one.dtype,
+            fill_value=math.nan if one.dtype.kind == "f" else None,
+            attributes={**one.attrs, "_ARRAY_DIMENSIONS": [str(dim) for dim in one.dims]},
+        )
+        if own:
+            array[...] = form.values[name]
+    zarr.consolidate_metadata(group.store)
 
 
-class _Zarr:
-    """A Zarr store, of format 2."""
+@contextlib.contextmanager
+def writer(path: Path) -> Iterator[Writer]:
+    """Open a store for writing; yield a function that writes the results of one block."""
+    import zarr
 
-    def create(self, path: Path, form: Form) -> None:
-        import zarr
+    for leftover in path.rglob("*.partial"):
+        if _UNFINISHED.search(leftover.name):
+            leftover.unlink()
+    with zarr.config.set({"array.write_empty_chunks": True}):  # a chunk that lacks is lost
+        group: Any = zarr.open_group(path, mode="r+")
+        arrays = dict(group.arrays())
 
-        group = zarr.create_group(path, zarr_format=2, attributes=form.marked)
-        for name, one in (form.results | form.coordinates).items():
-            own = name in form.coordinates
-            array = group.create_array(
-                name,
-                shape=form.shape(one),
-                chunks=form.shape(one) if own else form.chunk(one),
-                dtype=one.dtype,
-                fill_value=math.nan if one.dtype.kind == "f" else None,
-                attributes={**one.attrs, "_ARRAY_DIMENSIONS": [str(dim) for dim in one.dims]},
-            )
-            if own:
-                array[...] = form.values[name]
-        zarr.consolidate_metadata(group.store)
+        def write(block: Block, data: "xr.Dataset") -> None:
+            for name, one in data.data_vars.items():
+                arrays[name][block] = one.values
 
-    @contextlib.contextmanager
-    def writer(self, path: Path) -> Iterator[Writer]:
-        import zarr
-
-        for leftover in path.rglob("*.partial"):
-            if _UNFINISHED.search(leftover.name):
-                leftover.unlink()
-        with zarr.config.set({"array.write_empty_chunks": True}):  # a chunk that lacks is lost
-            group: Any = zarr.open_group(path, mode="r+")
-            arrays = dict(group.arrays())
-
-            def write(block: Block, data: "xr.Dataset") -> None:
-                for name, one in data.data_vars.items():
-                    arrays[name][block] = one.values
-
-            yield write
-
-    def opened(self, path: Path) -> "xr.Dataset":
-        import xarray as xr
-
-        _check_metadata(path)
-        return xr.open_dataset(path, engine="zarr", chunks=None)
-
-    def lost(
-        self, path: Path, form: Form, sides: Sequence[int]
-    ) -> tuple[tuple[int, ...], list[int]]:
-        import zarr
-
-        group: Any = zarr.open_group(path, mode="r")
-        arrays = {name: group[name] for name in form.results}
-        sides = tuple(next(iter(arrays.values())).chunks[: len(form.grid)])
-        lost = []
-        for number, block in enumerate(blocks(form.grid, sides)):
-            place = [side.start // length for side, length in zip(block, sides, strict=True)]
-            if not all(
-                _is_there(path / name, array, place, block) for name, array in arrays.items()
-            ):
-                lost.append(number)
-        return sides, lost
-
-    def remove(self, path: Path) -> None:
-        shutil.rmtree(path)
+        yield write
 
 
-class _NetCDF:
-    """A NetCDF-4 file."""
+def opened(path: Path) -> "xr.Dataset":
+    """Open a store; numbers are read when they are needed."""
+    import xarray as xr
 
-    def create(self, path: Path, form: Form) -> None:
-        import h5netcdf
+    _check_metadata(path)
+    return xr.open_dataset(path, engine="zarr", chunks=None)
 
-        numbers = sum(math.prod(form.shape(one)) for one in form.results.values())
-        _reserve(path, 8 * numbers + _HEADER)  # HDF5 crashes where the disk is full
-        path.unlink()
-        with h5netcdf.File(path, "w") as file:
-            file.attrs.update(form.marked)
-            file.dimensions = form.sizes
-            for name, one in (form.results | form.coordinates).items():
-                array = file.create_variable(name, one.dims, one.dtype)
-                array.attrs.update(
-                    {
-                        key: np.asarray(value) if isinstance(value, list) else value
-                        for key, value in one.attrs.items()
-                    }
-                )
-                if name in form.coordinates:
-                    array[...] = form.values[name]
-                elif math.prod(array.shape):  # its place in the file is settled here
-                    array[(0,) * array.ndim] = 0
-        _reserve(path, path.stat().st_size)
 
-    @contextlib.contextmanager
-    def writer(self, path: Path) -> Iterator[Writer]:
-        import h5netcdf
+def lost(path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:
+    """Return the sides of a block, and the numbers of the blocks that are not there."""
+    import zarr
 
-        with h5netcdf.File(path, "r+") as file:
-
-            def write(block: Block, data: "xr.Dataset") -> None:
-                for name, one in data.data_vars.items():
-                    file[name][block] = one.values
-                file.flush()
-
-            yield write
-
-    def opened(self, path: Path) -> "xr.Dataset":
-        import xarray as xr
-
-        return xr.open_dataset(path, engine="h5netcdf", chunks=None)
-
-    def lost(
-        self, path: Path, form: Form, sides: Sequence[int]
-    ) -> tuple[tuple[int, ...], list[int]]:
-        with self.opened(path) as data:
-            lost = [
-                number
-                for number, block in enumerate(blocks(form.grid, sides))
-                if (data["status"][block] == 0).any()  # no status is 0
-            ]
-        return tuple(sides), lost
-
-    def remove(self, path: Path) -> None:
-        path.unlink()
+    group: Any = zarr.open_group(path, mode="r")
+    arrays = {name: group[name] for name in form.results}
+    sides = tuple(next(iter(arrays.values())).chunks[: len(form.grid)])
+    missing = []
+    for number, block in enumerate(blocks(form.grid, sides)):
+        place = [side.start // length for side, length in zip(block, sides, strict=True)]
+        if not all(_is_there(path / name, array, place, block) for name, array in arrays.items()):
+            missing.append(number)
+    return sides, missing
 
 
 def _check_metadata(store: Path) -> None:
@@ -265,36 +174,25 @@ def _is_there(folder: Path, array: Any, place: Sequence[int], block: Block) -> b
     return True
 
 
-def _reserve(path: Path, size: int) -> None:
-    """Reserve the room for a file on the disk, as far as the system can."""
-    with path.open("ab") as file:
-        if hasattr(os, "posix_fallocate"):
-            os.posix_fallocate(file.fileno(), 0, size)
-        elif shutil.disk_usage(path.parent).free < size:
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-
-_FORMATS: dict[str, Format] = {".zarr": _Zarr(), ".nc": _NetCDF()}
-
-
-def format_of(path: Path) -> Format:
-    """Return the file format that the suffix of a path stands for.
+def check_name(path: Path) -> None:
+    """Refuse a name that is not that of a Zarr store.
 
     Raises
     ------
     InvalidValue
-        If the suffix is not ``.zarr`` or ``.nc``.
+        If it does not end in ``.zarr``.
     MissingExtra
-        If a library that it needs is not installed.
+        If zarr is not installed.
 
     Examples
     --------
-    >>> format_of(Path("map.txt"))
+    >>> check_name(Path("map.txt"))
     Traceback (most recent call last):
-    stackbounce.errors.InvalidValue: a sweep's file must end in .zarr or .nc, got 'map.txt'
+    stackbounce.errors.InvalidValue: a sweep's file must end in .zarr, got 'map.txt'
     """
     suffix = path.suffix.lower()
-    if suffix not in _FORMATS:
-        raise InvalidValue(f"a sweep's file must end in .zarr or .nc, got {shown(path.name)}")
-    need("netcdf" if suffix == ".nc" else "sweep", f"a {suffix} file")
-    return _FORMATS[suffix]
+    if suffix != ".zarr":
+        to = f".to_netcdf({path.name!r})"
+        way = f"; xarray.open_zarr('map.zarr'){to} makes one of it" if suffix == ".nc" else ""
+        raise InvalidValue(f"a sweep's file must end in .zarr, got {shown(path.name)}{way}")
+    need("sweep", "a .zarr file")

@@ -16,7 +16,7 @@ import os
 import platform
 import stat
 import time
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
@@ -64,13 +64,6 @@ class Progress:
         except ValueError:
             raise self._damaged(whole[:40]) from None
         self._length = len(whole)
-
-    def sides_of(self, grid: Sequence[int]) -> tuple[int, ...]:
-        """Return the sides of a block of a grid; raise FileError if they cannot be."""
-        sides = self.sides or ()
-        if len(sides) != len(grid) or min(sides, default=1) < 1:
-            raise self._damaged(" ".join(map(str, sides)))
-        return sides
 
     def sign(self) -> None:
         """Note that this process is the writer from now on."""

@@ -9,6 +9,7 @@ can be read; those that cannot are computed again.
 import contextlib
 import math
 import re
+import shutil
 import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import CancelledError
@@ -21,8 +22,9 @@ from numpy.typing import NDArray
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
+from stackbounce.sweeps import files
 from stackbounce.sweeps.dataset import check_along, read_values, sweep
-from stackbounce.sweeps.files import Form, Format, format_of
+from stackbounce.sweeps.files import Form
 from stackbounce.sweeps.progress import Progress, only_writer, tidy
 
 if TYPE_CHECKING:
@@ -56,8 +58,8 @@ def write(
     Parameters
     ----------
     out : str or path-like
-        The file: a Zarr store if it ends in ``.zarr``, NetCDF-4 if in ``.nc``, for which the extra
-        ``netcdf`` must be installed. It must not exist yet unless it is the same sweep, complete.
+        The Zarr store, whose name ends in ``.zarr``. It must not exist yet unless it is the same
+        sweep, complete. ``xarray.open_zarr(out).to_netcdf("map.nc")`` makes a NetCDF file of it.
     drop : Drop
         The base.
     values : mapping
@@ -76,7 +78,7 @@ def write(
     Returns
     -------
     pathlib.Path
-        The file, to be opened with ``xarray.open_zarr`` or ``xarray.open_dataset``.
+        The file, to be opened with ``xarray.open_zarr``.
 
     Raises
     ------
@@ -97,7 +99,7 @@ def write(
     array([1, 1, 1, 1, 1])
     """
     out, tell = Path(out), progress or _tell_nobody
-    kind = format_of(out)
+    files.check_name(out)
     if block < 1:
         raise InvalidValue(f"block must be a number of drops, 1 or above, got {block}")
     axes = _read_axes(drop, values)
@@ -106,12 +108,12 @@ def write(
     form = Form(first, axes, sides(shape, block))
     total = math.prod(shape)
     try:
-        if _is_complete(out, kind, form):
+        if _is_complete(out, form):
             tidy(out)
             tell(total, total)
             return out
         with only_writer(out) as log:
-            partial = _begin(out, kind, form, log)
+            partial = _begin(out, form, log)
             if partial is None:  # it has been completed by now
                 tell(total, total)
                 return out
@@ -119,7 +121,7 @@ def write(
             finished = sum(size(one) for k, one in cut if k in log.done)
             tell(finished, total)
             todo = ((k, one) for k, one in cut if k not in log.done)
-            with kind.writer(partial) as put:
+            with files.writer(partial) as put:
                 for k, one, data in _solved(drop, axes, todo, options, client):
                     put(one, data)
                     log.add(k)
@@ -136,7 +138,7 @@ def write(
 
 def opened(path: str | Path) -> "xr.Dataset":
     """Open what `write` has written; numbers are read when they are needed."""
-    return format_of(Path(path)).opened(Path(path))
+    return files.opened(Path(path))
 
 
 def _read_axes(drop: Drop, values: Mapping[str, Any]) -> _Axes:
@@ -164,16 +166,16 @@ def _tell_nobody(done: int, total: int) -> None:
     pass
 
 
-def _is_complete(out: Path, kind: Format, form: Form) -> bool:
+def _is_complete(out: Path, form: Form) -> bool:
     """Return whether the complete file of this sweep exists; raise if it holds another sweep."""
     if not out.exists():
         return False
-    if not _is_same(out, kind, form):
+    if not _is_same(out, form):
         raise FileError(f"{out} exists, and is not this sweep: remove it or choose another name")
-    return not kind.lost(out, form, form.sides)[1]
+    return not files.lost(out, form)[1]
 
 
-def _begin(out: Path, kind: Format, form: Form, log: Progress) -> Path | None:
+def _begin(out: Path, form: Form, log: Progress) -> Path | None:
     """Create the partial file or resume it, as its writer; return None if the sweep is complete."""
     partial = out.with_name(f"{out.name}.partial")
     if partial.exists() and not log.is_known:
@@ -184,52 +186,52 @@ def _begin(out: Path, kind: Format, form: Form, log: Progress) -> Path | None:
         )
     log.sign()
     try:
-        if _is_complete(out, kind, form):
+        if _is_complete(out, form):
             log.remove()
             return None
         if partial.exists() and log.sides is not None:
-            _resume(out, partial, kind, form, log)
+            _resume(out, partial, form, log)
         elif out.exists():
-            _mend(out, partial, kind, form, log)
+            _mend(out, partial, form, log)
         else:
-            _create(partial, kind, form, log)
+            _create(partial, form, log)
     except FileError:
         log.withdraw()
         raise
     return partial
 
 
-def _create(partial: Path, kind: Format, form: Form, log: Progress) -> None:
+def _create(partial: Path, form: Form, log: Progress) -> None:
     """Create the partial file, after a writer that was stopped while it did."""
     if partial.exists():
-        kind.remove(partial)
-    kind.create(partial, form)
+        shutil.rmtree(partial)
+    files.create(partial, form)
     log.begin(form.sides)
 
 
-def _resume(out: Path, partial: Path, kind: Format, form: Form, log: Progress) -> None:
+def _resume(out: Path, partial: Path, form: Form, log: Progress) -> None:
     """Go on with the partial file; blocks that are not in it are not done, whatever the log has."""
     if out.exists():
         raise FileError(
             f"{out} has lost blocks, and {partial} is a second one, not complete: "
             "remove one of the two"
         )
-    if not _is_same(partial, kind, form):
+    if not _is_same(partial, form):
         raise FileError(
             f"{partial} is part of another sweep: remove it and {partial.stem}.progress, "
             "or choose another name"
         )
-    sides, lost = kind.lost(partial, form, log.sides_of(form.grid))
+    sides, lost = files.lost(partial, form)
     if sides != log.sides:
         log.begin(sides, set(range(_count(form, sides))) - set(lost))
     log.done -= set(lost)
 
 
-def _mend(out: Path, partial: Path, kind: Format, form: Form, log: Progress) -> None:
+def _mend(out: Path, partial: Path, form: Form, log: Progress) -> None:
     """Make a whole file that has lost blocks the partial one."""
     if partial.exists():
-        kind.remove(partial)
-    sides, lost = kind.lost(out, form, form.sides)
+        shutil.rmtree(partial)
+    sides, lost = files.lost(out, form)
     count = _count(form, sides)
     warnings.warn(
         f"{out}: {len(lost)} of {count} blocks are missing or damaged, and computed again",
@@ -243,10 +245,10 @@ def _count(form: Form, sides: Sequence[int]) -> int:
     return sum(1 for _ in blocks(form.grid, sides))
 
 
-def _is_same(path: Path, kind: Format, form: Form) -> bool:
+def _is_same(path: Path, form: Form) -> bool:
     """Return whether a file is of this sweep; raise if it cannot be read."""
     try:
-        with kind.opened(path) as found:
+        with files.opened(path) as found:
             return form.is_of(found)
     except (KeyError, ValueError):
         return False

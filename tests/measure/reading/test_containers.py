@@ -110,42 +110,16 @@ def test_a_bomb_of_entities_is_no_spreadsheet(read):
         read(content.getvalue())
 
 
-def test_an_old_spreadsheet(read, monkeypatch):
-    """No program here writes .xls, so that the reader's cells are made up."""
-
-    class Sheet:
-        nrows, name = 3, "Raw Data"
-
-        def row_values(self, k):
-            return [["Time (s)", "Force (N)"], [0.0, 1.5], [0.5, 2.5]][k]
-
-    class Book:
-        def sheet_names(self):
-            return ["Raw Data"]
-
-        def sheet_by_name(self, name):
-            assert name == "Raw Data"
-            return Sheet()
-
-    import xlrd
-
-    content = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600)
-    with pytest.raises(FileError, match=r"cannot be read \(.*\): save it as CSV"):
-        read(content)
-    monkeypatch.setattr(xlrd, "open_workbook", lambda **_: Book())
-    assert read(content).force.values.tolist() == [1.5, 2.5]
+def test_an_old_spreadsheet_is_refused(read):
+    with pytest.raises(FileError, match=r"an old Excel file \(.xls\): save it as .xlsx or CSV"):
+        read(b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1" + bytes(600))
 
 
-@pytest.mark.parametrize(("content", "what"), [
-    (xlsx({"a": [["Time (s)", "Force (N)"], [0, 1]]}), r"an Excel file \(.xlsx\)"),
-    (b"\xd0\xcf\x11\xe0" + bytes(600), r"an old Excel file \(.xls\)"),
-])  # fmt: skip
-def test_a_missing_reader_is_named(read, monkeypatch, content, what):
-    for module in ("openpyxl", "xlrd"):
-        monkeypatch.setitem(sys.modules, module, None)
-    words = rf"{what} needs openpyxl, xlrd: pip install 'stackbounce\[sheets\]'"
+def test_a_missing_reader_is_named(read, monkeypatch):
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+    words = r"an Excel file \(.xlsx\) needs openpyxl: pip install 'stackbounce\[sheets\]'"
     with pytest.raises(MissingExtra, match=words):
-        read(content)
+        read(xlsx({"a": [["Time (s)", "Force (N)"], [0, 1]]}))
 
 
 # --- Tracker's own files

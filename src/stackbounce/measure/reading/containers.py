@@ -4,6 +4,7 @@ A zip archive, a spreadsheet, and the XML of Tracker and Logger Pro are opened h
 in them are then read like any other file, so that a program's layout is known in one place.
 """
 
+from stackbounce.errors import FileError
 from stackbounce.measure.reading import projects, sheets, zipped
 from stackbounce.measure.reading.tables import Tables
 
@@ -23,5 +24,5 @@ def tables_in(content: bytearray) -> Tables | None:
     if content.startswith((b"PK\x03\x04", b"PK\x05\x06")):
         return sheets.from_xlsx(content) if zipped.is_xlsx(content) else zipped.members(content)
     if content.startswith(b"\xd0\xcf\x11\xe0"):
-        return sheets.from_xls(content)
+        raise FileError("it is an old Excel file (.xls): save it as .xlsx or CSV")
     return projects.tables(content)

@@ -1,16 +1,16 @@
-"""Spreadsheets of Excel: .xlsx by openpyxl, .xls by xlrd; each sheet is a table."""
+"""Spreadsheets of Excel: .xlsx by openpyxl; each sheet is a table."""
 
 import io
 import re
 import warnings
 import zipfile
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from stackbounce.errors import FileError, shown
 from stackbounce.extras import need
 from stackbounce.measure.reading.tables import Tables, as_text
 
-__all__ = ["from_xls", "from_xlsx"]
+__all__ = ["from_xlsx"]
 
 _CELLS = 2**19
 """Cells of a spreadsheet, at most: some seconds."""
@@ -33,35 +33,14 @@ def from_xlsx(content: bytearray) -> Tables:
         If openpyxl is not installed.
     """
     need("sheets", "an Excel file (.xlsx)")
-    return _opened(_xlsx, content)
-
-
-def from_xls(content: bytearray) -> Tables:
-    """Return the sheets of an .xls file, of Excel 97 to 2003.
-
-    Raises
-    ------
-    FileError
-        If it is broken, has no numbers, or is too large.
-    MissingExtra
-        If xlrd is not installed.
-    """
-    need("sheets", "an old Excel file (.xls)")
-    return _opened(_xls, content)
-
-
-def _opened(
-    sheets: Callable[[bytearray], Iterator[tuple[str, _Rows]]], content: bytearray
-) -> Tables:
-    """Return the sheets with cells in them; a broken file fails in too many ways to list them."""
     left = [_CELLS]
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")  # of parts that hold no cells, such as styles
-            found = {name: as_text(_bounded(rows, left)) for name, rows in sheets(content)}
+            found = {name: as_text(_bounded(rows, left)) for name, rows in _sheets(content)}
     except (FileError, MemoryError):
         raise
-    except Exception as error:
+    except Exception as error:  # a broken file fails in too many ways to list them
         own = type(error).__module__ in ("builtins", "struct")  # of Python: no word for a user
         why = "it is damaged" if own else " ".join(str(error).split())[:200]
         raise FileError(
@@ -74,7 +53,7 @@ def _opened(
     return Tables(found, "", "it is a sheet of a spreadsheet", "spreadsheet", ".")
 
 
-def _xlsx(content: bytearray) -> Iterator[tuple[str, _Rows]]:
+def _sheets(content: bytearray) -> Iterator[tuple[str, _Rows]]:
     import openpyxl
 
     with zipfile.ZipFile(io.BytesIO(content)) as archive:
@@ -88,15 +67,6 @@ def _xlsx(content: bytearray) -> Iterator[tuple[str, _Rows]]:
     for sheet in book.worksheets:
         sheet.reset_dimensions()  # what the file says of its size may be wrong
         yield sheet.title, sheet.iter_rows(values_only=True)
-
-
-def _xls(content: bytearray) -> Iterator[tuple[str, _Rows]]:
-    import xlrd
-
-    silent = io.StringIO()  # xlrd prints what it finds odd
-    book = xlrd.open_workbook(file_contents=bytes(content), logfile=silent, on_demand=True)
-    for sheet in map(book.sheet_by_name, book.sheet_names()):
-        yield sheet.name, (sheet.row_values(k) for k in range(sheet.nrows))
 
 
 def _bounded(rows: _Rows, left: list[int]) -> Iterator[list[object]]:
