@@ -262,7 +262,7 @@ def _range(low: float, high: float) -> str:
 
 
 def _is(kind: type, value: object) -> bool:
-    """Tell whether `value` is a number of a kind; a bool and numpy's timedelta64 are not."""
+    """Return whether `value` is a number of a kind; a bool and numpy's timedelta64 are not."""
     number = isinstance(value, kind) and not isinstance(value, bool)
     return number and getattr(getattr(value, "dtype", None), "kind", "f") in "iuf"
 

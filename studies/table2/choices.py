@@ -83,7 +83,7 @@ class Choice(NamedTuple):
         return self.theory(THEORIES[name]).model(pairs)
 
     def same(self, other: "Choice", name: str) -> bool:
-        """Tell whether a model has the same inputs with another choice."""
+        """Return whether a model has the same inputs with another choice."""
         if self.data() != other.data():
             return False
         if name in NAMES:

@@ -125,7 +125,7 @@ def _beats(better: str, worse: str) -> Callable[[ChoiceFits, str], bool]:
 
 
 def _bounces(fits: ChoiceFits, choice: str) -> bool:
-    """Tell whether B1 alone has a restitution above 0.82 in every model near the smallest BIC."""
+    """Return whether B1 alone has a restitution above 0.82 in every model near the smallest BIC."""
     near = [name for name, one in _column(fits, choice).items() if one.behind <= NEAR]
     fall = np.array([inputs.HEIGHT])
     return all(predict_restitutions(fits.columns[choice], name, fall)[0] > _PLAIN for name in near)

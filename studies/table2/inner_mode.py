@@ -272,7 +272,7 @@ def _swings(parts: list[_Ball], at: Array, velocity: Array) -> list[float]:
 
 
 def _apart(parts: list[_Ball], at: Array, velocity: Array) -> bool:
-    """Tell whether balls that vibrate freely can never touch again."""
+    """Return whether balls that vibrate freely can never touch again."""
     height, speed, reach = 0.0, 0.0, 0.0  # of the floor, and how far it comes up
     centres, speeds = _centres(parts, at), _centres(parts, velocity)
     swings = _swings(parts, at, velocity)

@@ -79,7 +79,7 @@ def _size(path: str, table: dict[str, Any]) -> float:
 
 
 def same(old: float, new: float, exact: bool, size: float = 0.0) -> bool:
-    """Tell whether two numbers are the same, `size` being that of the numbers around them."""
+    """Return whether two numbers are the same, `size` being that of the numbers around them."""
     if exact:
         return type(old) is type(new) and (old == new if isinstance(old, int) else _bits(old, new))
     if math.isnan(old) or math.isnan(new) or math.isinf(old) or math.isinf(new):

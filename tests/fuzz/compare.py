@@ -23,7 +23,7 @@ _BEGUN = 1e-14  # of the momentum: what an interval under way has exerted if it 
 
 
 def plainly(batch: Batch, row: int) -> str:
-    """Tell whether a drop has the same status, velocities and counts as plain Python."""
+    """Return whether a drop has the same status, velocities and counts as plain Python."""
     size = batch.drops.mass.shape[1]
     found = batch.found[row]
     plain = sb.simulate(drop_of(batch.drops, row), **options_of(batch.drops, row), compiled=False)
@@ -38,20 +38,20 @@ def plainly(batch: Batch, row: int) -> str:
 
 
 def can_be_compared_plainly(batch: Batch, row: int) -> bool:
-    """Tell whether a drop is not too long a story for plain Python."""
+    """Return whether a drop is not too long a story for plain Python."""
     found = batch.found[row]
     return bool(found[drive.STATUS] != codes.EVENT_LIMIT and found[drive.EVENT_COUNT] < _EVENTS)
 
 
 def can_be_integrated(batch: Batch, row: int) -> bool:
-    """Tell whether the reference knows a drop's laws, and its end."""
+    """Return whether the reference knows a drop's laws, and its end."""
     other = np.any(batch.drops.law[row] == drive.RELAXING)
     ended = batch.found[row, drive.STATUS] in (sb.Status.FINISHED, sb.Status.TIME_REACHED)
     return bool(ended and not other)
 
 
 def otherwise(batch: Batch, row: int) -> str:
-    """Tell whether a drop has the velocities and counts of collocation in short steps.
+    """Return whether a drop has the velocities and counts of collocation in short steps.
 
     Where they differ, the reference begins again, each time with the velocity of one ball slightly
     changed: counts that change with it, or that it doubts itself, are doubtful, and velocities may

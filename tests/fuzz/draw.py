@@ -64,7 +64,7 @@ class Drops(NamedTuple):
 
 
 def is_rigid(batch: int) -> bool:
-    """Tell whether a batch is of rigid stacks."""
+    """Return whether a batch is of rigid stacks."""
     return batch % RIGID_EVERY == RIGID_EVERY - 1
 
 

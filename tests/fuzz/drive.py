@@ -124,7 +124,7 @@ def run(
 
 @kernel
 def comes_too_late(stack: Any) -> bool:
-    """Tell whether the clock cannot tell a contact's parts apart any more: stated to be invalid."""
+    """Return whether the clock cannot tell a contact's parts apart: stated to be invalid."""
     for i in range(len(stack.mass)):
         speed = abs(stack.velocity[i]) + (abs(stack.velocity[i - 1]) if i > 0 else 0.0)
         if 4.0 * EPSILON * stack.clock[LAST_CHECK] * speed > 1e-5 * stack.scale[i]:

@@ -18,7 +18,7 @@ FEW = chosen(
 
 
 def possible(share, count):
-    """Tell whether a share can come from a true one of 60 to 76 %, by chance of one in a hundred.
+    """Return whether a share can come from a true one of 60 to 76 %, by chance of one in a hundred.
 
     `count` is of independent trials.
     """

@@ -46,7 +46,7 @@ def path(tmp_path_factory):
 
 
 def possible(hits, count):
-    """Tell whether so many of some trials can lie within one sigma, by chance of 1 in 100."""
+    """Return whether so many of some trials can lie within one sigma, by chance of 1 in 100."""
     return binom.cdf(hits, count, 0.683) > 0.005 and binom.sf(hits - 1, count, 0.683) > 0.005
 
 

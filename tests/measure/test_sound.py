@@ -18,7 +18,7 @@ FALL = falls(0.5, 0.8, bounces=10)
 
 
 def as_true(found, fall, before=0.5):
-    """Tell whether each bounce was found, and nothing else."""
+    """Return whether each bounce was found, and nothing else."""
     seen = np.array([one.nominal_value for one in found.times])
     true = fall.touches - fall.touches[0] + before
     return len(seen) == len(true) and np.abs(seen - true).max() < 1.5e-3

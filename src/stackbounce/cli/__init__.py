@@ -121,7 +121,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _follows_an_interruption(error: BaseException | None) -> bool:
-    """Tell whether Ctrl+C led to an error, as to one of a compiled module that was imported."""
+    """Return whether Ctrl+C led to an error, as to one of a compiled module that was imported."""
     while error is not None and not isinstance(error, KeyboardInterrupt):
         error = error.__cause__ or error.__context__
     return error is not None

@@ -407,7 +407,7 @@ def _print_pulls(console: "Console", done: Comparison) -> None:
 
 
 def _is_timed(data: Mapping[str, Any]) -> bool:
-    """Tell whether a time or a force record was measured."""
+    """Return whether a time or a force record was measured."""
     names = [name.partition(".")[0] for name in data]
     timed = {"force"} | {name for name, one in QUANTITIES.items() if one.unit == "s"}
     return not timed.isdisjoint(names)

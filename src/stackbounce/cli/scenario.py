@@ -121,7 +121,7 @@ def read_contact(text: str, path: str) -> ContactLaw | None:
 
 
 def is_file(name: str) -> bool:
-    """Tell whether an argument is the name of a file, and not of a ball of the catalogue.
+    """Return whether an argument is the name of a file, and not of a ball of the catalogue.
 
     Examples
     --------

@@ -110,7 +110,7 @@ def _deviation(stack: Stack, b: int, time: float) -> float:
 
 @kernel
 def have_parted(stack: Stack, time: float) -> bool:
-    """Tell whether all contacts but the bonds are open, and stay so without gravity."""
+    """Return whether all contacts but the bonds are open, and stay so without gravity."""
     for i in range(len(stack.mass)):
         if stack.bonded[i] == 1 or stack.law[i] == ABSENT:
             continue

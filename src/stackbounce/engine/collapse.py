@@ -313,13 +313,13 @@ def compare_with_kept(stack: RigidStack, contact: int) -> tuple[int, int, float]
 
 @kernel
 def _are_still(stack: RigidStack, i: int, j: int) -> bool:
-    """Tell whether, without gravity, the rates of contacts i and j are close to underflow."""
+    """Return whether, without gravity, the rates of contacts i and j are close to underflow."""
     return stack.number[GRAVITY] == 0.0 and _is_still(stack, i) and _is_still(stack, j)
 
 
 @kernel
 def _is_still(stack: RigidStack, i: int) -> bool:
-    """Tell whether the rate of contact i is close to underflow."""
+    """Return whether the rate of contact i is close to underflow."""
     return abs(stack.rate[i]) * stack.number[UNIT] < _VANISHED * stack.number[SPEED]
 
 

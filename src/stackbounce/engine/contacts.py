@@ -208,7 +208,7 @@ def record_peak(stack: Stack, i: int, compression: float, pressing: float, time:
 
 @kernel
 def changes_curve(stack: Stack, i: int, kind: int) -> bool:
-    """Tell whether the force follows another curve after an event inside an interval."""
+    """Return whether the force follows another curve after an event inside an interval."""
     return has_hysteresis(stack, i) or kind not in (PEAK, RETURNED)
 
 

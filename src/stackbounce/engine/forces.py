@@ -149,7 +149,7 @@ def check_form(kind: int) -> None:
 
 @kernel
 def is_nonlinear(stack: Stack, i: int) -> bool:
-    """Tell whether the force of contact i can be nonlinear, but for straight pieces."""
+    """Return whether the force of contact i can be nonlinear, but for straight pieces."""
     if stack.law[i] == PIECEWISE:
         return not has_one_curve(stack, i)
     if stack.law[i] == PRODUCT:
@@ -159,7 +159,7 @@ def is_nonlinear(stack: Stack, i: int) -> bool:
 
 @kernel
 def is_linear(stack: Stack, i: int) -> bool:
-    """Tell whether the force of a pressing contact is now a constant times its compression."""
+    """Return whether the force of a pressing contact is now a constant times its compression."""
     if stack.law[i] >= PRODUCT or stack.depth[i] > 0:
         return False
     return stack.linearised[i] == 1 or stack.curve_exponent[i] == 1.0
@@ -167,7 +167,7 @@ def is_linear(stack: Stack, i: int) -> bool:
 
 @kernel
 def creeps(stack: Stack, i: int) -> bool:
-    """Tell whether the force of contact i depends on a creep."""
+    """Return whether the force of contact i depends on a creep."""
     return stack.gain_creep[i] > 0.0
 
 
@@ -343,7 +343,7 @@ def _static_compression(stack: Stack, i: int, weight: float) -> float:
 
 @kernel
 def is_damped(stack: Stack, i: int) -> bool:
-    """Tell whether the force of contact i depends on the rate, or on a creep.
+    """Return whether the force of contact i depends on the rate, or on a creep.
 
     Its formula may then give a pulling force while c > 0.
     """

@@ -98,7 +98,7 @@ def closed_compression(stack: Stack, i: int, s: float) -> float:
 
 @kernel
 def is_free(stack: Stack, ball: int) -> bool:
-    """Tell whether no pressing contact touches a ball."""
+    """Return whether no pressing contact touches a ball."""
     first = stack.first[ball]
     return first == stack.last[ball] and stack.phase[first] < COMPRESSING
 
@@ -343,7 +343,7 @@ def advance_cluster(stack: Stack, ball: int, time: float) -> None:
 
 @kernel
 def allows_root_series(stack: Stack) -> bool:
-    """Tell whether clusters may have series in the root of time.
+    """Return whether clusters may have series in the root of time.
 
     In a stack of more than two balls, a contact at such a cluster might also need the series of the
     next cluster, which has another anchor.

@@ -45,13 +45,13 @@ def take_restitution(
 
 @kernel
 def varies(stack: RigidStack, i: int) -> bool:
-    """Tell whether the restitution of contact i is not the same in all collisions."""
+    """Return whether the restitution of contact i is not the same in all collisions."""
     return stack.law[i] == RIGID_POWER or stack.law[i] == RIGID_LOSS
 
 
 @kernel
 def loses_energy(stack: RigidStack, i: int) -> bool:
-    """Tell whether there are collisions in which contact i loses energy."""
+    """Return whether there are collisions in which contact i loses energy."""
     if varies(stack, i):
         return stack.coefficient[i] > 0.0 or stack.scatter[i] > 0.0
     return stack.law[i] != ABSENT and stack.restitution[i] < 1.0

@@ -174,7 +174,7 @@ def advance_contacts(
 
 @kernel
 def _meets_limit(stack: Stack, until: float, event_limit: int) -> bool:
-    """Tell whether a run ends because it has had too many events, or steps between two of them.
+    """Return whether a run ends because it has had too many events, or steps between two of them.
 
     A stack that lies is left where no contact has opened or closed for long, if no end is set.
     """
@@ -201,13 +201,13 @@ def _cause_of_limit(stack: Stack) -> int:
 
 @kernel
 def _is_over(stack: Stack, time: float, samples: Samples) -> bool:
-    """Tell whether bodies have parted for good; they are followed on to the last sample."""
+    """Return whether bodies have parted for good; they are followed on to the last sample."""
     return stack.counter[NEXT_SAMPLE] == len(samples.time) and have_parted(stack, time)
 
 
 @kernel
 def _lies(stack: Stack) -> bool:
-    """Tell whether all balls are pressed together by their weight."""
+    """Return whether all balls are pressed together by their weight."""
     return stack.number[GRAVITY] > 0.0 and stack.counter[CLOSED] == len(stack.mass)
 
 
@@ -437,7 +437,7 @@ def _all_separating(stack: Stack) -> bool:
 
 @kernel
 def _approaches(stack: Stack, i: int) -> bool:
-    """Tell whether ball i approaches the ball below it, or the floor."""
+    """Return whether ball i approaches the ball below it, or the floor."""
     if stack.law[i] == ABSENT:
         return False
     noise = stack.velocity_noise[i]

@@ -188,7 +188,7 @@ def _distinct(objective: Objective, ends: list[Minimum]) -> list[Minimum]:
 
 
 def _is_same(objective: Objective, end: Minimum, better: Minimum) -> bool:
-    """Tell whether two ends of descents are the same minimum: near, or without a barrier between.
+    """Return whether two ends of descents are the same minimum: near, or without a barrier between.
 
     With an undetermined direction the valley may be bent: all equally good ends count as one.
     """
@@ -203,7 +203,7 @@ def _is_same(objective: Objective, end: Minimum, better: Minimum) -> bool:
 
 
 def _is_undetermined(objective: Objective, x: Array) -> bool:
-    """Tell whether the data leave a direction undetermined at a trial."""
+    """Return whether the data leave a direction undetermined at a trial."""
     return bool(find_directions(objective, objective.linearise(x)[1])[0][-1] <= OPEN)
 
 
@@ -262,7 +262,7 @@ def _cross_kink(objective: Objective, x: Array, fixed: int | None) -> Array:
 
 
 def _is_smooth(objective: Objective, x: Array, fixed: int | None) -> bool:
-    """Tell whether a linear step would gain nothing at the end of a descent."""
+    """Return whether a linear step would gain nothing at the end of a descent."""
     free = [k for k in range(len(x)) if k != fixed]
     if not free:
         return True

@@ -222,7 +222,7 @@ def _check_columns(columns: Sequence[_Column]) -> None:
 
 
 def _has_commas(columns: Sequence[_Column], rows: Sequence[tuple[int, list[str]]]) -> bool:
-    """Tell whether commas are decimal marks; refuse numbers that could be read in two ways."""
+    """Return whether commas are decimal marks; refuse numbers that could be read in two ways."""
     found = [
         (mark[0], f"row {line}, {column.text}")
         for line, cells in rows

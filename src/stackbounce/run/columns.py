@@ -122,7 +122,7 @@ def _corners_hold(drop: Drop, rows: Rows) -> bool:
 
 
 def _all_move(drop: Drop, rows: Rows) -> bool:
-    """Tell whether some ball moves in each row."""
+    """Return whether some ball moves in each row."""
     if drop.velocities is None:
         return True
     varied = {n.index: values for n, values in rows.items() if n.part == "velocities"}

@@ -109,7 +109,7 @@ def reason_to_skip(family: Family, series: Series) -> str:
 
 
 def _stays(family: Family, law: ContactLaw, series: Series) -> bool:
-    """Tell whether a calibration with what a law gives at another speed predicts the same."""
+    """Return whether a calibration with what a law gives at another speed predicts the same."""
     speed = float(series.speeds.min())
     there = {
         quantity: float(predicted(law, quantity, np.array([speed]))[0])

@@ -79,7 +79,7 @@ def browser(request, downloads):
 
 @pytest.fixture
 def in_firefox(browser):
-    """Tell whether the browser is Firefox."""
+    """Return whether the browser is Firefox."""
     return browser.browser_type.name == "firefox"
 
 

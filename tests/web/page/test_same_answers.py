@@ -52,7 +52,7 @@ def differences(one, other, path="", tolerance=CLOSE):
 
 
 def same(one, other, tolerance):
-    """Tell whether words are the same, and numbers, also those in words, nearly."""
+    """Return whether words are the same, and numbers, also those in words, nearly."""
     if isinstance(one, str) and isinstance(other, str):
         words = NUMBER.sub("#", one) == NUMBER.sub("#", other)
         pairs = zip(NUMBER.findall(one), NUMBER.findall(other), strict=False)
@@ -223,7 +223,7 @@ def compare_laws(asked, seed, count):
 
 
 def creeps_apart(contact, mass, speed):
-    """Tell whether strong viscous damping leaves fewer than 12 digits of the end of a contact.
+    """Return whether strong viscous damping leaves fewer than 12 digits of the end of a contact.
 
     The speeds keep theirs, see docs/benchmark.md.
     """

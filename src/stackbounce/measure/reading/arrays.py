@@ -22,7 +22,7 @@ _BROKEN = (ValueError, TypeError, LookupError, SyntaxError, EOFError, RecursionE
 
 
 def is_array(content: bytes | bytearray) -> bool:
-    """Tell whether bytes are an array as `numpy.save` writes it."""
+    """Return whether bytes are an array as `numpy.save` writes it."""
     return content.startswith(b"\x93NUMPY")
 
 

@@ -44,7 +44,7 @@ def _fits(kind: Kind, columns: Sequence[Column]) -> bool:
 
 
 def _is(column: Column, what: str) -> bool:
-    """Tell whether a column has a role or, where that is none of the reader's, a name."""
+    """Return whether a column has a role or, where that is none of the reader's, a name."""
     return column.role == what or (what not in _UNITS and column.variable == what)
 
 

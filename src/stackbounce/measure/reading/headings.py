@@ -73,7 +73,7 @@ def heading(text: str, unit: str | None = None) -> Heading:
 
 
 def is_unit(cell: str) -> bool:
-    """Tell whether a cell is a unit alone, such as ``(ms)`` or ``Volt``."""
+    """Return whether a cell is a unit alone, such as ``(ms)`` or ``Volt``."""
     bare = cell.strip()
     if re.fullmatch(r"\(.*\)|\[.*\]", bare):
         return True

@@ -212,7 +212,7 @@ def _numbers(row: list[str], decimal: str) -> int:
 
 
 def _labelled(row: list[str], decimal: str) -> bool:
-    """Tell whether a row has numbers beside words, such as the label of a point."""
+    """Return whether a row has numbers beside words, such as the label of a point."""
     values = [number(cell, decimal) for cell in row[:COLUMNS]]
     return len(row) > 2 and sum(value is not None and value == value for value in values) > 1
 

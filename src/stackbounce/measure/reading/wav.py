@@ -21,7 +21,7 @@ _STREAMED = (0, 0xFFFFFFFF)  # sizes that recorders write before they know the e
 
 
 def is_wav(content: bytearray) -> bool:
-    """Tell whether bytes are a RIFF file of the kind WAVE."""
+    """Return whether bytes are a RIFF file of the kind WAVE."""
     riff = content.startswith((b"RIFF", b"RF64", b"RIFX"))
     return riff and bytes(content[8:12]) in (b"WAVE", b"")
 

@@ -18,7 +18,7 @@ _ENDINGS = (".csv", ".tsv", ".txt", ".dat", ".lvm", ".npy", ".trk")
 
 
 def is_xlsx(content: bytearray) -> bool:
-    """Tell whether an archive is a spreadsheet of Excel."""
+    """Return whether an archive is a spreadsheet of Excel."""
     return b"xl/workbook.xml" in content or b"xl/workbook.bin" in content
 
 

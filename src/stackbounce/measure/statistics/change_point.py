@@ -99,7 +99,7 @@ def find_kink(
 
 
 def _pressed(share: Array, force: Array, like: Array, noise: float) -> bool:
-    """Tell whether a force is significantly larger than another late in the contact."""
+    """Return whether a force is significantly larger than another late in the contact."""
     late = (share > _TAIL[0]) & (share < _TAIL[1])
     error = math.hypot(noise / math.sqrt(max(late.sum(), 1)), _MATCHED * float(like[late].mean()))
     return float((force - like)[late].mean()) > _DOUBTLESS * error

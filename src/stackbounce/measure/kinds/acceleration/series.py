@@ -44,7 +44,7 @@ def series_of(record: Record, gravity: float) -> list[Flight]:
 
 
 def is_held(record: Record, first: int, gravity: float) -> bool:
-    """Tell whether the sensor was at rest before a flight: for long enough, near gravity."""
+    """Return whether the sensor was at rest before a flight: for long enough, near gravity."""
     times = record.times
     before = slice(int(np.searchsorted(times, times[first] - _LONGEST, side="right")), first)
     known = first > 0 and times[first] - times[0] >= _LONGEST

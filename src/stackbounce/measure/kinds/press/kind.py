@@ -21,7 +21,7 @@ def _analyse(data: "xr.Dataset", *, tabulated: bool = False) -> "Press":
 
 
 def _recognised(columns: "Sequence[Column]") -> bool:
-    """Tell whether the columns have a force and a compression, or one length.
+    """Return whether the columns have a force and a compression, or one length.
 
     Beside times, a length that is a position is none: that is a motion detector's.
     """

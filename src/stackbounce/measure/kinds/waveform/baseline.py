@@ -173,7 +173,7 @@ def _tone(times: Array, record: Record, quiet: NDArray[np.bool_]) -> float:
 
 
 def _holds(columns: Array, quiet: NDArray[np.bool_]) -> bool:
-    """Tell whether the leverage of each sample is low, so that the fit is well determined there."""
+    """Return whether each sample has a low leverage, so that the fit is well determined there."""
     normal = columns[quiet].T @ columns[quiet] / quiet.sum()
     some = columns[:: max(1, len(columns) // 500)]
     errors = np.sum(some * (some @ np.linalg.pinv(normal, hermitian=True)), axis=1)

@@ -155,7 +155,7 @@ def impulse_of(
 
 
 def flat_top(values: Array, quantum: float) -> bool:
-    """Tell whether a contact is clipped: its top samples are equal, with hardly any just below.
+    """Return whether a contact is clipped: its top samples are equal, with hardly any just below.
 
     Examples
     --------

@@ -39,7 +39,7 @@ def mtrack2(text: Text) -> Layout | None:
 
 
 def _closed_up(text: Text, first: int, width: int) -> bool:
-    """Tell whether numbers stand where flags should: blank cells were lost, as in a spreadsheet."""
+    """Return whether numbers stand where flags should: a spreadsheet loses blank cells."""
     flags = [row[3] for row in text.head[first:] if 4 < len(row) <= width and row[3]]
     numbers = sum(number(cell, text.decimal) is not None and cell != "*" for cell in flags)
     return 2 * numbers > len(flags)
