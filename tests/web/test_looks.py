@@ -8,7 +8,7 @@ import pytest
 from stackbounce.model.catalogue import CLASS_BALLS
 
 STATIC = files("stackbounce.web") / "static"
-SCRIPT = (STATIC / "js/ball_looks.js").read_text("utf-8")
+SCRIPT = (STATIC / "js/stage/looks.js").read_text("utf-8")
 STYLES = [(STATIC / name).read_text("utf-8") for name in ("style.css", "css/looks.css")]
 KINDS = re.findall(r'^  "?([\w-]+)"?: \{ half', SCRIPT, re.MULTILINE)
 

@@ -75,7 +75,7 @@ def test_fifty_users_load_the_page_and_ask_for_nothing_more(visits, address):
     whole(first)
     paths = [urlsplit(url).path for url in first.requests]
     assert paths[0] == "/"
-    assert {"/made/engine.wasm", "/js/engine/worker.js", "/js/map.js"} <= set(paths)
+    assert {"/made/engine.wasm", "/js/engine/worker.js", "/js/views/map/map.js"} <= set(paths)
 
     with ThreadPoolExecutor(1) as beside:  # Playwright has an event loop of its own in this thread
         loading = beside.submit(asyncio.run, load_all(address, paths, USERS - PAGES))

@@ -172,17 +172,17 @@ READ = ("3,5", "3.5", "1,500", "1.500", "0,057 km", "12,5 mm", "−2,5 cm", ",5"
 
 @pytest.mark.parametrize("code", CODES)
 def test_a_comma_is_decimal_where_it_is_so(asked, code):
-    read = asked(code, *(["units", "read", text, "m", METRES] for text in READ))
+    read = asked(code, *(["words/units", "read", text, "m", METRES] for text in READ))
     assert read == [3.5, 3.5, 1.5, 1.5, "0.057 km", 0.0125, -0.025, 0.5, "1.2 ft"]
     written = asked(
         code,
-        ["units", "format", 1234.5, 5],
-        ["units", "format", 1.25e-7, 3],
-        ["units", "fixed", -0.5, 2],
-        ["quantity", "formatMeasured", 0.03, 0.00006, "s"],
-        ["units", "splitError", "63,5 ± 0,5 cm"],
-        ["units", "splitError", "(63,5 ± 0,5) cm"],
-        ["units", "splitError", "63,5 ± 0,5) cm"],
+        ["words/units", "format", 1234.5, 5],
+        ["words/units", "format", 1.25e-7, 3],
+        ["words/units", "fixed", -0.5, 2],
+        ["words/quantity", "formatMeasured", 0.03, 0.00006, "s"],
+        ["words/units", "splitError", "63,5 ± 0,5 cm"],
+        ["words/units", "splitError", "(63,5 ± 0,5) cm"],
+        ["words/units", "splitError", "63,5 ± 0,5) cm"],
     )
     split = {"value": "63,5 cm", "error": "0,5 cm"}
     assert written[:-1] == ["1234,5", "1,25e−7", "−0,50", "30,00 ± 0,06 ms", split, split]
@@ -190,9 +190,9 @@ def test_a_comma_is_decimal_where_it_is_so(asked, code):
 
 
 def test_in_english_a_comma_may_part_thousands(asked):
-    read = asked("en", *(["units", "read", text, "m", METRES] for text in READ))
+    read = asked("en", *(["words/units", "read", text, "m", METRES] for text in READ))
     assert read == [3.5, 3.5, "1,500", 1.5, "0,057 km", 0.0125, -0.025, 0.5, "1,2 ft"]
-    assert asked("en", ["units", "format", 1234.5, 5]) == ["1234.5"]
+    assert asked("en", ["words/units", "format", 1234.5, 5]) == ["1234.5"]
 
 
 def message(check, *given):
@@ -234,14 +234,14 @@ def test_what_is_composed_in_english_is_translated(asked):
         "collisions of basketball and tennis": "Stöße: Basketball und Tennisball",
         "golf ball and marble in series": "Golfball und Murmel in Reihe",
     }
-    assert asked("de", *(["language", "translated", text] for text in composed)) == list(
+    assert asked("de", *(["words/language", "translated", text] for text in composed)) == list(
         composed.values()
     )
 
 
 def test_other_english_stays_whole(asked):
     others = ["a loss of contact and of energy", "Cross 2007, Table I", "my own ball", ""]
-    assert asked("de", *(["language", "translated", text] for text in others)) == others
+    assert asked("de", *(["words/language", "translated", text] for text in others)) == others
 
 
 @pytest.mark.parametrize(
@@ -256,4 +256,4 @@ def test_other_english_stays_whole(asked):
     ],
 )
 def test_the_address_goes_before_the_browser(asked, fragment, browser, code):
-    assert asked("en", ["language_choice", "chosen", fragment, browser]) == [code]
+    assert asked("en", ["words/language_choice", "chosen", fragment, browser]) == [code]

@@ -1,8 +1,8 @@
 /** The page in a frame of another page: with `?embed` in its address it shows stage, sentence and transport alone. */
 
-import { write as addressOf } from "./address.js";
+import { write as addressOf } from "./state/address.js";
 import { h } from "./dom.js";
-import { t } from "./language.js";
+import { t } from "./words/language.js";
 
 /** Whether the address asks for that. */
 export const embedded = new URLSearchParams(location.search).has("embed");

@@ -1,36 +1,36 @@
 /** The explorer: assembles the parts of the page. */
 
-import * as address from "./address.js";
-import * as api from "./api.js";
-import { mountLooks } from "./ball_looks.js";
-import { Clock } from "./clock.js";
-import { mountControls } from "./controls.js";
+import * as address from "./state/address.js";
+import * as api from "./asking/api.js";
+import { mountLooks } from "./stage/looks.js";
+import { Clock } from "./stage/clock.js";
+import { mountControls } from "./set_up/controls.js";
 import { h, hide, write } from "./dom.js";
-import { takeFiles } from "./dropped.js";
+import { takeFiles } from "./views/measure/dropped.js";
 import { mountEmbed } from "./embed.js";
-import { direct } from "./film_director.js";
-import { mountFullScreen } from "./full_screen.js";
-import { mountGuess } from "./guess.js";
-import { mountHands } from "./hands.js";
-import { mountHistory } from "./history.js";
-import { t, translated, translatePage, writeTold } from "./language.js";
-import { mountLanguage } from "./language_view.js";
-import { mountLessons } from "./lessons.js";
-import { mountMomentum } from "./momentum.js";
-import { mountNumbers } from "./numbers.js";
-import { hasServer, loadMeasure } from "./origin/served.js";
-import { mountPlots } from "./plots.js";
-import { carryErrors } from "./prediction.js";
-import { retry } from "./retry.js";
-import { run } from "./runner.js";
-import { mountSentence } from "./sentence_view.js";
-import { mountShare } from "./share.js";
-import { mountSound } from "./sound.js";
-import { mountStage } from "./stage.js";
-import { markStale } from "./stale.js";
-import { createStore } from "./store.js";
-import { mountTabs } from "./tabs.js";
-import { mountTransport } from "./transport.js";
+import { direct } from "./stage/director.js";
+import { mountFullScreen } from "./stage/full_screen.js";
+import { mountGuess } from "./stage/guess.js";
+import { mountHands } from "./stage/hands.js";
+import { mountHistory } from "./state/history.js";
+import { t, translated, translatePage, writeTold } from "./words/language.js";
+import { mountLanguage } from "./words/language_view.js";
+import { mountLessons } from "./lessons/lessons.js";
+import { mountMomentum } from "./stage/momentum.js";
+import { mountNumbers } from "./views/numbers.js";
+import { hasServer } from "./origin/served.js";
+import { mountPlots } from "./plots/plots.js";
+import { carryErrors } from "./asking/prediction.js";
+import { retry } from "./asking/retry.js";
+import { run } from "./asking/runner.js";
+import { mountSentence } from "./words/sentence_view.js";
+import { mountShare } from "./state/share.js";
+import { mountSound } from "./stage/sound.js";
+import { mountStage } from "./stage/stage.js";
+import { markStale } from "./asking/stale.js";
+import { createStore } from "./state/store.js";
+import { mountTabs } from "./views/tabs.js";
+import { mountTransport } from "./stage/transport.js";
 
 const place = (id) => document.getElementById(id);
 const LATE = 5000; // ms, after which the page is shown without its first drop
@@ -62,12 +62,14 @@ mountHands(place("stage"), store, clock, api);
 mountEmbed(place("transport"), store);
 mountFullScreen(place("play"), place("stage"));
 const giveLessons = mountLessons({ root: place("lesson"), button: place("lessons-open") }, store);
-const loadLine = () => import("./line.js");
-const loadMap = () => import("./map.js");
+const loadLine = () => import("./views/line/line.js");
+const loadMap = () => import("./views/map/map.js");
+const MEASURE = "./views/measure/measure.js"; // by its name: a page without a server does not have it
+const loadMeasure = () => import(MEASURE);
 mountTabs(store, {
   line: (section) => open(loadLine, section),
   map: (section) => open(loadMap, section),
-  measure: (section) => (loadMeasure ? open(loadMeasure, section) : explain(section)),
+  measure: (section) => (hasServer ? open(loadMeasure, section) : explain(section)),
 });
 store.subscribe((state, before) => state.view !== before.view && placeSetUp());
 place("skip").addEventListener("click", (event) => {

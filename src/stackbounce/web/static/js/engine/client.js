@@ -1,6 +1,6 @@
 /** Questions to a worker: each is answered, or stopped when it takes too long or a newer one takes its place. */
 
-import { t } from "../language.js";
+import { t } from "../words/language.js";
 
 const LONGEST = 10_000; // ms of a question
 const PATIENCE = 250; // ms of one whose place a newer one takes

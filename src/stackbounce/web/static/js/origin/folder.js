@@ -5,9 +5,6 @@ export { loadParts } from "./parts.js";
 
 export const hasServer = false;
 
-/** There is no view that measures and fits: that is for stackbounce's own server to do. */
-export const loadMeasure = null;
-
 const program = document.currentScript.src;
 
 /** Return a worker that runs the script of this page, which there begins with engine/worker.js. */

@@ -4,9 +4,6 @@ export { sentences } from "../languages/all.js";
 
 export const hasServer = false;
 
-/** There is no view that measures and fits: that is for a server to do. */
-export const loadMeasure = null;
-
 const content = (id) => document.getElementById(id).textContent;
 
 let program = null;

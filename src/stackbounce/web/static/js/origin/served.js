@@ -1,7 +1,7 @@
 /** Where the page comes from: a server of stackbounce, which also measures and fits. In other forms of the page, folder.js
  * or one_file.js takes its place. */
 
-import { language } from "../language_choice.js";
+import { language } from "../words/language_choice.js";
 
 export { loadParts } from "./parts.js";
 
@@ -15,9 +15,6 @@ const TABLES = {
 export const sentences = language in TABLES ? await TABLES[language]().then(({ table }) => table, () => ({})) : {};
 
 export const hasServer = true;
-
-/** Load the view that measures and fits. */
-export const loadMeasure = () => import("../measure.js");
 
 /** Return a worker that runs engine/worker.js. */
 export function startWorker() {

@@ -1,0 +1,194 @@
+/** The tower: cards of the balls, with cards of the contacts between them. */
+
+import { gapsOf, incidenceOf, valueAt, withBall, withSwap, withValue, withoutBall } from "./drops.js";
+import { h, hide, write } from "../dom.js";
+import { choice, numberField } from "./fields.js";
+import { t, translated } from "../words/language.js";
+import { firstContact } from "./laws.js";
+import { isOfCatalogue } from "./restack.js";
+import { format } from "../words/units.js";
+import { ballName, contactName, lawName } from "../words/words.js";
+
+const OWN = "";
+
+/**
+ * Return `{element, fields}` of the tower of a drop.
+ * @param {object} tools `{catalogue, set(path, value), choose(ball, name), arrange(act), relaw(contact, name), measured(contact, values)}`
+ */
+export function towerOf(drop, tools, notes) {
+  const fields = [];
+  const field = (spec, follow = () => {}) => {
+    const one = numberField({ set: tools.set, errorAt: tools.errorAt, ...spec });
+    const update = (value) => {
+      one.update(value);
+      follow(value);
+    };
+    update(valueAt(drop, spec.path));
+    fields.push({ ...one, update });
+    return one.element;
+  };
+  const items = [];
+  for (let ball = drop.balls.length - 1; ball >= 0; ball -= 1) {
+    items.push(ballCard(drop, ball, tools, field), contactCard(drop, ball, tools, field, notes[ball]));
+  }
+  const full = drop.balls.length >= tools.catalogue.limits.balls;
+  const add = h("button", {
+    type: "button",
+    class: "small",
+    "data-key": "add",
+    disabled: full,
+    text: t("Add a ball on top"),
+    onclick: () => tools.arrange((now) => withBall(now, firstContact(tools.catalogue.laws))),
+  });
+  return { element: h("div", {}, add, h("ol", { class: "tower" }, items)), fields };
+}
+
+function ballCard(drop, ball, tools, field) {
+  const last = drop.balls.length - 1;
+  const name = ballName(drop, ball);
+  const button = (text, label, key, disabled, act) =>
+    h("button", {
+      type: "button",
+      class: "icon",
+      "aria-label": label,
+      title: label,
+      "data-key": `${key}-${ball}`,
+      disabled,
+      text,
+      onclick: () => tools.arrange(act),
+    });
+  const entries = (lossy) =>
+    tools.catalogue.balls.filter((one) => one.lossy === lossy).map((one) => [one.name, `${translated(one.name)}, ${format(one.mass * 1e3)} g`]);
+  const choose = choice({
+    label: t("Ball {place}", { place: ball }),
+    quiet: true,
+    key: `ball-${ball}`,
+    groups: [["", [[OWN, t("another ball")]]], [t("Balls a class owns"), entries(true)], [t("Balls of the paper"), entries(false)]],
+    value: OWN,
+    set: (chosen) => tools.choose(ball, chosen),
+  });
+  const changed = h("p", { class: "note", hidden: true });
+  const header = h(
+    "div",
+    { class: "card-head" },
+    swatch(ball),
+    choose,
+    button("↑", t("Move {ball} up", { ball: name }), "up", ball === last, (now) => withSwap(now, ball)),
+    button("↓", t("Move {ball} down", { ball: name }), "down", ball === 0, (now) => withSwap(now, ball - 1)),
+    button("×", t("Remove {ball}", { ball: name }), "remove", last === 0, (now) => withoutBall(now, ball)),
+  );
+  const naming = namer(choose.querySelector("select"), changed, drop, ball, tools);
+  const rows = [field({ path: `balls.${ball}.mass`, label: t("mass"), of: name, unit: "kg", low: 1e-3, high: 2 }, naming)];
+  if (incidenceOf(drop) === "velocities") {
+    rows.push(field({ path: `velocities.${ball}`, label: t("velocity"), of: name, unit: "m/s", low: -10, high: 10, says: t("Up is positive, down negative.") }));
+  }
+  const size = { path: `balls.${ball}.diameter`, label: t("size"), term: t("diameter"), of: name, unit: "m", low: 0.01, high: 0.4, optional: true };
+  const more = h("details", { "data-key": `size-${ball}` }, h("summary", { text: t("Size") }), field({ ...size, says: t("For the picture only: it changes nothing of the bounce.") }));
+  return h("li", { class: "card ball-card" }, header, rows, changed, more);
+}
+
+/** Return a function that keeps a ball's name true while its mass changes. */
+function namer(select, note, drop, ball, { catalogue }) {
+  const own = drop.balls[ball];
+  const entry = catalogue.balls.find(({ name }) => name === own.name);
+  return (mass) => {
+    const known = isOfCatalogue(catalogue, { name: own.name, mass });
+    select.value = known ? own.name : OWN;
+    write(select.options[0], known ? t("another ball") : entry ? t("{ball}, changed", { ball: translated(own.name) }) : ballName(drop, ball));
+    hide(note, known || !entry);
+    if (note.hidden) return;
+    const values = { ball: translated(own.name), mass: format(entry.mass * 1e3) };
+    write(note, t("The {ball} of the catalogue has {mass} g. Stiffnesses do not follow the mass.", values));
+  };
+}
+
+function swatch(index) {
+  const mark = h("span", { class: "swatch round", "aria-hidden": "true" });
+  mark.style.setProperty("--ball", `var(--ball-${index % 6})`);
+  return mark;
+}
+
+function contactCard(drop, contact, tools, field, note) {
+  const law = tools.catalogue.laws.find((one) => one.law === drop.contacts[contact].law);
+  const laws = tools.catalogue.laws.map((one) => [one.law, lawName(one.law)]);
+  if (contact === 0) laws.push(["none", t("no floor")]);
+  const header = h(
+    "div",
+    { class: "card-head" },
+    choice({
+      label: contactName(drop, contact),
+      key: `law-${contact}`,
+      groups: [["", laws]],
+      value: drop.contacts[contact].law,
+      set: (name) => tools.relaw(contact, name),
+    }),
+  );
+  const rows = law ? lawFields(drop, contact, law, field) : [];
+  if (contact > 0) {
+    const gap = { path: `gaps.${contact - 1}`, label: t("air between"), term: t("gap"), unit: "m", low: 0, high: 0.03 };
+    rows.push(field({ ...gap, of: contactName(drop, contact), says: t("How far the two are apart while they fall. 0: they touch.") }));
+  }
+  if (note) rows.push(h("p", { class: "note", text: translated(note) }));
+  const more = law ? measuredBox(contact, law, tools) : null;
+  return h("li", { class: "card contact-card" }, header, rows, more);
+}
+
+/** The fields of a law: those it needs, and of the others those that the contact has. */
+function lawFields(drop, contact, law, field) {
+  const own = drop.contacts[contact];
+  return law.fields
+    .filter((one) => typeof one.low === "number" && (one.required || own[one.name] !== undefined))
+    .map((one) => {
+      const unit = one.unit === "N/m**exponent" && own.exponent === 1 ? "N/m" : one.unit;
+      const { name, low, high, words, says, explains } = one;
+      const term = says === words ? undefined : translated(says);
+      const spec = { label: translated(words ?? says), term, of: contactName(drop, contact), unit, low, high, says: translated(explains) };
+      return field({ path: `contacts.${contact}.${name}`, ...spec });
+    });
+}
+
+/** A measured restitution and contact time, to be turned into the law's constants. */
+function measuredBox(contact, law, tools) {
+  const values = { restitution: 0.8, contact_time: 5e-3 };
+  const local = (spec) => {
+    const one = numberField({ ...spec, path: `measured.${contact}.${spec.name}`, set: (_, value) => (values[spec.name] = value) });
+    one.update(values[spec.name]);
+    return one;
+  };
+  const boxes = [local({ name: "restitution", label: t("how bouncy"), term: t("restitution"), unit: "", low: 0.05, high: 1 })];
+  if (!law.rigid) boxes.push(local({ name: "contact_time", label: t("contact time"), unit: "s", low: 5e-4, high: 5e-2 }));
+  const apply = h("button", {
+    type: "button",
+    class: "small",
+    text: t("Same bounce as measured"),
+    onclick: () => tools.measured(contact, { restitution: values.restitution, contactTime: values.contact_time }),
+  });
+  const about = h("p", { class: "note", text: `${law.formula} – ${translated(law.says)} (${law.source})` });
+  return h(
+    "details",
+    { "data-key": `measured-${contact}` },
+    h("summary", { text: t("What is this law? Or a measured bounce") }),
+    about,
+    boxes.map((one) => one.element),
+    apply,
+  );
+}
+
+/** Return the structure of a tower without its numbers: drops of the same shape share their fields. */
+export function shapeOf(drop) {
+  return JSON.stringify([
+    incidenceOf(drop),
+    drop.balls.map(({ name }) => name ?? null),
+    drop.contacts.map((contact) => [contact.law, Object.keys(contact).sort(), contact.exponent === 1]),
+  ]);
+}
+
+/** Return a drop with a ball of the catalogue in a place; an own one keeps its mass without a name. */
+export function withChosen(drop, ball, entry) {
+  if (!entry) {
+    const { name: _name, ...rest } = drop.balls[ball];
+    return withValue(drop, `balls.${ball}`, rest);
+  }
+  const { name, mass, diameter } = entry;
+  return withValue({ ...drop, gaps: gapsOf(drop) }, `balls.${ball}`, { mass, diameter, name });
+}

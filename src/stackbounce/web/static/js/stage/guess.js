@@ -1,0 +1,94 @@
+/** "Predict first": a mark on the ruler that is dragged to where the highest ball is thought to rise, then let go. */
+
+import { h, hide, put, s, write } from "../dom.js";
+import { t } from "../words/language.js";
+import { metres } from "../words/words.js";
+
+const ABOVE = 60; // px above the highest mark
+const STEP = 0.02; // of what the ruler shows, for one press of an arrow
+
+/** Lay the mark over the stage in `root` while the state asks for a guess; returns what takes the ruler's place in each frame. */
+export function mountGuess(root, store, clock) {
+  const text = s("text", { class: "guess-text", x: 8, y: -6 });
+  const grip = s("circle", { class: "guess-grip", r: 9 });
+  const mark = s("g", { class: "guess-mark", tabindex: 0, role: "slider", "aria-label": t("Your guess of how high the ball flies"), "aria-valuemin": 0 });
+  mark.append(s("line", { class: "guess-area" }), s("line", { class: "guess-line" }), grip, text);
+  const svg = s("svg", { class: "guess", width: "100%", height: "100%" }, mark);
+  const go = h("button", { type: "button", class: "guess-go", text: t("Let go"), onclick: letGo });
+  const again = h("button", { type: "button", class: "guess-go", text: t("Guess again"), onclick: () => store.set({ guess: null }) });
+  root.append(svg, go, again);
+  let height = null; // m, where the mark is
+  let place = null; // of the ruler in px: {zero, scale, width}, as the stage has it
+
+  let flies = false; // the balls were let go
+
+  const isAsked = () => store.get().predict && store.get().until === null;
+  const isOpen = () => isAsked() && store.get().guess === null && !flies;
+  const most = () => (place.zero - ABOVE) / place.scale;
+
+  function letGo() {
+    flies = true;
+    show();
+    clock.seek(clock.begin);
+    clock.play();
+  }
+  /** Take the guess for good as soon as the film has shown the answer. */
+  const watch = () => {
+    if (!isAsked() || store.get().guess !== null || !place || !clock.film) return;
+    if (clock.time >= (clock.film.tops.at(-1)?.time ?? clock.end)) store.set({ guess: height });
+    else if (clock.playing && !flies) letGo();
+  };
+  const set = (value) => {
+    height = Math.min(Math.max(value, 0), most());
+    follow();
+  };
+  const follow = () => {
+    if (!place || !isAsked()) return;
+    height ??= 0.5 * place.fallen;
+    put(mark, "transform", `translate(0 ${(place.zero - place.scale * height).toFixed(1)})`);
+    write(text, t("your guess: {height}", { height: metres(height) }));
+    put(mark, "aria-valuemax", most().toFixed(3));
+    put(mark, "aria-valuenow", height.toFixed(3));
+    put(mark, "aria-valuetext", metres(height));
+  };
+  const take = (next) => {
+    if (place && ["zero", "scale", "width", "near"].every((name) => next[name] === place[name])) return;
+    place = next;
+    for (const line of mark.querySelectorAll("line")) put(line, "x2", place.width);
+    put(grip, "cx", place.width - 16);
+    put(svg, "opacity", Math.max(0, 1 - 4 * place.near).toFixed(2));
+    follow();
+  };
+  const show = () => {
+    put(svg, "class", isAsked() ? "guess" : "guess hidden");
+    put(mark, "class", isOpen() ? "guess-mark" : "guess-mark fixed");
+    put(mark, "tabindex", isOpen() ? 0 : -1);
+    hide(go, !isOpen());
+    hide(again, !isAsked() || store.get().guess === null);
+    document.body.classList.toggle("guessing", isAsked() && store.get().guess === null);
+    follow();
+  };
+  const drag = (event) => set((place.zero - (event.clientY - svg.getBoundingClientRect().top)) / place.scale);
+  mark.addEventListener("pointerdown", (event) => {
+    if (!isOpen() || event.button !== 0) return;
+    mark.setPointerCapture(event.pointerId);
+    drag(event);
+  });
+  mark.addEventListener("touchstart", (event) => isOpen() && event.preventDefault(), { passive: false }); // the page stays
+  mark.addEventListener("pointermove", (event) => mark.hasPointerCapture(event.pointerId) && drag(event));
+  mark.addEventListener("keydown", (event) => {
+    const moves = { ArrowUp: STEP, ArrowRight: STEP, ArrowDown: -STEP, ArrowLeft: -STEP, PageUp: 5 * STEP, PageDown: -5 * STEP };
+    if (!isOpen() || !moves[event.key]) return;
+    event.preventDefault();
+    event.stopPropagation();
+    set(height + moves[event.key] * most());
+  });
+  store.subscribe((state, before) => {
+    if (!["predict", "guess", "until", "drop"].some((name) => state[name] !== before[name])) return;
+    flies = false;
+    show();
+  });
+  clock.subscribe(watch);
+  show();
+  return take;
+}

@@ -1,0 +1,77 @@
+/** Bars of momentum below the stage: each ball's and their sum, now, before and after the impact. */
+
+import { h, hide, put, s, write } from "../dom.js";
+import { t } from "../words/language.js";
+import { fixed } from "../words/units.js";
+import { shortBall } from "../words/words.js";
+
+const ROW = 18; // px
+const NAMES = 92; // px for the names at the left
+const VALUES = 78; // px for the numbers at the right
+
+/** Draw the bars into `root` while the state asks for them, at the clock's time. */
+export function mountMomentum(root, store, clock) {
+  const svg = s("svg", { class: "momentum-bars", role: "img", "aria-label": t("Momentum of each ball and of all, up is to the right") });
+  root.append(h("p", { class: "note", text: t("Momentum in kg m/s: up to the right. Thin marks: before (│) and after (┃) the impact.") }), svg);
+  let bars = null;
+  let width = 0;
+
+  const build = () => {
+    const { result, momentum } = store.get();
+    hide(root, !momentum || !result);
+    if (root.hidden || !clock.film) return;
+    if (width < NAMES + VALUES) return;
+    bars = barsOf(result.drop, clock.film, width);
+    put(svg, "viewBox", `0 0 ${width} ${ROW * bars.rows.length}`);
+    put(svg, "height", ROW * bars.rows.length);
+    svg.replaceChildren(...bars.rows.flatMap(({ elements }) => elements));
+    clock.touch();
+  };
+  const draw = () => {
+    if (root.hidden || !bars || bars.film !== clock.film) return;
+    const now = bars.momenta(clock.time);
+    bars.rows.forEach(({ bar, value }, row) => {
+      const length = now[row] * bars.scale;
+      put(bar, "x", (bars.zero + Math.min(0, length)).toFixed(1));
+      put(bar, "width", Math.abs(length).toFixed(1));
+      if (clock.legible) write(value, fixed(now[row], 3));
+    });
+  };
+  store.subscribe((state, before) => {
+    if (state.result !== before.result || state.momentum !== before.momentum) build();
+  });
+  clock.subscribe(draw);
+  new ResizeObserver(([{ contentRect }]) => {
+    if (contentRect.width !== width) {
+      width = contentRect.width;
+      build();
+    }
+  }).observe(root);
+}
+
+/** Return the rows of bars of a drop, from the highest ball down, and the sum. */
+function barsOf(drop, film, width) {
+  const order = drop.balls.map((_, ball) => ball).reverse();
+  const momenta = (time) => {
+    const { velocity } = film.at(time);
+    const each = order.map((ball) => drop.balls[ball].mass * velocity[ball]);
+    return [...each, each.reduce((sum, one) => sum + one, 0)];
+  };
+  const [before, after] = [momenta(0), momenta(film.last)];
+  const most = Math.max(1e-9, ...[...before, ...after].map(Math.abs), ...order.map((_, row) => Math.abs(before[row]) * 1.5));
+  const room = width - NAMES - VALUES;
+  const zero = NAMES + room / 2;
+  const scale = room / 2 / most;
+  const rows = before.map((_, row) => {
+    const y = row * ROW;
+    const ball = order[row];
+    const bar = s("rect", { class: ball === undefined ? "momentum-bar sum" : "momentum-bar", y: y + 3, height: ROW - 6, x: zero });
+    if (ball !== undefined) bar.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+    const mark = (value, name) => s("line", { class: name, x1: zero + value * scale, x2: zero + value * scale, y1: y + 1, y2: y + ROW - 1 });
+    const value = s("text", { x: width - 2, y: y + 13, "text-anchor": "end" });
+    const name = s("text", { x: 0, y: y + 13, text: ball === undefined ? t("sum") : shortBall(drop, ball).slice(0, 13) });
+    const axis = s("line", { class: "momentum-zero", x1: zero, x2: zero, y1: y, y2: y + ROW });
+    return { bar, value, elements: [name, bar, axis, mark(before[row], "momentum-before"), mark(after[row], "momentum-after"), value] };
+  });
+  return { rows, zero, scale, momenta, film };
+}

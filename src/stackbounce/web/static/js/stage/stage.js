@@ -1,0 +1,194 @@
+/** The stage: the balls at the clock's time, the textbook's as outlines, and a ruler beside them. */
+
+import { h, put, s, write } from "../dom.js";
+import { filmOf, pieceAt } from "./film.js";
+import { cameraOf } from "./camera.js";
+import { t } from "../words/language.js";
+import { radii, stacked } from "./shape.js";
+import { ballGroup, ghostGroup, height as heightAt, keptGroups, moveBalls, moveGhosts, moveKept } from "./balls.js";
+import { drawRuler } from "./ruler.js";
+import { format } from "../words/units.js";
+import { ballName, happening, moment, pace } from "../words/words.js";
+
+const FOOT = 30; // px below the floor line
+const HEAD = 64; // px above the highest ball, for the time
+const MIDDLE = 0.46; // of the width, where the balls are
+const PAIR = [0.27, 0.68]; // the same of two drops side by side
+const PHASES = { fall: t("fall, "), leap: t("leap, "), before: "", impact: t("impact, "), between: t("between contacts, "), after: "", whole: "" };
+const GUESSED = 5; // times the drop height that can be guessed, at least
+const WORDY = 320; // px, from which there is room for a whole sentence
+const NEARLY = 1e-9; // of the film's time: at an event
+
+let stages = 0;
+
+/** Draw the stage into `root` and keep it at the clock's time; `onRuler` hears in each frame where the ruler is. */
+export function mountStage(root, store, clock, onRuler = () => null) {
+  stages += 1;
+  const light = `light-${stages}`; // a gradient of a hidden stage would not be drawn
+  const svg = s("svg", { class: "scene" }); // an image once it has words, see below
+  const time = s("text", { class: "scene-time", x: 12, y: 22 });
+  const scale = s("text", { class: "scene-note", x: 12, y: 42 });
+  const ground = s("g", { class: "ground" });
+  const ruler = s("g", { class: "ruler" });
+  const trails = s("g", { class: "trails" });
+  const kept = s("g", { class: "kept" });
+  const ghosts = s("g", { class: "ghosts" });
+  const balls = s("g", { class: "balls" });
+  const centre = s("path", { class: "mass-centre", d: "M-9 0H9M0 -9V9M-5 0A5 5 0 0 0 5 0A5 5 0 0 0 -5 0" });
+  svg.append(shading(light), ruler, ground, trails, kept, balls, ghosts, centre, time, scale);
+  root.append(svg);
+  const nothing = h("p", { class: "stage-empty note", text: t("Computing the first drop …") });
+  root.append(nothing);
+  let scene = null;
+  let size = null; // of the stage in px; asked for at each change, it would have the whole page laid out
+  let stack = ""; // whose balls are drawn
+  let soil = ""; // where the ground is drawn
+
+  const build = () => {
+    const { result, until, magnify, kept: other, predict } = store.get();
+    size ??= root.getBoundingClientRect();
+    const { width, height } = size;
+    if (!result || width < 10 || height < 10) return;
+    nothing.remove();
+    put(svg, "viewBox", `0 0 ${width} ${height}`);
+    const film = clock.film?.result === result ? clock.film : filmOf(result, until);
+    const also = other && !film.whole ? filmOf(other) : null;
+    const least = predict && !film.whole ? GUESSED * film.at(film.begin).position.at(-1) : 0;
+    const room = { width: also ? 0.7 * width : width, height: height - FOOT - HEAD };
+    const camera = cameraOf(film, result, { ...room, magnify, also, least });
+    const [middle, beside] = also ? PAIR.map((part) => part * width) : [MIDDLE * width];
+    const fastest = Math.max(1e-9, ...result.frames.velocity.flat().map(Math.abs));
+    scene = { result, film, camera, fastest, floor: height - FOOT, middle, also, beside, width };
+    const where = `${Boolean(film.floor)} ${width} ${scene.floor}`;
+    if (where !== soil) drawGround(ground, scene, width);
+    soil = where;
+    scene.moveRuler = drawRuler(ruler, scene);
+    const names = JSON.stringify(result.drop.balls.map((_, ball) => ballName(result.drop, ball)));
+    if (names !== stack) {
+      balls.replaceChildren(...result.drop.balls.map((_, ball) => ballGroup(result.drop, ball, light)));
+      trails.replaceChildren(...result.drop.balls.map((_, ball) => trail(ball)));
+    }
+    if (names !== stack || Boolean(film.ghosts) !== ghosts.hasChildNodes()) ghosts.replaceChildren(...(film.ghosts ? ghostGroup(result.drop) : []));
+    stack = names;
+    kept.replaceChildren(...(also ? keptGroups(other.drop) : []));
+    if (also) scene.keptRadius = radii(other.drop);
+    clock.touch();
+  };
+
+  const draw = () => {
+    if (!scene) return;
+    const { film, camera, floor, middle } = scene;
+    const now = film.at(clock.time);
+    const view = camera.at(clock.time, now.position);
+    moveBalls([...balls.children], now, { ...scene, view, legible: clock.legible, lies: (ball) => film.lies(ball, clock.time) });
+    if (film.ghosts) moveGhosts(ghosts, film.ghosts.at(clock.time), { view, floor, middle });
+    if (scene.also) {
+      const beside = { ...view, ...stacked(scene.keptRadius, view.scale) };
+      moveKept(kept, scene.also.at(clock.time), { view: beside, floor, middle: scene.beside });
+    }
+    moveTrails(trails, scene, view, clock.time);
+    moveCentre(centre, scene, view, now);
+    scene.moveRuler(view, clock.time);
+    onRuler(rulerPlace(scene, view));
+    if (clock.legible) {
+      const said = words(scene, clock, view);
+      write(time, said.time);
+      write(scale, said.note);
+    }
+    if (!clock.playing || !svg.hasAttribute("aria-label")) put(svg, "aria-label", spoken(scene, clock.time, now));
+    put(svg, "role", "img");
+  };
+
+  const showParts = () => {
+    const { ghosts: textbook, arrows, centre: mass } = store.get();
+    ghosts.classList.toggle("hidden", !textbook);
+    balls.classList.toggle("no-arrows", !arrows);
+    centre.classList.toggle("hidden", !mass);
+  };
+  store.subscribe((state, before) => {
+    const changed = (...names) => names.some((name) => state[name] !== before[name]);
+    if (changed("result", "magnify", "kept", "predict")) build();
+    if (changed("ghosts", "arrows", "centre")) showParts();
+  });
+  clock.subscribe(draw);
+  new ResizeObserver(([{ contentRect }]) => {
+    size = contentRect;
+    build();
+  }).observe(root);
+  showParts();
+}
+
+function drawGround(ground, { film, floor }, width) {
+  ground.replaceChildren();
+  if (!film.floor) return;
+  ground.append(
+    s("rect", { class: "ground-fill", x: 0, y: floor, width, height: FOOT }),
+    s("line", { class: "ground-line", x1: 0, x2: width, y1: floor, y2: floor }),
+  );
+}
+
+function trail(ball) {
+  const line = s("line", { class: "trail" });
+  line.style.setProperty("--ball", `var(--ball-${ball % 6})`);
+  return line;
+}
+
+/** Draw how far each ball has come since the impact. */
+function moveTrails(root, { film, floor, middle }, view, time) {
+  const flies = !film.whole && time > film.last;
+  put(root, "visibility", flies ? "visible" : "hidden");
+  if (!flies) return;
+  const now = film.at(time).position;
+  [...root.children].forEach((line, ball) => {
+    const top = film.tops[ball];
+    put(line, "x1", middle);
+    put(line, "x2", middle);
+    put(line, "y1", heightAt(view, floor, ball, 0));
+    put(line, "y2", heightAt(view, floor, ball, top && time > top.time ? top.height : now[ball]));
+  });
+}
+
+/** Return where the ruler of the highest ball is: its zero and its scale in px, and how near the camera is. */
+function rulerPlace({ film, floor, width }, { lift, rest, radius, move, near }) {
+  const fallen = film.at(film.begin).position[0];
+  return { zero: floor - lift - rest.at(-1) + radius.at(-1), scale: move, width, near, fallen };
+}
+
+/** Mark the centre of mass of the balls as they are drawn. */
+function moveCentre(mark, { result, floor, middle }, view, { position }) {
+  const { balls } = result.drop;
+  const mass = balls.reduce((sum, ball) => sum + ball.mass, 0);
+  const y = balls.reduce((sum, ball, i) => sum + (ball.mass / mass) * Number(heightAt(view, floor, i, position[i])), 0);
+  put(mark, "transform", `translate(${middle} ${y.toFixed(2)})`);
+}
+
+/** Return the words on the stage: the time, or the event at it, how fast the film is, and the scale. */
+function words({ film, camera, result, width }, clock, view) {
+  const { phase, from, to, length } = pieceAt(film, clock.time);
+  const event = clock.playing ? null : film.events.find(({ time }) => Math.abs(time - clock.time) <= NEARLY * (film.end - film.begin));
+  const speed = pace(length / (to - from) / clock.speed);
+  const magnified = view.near > 0.5 && camera.times > 1;
+  const scale = magnified ? t(", movement shown ×{times}", { times: format(camera.times, 2) }) : "";
+  const now = moment(clock.time, film.whole);
+  const some = width >= WORDY && result.drop.balls.some((_, ball) => film.lies(ball, clock.time));
+  const lies = some ? t("; its next bounce is not shown") : "";
+  return { time: event ? `${now}: ${happening(result.drop, event)}` : now, note: `${PHASES[phase]}${speed}${scale}${lies}` };
+}
+
+/** Describe the stage in words, for screen readers. */
+function spoken({ result, film }, time, { position, velocity }) {
+  const { drop } = result;
+  const balls = drop.balls.map((_, ball) => {
+    const way = velocity[ball] > 0 ? t("up") : t("down");
+    const [place, unit] = film.whole ? [position[ball], "m"] : [position[ball] * 1e3, "mm"];
+    return t("{ball} at {place} {unit}, {speed} m/s {way}", { ball: ballName(drop, ball), place: format(place, 3), unit, speed: format(Math.abs(velocity[ball]), 3), way });
+  });
+  return t("The stack at {time}, from below: {balls}.", { time: moment(time, film.whole), balls: balls.join("; ") });
+}
+
+function shading(id) {
+  const stop = (offset, opacity) =>
+    s("stop", { offset, "stop-color": "#fff", "stop-opacity": opacity });
+  const light = s("radialGradient", { id, cx: 0.36, cy: 0.3, r: 0.75 }, stop(0, 0.45), stop(0.6, 0.06), stop(1, 0));
+  return s("defs", {}, light);
+}

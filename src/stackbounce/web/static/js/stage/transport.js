@@ -1,0 +1,181 @@
+/** Playback: play, replay, events, the film's speed, and what the stage shows. */
+
+import { h, put, write } from "../dom.js";
+import { GRAVITY } from "../set_up/drops.js";
+import { choice } from "../set_up/fields.js";
+import { t } from "../words/language.js";
+import { format } from "../words/units.js";
+import { moment } from "../words/words.js";
+
+const STEPS = 2000; // of the cursor
+const MAGNIFY = [1, 2, 3, 5, 8, 10, 20, 30, 50];
+const STRIDE = 1 / 200; // of the film, that an arrow key moves the cursor; ten times that for a page
+const SPEEDS = { min: -3, max: 2, step: 0.25 }; // the film's, as powers of two
+
+/** Build the transport into `root`; it drives the clock, and follows it. */
+export function mountTransport(root, store, clock) {
+  const play = h("button", { type: "button", class: "play", "aria-label": t("Play"), onclick: toggle });
+  const cursor = h("input", {
+    type: "range",
+    class: "cursor",
+    min: 0,
+    max: STEPS,
+    step: "any",
+    value: 0,
+    "aria-label": t("Time"),
+    "aria-describedby": "keys",
+    oninput: () => {
+      clock.pause();
+      clock.wind((clock.film?.length ?? 0) * (Number(cursor.value) / STEPS));
+    },
+  });
+  const options = h("div", { class: "options" });
+  root.replaceChildren(h("div", { class: "transport-main" }, play, cursor), actions(store, clock), options);
+
+  function toggle() {
+    if (clock.playing) clock.pause();
+    else clock.play();
+  }
+  const move = (part) => {
+    clock.pause();
+    clock.wind(clock.reel + part * (clock.film?.length ?? 0));
+  };
+  const keys = {
+    ArrowLeft: () => move(-STRIDE),
+    ArrowRight: () => move(STRIDE),
+    Home: () => move(-1),
+    End: () => move(1),
+    " ": toggle,
+  };
+  const ofCursor = { ...keys, ArrowUp: keys.ArrowRight, ArrowDown: keys.ArrowLeft, PageUp: () => move(10 * STRIDE), PageDown: () => move(-10 * STRIDE) };
+  document.addEventListener("keydown", (event) => {
+    if (store.get().view !== "play" || event.ctrlKey || event.metaKey || event.altKey) return;
+    const own = event.target === cursor;
+    if (!own && event.target.closest("input, select, textarea, button, summary, a, [role=region], [role=slider]")) return;
+    const act = (own ? ofCursor : keys)[event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  });
+
+  const showOptions = () => options.replaceChildren(...switches(store));
+  let played = false;
+  clock.subscribe(() => {
+    cursor.value = (STEPS * clock.reel) / (clock.film?.length || 1);
+    if (!clock.playing) put(cursor, "aria-valuetext", moment(clock.time, store.get().until !== null));
+    put(play, "aria-label", clock.playing ? t("Pause") : t("Play"));
+    play.classList.toggle("playing", clock.playing);
+    if (played && !clock.playing) keep(store, clock);
+    played = clock.playing;
+  });
+  cursor.addEventListener("change", () => keep(store, clock));
+  addEventListener("pointerup", () => !clock.playing && keep(store, clock));
+  addEventListener("keyup", () => !clock.playing && keep(store, clock));
+  store.subscribe((state, before) => {
+    const changed = ["until", "magnify", "overlays", "predict", "kept", ...SHOWN.map(([name]) => name)].some((name) => state[name] !== before[name]);
+    if (changed || Boolean(state.result?.separate) !== Boolean(before.result?.separate)) showOptions();
+  });
+  showOptions();
+}
+
+/** Keep the cursor's place in the state, and so in the address. */
+function keep(store, clock) {
+  if (store.get().result) store.set({ t: clock.time });
+}
+
+/** Return the row of what is done with the film. */
+function actions(store, clock) {
+  const button = (text, act) => h("button", { type: "button", class: "small", text, onclick: act });
+  const step = (forward) => () => {
+    clock.pause();
+    clock.step(forward);
+    keep(store, clock);
+  };
+  const replay = () => {
+    clock.pause();
+    clock.seek(clock.begin);
+    clock.play();
+  };
+  const slider = h("input", {
+    type: "range",
+    class: "speed",
+    id: "film-speed",
+    ...SPEEDS,
+    oninput: () => store.set({ speed: 2 ** Number(slider.value) }),
+  });
+  const told = h("output", { class: "speed-told", for: "film-speed", "aria-live": "off" });
+  const loop = h("input", { type: "checkbox", onchange: () => store.set({ loop: loop.checked }) });
+  const show = () => {
+    const { speed, loop: again } = store.get();
+    slider.value = Math.log2(speed);
+    loop.checked = again;
+    write(told, `×${format(speed, 2)}`);
+    put(slider, "aria-valuetext", t("{times} times", { times: format(speed, 2) }));
+  };
+  store.subscribe((state, before) => (state.speed !== before.speed || state.loop !== before.loop) && show());
+  show();
+  return h(
+    "div",
+    { class: "actions" },
+    button(t("Replay"), replay),
+    button(t("Previous event"), step(false)),
+    button(t("Next event"), step(true)),
+    h("label", { class: "check" }, loop, t("Loop")),
+    h("span", { class: "film-speed" }, h("label", { for: "film-speed", text: t("Speed of the film") }), slider, told),
+  );
+}
+
+const SHOWN = [
+  ["ghosts", t("Textbook’s balls")],
+  ["arrows", t("Velocities")],
+  ["momentum", t("Momentum")],
+  ["centre", t("Centre of mass")],
+  ["sound", t("Sound")],
+];
+
+/** Return the row of what the stage shows. */
+function switches(store) {
+  const { magnify, until, result, overlays, predict, kept } = store.get();
+  const hasTextbook = !result || result.separate;
+  const parts = SHOWN.filter(([name]) => name !== "ghosts" || hasTextbook).map(([name, text]) =>
+    check(text, store.get()[name], (on) => store.set({ [name]: on })),
+  );
+  parts.push(check(t("Whole drop"), until !== null, (on) => store.set(on ? whole(store.get()) : alone(store.get()))));
+  if (until === null) {
+    const sizes = [...new Set(magnify === null ? MAGNIFY : [...MAGNIFY, magnify])].sort((a, b) => a - b).map((one) => [one, `×${format(one, 3)}`]);
+    const set = (value) => store.set({ magnify: value === "" ? null : Number(value) });
+    parts.push(
+      check(t("Predict first"), predict, (on) => store.set({ predict: on, guess: null })),
+      h("button", {
+        type: "button",
+        class: "small",
+        text: kept ? t("Let go what was kept") : t("Keep this one to compare"),
+        onclick: () => store.set({ kept: kept ? null : store.get().result }),
+      }),
+      choice({ label: t("Movement"), groups: [["", [["", t("auto")], ...sizes]]], value: magnify ?? "", set }),
+    );
+  }
+  if (until === null && overlays.some(({ what }) => what === "position")) {
+    parts.push(h("p", { class: "note", text: t("The measured track is of the whole drop: show that to see it.") }));
+  }
+  return parts;
+}
+
+function check(text, checked, set) {
+  const box = h("input", { type: "checkbox", checked, onchange: (event) => set(event.target.checked) });
+  return h("label", { class: "check" }, box, text);
+}
+
+let before = 0; // m/s², gravity during the impact, when a whole drop was asked for
+
+/** Return the patch that shows falls, bounces and flights: long enough for the highest ball to come down. */
+function whole({ drop, result }) {
+  const fastest = Math.max(1, ...(result?.rebound_speeds ?? []).filter(Number.isFinite));
+  const until = Math.min(Math.ceil((2.4 * fastest) / GRAVITY), 8);
+  before = drop.gravity;
+  return { until, t: null, drop: { ...drop, gravity: GRAVITY } };
+}
+
+function alone({ drop }) {
+  return { until: null, t: null, drop: { ...drop, gravity: before } };
+}

@@ -1,0 +1,95 @@
+/** A line in words: what it shows, its values at a place, and as a whole. */
+
+import { t, translated } from "../../words/language.js";
+import { sideOf } from "../map/axes.js";
+import { brief, quantity } from "../map/in_words.js";
+import { format } from "../../words/units.js";
+import { ballName, capital, contactName, count, height, percent } from "../../words/words.js";
+
+const FEW = 3; // curves whose textbook is told, too
+
+/** What a line can show, and what its axis is called. */
+export const SHOWS = new Map([
+  ["rebound_ratio", t("Rebound speeds over v₀")],
+  ["rebound_height", t("Rebound heights")],
+  ["energy_retained", t("Kinetic energy retained")],
+  ["collisions", t("Collisions of each contact")],
+]);
+
+/** Return what a curve is of: a ball, a contact, or all. */
+export function nameOf({ drop, show }, { index }) {
+  if (index === null) return t("energy");
+  return show === "collisions" ? contactName(drop, index) : ballName(drop, index);
+}
+
+/** Return the value of a curve at a part of the side: between two points on their chord, at a jump that of the nearer one. */
+export function valueAt({ x, show }, { values, jumps }, part) {
+  const side = sideOf(x);
+  const parts = x.values.map((value) => side.part(value));
+  const after = parts.findIndex((one) => one >= part);
+  if (after < 0) return values.at(-1);
+  if (after === 0) return values[0];
+  const [left, right] = [values[after - 1], values[after]];
+  const share = (part - parts[after - 1]) / (parts[after] - parts[after - 1]);
+  if (left === null || right === null || jumps.includes(after - 1) || show === "collisions") return share < 0.5 ? left : right;
+  return left + share * (right - left);
+}
+
+/** Return what happens at a part of the side, in words: "Gap above basketball 1.2 mm: tennis 1.6 times …". */
+export function told(answer, part) {
+  const { x, show, curves } = answer;
+  const each = [...curves].reverse().map((curve) => outcome(answer, curve, part));
+  const values = { number: capital(brief(translated(x.label))), value: quantity(sideOf(x).value(part), x.unit), each: each.join(", ") };
+  return show === "rebound_ratio" ? t("{number} {value}: {each} the impact speed.", values) : t("{number} {value}: {each}.", values);
+}
+
+function outcome(answer, curve, part) {
+  const own = valueAt(answer, curve, part);
+  const name = nameOf(answer, curve);
+  const theirs = answer.curves.length <= FEW && curve.textbook && valueAt(answer, curve.textbook, part);
+  const beside = typeof theirs === "number" ? ` (${t("textbook {value}", { value: written(answer.show, theirs, false) })})` : "";
+  const said = own === null ? t("not finished") : written(answer.show, own) + beside;
+  if (answer.show === "energy_retained") return t("{share} of the kinetic energy retained", { share: said });
+  if (answer.show === "rebound_height") return t("{ball} rises {height}", { ball: name, height: said });
+  return `${name} ${said}`;
+}
+
+function timesOf(value, times) {
+  return times ? t("{times} times", { times: value }) : value;
+}
+
+/** Return a value as it is read. */
+function written(show, value, times = true) {
+  if (show === "rebound_ratio") return timesOf(format(Math.abs(value) < 5e-4 ? 0 : value, 3), times);
+  if (show === "rebound_height") return height(value);
+  return show === "collisions" ? count(value) : percent(value);
+}
+
+/** Return a line as a whole in words: the smallest and the largest value of each curve, and where they are. */
+export function summary(answer) {
+  const { x, show, curves, unfinished } = answer;
+  if (!curves.length) return t("This drop has no contact.");
+  const sentences = [...curves].reverse().map((curve) => {
+    const [low, high] = extremes(curve.values, show);
+    const name = capital(nameOf(answer, curve));
+    if (low === null) return t("{name}: no point could be finished.", { name });
+    const said = (i) => written(show, curve.values[i]);
+    if (said(low) === said(high)) return t("{name}: {value} everywhere.", { name, value: said(low) });
+    const at = (i) => quantity(x.values[i], x.unit) || "0";
+    return t("{name}: smallest {low} at {where}, largest {high} at {there}.", { name, low: said(low), where: at(low), high: said(high), there: at(high) });
+  });
+  const open = unfinished ? ` ${t("{some} of {all} points could not be finished: there the curves have gaps.", { some: unfinished, all: x.values.length })}` : "";
+  return `${sentences.join(" ")}${open}`;
+}
+
+/** Return the places of the smallest and the largest value; endless collisions, -1, are the most. */
+function extremes(values, show) {
+  const order = (value) => (show === "collisions" && value < 0 ? Infinity : value);
+  let [low, high] = [null, null];
+  values.forEach((value, i) => {
+    if (value === null) return;
+    if (low === null || order(value) < order(values[low])) low = i;
+    if (high === null || order(value) > order(values[high])) high = i;
+  });
+  return [low, high];
+}

@@ -1,0 +1,81 @@
+/** The axes of a map: scales, ticks, and the initial range of each number. */
+
+import { clean } from "../../words/units.js";
+
+/** Return `{part(value), value(part)}`: a side's places from 0 to 1. */
+export function sideOf({ low, high, log }) {
+  if (log) {
+    const range = Math.log(high / low);
+    return { part: (value) => Math.log(value / low) / range, value: (part) => low * Math.exp(part * range) };
+  }
+  return { part: (value) => (value - low) / (high - low), value: (part) => low + part * (high - low) };
+}
+
+/** Return ticks `{value, named}` between two ends; about `most` of them are named. */
+export function ticks(low, high, log, most) {
+  const [from, to] = low < high ? [low, high] : [high, low];
+  if (log && to / from >= 4) return decades(from, to, most);
+  const step = niceStep((to - from) / most);
+  const first = Math.ceil(from / step - 1e-9);
+  const last = Math.floor(to / step + 1e-9);
+  return Array.from({ length: last - first + 1 }, (_, i) => ({ value: clean((first + i) * step), named: true }));
+}
+
+/** Return the nice number (1, 2 or 5 times a power of ten) that is not below another. */
+function niceStep(least) {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return power * [1, 2, 5, 10].find((nice) => nice * power >= least * (1 - 1e-9));
+}
+
+function decades(low, high, most) {
+  const span = Math.log10(high / low);
+  const named = span < 1.4 ? [1, 2, 3, 5, 7] : span < 3.2 && most >= 5 ? [1, 2, 5] : [1];
+  const skip = Math.max(1, Math.ceil(span / most));
+  const found = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.ceil(Math.log10(high)); power += 1) {
+    for (let digit = 1; digit < 10; digit += 1) {
+      const value = clean(digit * 10 ** power);
+      if (value < low * (1 - 1e-9) || value > high * (1 + 1e-9)) continue;
+      found.push({ value, named: named.includes(digit) && (digit > 1 || power % skip === 0) });
+    }
+  }
+  return found;
+}
+
+/** The first ends of each kind of number, in SI units, even in ratios or not. */
+const ENDS = {
+  mass_ratio: { low: 0.1, high: 100, log: true },
+  stiffness_ratio: { low: 0.1, high: 100, log: true },
+  restitution: { low: 0.05, high: 1, log: false },
+  exponent: { low: 1, high: 3, log: false },
+  gaps: { low: 0, high: 0.01, log: false },
+  impact_speed: { low: 0.5, high: 10, log: false },
+  height: { low: 0.1, high: 3, log: false },
+  gravity: { low: 0, high: 20, log: false },
+  velocities: { low: -5, high: 5, log: false },
+};
+
+/** Return the side of a map over a number: `{path, low, high, log}`, with its present value inside. */
+export function firstSide({ path, value }) {
+  const parts = path.split(".");
+  const kind = ENDS[parts[0]] ?? ENDS[parts.at(-1)];
+  if (!kind) {
+    if (value > 0) return { path, low: nice(value / 10), high: nice(value * 10), log: true };
+    return { path, low: 0, high: 1, log: false };
+  }
+  const air = kind.log ? 2 : 1;
+  const low = value < kind.low ? nice(kind.log ? value / air : value) : kind.low;
+  const high = value > kind.high ? nice(value * (kind.log ? air : 1.5)) : kind.high;
+  return { path, low, high, log: kind.log };
+}
+
+function nice(value) {
+  return Number(value.toPrecision(2));
+}
+
+/** Return whether an axis can be drawn: its ends differ, and are above 0 on a logarithmic scale. */
+export function isSide(side) {
+  if (!side || typeof side.path !== "string") return false;
+  const ends = [side.low, side.high].every((end) => typeof end === "number" && Number.isFinite(end));
+  return ends && side.low !== side.high && (!side.log || Math.min(side.low, side.high) > 0);
+}

@@ -1,0 +1,100 @@
+/** The microphone as a source of a measurement: at most 30 s, which become a WAV file in the page. */
+
+import { h, write } from "../../dom.js";
+import { t } from "../../words/language.js";
+import { download } from "../../state/share.js";
+import { wavOf } from "./wav.js";
+
+const LONGEST = 30; // s
+const CLIPPED = 0.99; // of the largest sample
+const PLAIN = { echoCancellation: false, noiseSuppression: false, autoGainControl: false, channelCount: 1 };
+
+/** Return the element; `take` hears each recording, as a file. */
+export function microphone(take) {
+  if (!window.isSecureContext || !navigator.mediaDevices?.getUserMedia) {
+    return h("p", {
+      class: "note",
+      text: t("To record a bounce here, open the page on the machine that runs stackbounce: browsers give the microphone only to pages of the same machine or with an address that begins with https://."),
+    });
+  }
+  const said = h("p", { class: "note", role: "status" });
+  const problem = h("p", { class: "field-error", role: "alert", hidden: true });
+  const level = h("meter", { class: "level", min: 0, max: 1, high: CLIPPED, value: 0, "aria-label": t("Loudness"), hidden: true });
+  const button = h("button", { type: "button", text: t("Record a bounce"), onclick: () => (recording ? stop() : start()) });
+  const save = h("button", { type: "button", class: "small", text: t("Save the recording"), hidden: true, onclick: () => download(file, file.name) });
+  let recording = null;
+  let file = null;
+
+  const start = async () => {
+    button.disabled = true;
+    problem.hidden = true;
+    try {
+      recording = await record(heard);
+      write(button, t("Stop"));
+      level.hidden = false;
+      save.hidden = true;
+      write(said, t("Recording, for {seconds} s at most: let the ball bounce near the microphone.", { seconds: LONGEST }));
+    } catch (error) {
+      write(problem, whyNot(error));
+      problem.hidden = false;
+    }
+    button.disabled = false;
+  };
+  const heard = (peak, seconds) => {
+    level.value = peak;
+    if (recording && seconds >= LONGEST) stop();
+  };
+  const stop = () => {
+    const { samples, rate, loudest } = recording.end();
+    recording = null;
+    write(button, t("Record a bounce"));
+    level.hidden = true;
+    const clipped = loudest >= CLIPPED;
+    write(said, clipped ? t("The recording was too loud, so that its peaks are cut off. Record it again from further away.") : t("The recording stays on this machine."));
+    file = new File([wavOf(samples, rate)], "recording.wav", { type: "audio/wav" });
+    save.hidden = false;
+    take(file);
+  };
+  return h("div", { class: "microphone" }, h("div", { class: "microphone-row" }, button, level, save), said, problem);
+}
+
+/** Begin to record; `heard` is told the peak of each part, and how many seconds there are. */
+async function record(heard) {
+  const stream = await navigator.mediaDevices.getUserMedia({ audio: PLAIN });
+  const context = new AudioContext();
+  const parts = [];
+  const rate = context.sampleRate;
+  const close = () => {
+    for (const track of stream.getTracks()) track.stop();
+    context.close();
+  };
+  let loudest = 0;
+  try {
+    await context.audioWorklet.addModule(new URL("./microphone_worklet.js", import.meta.url));
+    await context.resume();
+    const recorder = new AudioWorkletNode(context, "recorder", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
+    recorder.port.onmessage = ({ data }) => {
+      parts.push(data);
+      const peak = data.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0);
+      loudest = Math.max(loudest, peak);
+      heard(peak, (parts.length * data.length) / rate);
+    };
+    context.createMediaStreamSource(stream).connect(recorder);
+  } catch (error) {
+    close();
+    throw error;
+  }
+  const end = () => {
+    close();
+    const samples = new Float32Array(parts.reduce((sum, part) => sum + part.length, 0));
+    parts.forEach((part, i) => samples.set(part, i * part.length));
+    return { samples, rate, loudest };
+  };
+  return { end };
+}
+
+function whyNot({ name, message }) {
+  if (name === "NotAllowedError") return t("The browser does not let this page use the microphone. Allow it beside the page’s address, then try again.");
+  if (name === "NotFoundError") return t("No microphone was found.");
+  return message;
+}

@@ -1,0 +1,123 @@
+/** A record laid over a simulated drop: the same clock, the same zero of height, the same unit. */
+
+import { t, translated } from "../../words/language.js";
+
+const GRAVITY = 9.80665;
+const TRIES = 160; // shifts of the clock that are tried
+const FALLING = 60; // points of the fall before the impact
+
+/** Return the curves `[{label, what, index, unit, time, values}]` of a file that a drop has too, on its clock. */
+export function laid({ series, zero }, drop) {
+  return series
+    .filter(({ what, index }) => what !== "other" && index < drop.balls.length)
+    .map((one) => ({ ...one, time: one.time.map((time) => time - (zero ?? 0)) }));
+}
+
+/** Return curves later by a shift in s. */
+export function shifted(curves, shift) {
+  if (shift === 0) return curves;
+  return curves.map((one) => ({ ...one, time: one.time.map((time) => time + shift) }));
+}
+
+/** Return the simulated lines `[{index, time, values}]` of a result that belong to curves. */
+export function lines({ frames, drop }, curves) {
+  return curves.map(({ what, index }) => {
+    const values = frames[what][index];
+    if (what !== "position") return { index, time: frames.time, values };
+    const fall = falling(frames.time[0], values[0], frames.velocity[index][0], drop.gravity || GRAVITY);
+    return { index, time: [...fall.time, ...frames.time], values: [...fall.values, ...values] };
+  });
+}
+
+/** Return the positions of a ball before the impact: a fall from rest. */
+function falling(end, place, velocity, gravity) {
+  const lasts = Math.max(-velocity / gravity, 0);
+  const steps = Array.from({ length: FALLING }, (_, i) => -lasts * (1 - i / FALLING));
+  return {
+    time: steps.map((step) => end + step),
+    values: steps.map((step) => place + velocity * step - (gravity * step * step) / 2),
+  };
+}
+
+/**
+ * Return curves in the unit and from the zero of the simulated lines: a voltage gets the scale at
+ * which the peaks agree, and a track, which follows some point of its ball, is moved up or down.
+ */
+export function matched(curves, simulated) {
+  const notes = [];
+  const found = curves.map((one, i) => {
+    const line = simulated[i];
+    if (one.what === "force" && one.unit !== "N") {
+      const scale = most(line.values) / (most(one.values) || 1);
+      const values = { what: translated(one.label), unit: one.unit || t("no unit") };
+      notes.push(t("{what} is in {unit}: its scale is chosen so that its peak is the simulated one.", values));
+      return { ...one, unit: "N", values: one.values.map((value) => value * scale) };
+    }
+    if (one.what !== "position") return one;
+    const offset = mean(differences(one, line, { until: 0 }));
+    if (!Number.isFinite(offset)) return one;
+    const values = { what: translated(one.label), size: (Math.abs(offset) * 1e3).toFixed(0) };
+    const [lower, higher] = [
+      t("{what} is drawn {size} mm lower than tracked, to lie on the simulated ball.", values),
+      t("{what} is drawn {size} mm higher than tracked, to lie on the simulated ball.", values),
+    ];
+    if (Math.abs(offset) > 5e-4) notes.push(offset > 0 ? lower : higher);
+    return { ...one, values: one.values.map((value) => value - offset) };
+  });
+  return { curves: found, notes };
+}
+
+/**
+ * Return the shift of the clock in s, within a reach, at which curves lie best on simulated lines. Tracks
+ * are compared until a time, as later on they go apart if the drop is not yet the right one.
+ */
+export function bestShift(curves, simulated, reach, until) {
+  const cost = (shift) => shifted(curves, shift).reduce((sum, one, i) => sum + distance(one, simulated[i], until), 0);
+  let [best, least] = [0, cost(0)];
+  for (let wide = reach, middle = 0; wide > reach / 1000; wide /= 20, middle = best) {
+    for (let i = -TRIES / 4; i <= TRIES / 4; i += 1) {
+      const shift = middle + (wide * i * 4) / TRIES;
+      const now = cost(shift);
+      if (now < least) [best, least] = [shift, now];
+    }
+  }
+  return best;
+}
+
+/** How far a curve is from a line, but for the zero of a track and the scale of a force. */
+function distance(curve, line, until) {
+  if (curve.what === "position") {
+    const apart = differences(curve, line, { until });
+    const middle = mean(differences(curve, line, { until: 0 }));
+    return apart.reduce((sum, one) => sum + (one - middle) ** 2, 0) / Math.max(apart.length, 1);
+  }
+  const scale = curve.unit === "N" ? 1 : most(line.values) / (most(curve.values) || 1);
+  const apart = differences({ ...curve, values: curve.values.map((value) => value * scale) }, line, { beyond: 0 });
+  return apart.reduce((sum, one) => sum + one ** 2, 0) / Math.max(apart.length, 1);
+}
+
+/** Return curve minus line, until a time, wherever the line is, or its value `beyond` where it is not. */
+function differences({ time, values }, line, { until = Infinity, beyond = null }) {
+  const found = [];
+  let place = 0;
+  time.forEach((now, i) => {
+    if (values[i] === null || now > until) return;
+    while (place + 2 < line.time.length && line.time[place + 1] < now) place += 1;
+    const [from, to] = [line.time[place], line.time[place + 1]];
+    if (now < line.time[0] || now > line.time.at(-1)) {
+      if (beyond !== null) found.push(values[i] - beyond);
+      return;
+    }
+    const part = to > from ? (now - from) / (to - from) : 0;
+    found.push(values[i] - (line.values[place] + part * (line.values[place + 1] - line.values[place])));
+  });
+  return found;
+}
+
+function mean(values) {
+  return values.reduce((sum, value) => sum + value, 0) / values.length;
+}
+
+function most(values) {
+  return values.reduce((high, value) => Math.max(high, value ?? 0), 0);
+}

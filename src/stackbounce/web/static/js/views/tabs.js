@@ -1,0 +1,40 @@
+/** The views as tabs: arrows move between them, a view is built when it is first opened. */
+
+import { VIEWS } from "../state/store.js";
+
+/**
+ * Show the store's view and let tabs choose it.
+ * @param {object} openers by view what builds it, called once with its section
+ */
+export function mountTabs(store, openers) {
+  const tabs = VIEWS.map((view) => document.getElementById(`tab-${view}`));
+  const sections = VIEWS.map((view) => document.getElementById(view));
+  const opened = new Set();
+  const show = () => {
+    const { view } = store.get();
+    VIEWS.forEach((one, i) => {
+      const here = one === view;
+      tabs[i].setAttribute("aria-selected", String(here));
+      tabs[i].tabIndex = here ? 0 : -1;
+      sections[i].hidden = !here;
+    });
+    if (opened.has(view)) return;
+    opened.add(view);
+    openers[view]?.(document.getElementById(view));
+  };
+  tabs.forEach((tab, i) => {
+    tab.addEventListener("click", () => store.set({ view: VIEWS[i] }));
+    tab.addEventListener("keydown", (event) => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      const place = { Home: 0, End: VIEWS.length - 1 }[event.key] ?? (step && (i + step + VIEWS.length) % VIEWS.length);
+      if (place === undefined) return;
+      event.preventDefault();
+      store.set({ view: VIEWS[place] });
+      tabs[place].focus();
+    });
+  });
+  store.subscribe((state, before) => {
+    if (state.view !== before.view) show();
+  });
+  show();
+}
