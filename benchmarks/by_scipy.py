@@ -11,6 +11,8 @@ from typing import Any
 import numpy as np
 from scipy.integrate import solve_ivp
 
+from benchmarks.bundle import Bundle
+
 END = 1.0  # s; all is over long before
 
 
@@ -51,25 +53,29 @@ def rebound(case: dict[str, Any], rtol: float) -> np.ndarray:
     atol = rtol * np.array([length, length, speed, speed])
     while any(closed) or y[2] < 0.0 or y[3] < y[2]:
         events = [event(i, 0, 0.0, -1 if closed[i] else 1) for i in (0, 1)]
-        turns = [i for i in (0, 1) if closed[i] and forces[i].n > forces[i].p]
-        for i in turns:  # onto the unloading curve, or back past the old peak
-            back = forces[i].peak < math.inf
-            events.append(event(i, 0, forces[i].peak, 1) if back else event(i, 1, 0.0, -1))
+        turns = [i for i in (0, 1) if closed[i] and forces[i].bundle]
+        ends = [i for i in turns if 0.0 < forces[i].bundle.end < math.inf]
+        ways = {i: -1 if forces[i].bundle.loading else 1 for i in turns}  # of the rate at a turn
+        events += [event(i, 1, 0.0, ways[i]) for i in turns]
+        events += [event(i, 0, forces[i].bundle.end, -ways[i]) for i in ends]
         done = solve_ivp(slope, (t, END), y, "DOP853", events=events, rtol=rtol, atol=atol)
         t, y = done.t[-1], done.y[:, -1]
         happened = [len(times) > 0 for times in done.t_events]
         for i in (0, 1):
             closed[i] ^= happened[i]
-            if happened[i]:
-                forces[i].peak = math.inf
-        for i, turned in zip(turns, happened[2:], strict=True):
+            if happened[i] and forces[i].bundle:
+                forces[i].bundle.forget()
+        for i, turned in zip(turns, happened[2:], strict=False):
             if turned and closed[i]:
-                forces[i].peak = math.inf if forces[i].peak < math.inf else contacts(y)[i][0]
+                forces[i].bundle.turn(contacts(y)[i][0])
+        for i, ended in zip(ends, happened[2 + len(turns) :], strict=True):
+            if ended and closed[i]:
+                forces[i].bundle.go_on()
     return y[2:]
 
 
 class _Force:
-    """The force of one contact; one with hysteresis knows the peak from which it unloads."""
+    """The force of one contact; one with hysteresis is a bundle of elements."""
 
     def __init__(self, law: dict[str, Any]) -> None:
         self.k = law["stiffness"]
@@ -77,13 +83,13 @@ class _Force:
         self.chi = law.get("dissipation", 0.0)
         self.time = law.get("dissipative_time", 0.0)
         e = law.get("restitution", 1.0)
-        self.n = law.get("unloading_exponent", (self.p + 1.0) / e**2 - 1.0)
-        self.peak = math.inf
+        n = law.get("unloading_exponent", (self.p + 1.0) / e**2 - 1.0)
+        self.bundle: Any = Bundle(self.k, self.p, n) if n > self.p else None
 
     def __call__(self, c: float, rate: float) -> float:
         if c <= 0.0:
             return 0.0
-        if self.peak < math.inf:
-            return float(self.k * self.peak**self.p * (c / self.peak) ** self.n)
+        if self.bundle:
+            return float(self.bundle.force(c))
         elastic = c**self.p + 1.5 * self.time * math.sqrt(c) * rate
         return float(max(0.0, self.k * elastic * (1.0 + self.chi * rate)))

@@ -11,8 +11,8 @@ from typing import Any
 from benchmarks.peers.impacts.common import Answer, Peer, Problem, Solve, Unsupported
 from benchmarks.peers.impacts.events import (
     CLIPPED,
-    LOADING,
     OPEN,
+    PRESSING,
     Contact,
     Event,
     Slopes,
@@ -33,7 +33,7 @@ def parameters(contact: Contact | None) -> tuple[float, float, float, float]:
     """Return the parameters of a contact in its phase."""
     if contact is None:
         return 0.0, 0.0, 0.0, 0.0
-    is_open, loads = contact.phase == OPEN, contact.phase == LOADING
+    is_open, loads = contact.phase == OPEN, contact.phase == PRESSING
     clip = 1.0 if loads else -1.0 if contact.phase == CLIPPED else 0.0
     return float(loads), -1.0 if is_open else 1.0, clip, float(is_open)
 
@@ -72,7 +72,7 @@ def prepare() -> Solve:
 
     def solve(problem: Problem) -> Answer:
         story = Story(problem, RTOL)
-        if any(x and (x.power not in (0.0, 1.0) or x.unloading) for x in story.contacts):
+        if any(x and (x.power not in (0.0, 1.0) or x.bundle) for x in story.contacts):
             raise Unsupported("a force that has no Taylor series where the contact begins")
         made, owners = integrator(story)
         nothing = NOTHING * scales(story)[0]

@@ -1,20 +1,24 @@
 """The story of finite contacts from event to event, for programs that integrate equations.
 
 The unknowns are the compressions c of all contacts and their rates u, so that a contact far above
-the floor loses no digits. A contact is open, loading, unloading (`Hysteretic`), or clipped: still
-compressed, while the formula of its force would pull. An integration ends where one of these
-changes, so that no step goes over a place where a force is not smooth.
+the floor loses no digits. A contact is open, pressing, or clipped: still compressed, while the
+formula of its force would pull. An integration ends where one of these changes, and where the
+elements of a contact with hysteresis change (`Bundle`), so that no step goes over a place where a
+force is not smooth.
 """
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from math import inf
 from typing import Any
 
 import numpy as np
 
+from benchmarks.bundle import Bundle
 from benchmarks.peers.impacts.common import Answer, Problem, Unsupported
 
-OPEN, LOADING, UNLOADING, CLIPPED = range(4)
+OPEN, PRESSING, CLIPPED = range(3)
+TURNED, WENT_ON = range(3, 5)  # within a contact with hysteresis: see `Bundle`
 MOST_EVENTS = 20_000
 LONGEST = 1e6  # times the problem's own time, for a leg on which contacts press
 NOISE = 1e-12  # of its length: round-off of a compression that begins at rest
@@ -42,9 +46,8 @@ class Contact:
     constant: float = 1.0
     slope: float = 0.0
     rate: float = 0.0
-    unloading: float = 0.0
+    bundle: Bundle | None = None  # the elements of one with hysteresis
     phase: int = OPEN
-    peak: float = 0.0
     begun: float = 0.0
     clipped: float = 0.0
     noise: float = 0.0  # m, of a compression that begins at rest
@@ -57,24 +60,24 @@ class Contact:
         """Return the force in the present phase."""
         if self.phase in (OPEN, CLIPPED) or (c <= 0.0 and self.power > 0.0):
             return 0.0
-        if self.phase == UNLOADING:
-            top = self.stiffness * self.peak**self.power
-            return float(top * min(c / self.peak, 1.0) ** self.unloading)
+        if self.bundle:
+            return float(self.bundle.force(c))
         return float(self.stiffness * c**self.power * self.bracket(c, u))
 
     def events(self) -> list[tuple[Callable[[float, float], float], int]]:
         """Return functions that fall through zero where the phase ends, and the phase after it."""
         if self.phase == OPEN:
-            return [(lambda c, _: -c, LOADING)]
+            return [(lambda c, _: -c, PRESSING)]
         found: list[tuple[Callable[[float, float], float], int]] = [
             (lambda c, _: c + self.noise, OPEN)
         ]
         if self.phase == CLIPPED:
-            found.append((lambda c, u: -self.bracket(c, u), LOADING))
-        elif self.phase == UNLOADING:
-            found.append((lambda c, _: self.peak - c, LOADING))
-        elif self.unloading:
-            found.append((lambda _, u: u, UNLOADING))
+            found.append((lambda c, u: -self.bracket(c, u), PRESSING))
+        elif self.bundle:
+            way, end = 1.0 if self.bundle.loading else -1.0, self.bundle.end
+            found.append((lambda _, u: way * u, TURNED))
+            if 0.0 < end < inf:
+                found.append((lambda c, _: way * (end - c), WENT_ON))
         elif self.rate:
             found.append((self.bracket, CLIPPED))
         return found
@@ -95,8 +98,9 @@ def read(fields: dict[str, Any]) -> Contact:
     if law != "Hysteretic":
         return Contact(law, k, p)
     if "unloading_exponent" in fields:
-        return Contact(law, k, p, unloading=fields["unloading_exponent"])
-    return Contact(law, k, p, unloading=(p + 1.0) / fields["restitution"] ** 2 - 1.0)
+        return Contact(law, k, p, bundle=Bundle(k, p, fields["unloading_exponent"]))
+    n = (p + 1.0) / fields["restitution"] ** 2 - 1.0
+    return Contact(law, k, p, bundle=Bundle(k, p, n))
 
 
 class Story:
@@ -118,7 +122,7 @@ class Story:
         self.intervals: list[tuple[int, float, float | None]] = []
         for i, contact in enumerate(self.contacts):
             if contact and self.state[i] == 0.0:
-                contact.phase = LOADING
+                contact.phase = PRESSING
                 if rates[i] == 0.0:
                     contact.noise = NOISE * self.durations[i] * self.speed
 
@@ -135,7 +139,7 @@ class Story:
     @property
     def pressing(self) -> list[int]:
         """Return which contacts have a force."""
-        return [i for i, x in enumerate(self.contacts) if x and x.phase in (LOADING, UNLOADING)]
+        return [i for i, x in enumerate(self.contacts) if x and x.phase == PRESSING]
 
     def slopes(self, y: Any) -> list[float]:
         """Return c' = u and u' = the difference of what accelerates both balls."""
@@ -177,14 +181,18 @@ class Story:
     def enter(self, i: int, phase: int) -> None:
         """Change a contact's phase."""
         x = self.contacts[i]
+        if x.bundle and phase in (TURNED, WENT_ON):
+            if x.phase == PRESSING:  # it has not opened at the same time
+                x.bundle.turn(float(self.state[i])) if phase == TURNED else x.bundle.go_on()
+            return
         before, x.phase = x.phase, phase
         if before == OPEN:
-            x.begun, x.peak = self.time, 0.0
+            x.begun = self.time
+            if x.bundle:
+                x.bundle.forget()
         if OPEN in (before, phase):
             self.state[i], x.noise = 0.0, 0.0
-        if phase == UNLOADING:
-            x.peak = float(self.state[i])
-        elif phase == CLIPPED:
+        if phase == CLIPPED:
             x.clipped = self.time
         elif phase == OPEN:
             self.intervals.append((i, x.begun, x.clipped if before == CLIPPED else self.time))
@@ -232,7 +240,7 @@ def follow(story: Story, leg: Leg) -> Answer:
             story.enter(i, phase)
         for i, x in enumerate(story.contacts):  # an integrator may stop at one event of several
             if x and (story.state[i] > 0.0 if x.phase == OPEN else story.state[i] < -x.noise):
-                story.enter(i, LOADING if x.phase == OPEN else OPEN)
+                story.enter(i, PRESSING if x.phase == OPEN else OPEN)
     raise ArithmeticError(f"more than {MOST_EVENTS} events")
 
 

@@ -714,6 +714,7 @@ def test_a_file_that_is_dropped_beside_the_place_for_it_is_measured(visit):
     page = visit.open()
     assert page.evaluate(DROP_A_FILE) == [False, False]  # the browser does not open it
     assert visit.state("view") == "measure"
-    said = page.locator("#measure").filter(has_text=re.compile("fall.csv|need stackbounce itself"))
+    answer = re.compile("fall.csv|need stackbounce itself")
+    said = page.locator("#measure").filter(has_text=answer, has_not_text="Reading fall.csv")
     said.wait_for()
     visit.complaints[:] = [one for one in visit.complaints if "422" not in one]  # it is no record
