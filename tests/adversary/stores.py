@@ -58,8 +58,8 @@ def chunk(store: Path, random: Random) -> None:
     """Damage chunks."""
     for _ in range(int(random.integers(1, 4))):
         own = _ARRAYS[int(random.integers(len(_ARRAYS)))]
-        path = _one(_files(store / own, "[0-9]*"), random)
-        _WAYS[int(random.integers(len(_WAYS)))](path, random)
+        if paths := _files(store / own, "[0-9]*"):  # a part of a store may have no more
+            _WAYS[int(random.integers(len(_WAYS)))](_one(paths, random), random)
 
 
 def metadata(store: Path, random: Random) -> None:
