@@ -76,8 +76,8 @@ check: lint types imports docs test  ## everything: lint, types, import rules, d
 	@$(PYTEST) -m 'slow or hypothesis'
 
 fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS=1000000 FILES=5000 FOLDER= SEED=1
-	@cd tests && ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
-	@cd tests && ../$(BIN)/python -m fuzz.files --count $(FILES) --seed $(SEED) $(abspath $(FOLDER))
+	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m fuzz --drops $(DROPS) --seed $(SEED)
+	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m fuzz.files --count $(FILES) --seed $(SEED) $(abspath $(FOLDER))
 
 attack: $(DEV) kernels  ## all attacks of tests/adversary in great number, a row of a table each: up to an hour; SEED=1
 	@cd tests && for name in $(ATTACKS); do ../$(BIN)/python -m adversary.$$name --seed $(SEED) || failed=1; done; \
