@@ -5,10 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from stackbounce.files import prepare_folder, write_folder
-from studies.table2.page import make_files
-
-_NAMES = ("study.html", "study.json")
+from studies.table2.page import write
 
 
 def main() -> None:
@@ -16,9 +13,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m studies.table2", description=__doc__)
     parser.add_argument("--out", type=Path, default=Path("build/study"), metavar="DIR")
     out = parser.parse_args().out
-    prepare_folder(out, _NAMES)
-    files = make_files(_say, os.cpu_count() or 1)
-    write_folder(out, files)
+    write(out, _say, os.cpu_count() or 1)
     sys.stderr.write(f"Open {out / 'study.html'}\n")
 
 

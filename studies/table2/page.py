@@ -8,6 +8,7 @@ from typing import Any
 
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.style import Picture, render, use_style
+from stackbounce.files import prepare_folder, write_folder
 from stackbounce.fitting import Residual
 from stackbounce.version import __version__
 from studies.table2 import inputs
@@ -35,7 +36,15 @@ from studies.table2.inner_mode_ranges import RANGES
 from studies.table2.readings import LAWS, READINGS, penalty
 from studies.table2.results import Study, run_study
 
-__all__ = ["draw_pictures", "make_files", "render_page"]
+__all__ = ["draw_pictures", "make_files", "render_page", "write"]
+
+_FIGURES = "comparison misfits delays energy decisive probabilities information".split()
+
+
+def write(out: Path, progress: Callable[[str], None] = lambda _: None, workers: int = 1) -> None:
+    """Write the page, its figures and its numbers to a folder; see `make_files`."""
+    prepare_folder(out, ["study.html", "study.json", *(f"figures/study-{x}.svg" for x in _FIGURES)])
+    write_folder(out, make_files(progress, workers))
 
 
 def make_files(

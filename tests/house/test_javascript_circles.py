@@ -13,13 +13,13 @@ _NAMED = re.compile(
 
 
 def imports():
-    """Return the files that each file of the page imports, at once or later."""
+    """Return the own files that each file of the page imports, at once or later."""
     found = {}
     for script in SCRIPTS.rglob("*.js"):
         own = script.relative_to(SCRIPTS)
         names = [one or later for one, later in _NAMED.findall(script.read_text("utf-8"))]
         paths = {posixpath.normpath(posixpath.join(own.parent.as_posix(), one)) for one in names}
-        found[own.as_posix()] = {path for path in paths if not path.startswith("../made/")}
+        found[own.as_posix()] = {path for path in paths if not path.startswith("../")}
     return found
 
 

@@ -22,9 +22,8 @@ from studies.table2.choices import BASE, CHOICES
 from studies.table2.hierarchy import weigh_models
 from studies.table2.information import rank_measurements
 from studies.table2.observed import observe
-from studies.table2.page import make_files
+from studies.table2.page import write
 
-from stackbounce.files import write_folder
 from stackbounce.fitting import Fit
 from stackbounce.fitting.least_squares import Minimum
 
@@ -62,7 +61,7 @@ def folder(tmp_path_factory, told):
         patch.setattr(results, "refit_section_v", list)
         patch.setattr(results, "weigh_models", functools.partial(weigh_models, size=COARSE))
         patch.setattr(results, "rank_measurements", functools.partial(rank_measurements, each=16))
-        write_folder(out, make_files(told.append))
+        write(out, told.append)
     return out
 
 
