@@ -93,7 +93,9 @@ def test_errors_go_with_the_ball_that_had_them(visit):
     page.locator("[data-path='balls.1.mass']").fill("57 ± 1 g")
     page.locator("[data-path='balls.1.mass']").press("Enter")
     assert carried(visit)["method"] == "derivatives"
+    visit.ready()
     page.get_by_label("Remove tennis").click()
+    page.locator("[data-path='balls.1.mass']").wait_for(state="detached")
     visit.ready()
     assert visit.state("errors") == {}
     assert visit.state("prediction") is None
