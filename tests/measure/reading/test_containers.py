@@ -116,10 +116,11 @@ def test_an_old_spreadsheet_is_refused(read):
 
 
 def test_a_missing_reader_is_named(read, monkeypatch):
+    content = xlsx({"a": [["Time (s)", "Force (N)"], [0, 1]]})
     monkeypatch.setitem(sys.modules, "openpyxl", None)
     words = r"an Excel file \(.xlsx\) needs openpyxl: pip install 'stackbounce\[sheets\]'"
     with pytest.raises(MissingExtra, match=words):
-        read(xlsx({"a": [["Time (s)", "Force (N)"], [0, 1]]}))
+        read(content)
 
 
 # --- Tracker's own files
