@@ -144,7 +144,7 @@ def test_a_vibration_loses_energy_in_more_cycles_than_are_remembered():
 
 
 def test_stacks_with_hysteresis_come_to_rest_where_their_curves_carry_them():
-    """Followed three times as long, none of them had another contact (docs/models.md)."""
+    """At rest each force is its weight, at about the compression of the last moment before."""
     random, seen = np.random.default_rng(8), 0
     for _ in range(40):
         size = int(random.integers(1, 4))
