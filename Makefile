@@ -18,7 +18,7 @@ PYTEST := $(BIN)/python -m pytest --numprocesses auto --maxprocesses 4 --dist wo
 OF_LOWEST := bin/python -m pytest --numprocesses auto --maxprocesses 4 --dist worksteal -m 'not slow' \
   --hypothesis-profile=quick -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning \
   -W ignore::FutureWarning tests --ignore=tests/house --ignore=tests/pages --ignore=tests/frozen --ignore=tests/fuzz \
-  --ignore=tests/web/browser --ignore=tests/web/test_openapi.py --ignore=tests/test_impacts.py --ignore=tests/engine
+  --ignore=tests/explorer/browser --ignore=tests/explorer/test_openapi.py --ignore=tests/test_impacts.py --ignore=tests/engine
 # 3: kernels cannot be compiled on this machine, plain Python runs.
 COMPILE := { PYTHONPATH=src $(BIN)/python -m kernel_build || test $$? -eq 3; }
 # Two stamps: `make paper` needs the package with all its extras; the other targets add the developers' tools.
@@ -63,8 +63,8 @@ coverage: $(DEV) kernels  ## hold all error bars to their claim (make check: som
 	@STACKBOUNCE_COVERAGE=all $(PYTEST) tests/*/test_coverage_*.py
 
 browsers: $(DEV) kernels  ## the page's tests in Chromium and in Firefox, served and as one file; ten minutes
-	@tests/web/browser/browsers.sh
-	@STACKBOUNCE_BROWSERS="chromium firefox" $(PYTEST) tests/web/browser
+	@tests/explorer/browser/browsers.sh
+	@STACKBOUNCE_BROWSERS="chromium firefox" $(PYTEST) tests/explorer/browser
 
 bench: $(DEV) kernels  ## growth, accuracy, speed, and the benchmark of impacts, also of other solvers (extra: bench), in build/bench
 	@PYTHONPATH=tests $(BIN)/python -m benchmarks --out build/bench
@@ -72,7 +72,7 @@ bench: $(DEV) kernels  ## growth, accuracy, speed, and the benchmark of impacts,
 	@echo "Open $(CURDIR)/build/bench/index.html"
 
 check: lint types imports docs test  ## everything: lint, types, import rules, documentation, all tests, in Chromium and Firefox too
-	@tests/web/browser/browsers.sh
+	@tests/explorer/browser/browsers.sh
 	@$(PYTEST) -m 'slow or hypothesis'
 
 fuzz: $(DEV) kernels  ## random drops and files in great number: make fuzz DROPS=1000000 FILES=5000 FOLDER= SEED=1

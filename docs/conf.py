@@ -21,7 +21,7 @@ release = version = __version__
 
 extensions = [
     "docs._extensions.datasets",
-    "docs._extensions.explorer",
+    "docs._extensions.explorer_page",
     "docs._extensions.lesson",
     "docs._extensions.mathml",
     "docs._extensions.measure_options",

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from stackbounce.web import LIMITS
-from stackbounce.web.answers.records import measure_record
-from stackbounce.web.worker_pool import Workers
+from stackbounce.explorer import LIMITS
+from stackbounce.explorer.answers.records import measure_record
+from stackbounce.explorer.worker_pool import Workers
 
 LAB = Path(__file__).parents[2] / "docs" / "lab"
 

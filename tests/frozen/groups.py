@@ -25,7 +25,7 @@ GROUPS = {
     "messages": Group("messages.answers"),
     "fuzz": Group("drops.answers", bits=True),
     "laws": Group("laws.answers", bits=True),
-    "web": Group("web.answers"),
+    "web": Group("explorer.answers"),
     "coverage": Group("coverage.answers", quick=False),
 }
 """By the names that ``python -m frozen`` takes."""

@@ -21,7 +21,7 @@ FILES = (
     *("docs/lab/" + name for name in "stack-video.txt tennis-force.csv tennis.wav".split()),
     *("docs/fit/" + name for name in "drops.csv equal.toml".split()),
 )
-EXAMPLES = ROOT / "src" / "stackbounce" / "web" / "static" / "examples"
+EXAMPLES = ROOT / "src" / "stackbounce" / "explorer" / "static" / "examples"
 MAKERS = ROOT / "tests" / "measure" / "make_files.py"
 TEXTS = Path(__file__).parent / "files"
 _ASKED_OF_THE_SYSTEM = ("COLUMNS", "LINES", "FORCE_COLOR", "TTY_COMPATIBLE", "NO_COLOR", "TERM")

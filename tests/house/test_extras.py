@@ -115,7 +115,7 @@ def test_a_command_names_the_extra_it_needs(arguments, extra, what, tmp_path):
     [
         ("import stackbounce as sb; sb.read('sound.wav')", "measure"),
         ("from stackbounce.plots import bounce", "plots"),
-        ("from stackbounce.web.serve import serve", "web"),
+        ("from stackbounce.explorer.serve import serve", "web"),
     ],
 )
 def test_a_function_names_the_extra_it_needs(code, extra):

@@ -5,7 +5,7 @@ import re
 from importlib.resources import files
 from pathlib import Path
 
-SCRIPTS = Path(str(files("stackbounce.web") / "static" / "js"))
+SCRIPTS = Path(str(files("stackbounce.explorer") / "static" / "js"))
 _NAMED = re.compile(
     r'^(?:import|export)\b[^;"]*?from "(\.[^"]+)";|\bimport\("(\.[^"]+)"\)',
     re.MULTILINE | re.DOTALL,

@@ -11,9 +11,9 @@ import stackbounce as sb
 from measure.make_files import LOAD, PRESSED
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.explorer.answers.records import measure_record
 from stackbounce.measure.hints import Hint, Said, about, in_words, joined
 from stackbounce.measure.kinds import KINDS
-from stackbounce.web.answers.records import measure_record
 
 TRACK = "t;x;y\n" + "".join(f"{k / 50};0;{4.9 * (k / 50 - 0.5) ** 2:.4f}\n" for k in range(40))
 

@@ -10,12 +10,12 @@ import stackbounce as sb
 from stackbounce import plots
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType
+from stackbounce.explorer.answers import records
 from stackbounce.measure import analyse, one_law
 from stackbounce.measure.finding import Finding
 from stackbounce.measure.kind import Kind
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.measure.quantities import Row
-from stackbounce.web.answers import records
 
 
 @dataclass(frozen=True)

@@ -11,11 +11,11 @@ from measure_options import row
 import stackbounce as sb
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
+from stackbounce.explorer.answers import records
 from stackbounce.measure import analyse
 from stackbounce.measure.kinds import KINDS, TYPED
 from stackbounce.measure.option_values import read_options
 from stackbounce.measure.options import OPTIONS, options_for, taken_by
-from stackbounce.web.answers import records
 
 PAGE = Path(__file__).parents[2] / "docs" / "measure.md"
 LAB = Path(__file__).parents[2] / "docs" / "lab"

@@ -13,14 +13,14 @@ import stackbounce as sb
 from hardening import Hardening
 from stackbounce.cli import main, tables
 from stackbounce.engine import codes, forces
+from stackbounce.explorer.answers.catalogue import list_choices
+from stackbounce.explorer.limits import LIMITS
 from stackbounce.measure.kinds.waveform.analysis import waveform
 from stackbounce.model import LAWS
 from stackbounce.model.laws import law_named
 from stackbounce.model.laws.elastic import ElasticLaw
 from stackbounce.model.laws.law import ContactLaw, stiffness_in
 from stackbounce.model.laws.registry import register
-from stackbounce.web.answers.catalogue import list_choices
-from stackbounce.web.limits import LIMITS
 from synthetic.waveform import waveform as record_of
 
 MASS, SPEED, TIME, KEPT = 0.1, 2.0, 4e-3, 0.8

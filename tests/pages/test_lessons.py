@@ -13,9 +13,15 @@ import pytest
 from lesson import lesson_markdown
 
 import stackbounce as sb
+from stackbounce.explorer.lessons import (
+    LANGUAGES,
+    NAMES,
+    explorer_fragment,
+    read_lesson,
+    split_links,
+)
 from stackbounce.json_values import plain
 from stackbounce.model.catalogue import catalogue_ball, stack
-from stackbounce.web.lessons import LANGUAGES, NAMES, explorer_fragment, read_lesson, split_links
 
 PAGES = Path(__file__).parents[2] / "docs" / "lessons"
 BASKETBALL, TENNIS = "big basketball", "tennis ball"

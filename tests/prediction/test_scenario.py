@@ -6,11 +6,11 @@ import pytest
 from uncertainties import ufloat
 
 import stackbounce as sb
+from explorer.page.scenarios import drawn
 from stackbounce.errors import InvalidValue
 from stackbounce.prediction import read_scenario, write_scenario
 from stackbounce.prediction.inputs import read_inputs
 from stackbounce.run.paths import numbers_of, value_in
-from web.page.scenarios import drawn
 
 DROP = sb.Drop(
     [sb.Ball(0.15, name="a (1) ± b"), sb.Ball(0.057)],

@@ -10,7 +10,7 @@ from stackbounce.cli.options import AsJson, Overwrite
 from stackbounce.cli.output import json_text
 
 if TYPE_CHECKING:
-    from stackbounce.web.addresses import Place
+    from stackbounce.explorer.addresses import Place
 
 __all__ = ["EPILOG", "run"]
 
@@ -67,7 +67,7 @@ def run(
     as_json: AsJson = False,
 ) -> None:
     """Open the explorer in the browser: the bounce in slow motion."""
-    from stackbounce.web.framing import read_origin
+    from stackbounce.explorer.framing import read_origin
 
     framed_by = [read_origin(one) for one in embed or ()]
     if export is not None:
@@ -76,8 +76,8 @@ def run(
     import dataclasses
 
     from stackbounce.errors import whole
-    from stackbounce.web import LIMITS
-    from stackbounce.web.serve import serve
+    from stackbounce.explorer import LIMITS
+    from stackbounce.explorer.serve import serve
 
     def tell(address: str, others: "list[Place]") -> None:
         _tell(address, others, bool(others) or host in ("0.0.0.0", "::"), as_json)
@@ -105,7 +105,7 @@ def _tell_others(others: "list[Place]") -> None:
     """Print the addresses that a class can type, and the first one as a QR code."""
     import sys
 
-    from stackbounce.web.addresses import code_text
+    from stackbounce.explorer.addresses import code_text
 
     if not others:
         typer.echo("This machine is in no network: others cannot open the page.")
@@ -124,8 +124,8 @@ def _tell_others(others: "list[Place]") -> None:
 def _export(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> None:
     """Write the explorer as one file or as a folder, and tell its size and who may frame it."""
     from stackbounce.errors import InvalidValue
+    from stackbounce.explorer.framing import frame_rule
     from stackbounce.version import __version__
-    from stackbounce.web.framing import frame_rule
 
     if not path:  # Path("") is the current folder
         raise InvalidValue("--export must name a file that ends in .html, or a folder, got ''")
@@ -149,8 +149,8 @@ def _export(path: str, framed_by: list[str], overwrite: bool, as_json: bool) -> 
 
 def _write_file(path: Path, overwrite: bool) -> list[int]:
     """Write the explorer as one file; return its size."""
+    from stackbounce.explorer.page.one_file import one_file
     from stackbounce.files import check_own, check_place, write_file
-    from stackbounce.web.page.one_file import one_file
 
     check_place(path)
     check_own(path, overwrite)
@@ -160,8 +160,8 @@ def _write_file(path: Path, overwrite: bool) -> list[int]:
 
 def _write_folder(folder: Path, overwrite: bool) -> list[int]:
     """Write the explorer as a folder of files; return their sizes."""
+    from stackbounce.explorer.page.folder import folder_files
     from stackbounce.files import prepare_folder, write_folder
-    from stackbounce.web.page.folder import folder_files
 
     files = folder_files()
     prepare_folder(folder, files, overwrite)

@@ -1,0 +1,27 @@
+"""The explorer: a page in the browser, and the server on this machine that computes for it.
+
+=========== ================================================================
+serve       finds a port, runs the server, opens the browser
+addresses   the addresses that others can type, with their QR codes
+app         the server's addresses: request, answer function, schema
+guard       admission of requests, and the headers of every answer
+connections limits of connections
+shares      what a client may have at once
+limits      limits of a request, of a client, and of all together
+turns       which of the waiting jobs is computed next
+worker_pool worker processes, with limits of time and memory for each job
+schema      the schema of requests and answers, in pydantic
+paper_pages the paper's pages, computed at the first request
+answers/    the functions that compute answers in the worker processes
+lessons/    the lessons, for the page and the documentation
+page/       what the page is made of besides static/: data, formulas, the one file
+static/     the page: HTML, CSS, plain ES modules, and uPlot
+=========== ================================================================
+"""
+
+from stackbounce.explorer.limits import LIMITS, Limits
+from stackbounce.extras import need
+
+__all__ = ["LIMITS", "Limits"]
+
+need("web", "stackbounce app")

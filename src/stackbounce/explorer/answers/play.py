@@ -1,0 +1,140 @@
+"""The motion of a drop at each moment, and the textbook's separate collisions beside it."""
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.calibration import separate
+from stackbounce.errors import StackbounceError
+from stackbounce.explorer.limits import LIMITS
+from stackbounce.json_values import as_json
+from stackbounce.model import STANDARD_GRAVITY, Drop
+from stackbounce.plots.impact_window import choose_window, sample_with_approach
+from stackbounce.run.driver import simulate
+from stackbounce.run.result import Result
+from stackbounce.version import __version__
+
+__all__ = ["RTOL", "choose_times", "play_drop", "run_drop"]
+
+RTOL = 1e-10
+"""The tolerance of nonlinear contacts, which a picture does not show."""
+
+_Times = NDArray[np.float64]
+
+_INTERVALS = 60  # most contact intervals that get frames of their own
+_DIGITS = 9  # of a frame's largest number
+
+
+def run_drop(drop: Drop, until: float | None) -> Result:
+    """Return the result of a drop within the limits of a request."""
+    return simulate(drop, until=until, rtol=RTOL, event_limit=LIMITS.events)
+
+
+def play_drop(drop: Drop, until: float | None, frames: int) -> str:
+    """Drop a stack of balls; return its motion at each moment, as JSON.
+
+    Parameters
+    ----------
+    drop : Drop
+        The drop to simulate.
+    until : float or None
+        End of the run in s, with falls and flights; None for the impact alone.
+    frames : int
+        Number of sample times; the starts and ends of contacts are added.
+
+    Returns
+    -------
+    str
+        JSON with what `Result.to_mapping` has, `rebound_heights` in m, `intervals`, `frames` (SI,
+        a list per ball or contact) and `separate`, the same drop by separate collisions.
+    """
+    result = run_drop(drop, until)
+    times = choose_times(result, until, frames)
+    answer = {
+        "stackbounce": __version__,
+        "drop": drop.to_mapping(),
+        "reference_speed": drop.reference_speed,
+        **_list_numbers(result),
+        "intervals": result.intervals,
+        "impact": [0.0, _find_last_release(result)],
+        "frames": _sample_frames(result, times),
+        "separate": None if drop.rigid else _play_separate(drop, until, times),
+    }
+    return as_json(answer)
+
+
+def _list_numbers(result: Result) -> dict[str, Any]:
+    speeds = result.rebound_speeds
+    heights = speeds * np.abs(speeds) / (2.0 * STANDARD_GRAVITY)
+    return result.to_mapping() | {"rebound_heights": heights}
+
+
+def _find_last_release(result: Result) -> float:
+    ends = result.intervals["end"]
+    return float(max([0.0, *ends[np.isfinite(ends)]]))
+
+
+def choose_times(result: Result, until: float | None, frames: int) -> _Times:
+    """Return ascending times in s: evenly spaced, and the starts and ends of contacts."""
+    begin, end = choose_window(result)
+    drop = result.drop
+    if until is not None:
+        end = min(until, result.end_time) if _is_unfinished(result) else until
+        if drop.gravity > 0.0 and drop.velocities is None:
+            begin = -drop.reference_speed / drop.gravity  # from rest
+        frames //= 2  # the other half samples the contacts, which are short
+    times = [np.linspace(begin, end, frames), np.zeros(1)]
+    spans = result.intervals[:_INTERVALS]
+    each = max(8, frames // max(1, len(spans))) if until is not None else 2
+    times += [np.linspace(one["start"], min(one["end"], end), each) for one in spans]
+    every: _Times = np.unique(np.concatenate(times))
+    return every[(every >= begin) & (every <= end)]
+
+
+def _is_unfinished(result: Result) -> bool:
+    return result.status.name in ("TIME_REACHED", "EVENT_LIMIT", "INVALID")
+
+
+def _sample_frames(result: Result, times: _Times) -> dict[str, Any]:
+    sample = sample_with_approach(result, times)
+    mass = np.array([ball.mass for ball in result.drop.balls])[:, None]
+    kinetic = 0.5 * mass * sample.velocity.values**2
+    potential = np.sum(mass * result.drop.gravity * sample.position.values, axis=0)
+    total = sample.energy.values  # the same on the way down
+    stored = np.maximum(total - np.sum(kinetic, axis=0) - potential, 0.0)
+    energy = {"kinetic": kinetic, "stored": stored, "potential": potential, "total": total}
+    names = ("position", "velocity", "force", "compression")
+    return {
+        "time": times,
+        **{name: _round(sample[name].values) for name in names},
+        "energy": {name: _round(values) for name, values in energy.items()},
+    }
+
+
+def _round(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Round values to the digits that a picture can show, which halves the size of the answer."""
+    largest = float(np.max(np.abs(values), initial=0.0))
+    if not 1e-200 < largest < 1e200:
+        return values
+    return np.round(values, _DIGITS - 1 - math.floor(math.log10(largest)))
+
+
+def _play_separate(drop: Drop, until: float | None, times: _Times) -> dict[str, Any] | None:
+    """Return the separate collisions of a drop, at the same times."""
+    try:
+        textbook = separate(drop)
+        if until is not None:  # a whole drop has flights
+            textbook = dataclasses.replace(textbook, gravity=drop.gravity)
+        result = run_drop(textbook, until)
+        reached = result.end_time if _is_unfinished(result) else math.inf
+        place = sample_with_approach(result, np.minimum(times, reached)).position.values
+    except StackbounceError as error:
+        return {"error": str(error)}
+    laws = textbook.contacts
+    return _list_numbers(result) | {
+        "restitutions": [None if one is None else one.restitution for one in laws],
+        "position": _round(place),
+    }

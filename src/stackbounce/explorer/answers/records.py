@@ -1,0 +1,236 @@
+"""Records: a file of measurements is analysed, and a drop is fitted to it."""
+
+import re
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from stackbounce.errors import InvalidValue, a_or_an, nearest, shown
+from stackbounce.explorer.answers.play import run_drop
+from stackbounce.fitting import Fit, fit
+from stackbounce.json_values import as_json
+from stackbounce.measure.finding import Branch, Curve
+from stackbounce.measure.hints import Hint
+from stackbounce.measure.kinds import KINDS
+from stackbounce.measure.measurement import Measurement, measure_file
+from stackbounce.measure.option_values import read_options
+from stackbounce.measure.options import OPTIONS, Option, options_for
+from stackbounce.model import Drop
+from stackbounce.version import __version__
+
+if TYPE_CHECKING:
+    import xarray as xr
+
+    from stackbounce.fitting.residuals import Record
+
+__all__ = ["fit_record", "list_options", "measure_record"]
+
+_Array = NDArray[np.float64]
+_Series = dict[str, Any]
+
+_POINTS = 500  # about so many points of a branch that a page draws
+_SHOWN = 4000  # most points of a curve that a page draws
+_AFTER = 1.5  # part of a record that is kept, in durations of the simulated impact
+
+
+def list_options() -> str:
+    """List the kinds of measurement and the options of the page's form, as JSON."""
+    offered = options_for("read", "analyse").values()
+    return as_json(
+        {
+            "kinds": [{"name": kind.name, "says": kind.says} for kind in KINDS.values()],
+            "options": [option.to_mapping() for option in offered],
+        }
+    )
+
+
+def measure_record(
+    name: str,
+    content: bytes,
+    options: Mapping[str, Any],
+    alone: tuple[str, bytes] | None = None,
+) -> str:
+    """Recognise a file of measurements and analyse it; return results and curves, as JSON.
+
+    Parameters
+    ----------
+    name : str
+        The file's name, for messages.
+    content : bytes
+        The content of the file.
+    options : mapping
+        Options of `read` and `analyse`; numbers may carry units.
+    alone : (str, bytes), optional
+        Name and content of a record of the lower ball alone.
+
+    Returns
+    -------
+    str
+        JSON with `format`, `why`, `doubt`, `holds`, `found`, `notes`, `series` (curves, in SI),
+        `zero` (the first touch on their clock), `measured` (numbers that a fit can use), `bounce`
+        (what is known of one ball's bounce), `branches` (of a press curve).
+
+    Raises
+    ------
+    StackbounceError
+        If it cannot be read, or holds nothing that can be analysed.
+    """
+    one = _measure(name, content, options, alone)
+    return as_json(
+        {
+            "stackbounce": __version__,
+            **one.to_mapping(),
+            "series": _describe_curves(one.curves),
+            "zero": one.first_touch,
+            "measured": one.measured,
+            "bounce": one.bounce,
+            "branches": [_sorted(branch) for branch in one.branches],
+        }
+    )
+
+
+def fit_record(
+    drop: Drop,
+    vary: Sequence[str],
+    quantities: Mapping[str, str],
+    name: str,
+    content: bytes,
+    options: Mapping[str, Any],
+) -> str:
+    """Fit a drop to what was measured; return it as JSON.
+
+    Parameters
+    ----------
+    drop : Drop
+        The drop, with the values that are known and first guesses of those that vary.
+    vary : sequence of str
+        Paths of the numbers that vary.
+    quantities : mapping
+        Measured values by the names that `stackbounce.fit` takes, with errors; ``force.0`` is
+        the name of a channel of the file.
+    name, content, options
+        Of the file, as in `measure_record`; without content there is none.
+
+    Returns
+    -------
+    str
+        JSON with the fitted `drop`, `values` with errors, chi squared, `notes`, and the `series`
+        of the force records on the drop's clock.
+
+    Raises
+    ------
+    StackbounceError
+        If it cannot be fitted.
+    """
+    data: dict[str, Any] = {}
+    record = None
+    for what, value in quantities.items():
+        data[what] = value
+        if what.startswith("force."):
+            if not content:
+                raise InvalidValue(f"{what} needs a file with a force over time")
+            record = record or _measure(name, content, options)
+            data[what] = _find_channel(drop, what, value, record)
+        elif re.fullmatch(r"collisions\.\d+", what) and re.fullmatch(r"\s*[0-9]{1,9}\s*", value):
+            data[what] = int(value)
+    done = fit(drop, data, list(vary))
+    return as_json(
+        {
+            "stackbounce": __version__,
+            "drop": done.drop.to_mapping(),
+            "values": [_describe_value(done, path) for path in done.names],
+            "chi_squared": done.chi_squared,
+            "degrees_of_freedom": done.degrees_of_freedom,
+            "probability": done.probability,
+            "notes": [*done.notes, *done.undetermined],
+            "residuals": [one._asdict() for one in done.residuals],
+            "series": [_align(one, done.drop) for one in done.records],
+        }
+    )
+
+
+def _measure(
+    name: str,
+    content: bytes,
+    options: Mapping[str, Any],
+    alone: tuple[str, bytes] | None = None,
+) -> Measurement:
+    given = dict(options) if alone is None else {**options, "alone": alone}
+    known = read_options(given, _control, to=("read", "analyse"))
+    return measure_file((name, content), known, _words)
+
+
+def _control(option: Option) -> str:
+    """Return the name of the page's control for an option."""
+    return f"“{option.label}”"
+
+
+def _words(hint: Hint) -> str:
+    """Return a hint as it is entered in the page's form."""
+    known = {one.name: _control(one) for one in OPTIONS}
+    entered = []
+    for name, value in hint.options.items():
+        several = value.items() if isinstance(value, Mapping) else ()
+        text = ", ".join(f"{key}={one}" for key, one in several) if several else value
+        entered.append(known[name] if value is None else f"{text} in {known[name]}")
+    return " and ".join(entered)
+
+
+def _describe_curves(curves: Sequence[Curve]) -> list[_Series]:
+    return [_thin(*one[:4]) | {"unit": one.unit, "index": i} for i, one in enumerate(curves)]
+
+
+def _thin(label: str, what: str, times: _Array, values: _Array) -> _Series:
+    """Thin a curve to what a page draws; keep the extremes of each stretch."""
+    known = np.isfinite(times) & np.isfinite(values)
+    times, values = times[known], values[known]
+    if len(times) > _SHOWN:
+        parts = np.array_split(np.arange(len(times)), _SHOWN // 2)
+        ends = [(part[np.argmin(values[part])], part[np.argmax(values[part])]) for part in parts]
+        kept = np.unique(ends)
+        times, values = times[kept], values[kept]
+    return {"label": label.replace("_", " "), "what": what, "time": times, "values": values}
+
+
+def _sorted(branch: Branch) -> dict[str, Any]:
+    """Return some points of a branch in the order of compression, to be drawn."""
+    kept = np.argsort(branch.compression)[:: max(1, len(branch.force) // _POINTS)]
+    columns = {name: values[kept] for name, values in branch._asdict().items() if name != "label"}
+    return {"label": branch.label, **columns}
+
+
+def _find_channel(drop: Drop, what: str, which: str, record: Measurement) -> "xr.DataArray":
+    """Return the channel of a file that is the force of a contact, cut to one impact."""
+    lasting = _AFTER * run_drop(drop, None).end_time
+    own = {
+        name: force
+        for one in record.found
+        for name, force in one.forces(record.data, lasting).items()
+    }
+    if not own:
+        raise InvalidValue(
+            f"{what}: {record.source} holds no force over time, but {a_or_an(record.told['holds'])}"
+        )
+    if which not in own:
+        raise InvalidValue(f"{what} must be a channel, got {shown(which)}; {nearest(which, own)}")
+    return own[which]
+
+
+def _describe_value(done: Fit, path: str) -> dict[str, Any]:
+    value = done[path]
+    unit = done.units[path]
+    return {"path": path, "value": value.nominal_value, "error": value.std_dev, "unit": unit}
+
+
+def _align(record: "Record", drop: Drop) -> _Series:
+    """Put a force record on the clock of the fitted drop, and on its scale if that is free."""
+    index = int(record.name.partition(".")[2])
+    values, unit = record.measured, record.unit
+    if not unit:
+        intervals = run_drop(drop, None).intervals
+        peak = float(np.max(intervals["peak_force"][intervals["contact"] == index], initial=0.0))
+        values, unit = values * (peak / float(np.max(record.fitted))), "N"
+    curve = _thin(record.name, "force", record.times, values)
+    return curve | {"index": index, "unit": unit}

@@ -1,0 +1,111 @@
+"""The page in three texts, HTML, styles and script, for those of its forms that no server makes."""
+
+import base64
+import functools
+import hashlib
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+from stackbounce.explorer.page.bundle import bundle
+from stackbounce.explorer.page.parts import made_file
+
+__all__ = ["Texts", "assemble", "digest", "icon", "service_worker", "with_policy"]
+
+_STATIC = Path(__file__).parent.parent / "static"
+_SERVED = "js/origin/served.js"
+_STYLE = re.compile(r'\s*<link rel="stylesheet" href="([^"]+)">')
+_SCRIPT = re.compile(r'\s*<script type="module" src="([^"]+)"></script>')
+_CHARSET = '<meta charset="utf-8">'
+
+
+class Texts(NamedTuple):
+    """The HTML without its styles and its script, and these."""
+
+    html: str
+    styles: str
+    script: str
+
+
+def assemble(origin: str) -> Texts:
+    """Return the page with all modules in one classic script.
+
+    Parameters
+    ----------
+    origin : str
+        The module of ``js/origin/`` that takes the place of ``served``.
+
+    Raises
+    ------
+    FileError
+        If the package was built without the engine for browsers.
+
+    Examples
+    --------
+    >>> assemble("one_file").html[:15]
+    '<!doctype html>'
+    """
+    page = _read("index.html")
+    begin = _SCRIPT.search(page)
+    assert begin is not None
+    styles = "".join(_read(name) for name in _STYLE.findall(page))
+    script = bundle(functools.partial(_module, origin), begin[1], "js/engine/worker.js")
+    return Texts(_SCRIPT.sub("", _STYLE.sub("", page)), styles, script)
+
+
+def with_policy(html: str, policy: str) -> str:
+    """Return a page with a content security policy in it.
+
+    Examples
+    --------
+    >>> print(with_policy('<meta charset="utf-8">', "default-src 'none'"))
+    <meta charset="utf-8">
+      <meta http-equiv="Content-Security-Policy" content="default-src 'none'">
+    """
+    head = f'{_CHARSET}\n  <meta http-equiv="Content-Security-Policy" content="{policy}">'
+    return html.replace(_CHARSET, head)
+
+
+def digest(content: bytes) -> str:
+    """Return what browsers call a content: in a content security policy, and in what is fetched.
+
+    Examples
+    --------
+    >>> digest(b"")[:12]
+    'sha256-47DEQ'
+    """
+    return f"sha256-{base64.b64encode(hashlib.sha256(content).digest()).decode()}"
+
+
+def icon() -> bytes:
+    """Return the page's icon, an SVG.
+
+    Examples
+    --------
+    >>> icon()[:4]
+    b'<svg'
+    """
+    return (_STATIC / "icon.svg").read_bytes()
+
+
+def service_worker() -> str:
+    """Return the script that keeps the files of a folder in the browser, without their list.
+
+    Examples
+    --------
+    >>> "caches.open" in service_worker()
+    True
+    """
+    return _read("js/origin/offline.js")
+
+
+def _read(name: str) -> str:
+    return (_STATIC / name).read_text("utf-8")
+
+
+def _module(origin: str, path: str) -> str:
+    """Return the text of a module."""
+    folder, _, name = path.partition("/")
+    if folder == "made":
+        return made_file(name).decode()
+    return _read(f"js/origin/{origin}.js" if path == _SERVED else path)

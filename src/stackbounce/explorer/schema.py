@@ -1,0 +1,413 @@
+"""The schema of requests and answers: pydantic models around the package's own dataclasses.
+
+`Drop.from_mapping` reads a drop, as it does from TOML, so units and messages are the same.
+pydantic adds the OpenAPI description and the limits of a request.
+"""
+
+from collections.abc import Callable
+from dataclasses import MISSING, fields
+from typing import Annotated, Any, Literal, get_type_hints
+
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from stackbounce.errors import InvalidValue, shown
+from stackbounce.explorer.limits import LIMITS
+from stackbounce.model import LAWS, Ball, ContactLaw, Drop
+from stackbounce.model.schema import NO_FLOOR, read_law
+from stackbounce.units import unit_of
+
+_Json = dict[str, Any]
+
+
+class _Reader:
+    """Makes a pydantic type from a function that reads a value and one that describes it."""
+
+    def __init__(self, read: Callable[[object], Any], describe: Callable[[], _Json]) -> None:
+        self._read, self._describe = read, describe
+
+    def __get_pydantic_core_schema__(self, _: Any, __: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(self._read)
+
+    def __get_pydantic_json_schema__(self, _: CoreSchema, __: GetJsonSchemaHandler) -> _Json:
+        return self._describe()
+
+
+def read_drop(value: object) -> Drop:
+    """Read a drop from a mapping; refuse one with too many balls.
+
+    Raises
+    ------
+    ScenarioError, InvalidValue
+        If it is no drop, or has too many balls.
+
+    Examples
+    --------
+    >>> contact = {"law": "Spring", "stiffness": "22.5 kN/m"}
+    >>> drop = {"balls": [{"mass": "57 g"}], "contacts": [contact], "impact_speed": 1}
+    >>> read_drop(drop).balls[0].mass
+    0.057
+    """
+    if isinstance(value, dict):
+        for name in ("balls", "contacts", "gaps", "velocities"):
+            many = value.get(name)
+            if isinstance(many, list) and len(many) > LIMITS.balls:
+                raise InvalidValue(
+                    f"{name} must be at most {LIMITS.balls} in the explorer, got {len(many)}"
+                )
+    return Drop.from_mapping(value)  # type: ignore[arg-type]
+
+
+def _describe_drop() -> _Json:
+    drop = _describe(Drop)
+    laws = [_describe(law, name) for name, law in LAWS.items()]
+    laws.append(_describe_object({"law": {"const": NO_FLOOR}}, ["law"]))
+    drop["properties"]["balls"] = _describe_list(_describe(Ball), 1)
+    drop["properties"]["contacts"] = _describe_list({"anyOf": laws}, 1)
+    return drop
+
+
+def _describe(kind: type, law: str | None = None) -> _Json:
+    """Return the JSON schema of a dataclass; its numbers may be texts with a unit."""
+    properties: _Json = {} if law is None else {"law": {"const": law}}
+    hints = get_type_hints(kind, include_extras=True)
+    for one in fields(kind):
+        if one.init and not one.name.startswith("_"):
+            properties[one.name] = _describe_field(hints[one.name])
+    missing = [one.name for one in fields(kind) if one.init and one.default is MISSING]
+    return _describe_object(properties, ([] if law is None else ["law"]) + missing)
+
+
+def _describe_field(hint: Any) -> _Json:
+    unit = unit_of(hint)
+    if unit is None:
+        return {"type": "string"}
+    said = f"in {unit.symbol}, or a text with a unit" if unit.symbol else "a pure number"
+    number: _Json = {"anyOf": [{"type": "number"}, {"type": "string"}], "description": said}
+    return _describe_list(number, 0) if "Sequence" in str(hint) else number
+
+
+def _describe_list(items: _Json, least: int) -> _Json:
+    return {"type": "array", "items": items, "minItems": least, "maxItems": LIMITS.balls}
+
+
+def _describe_object(properties: _Json, required: list[str]) -> _Json:
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": required,
+        "additionalProperties": False,
+    }
+
+
+Scenario = Annotated[Drop, _Reader(read_drop, _describe_drop)]
+"""A drop, with the keys and units of a scenario file."""
+
+Contact = Annotated[
+    ContactLaw | None,
+    _Reader(
+        lambda value: read_law(value, "contact"),
+        lambda: {"anyOf": [_describe(law, name) for name, law in LAWS.items()]},
+    ),
+]
+"""A contact law, as in a scenario file."""
+
+_Finite = Annotated[float, Field(allow_inf_nan=False)]
+_Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
+_Name = Annotated[str, Field(max_length=100)]
+_Law = Annotated[
+    str, Field(max_length=40, json_schema_extra=lambda schema: schema.update(enum=list(LAWS)))
+]
+
+ExportKind = Literal["csv", "toml", "python", "svg", "png"]
+"""Kinds of file that a drop can be exported to."""
+
+
+def describe_error(error: Any) -> str:
+    """Describe a pydantic error in one line: the field, what is wrong, and the value.
+
+    Examples
+    --------
+    >>> describe_error({"type": "missing", "loc": ("body", "x", "low"), "msg": "Field required"})
+    'x.low: field required'
+    """
+    if error["type"] == "value_error":  # raised by this package; its message begins with the path
+        return str(error["ctx"]["error"])
+    if error["type"] == "json_invalid" or error["loc"] == ("body",):
+        return "the request must be an object in JSON, with content-type application/json"
+    where = ".".join(str(part) for part in error["loc"] if part != "body")
+    where = where if where.isprintable() and len(where) <= 60 else shown(where)
+    words = error["msg"][:1].lower() + error["msg"][1:]
+    got = "" if error["type"] == "missing" else f", got {shown(error['input'])}"
+    return f"{where}: {words}{got}"
+
+
+class Request(BaseModel):
+    """The body of a request: a JSON object without unknown keys."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+class _Run(Request):
+    """A drop, and the end of its run."""
+
+    drop: Scenario
+    until: Annotated[_Positive, Field(le=LIMITS.duration)] | None = None
+
+
+class Play(_Run):
+    """A drop to simulate."""
+
+    frames: Annotated[int, Field(ge=2, le=LIMITS.frames)] = 1200
+
+
+_Errors = Annotated[dict[_Name, _Finite | _Name], Field(max_length=LIMITS.varied)]
+
+
+class Export(_Run):
+    """A drop to export, and the errors of some of its numbers as `Uncertain` has them."""
+
+    errors: _Errors = {}
+
+
+class Uncertain(_Run):
+    """A drop, and the errors of some of its numbers by path: SI numbers, or texts with a unit."""
+
+    errors: Annotated[_Errors, Field(min_length=1)]
+
+
+class StackRequest(Request):
+    """Balls of the catalogue, the lowest first."""
+
+    balls: Annotated[list[_Name], Field(min_length=1, max_length=LIMITS.balls)]
+    height: _Positive = 1.0
+
+
+class MeasuredLaw(Request):
+    """A measured contact, and the law to calibrate."""
+
+    law: _Law
+    mass: _Positive
+    restitution: _Positive | None = None
+    contact_time: _Positive | None = None
+    impact_speed: _Positive | None = None
+    exponent: _Positive | None = None
+
+
+class LikeLaw(Request):
+    """A contact, and the law to replace its own, with the same restitution and contact time."""
+
+    contact: Contact
+    to: _Law
+    mass: _Positive
+    impact_speed: _Positive
+    restitution: _Positive | None = None
+    contact_time: _Positive | None = None
+
+
+class Axis(Request):
+    """A number that varies over one side of a map."""
+
+    path: _Name
+    low: _Finite
+    high: _Finite
+    count: Annotated[int, Field(ge=2, le=1000)] = 80
+    log: bool = False
+
+
+class MapRequest(Request):
+    """A map of a drop over two of its numbers."""
+
+    drop: Scenario
+    x: Axis
+    y: Axis
+    show: _Name = "rebound_ratio.1"
+
+
+class MapPaths(Request):
+    """A drop whose numbers and outcomes are to be listed."""
+
+    drop: Scenario
+
+
+class Problem(BaseModel):
+    """What was wrong, in one line."""
+
+    detail: str
+
+
+class State(BaseModel):
+    """The version of the server."""
+
+    stackbounce: str
+
+
+class Catalogue(BaseModel):
+    """Balls, laws, the law of a measured loss, the paper's cases, and the bounds of a request."""
+
+    stackbounce: str
+    balls: list[_Json]
+    laws: list[_Json]
+    lossy_law: str
+    presets: list[_Json]
+    limits: _Json
+
+
+class CatalogueStack(BaseModel):
+    """Balls of the catalogue on top of each other, and the sources of their numbers."""
+
+    drop: _Json
+    contact_sources: list[str]
+    gap_sources: list[str]
+
+
+class OneContact(BaseModel):
+    """A contact law, as in a scenario file."""
+
+    contact: _Json
+
+
+class Simulation(BaseModel):
+    """The motion of a drop at each moment; numbers in SI units, null if not finite."""
+
+    stackbounce: str
+    drop: _Json
+    reference_speed: float
+    status: str
+    advice: str
+    rebound_speeds: list[float | None]
+    rebound_ratios: list[float | None]
+    rebound_heights: list[float | None]
+    collisions: list[int]
+    first_touch: list[float | None]
+    last_release: list[float | None]
+    energy_retained: float | None
+    end_time: float
+    intervals: list[_Json]
+    impact: list[float]
+    frames: _Json
+    separate: _Json | None
+
+
+class Predicted(BaseModel):
+    """Numbers of a drop with errors, how these were found, and bands of one standard deviation."""
+
+    stackbounce: str
+    method: str
+    how: str
+    advice: str
+    notes: list[str]
+    numbers: dict[str, _Json]
+    values: dict[str, _Json]
+    band: _Json
+
+
+class Side(BaseModel):
+    """One side of a map."""
+
+    path: str
+    label: str
+    unit: str
+    values: list[float]
+
+
+class Map(BaseModel):
+    """A number of the outcome over two numbers of the drop: ``values[y][x]``."""
+
+    stackbounce: str
+    drop: _Json
+    x: Side
+    y: Side
+    show: str
+    label: str
+    unit: str
+    values: list[list[float | None]]
+    unfinished: int
+
+
+class Paths(BaseModel):
+    """The numbers that a map can vary, and the outcomes that it can show."""
+
+    paths: list[_Json]
+    shows: list[_Json]
+
+
+class Curve(BaseModel):
+    """A record over time, in SI units."""
+
+    label: str
+    what: str
+    index: int
+    unit: str
+    time: list[float]
+    values: list[float]
+
+
+class Bounce(BaseModel):
+    """What was found of one ball's bounce, in SI units; of a press curve the contact."""
+
+    restitution: float | None
+    contact_time: float | None
+    impact_speed: float | None
+    contact: _Json | None
+
+
+class Branch(BaseModel):
+    """A way in or out of a press curve, in m and N."""
+
+    label: str
+    compression: list[float]
+    force: list[float]
+    fit: list[float]
+
+
+class Place(BaseModel):
+    """An address of the page, and its QR code: rows of 1, which is dark, and 0."""
+
+    address: str
+    code: list[str]
+
+
+class Places(BaseModel):
+    """The addresses of the page that other machines can type; none if it is for this one alone."""
+
+    places: list[Place]
+
+
+class MeasureOptions(BaseModel):
+    """Kinds of measurement, and options of a file, in the order of the form."""
+
+    kinds: list[_Json]
+    options: list[_Json]
+
+
+class Measured(BaseModel):
+    """The format of a file, and the results of its analysis."""
+
+    stackbounce: str
+    file: str
+    format: str
+    why: str
+    doubt: str
+    holds: str
+    found: list[_Json]
+    notes: list[str]
+    series: list[Curve]
+    zero: float | None
+    measured: dict[str, str]
+    bounce: Bounce | None
+    branches: list[Branch]
+
+
+class Fitted(BaseModel):
+    """A drop fitted to what was measured."""
+
+    stackbounce: str
+    drop: _Json
+    values: list[_Json]
+    chi_squared: float
+    degrees_of_freedom: int
+    probability: float | None
+    notes: list[str]
+    residuals: list[_Json]
+    series: list[Curve]

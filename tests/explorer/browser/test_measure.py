@@ -1,0 +1,279 @@
+"""Bring your own: a file is read, laid over the drop, and the drop fitted to it."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from stackbounce.explorer import LIMITS
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def address(address_of_server):
+    """Open the page of the server only: the one file does not measure."""
+    return address_of_server
+
+
+def opened(visit):
+    page = visit.open("#view=measure")
+    page.locator(".fit-vary input").first.wait_for()
+    return page
+
+
+def tried(page, title):
+    page.get_by_role("button", name=title).click()
+    page.locator(".recognised button").wait_for()
+
+
+def fitted(page):
+    page.get_by_role("button", name="Fit", exact=True).click()
+    page.locator(".fit-outcome table").first.wait_for()
+
+
+def apart(visit):
+    """Return how far the record is from the simulated force, in N, on the mean."""
+    (overlay,) = visit.state("overlays")
+    frames = visit.state("result.frames")
+    force = np.interp(overlay["time"], frames["time"], frames["force"][0])
+    return np.abs(np.array(overlay["values"]) - force).mean()
+
+
+def test_a_force_record_is_laid_over_the_drop_and_fitted(visit):
+    page = opened(visit)
+    tried(page, "Force on the floor")
+    found = page.locator(".measure-in table").inner_text()
+    assert "30.00 ± 0.06 ms" in found
+    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    before = apart(visit)
+    fitted(page)
+    visit.ready()
+    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    stiffness = [visit.state(f"drop.contacts[{i}].stiffness") for i in (0, 1)]
+    assert stiffness[0] == pytest.approx(2700.0, abs=3 * 2.2)  # errors as the fit tells them
+    assert stiffness[1] == pytest.approx(1350.0, abs=3 * 7.0)
+    assert before > 1.0
+    assert apart(visit) < 0.5  # N, what its noise is
+    page.evaluate("() => scrollTo(0, 0)")
+    visit.picture("measure")
+    page.get_by_role("button", name="Back to the drop before").click()
+    assert visit.state("drop.contacts[0].stiffness") == 2500
+
+
+def test_the_record_can_be_shifted_by_hand(visit):
+    page = opened(visit)
+    tried(page, "Force on the floor")
+    page.wait_for_function("() => window.stackbounce.store.get().overlays.length")
+    first = visit.state("overlays[0].time[0]")
+    slider = page.locator("#record-shift")
+    for _ in range(5):
+        slider.press("ArrowRight")
+    assert visit.state("overlays[0].time[0]") > first + 1e-4
+    assert page.locator(".record-moved").inner_text().startswith("+")
+
+
+def test_a_track_shows_how_much_is_lost(visit):
+    page = opened(visit)
+    tried(page, "Video of two balls")
+    fitted(page)
+    damping = [visit.state(f"drop.contacts[{i}].damping") for i in (0, 1)]
+    assert damping == pytest.approx([8.0, 2.0], abs=0.5)
+
+
+def test_a_typed_height_is_fitted(visit):
+    page = opened(visit)
+    page.locator(".fit-row select").select_option("rebound_heights.1")
+    page.locator(".fit-value").fill("1.72 ± 0.03 m")
+    fitted(page)
+    visit.ready()
+    assert visit.state("result.rebound_heights[1]") == pytest.approx(1.72, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b"", "mine.csv is empty"),
+        (b"Dear Sir or Madam,\n", "mine.csv: "),
+        (b"%PDF-1.7 and so on", "it is a PDF document"),
+        (b"x" * (LIMITS.upload_bytes + 1), "larger than 16 MiB"),
+    ],
+)
+def test_a_file_that_is_none_is_told(visit, tmp_path, content, message):
+    page = opened(visit)
+    file = tmp_path / "mine.csv"
+    file.write_bytes(content)
+    page.locator(".file-drop input[type=file]").set_input_files(file)
+    told = page.locator("#measure .field-error").filter(has_text=message)
+    told.wait_for()
+    assert told.is_visible()
+    visit.complaints.clear()  # Chromium logs the refusal, which is the point here
+
+
+def test_a_fit_that_cannot_be_is_told(visit):
+    page = opened(visit)
+    page.locator(".fit-value").fill("about 2")
+    page.get_by_role("button", name="Fit", exact=True).click()
+    page.locator(".fit .field-error").filter(has_text="rebound_ratios.0").wait_for()
+    visit.complaints.clear()  # Chromium logs the answer 422, which is the point here
+
+
+def add_clay(route):
+    """Let the formulas of the laws have one more: a spring that is called otherwise."""
+    number = {"unit": "s", "words": "a number", "least": 0.0, "most": 1.0}
+    told = {"law": "Clay", "constants": {"form": "POWER", "loss": "softness"}}
+    told |= {"fields": [{"name": "softness", "named": False}], "numbers": {"softness": number}}
+    text = route.fetch().text().replace("LAWS = {", 'LAWS = { "Clay": Clay,')
+    clay = f"class Clay extends law__ContactLaw {{}}\nClay.tell({json.dumps(told)});\n"
+    route.fulfill(
+        body=text.replace("export const", f"{clay}export const"), content_type="text/javascript"
+    )
+
+
+def test_a_law_that_is_new_is_offered_with_its_loss(visit):
+    """The page has the laws that are made for it, and ticks the number that sets a law's loss."""
+    page = visit.page
+    field = {"name": "softness", "unit": "s", "required": True, "default": 0.1}
+    clay = {"law": "Clay", "says": "Clay.", "formula": "F", "source": "S", "rigid": False}
+    clay |= {"fields": [field | {"low": 0.0, "high": 1.0}], "loss_fields": ["softness"]}
+    clay |= {"exact": False}
+
+    def add(route):
+        model = route.fetch().json()
+        model["laws"].append(clay)
+        route.fulfill(json=model)
+
+    page.route("**/made/model.json", add)
+    page.route("**/made/laws.js", add_clay)
+    opened(visit)
+    assert "Clay" in page.locator('[data-key="law-0"] option').all_inner_texts()
+    page.evaluate(
+        """() => { const { store } = window.stackbounce; const { drop } = store.get();
+             const contacts = [{ law: 'Clay', softness: 0.1 }, drop.contacts[1]];
+             store.set({ drop: { ...drop, contacts } }); }"""
+    )
+    box = page.locator('.fit-vary input[value="contacts.0.softness"]')
+    box.wait_for()
+    assert box.is_checked()
+    assert page.locator('[data-path="contacts.0.softness"]').count() == 1
+
+
+def test_the_form_has_a_field_for_every_option(visit, server):
+    page = opened(visit)
+    form = page.locator("form.measure-options")
+    for option in server.get("/api/measure/options").json()["options"]:
+        name = option["name"]
+        assert form.locator(f'[name="{name}"], [data-key="option-{name}"]').count() == 1
+        assert option["label"] in form.text_content()
+
+
+def test_a_dropped_file_is_read(visit):
+    page = opened(visit)
+    page.evaluate(
+        """(text) => { const data = new DataTransfer();
+             data.items.add(new File([text], 'heights.csv'));
+             const event = new DragEvent('drop', { dataTransfer: data, bubbles: true });
+             document.querySelector('.measure-out').dispatchEvent(event); }""",
+        "Height (m)\n1.00\n0.62\n0.39\n0.24\n",
+    )
+    page.locator(".recognised button").wait_for()
+    assert "heights.csv: table" in page.locator(".recognised").inner_text()
+    assert "The file is of one ball alone" in page.locator(".fit").inner_text()
+
+
+LAB = Path(__file__).parents[3] / "docs/lab"
+
+
+def given(page, name):
+    page.locator(".file-drop input[type=file]").set_input_files(LAB / name)
+    page.locator(".recognised").filter(has_text=name).locator("button").wait_for()
+
+
+def test_a_sound_becomes_the_bounce_of_the_ball_that_is_chosen(visit):
+    page = opened(visit)
+    given(page, "tennis.wav")
+    use = page.locator(".bounce-use")
+    button = use.get_by_role("button", name="Use this as the ball")
+    assert button.is_disabled()  # of two balls, none is guessed
+    use.get_by_label("Which ball bounced?").select_option("Tennis")
+    button.click()
+    use.get_by_role("button", name="See it in Play").click()
+    visit.ready()
+    lower, upper = visit.state("drop.contacts")
+    assert lower == {"law": "Spring", "stiffness": 2500}
+    assert upper["restitution"] == pytest.approx(0.74993, abs=1e-5)
+    drop = sb.Drop.from_mapping(visit.state("drop"))
+    assert sb.contact_time(upper_law := drop.contacts[1], mass=0.057, speed=3.5) == pytest.approx(
+        sb.contact_time(sb.Spring(1000.0), mass=0.057, speed=3.5), rel=1e-3
+    ), upper_law
+    note = page.locator(".contact-card > .note").first.inner_text()
+    assert note.startswith("As measured: tennis.wav.")
+
+
+def test_a_contact_time_becomes_the_stiffness_of_the_ball_that_bounced(visit):
+    page = visit.open(
+        "#view=measure&impact_speed=3.5&balls.0.mass=0.057&contacts.0.law=Spring&contacts.0.stiffness=9e3"
+    )
+    page.locator(".fit-vary input").first.wait_for()
+    given(page, "tennis-force.csv")
+    page.get_by_role("button", name="Use this as the ball").click()
+    page.wait_for_function(
+        "() => window.stackbounce.store.get().drop.contacts[0].stiffness !== 9000"
+    )
+    exact = 0.057 * (np.pi / 0.005344390241265924) ** 2
+    assert visit.state("drop.contacts[0].stiffness") == pytest.approx(exact, rel=1e-4)
+
+
+def test_a_press_curve_is_plotted_and_used(visit):
+    page = opened(visit)
+    given(page, "basketball-press.csv")
+    plot = page.get_by_role("img", name="Force over compression")
+    label = plot.get_attribute("aria-label")
+    assert "pressed in: " in label
+    assert "up to 30.1 N at 12 mm" in label
+    assert plot.locator("canvas").count() == 1
+    visit.picture("measure-press")
+    page.get_by_label("Which ball bounced?").select_option("Basketball")
+    page.get_by_role("button", name="Use this as the ball").click()
+    page.wait_for_function("() => window.stackbounce.store.get().drop.contacts[0].restitution")
+    contact = visit.state("drop.contacts[0]")
+    assert contact["law"] == "Hysteretic"
+    assert contact["stiffness"] == pytest.approx(2500.0, abs=5.0)
+    assert contact["restitution"] == pytest.approx(0.770, abs=1e-3)
+
+
+def test_a_record_of_one_says_over_what_it_lies(visit):
+    page = opened(visit)
+    given(page, "tennis-force.csv")
+    over = page.get_by_label("The record is of one contact. Which?")
+    assert over.locator("option:checked").inner_text() == "floor – basketball"
+    over.select_option("basketball – tennis")
+    page.wait_for_function("() => window.stackbounce.store.get().overlays[0]?.index === 1")
+    assert page.locator(".fit-row select").first.input_value() == "force.1"
+    over.select_option("floor – basketball")
+    page.wait_for_function("() => window.stackbounce.store.get().overlays[0]?.index === 0")
+
+
+def test_a_phone_needs_no_scrolling_sideways(visits):
+    visit = visits(viewport={"width": 360, "height": 780}, color_scheme="dark")
+    page = opened(visit)
+    tried(page, "Force on the floor")
+    fitted(page)
+    assert page.evaluate("() => document.documentElement.scrollWidth <= innerWidth")
+    visit.picture("measure-phone", full_page=True)
+
+
+def test_a_record_can_be_taken_away(visit):
+    page = opened(visit)
+    tried(page, "Video of two balls")
+    page.wait_for_function("() => window.stackbounce.store.get().overlays.length === 2")
+    page.get_by_role("tab", name="Play").click()
+    assert "of the whole drop" in page.locator(".options").inner_text()
+    page.get_by_role("tab", name="Measure").click()
+    page.get_by_role("button", name="Take the record away").click()
+    assert visit.state("overlays") == []
+    assert not page.locator('section[aria-label="What was found"]').is_visible()
+    page.get_by_role("tab", name="Play").click()
+    assert "of the whole drop" not in page.locator(".options").inner_text()

@@ -1,0 +1,259 @@
+"""The page's words: each sentence has its translation, and numbers are as people write them."""
+
+import json
+import re
+import subprocess
+from html.parser import HTMLParser
+from importlib.resources import files
+from pathlib import Path
+
+import pytest
+
+from stackbounce import StackbounceError, units
+from stackbounce.errors import between, finite, non_negative, positive
+from stackbounce.explorer.answers.records import list_options
+from stackbounce.explorer.page.data import model_json
+
+STATIC = files("stackbounce.explorer") / "static"
+CODES = ("de", "es", "fr")
+COMPLETE = ("de",)
+COVERED = {"es": 0.74, "fr": 0.74}  # of the sentences, at least: all but those of Measure
+LITERAL = r'"(?:[^"\\]|\\.)*"'
+CALL = re.compile(rf"(?<![\w.])t\(\s*({LITERAL})?")
+ENTRY = re.compile(rf"^  ({LITERAL}): ({LITERAL}),$", re.MULTILINE)
+PLACE = re.compile(r"\{\w+\}")
+NAMED_BALLS = ("tennis", "table tennis", "golf")  # of which "ball" is said, as in sentence.js
+NUMBERS = ("mass", "velocity", "impact speed", "height", "gravity", "stiffness")  # of labels
+UNITS = ("kilograms", "metres", "pascals")  # that checks name in words
+UNMARKED = {
+    "stackbounce",
+    "The explorer needs JavaScript. The command line does without: stackbounce --help.",
+}
+
+
+def scripts():
+    return {
+        path.relative_to(STATIC).as_posix(): path.read_text("utf-8")
+        for path in sorted(Path(str(STATIC)).glob("js/**/*.js"))
+        if path.parent.name != "languages" and path.name != "language.js"
+    }
+
+
+class Html(HTMLParser):
+    """The texts of the page's HTML: those marked to be translated, and the others."""
+
+    def __init__(self):
+        super().__init__()
+        self.marked, self.others, self._open = [], [], []
+
+    def handle_starttag(self, tag, attributes):
+        given = dict(attributes)
+        if "aria-label" in given:
+            (self.marked if "data-t-label" in given else self.others).append(given["aria-label"])
+        if tag not in ("meta", "link"):
+            self._open.append(["data-t" in given or tag == "title", ""])
+
+    def handle_data(self, text):
+        if self._open:
+            self._open[-1][1] += text
+
+    def handle_endtag(self, _tag):
+        marked, text = self._open.pop()
+        if text.strip():
+            (self.marked if marked else self.others).append(" ".join(text.split()))
+
+
+@pytest.fixture(scope="module")
+def html():
+    reader = Html()
+    reader.feed((STATIC / "index.html").read_text("utf-8"))
+    return reader
+
+
+def patterns():
+    text = (STATIC / "js/languages/patterns.js").read_text("utf-8")
+    lists = "".join(re.findall(r"\[(.*?)\];", text, re.DOTALL))
+    return [one or other for one, other in re.findall(r"""'([^']*)'|"([^"]*)\"""", lists)]
+
+
+def served():
+    """Return the English words and sentences that the package gives the page to show."""
+    model = json.loads(model_json())
+    options = json.loads(list_options())["options"]
+    laws = [law["law"] for law in model["laws"]]
+    names = [ball["name"] for ball in model["balls"]]
+    said = [
+        f"the {name} ball" if name in NAMED_BALLS else f"the {name}"
+        for name in names
+        if name[0].islower()
+    ]
+    words = [*names, *said, *(re.sub("([a-z])([A-Z])", r"\1 \2", law) for law in laws)]
+    for law in model["laws"]:
+        words += [law["says"]]
+        words += [field[key] for field in law["fields"] for key in ("says", "words", "explains")]
+    words += [one[key] for one in model["presets"] for key in ("group", "title", "says")]
+    words += [one[key] for one in model["lines"] for key in ("title", "says")]
+    words += [*model["advice"].values(), model["energy"][0]]
+    words += [outcome[0] for outcome in model["outcomes"].values()]
+    words += [ratio["label"] for ratio in model["ratios"].values()]
+    words += [kind[0] for kind in model["kinds"].values()]
+    for option in options:
+        chosen = [option["example"], *option["choices"]] if option["choices"] else []
+        words += [option["label"], option["says"]]
+        words += [word for word in chosen if word not in laws and word not in (".", ",")]
+    return [*filter(None, words), *NUMBERS, *UNITS]
+
+
+def keys(html):
+    """Return all sentences of the page in English."""
+    calls = [json.loads(text) for one in scripts().values() for text in CALL.findall(one) if text]
+    return {*html.marked, *calls, *patterns(), *served()}
+
+
+def table(code):
+    text = (STATIC / f"js/languages/{code}.js").read_text("utf-8")
+    entries = [(json.loads(key), json.loads(value)) for key, value in ENTRY.findall(text)]
+    assert len(entries) == len(text.splitlines()) - 3 == len(dict(entries))  # all was read
+    return dict(entries)
+
+
+def test_every_call_has_its_sentence_in_it():
+    """Otherwise nobody could list the sentences that need a translation."""
+    for name, script in scripts().items():
+        empty = [match[0] for match in CALL.finditer(script) if match[1] is None]
+        assert not empty, name
+
+
+def test_every_text_of_the_html_is_marked(html):
+    assert set(html.others) == UNMARKED
+
+
+@pytest.mark.parametrize("code", COMPLETE)
+def test_a_table_is_complete(code, html):
+    assert keys(html) - set(table(code)) == set()
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_a_table_has_no_sentence_that_is_not_used(code, html):
+    assert set(table(code)) - keys(html) == set()
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_translations_have_the_same_places_and_are_not_empty(code):
+    for english, own in table(code).items():
+        assert own.strip(), english
+        assert set(PLACE.findall(own)) == set(PLACE.findall(english)), english
+
+
+@pytest.mark.parametrize("code", COVERED)
+def test_tables_have_one_order_and_most_sentences(code):
+    order = list(table("de"))
+    own = list(table(code))
+    assert own == [key for key in order if key in own]
+    assert len(own) / len(order) >= COVERED[code]
+
+
+@pytest.fixture
+def asked(page, tmp_path):
+    def ask(code, *questions):
+        path, answers = tmp_path / "questions.json", tmp_path / "answers.json"
+        path.write_text(json.dumps(questions))
+        command = ["node", Path(__file__).with_name("ask_language.mjs"), page, code, path, answers]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        assert (done.returncode, done.stderr) == (0, "")
+        return json.loads(answers.read_text("utf-8"))
+
+    return ask
+
+
+METRES = {"unit": "m", "size": 1}
+READ = ("3,5", "3.5", "1,500", "1.500", "0,057 km", "12,5 mm", "−2,5 cm", ",5", "1,2 ft")
+
+
+@pytest.mark.parametrize("code", CODES)
+def test_a_comma_is_decimal_where_it_is_so(asked, code):
+    read = asked(code, *(["words/units", "read", text, "m", METRES] for text in READ))
+    assert read == [3.5, 3.5, 1.5, 1.5, "0.057 km", 0.0125, -0.025, 0.5, "1.2 ft"]
+    written = asked(
+        code,
+        ["words/units", "format", 1234.5, 5],
+        ["words/units", "format", 1.25e-7, 3],
+        ["words/units", "fixed", -0.5, 2],
+        ["words/quantity", "formatMeasured", 0.03, 0.00006, "s"],
+        ["words/units", "splitError", "63,5 ± 0,5 cm"],
+        ["words/units", "splitError", "(63,5 ± 0,5) cm"],
+        ["words/units", "splitError", "63,5 ± 0,5) cm"],
+    )
+    split = {"value": "63,5 cm", "error": "0,5 cm"}
+    assert written[:-1] == ["1234,5", "1,25e−7", "−0,50", "30,00 ± 0,06 ms", split, split]
+    assert written[-1]["error"] == "0,5) cm"  # which is refused
+
+
+def test_in_english_a_comma_may_part_thousands(asked):
+    read = asked("en", *(["words/units", "read", text, "m", METRES] for text in READ))
+    assert read == [3.5, 3.5, "1,500", 1.5, "0,057 km", 0.0125, -0.025, 0.5, "1,2 ft"]
+    assert asked("en", ["words/units", "format", 1234.5, 5]) == ["1234.5"]
+
+
+def message(check, *given):
+    with pytest.raises(StackbounceError) as caught:
+        check(*given)
+    return str(caught.value).removeprefix("number ")
+
+
+TOLD = "eine Masse (eine Zahl in kg oder ein Text wie „150 g“), angegeben ist"
+MESSAGES = [
+    (
+        message(positive, "number", -1.0, "kilograms"),
+        "eine positive Zahl in Kilogramm, angegeben ist -1.0",
+    ),
+    (
+        message(finite, "number", float("inf"), "m/s"),
+        "eine endliche Zahl in m/s, angegeben ist inf",
+    ),
+    (
+        message(non_negative, "number", -1.0, "metres"),
+        "eine Zahl in Meter, 0 oder größer, angegeben ist -1.0",
+    ),
+    (message(between, "number", 4.0, 1.0, 3.0), "eine Zahl von 1 bis 3, angegeben ist 4.0"),
+    (
+        message(units.quantity, "12 zorks", "kg", "number"),
+        f"{TOLD} '12 zorks', mit unbekannter Einheit",
+    ),
+    (message(units.quantity, "heavy", "kg", "number"), f"{TOLD} 'heavy'"),
+]
+
+
+def test_what_is_composed_in_english_is_translated(asked):
+    composed = {
+        **{text: f"Nötig ist {told}" for text, told in MESSAGES},
+        "mass of tennis": "Masse: Tennisball",
+        "stiffness of floor and basketball": "Steifigkeit: Boden und Basketball",
+        "gap above ball 0": "Abstand über: Ball 0",
+        "rebound speed of tennis over v₀": "Rückprallgeschwindigkeit durch v₀: Tennisball",
+        "collisions of basketball and tennis": "Stöße: Basketball und Tennisball",
+        "golf ball and marble in series": "Golfball und Murmel in Reihe",
+    }
+    assert asked("de", *(["words/language", "translated", text] for text in composed)) == list(
+        composed.values()
+    )
+
+
+def test_other_english_stays_whole(asked):
+    others = ["a loss of contact and of energy", "Cross 2007, Table I", "my own ball", ""]
+    assert asked("de", *(["words/language", "translated", text] for text in others)) == others
+
+
+@pytest.mark.parametrize(
+    ("fragment", "browser", "code"),
+    [
+        ("", ["en-US", "de"], "en"),
+        ("", ["de-AT", "en"], "de"),
+        ("", ["pt-BR", "fr-CA", "en"], "fr"),
+        ("", ["pt-BR"], "en"),
+        ("#view=play&lang=es", ["de"], "es"),
+        ("#lang=xx", ["de"], "de"),
+    ],
+)
+def test_the_address_goes_before_the_browser(asked, fragment, browser, code):
+    assert asked("en", ["words/language_choice", "chosen", fragment, browser]) == [code]

@@ -1,0 +1,200 @@
+"""Lines of the page: their numbers are the library's, their points lie where the curves bend."""
+
+import dataclasses
+import json
+import random
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from explorer.page.scenarios import drawn
+from stackbounce.cross2007.lines import list_lines
+from stackbounce.errors import StackbounceError
+from stackbounce.explorer.answers import maps
+from stackbounce.run.paths import drop_at, number_at
+
+SEED = 7
+EVENTS = 300  # of random drops
+SAMPLES = 8  # points of a line that are compared
+PARTS = 24 * 2**9  # of a side: its points are this close at the closest
+SHOWS = ("rebound_ratio", "rebound_height", "energy_retained", "collisions")
+
+
+def random_lines(seed, count):
+    """Yield random drops, each with a number that varies and what is shown."""
+    chance = random.Random(seed)
+    batch = 0
+    while count:
+        batch += 1
+        mapping, _ = next(drawn(seed, batch, 1))
+        one = chance.choice(json.loads(maps.list_paths(sb.Drop.from_mapping(mapping)))["paths"])
+        low, high = sorted((0.5 * one["value"], 1.5 * one["value"] or 1.0))
+        log = low > 0.0 and chance.random() < 0.4
+        x = {"path": one["path"], "low": low, "high": high, "log": log}
+        try:
+            [at(mapping, x["path"], end) for end in (low, high)]
+        except StackbounceError:
+            continue
+        count -= 1
+        yield {"drop": mapping, "x": x, "show": chance.choice(SHOWS)}
+
+
+def at(mapping, path, value):
+    """Return a drop with another value of a number, or of a ratio."""
+    drop = sb.Drop.from_mapping(mapping)
+    if path in maps.RATIOS:
+        path, other, _ = maps.RATIOS[path]
+        value *= number_in(drop, other)
+    return drop_at(drop, {number_at(drop, path): value})
+
+
+def number_in(drop, path):
+    part, index, field = path.split(".")
+    return getattr(getattr(drop, part)[int(index)], field)
+
+
+def outcome(drop, show, index):
+    """Return what the library finds of a drop; None where it does not come to its end."""
+    result = sb.simulate(drop, rtol=maps.RTOL, event_limit=EVENTS)
+    if result.status > sb.Status.COLLAPSED:
+        return None
+    if show == "energy_retained":
+        return finite(result.energy_retained)
+    if show == "collisions":
+        return int(result.collisions[index])
+    if show == "rebound_ratio":
+        return finite(result.rebound_ratios[index])
+    speed = result.rebound_speeds[index]
+    return finite(speed * abs(speed) / (2.0 * sb.model.STANDARD_GRAVITY))
+
+
+def finite(value):
+    return float(value) if np.isfinite(value) else None
+
+
+def textbook(drop, show, index):
+    try:
+        return outcome(sb.separate(drop), show, index)
+    except StackbounceError:
+        return None
+
+
+def compare_lines(asked, seed, count):
+    """Compare some points of each line, of the drop and of its separate collisions."""
+    lines = list(random_lines(seed, count))
+    answers = asked([["line", line] for line in lines], events=EVENTS)
+    chance = random.Random(seed)
+    compared = {"own": 0, "textbook": 0}
+    for line, found in zip(lines, answers, strict=True):
+        answer = found["answer"]
+        values = answer["x"]["values"]
+        assert values == sorted(set(values))
+        assert (values[0], values[-1]) == (line["x"]["low"], line["x"]["high"])
+        for i in chance.sample(range(len(values)), SAMPLES):
+            drop = at(line["drop"], line["x"]["path"], values[i])
+            for curve in answer["curves"]:
+                given = (line["show"], curve["index"])
+                assert alike(curve["values"][i], outcome(drop, *given)), (line, values[i])
+                compared["own"] += 1
+                if curve["textbook"]:
+                    theirs = curve["textbook"]["values"][i]
+                    assert alike(theirs, textbook(drop, *given)), (line, values[i])
+                    compared["textbook"] += 1
+    assert min(compared.values()) > 5 * count
+
+
+def alike(one, other):
+    if one is None or other is None:
+        return one is other
+    return one == pytest.approx(other, rel=1e-12, abs=1e-300)
+
+
+def test_random_lines_have_the_library_s_numbers(asked):
+    compare_lines(asked, SEED, 30)
+
+
+@pytest.mark.slow
+def test_a_hundred_random_lines_have_the_library_s_numbers(asked):
+    compare_lines(asked, SEED + 1, 100)
+
+
+def paper_lines(asked, show):
+    lines = list(list_lines())
+    asks = [
+        {"drop": one.drop.to_mapping(), "x": dataclasses.asdict(one.across), "show": show}
+        for one in lines
+    ]
+    answers = asked([["line", ask] for ask in asks])
+    return {one.name: (one, found["answer"]) for one, found in zip(lines, answers, strict=True)}
+
+
+def test_the_paper_s_lines_have_the_paper_s_values(asked):
+    found = paper_lines(asked, "rebound_ratio")
+    ends = {
+        name: [c["values"][-1] for c in answer["curves"]] for name, (_, answer) in found.items()
+    }
+    assert round(ends["figure-2a"][1], 2) == 2.64  # read in the text, at m1/m2 = 10
+    assert round(ends["figure-4a"][1], 2) == 1.13
+    _, stops = found["figure-2b"]
+    lower = np.array(stops["curves"][0]["values"])
+    ratios = np.array(stops["x"]["values"])
+    assert ratios[ratios > 0.3][lower[ratios > 0.3].argmin()] == pytest.approx(0.528, abs=1e-3)
+    lower, upper = found["figure-6-tennis"][1]["curves"]
+    at_fit = [
+        np.interp(2.5, found["figure-6-tennis"][1]["x"]["values"], c["values"])
+        for c in (lower, upper)
+    ]
+    assert at_fit == pytest.approx([0.38, 1.80], abs=0.005)  # Fig. 9's
+
+
+def test_between_its_points_a_curve_is_straight(asked):
+    """The paper's curves are drawn true: they are compared at places where nothing was computed."""
+    chance = random.Random(SEED)
+    for line, answer in paper_lines(asked, "rebound_ratio").values():
+        values = answer["x"]["values"]
+        spread = np.log if answer["x"]["log"] else np.asarray
+        for value in (chance.uniform(0.3, values[-1]) for _ in range(20)):
+            drop = at(line.drop.to_mapping(), answer["x"]["path"], value)
+            true = sb.simulate(drop).rebound_ratios
+            for curve, wanted in zip(answer["curves"], true, strict=True):
+                drawn = np.interp(spread(value), spread(values), curve["values"])
+                assert drawn == pytest.approx(wanted, abs=np.ptp(curve["values"]) / 250)
+
+
+def test_a_jump_lies_where_the_count_changes(asked):
+    """Without loss the lower ball meets the floor once above m1/m2 = 3, and more often below."""
+    line, answer = paper_lines(asked, "collisions")["figure-2a"]
+    floor = answer["curves"][0]
+    values = answer["x"]["values"]
+    ends = [(values[i], values[i + 1]) for i in floor["jumps"]]
+    closest = (line.across.high - line.across.low) / PARTS
+    for low, high in ends:
+        assert high - low == pytest.approx(closest)
+        counts = [
+            outcome(at(line.drop.to_mapping(), "mass_ratio", v), "collisions", 0)
+            for v in (low, high)
+        ]
+        assert counts[0] != counts[1]
+    assert any(low <= 3.0 <= high for low, high in ends)
+    between = [i for i in range(len(values) - 1) if floor["values"][i] != floor["values"][i + 1]]
+    assert floor["jumps"] == between
+
+
+def test_what_makes_no_line_is_refused(asked):
+    drop = next(list_lines()).drop.to_mapping()
+    side = {"path": "mass_ratio", "low": 0.1, "high": 1.0, "log": True}
+    asks = [
+        ({"x": side | {"path": "wind"}, "show": "collisions"}, "'wind' is not a parameter"),
+        ({"x": side, "show": "rebound"}, "'rebound' is no outcome; did you mean rebound_ratio?"),
+        ({"x": side | {"high": 0.1}, "show": "collisions"}, "high must differ from low"),
+        ({"x": side | {"low": -1.0}, "show": "collisions"}, "low must be above 0"),
+        (
+            {"x": side | {"low": -1.0, "log": False}, "show": "collisions"},
+            "balls.0.mass must be a positive number",
+        ),
+    ]
+    answers = asked([["line", {"drop": drop} | ask] for ask, _ in asks])
+    for (ask, words), found in zip(asks, answers, strict=True):
+        assert found["kind"] in ("InvalidValue", "InvalidType"), ask
+        assert words in found["error"], ask

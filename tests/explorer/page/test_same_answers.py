@@ -1,0 +1,372 @@
+"""The page's own code answers as the library does: the same numbers, the same words of refusal."""
+
+import dataclasses
+import json
+import math
+import random
+import re
+
+import numpy as np
+import pytest
+
+import stackbounce as sb
+from explorer.page.scenarios import drawn, scenarios
+from stackbounce.cross2007.cases import list_cases
+from stackbounce.errors import StackbounceError
+from stackbounce.explorer.answers import catalogue, exports, maps, play
+from stackbounce.explorer.schema import Axis, read_drop
+from stackbounce.json_values import plain
+from stackbounce.model.schema import read_law
+from stackbounce.run.paths import numbers_of
+
+SEED = 5
+CLOSE = 1e-12
+STRONG = 1e4  # relaxation strength
+EVENTS = 300  # of random drops
+NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[+-]?\d+)?")
+
+
+def library(call):
+    """Return what the library answers, as the page's answers are written."""
+    try:
+        answer = call()
+    except StackbounceError as error:
+        return {"error": str(error)}
+    return {"answer": json.loads(answer) if isinstance(answer, str) else plain(answer)}
+
+
+def differences(one, other, path="", tolerance=CLOSE):
+    """Yield where two answers differ: numbers by more than a tolerance, all else at all."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        if sorted(one) != sorted(other):
+            yield path, sorted(one), sorted(other)
+        for key in set(one) & set(other):
+            yield from differences(one[key], other[key], f"{path}.{key}", tolerance)
+    elif isinstance(one, list) and isinstance(other, list):
+        if len(one) != len(other):
+            yield path, len(one), len(other)
+        for i, (a, b) in enumerate(zip(one, other, strict=False)):
+            yield from differences(a, b, f"{path}.{i}", tolerance)
+    elif not same(one, other, tolerance):
+        yield path, one, other
+
+
+def same(one, other, tolerance):
+    """Return whether words are the same, and numbers, also those in words, nearly."""
+    if isinstance(one, str) and isinstance(other, str):
+        words = NUMBER.sub("#", one) == NUMBER.sub("#", other)
+        pairs = zip(NUMBER.findall(one), NUMBER.findall(other), strict=False)
+        return words and all(same(float(a), float(b), tolerance) for a, b in pairs)
+    numbers = all(isinstance(n, int | float) and not isinstance(n, bool) for n in (one, other))
+    if numbers:
+        return math.isclose(one, other, rel_tol=tolerance, abs_tol=1e-300)
+    return one == other
+
+
+def compare(asked, questions, calls, tolerance=CLOSE, **options):
+    """Compare what page and library answer; return the answers."""
+    answers = asked(questions, **options)
+    told = [library(call) for call in calls]
+    for question, ours, theirs in zip(questions, answers, told, strict=True):
+        kept = {key: ours[key] for key in ours if key in ("answer", "error")}
+        near = tolerance(theirs) if callable(tolerance) else tolerance
+        assert not list(differences(kept, theirs, "", near)), (question, ours.get("stack"))
+    return told
+
+
+def refused(answers):
+    return sum("error" in one for one in answers) / len(answers)
+
+
+def test_all_cases_of_the_paper_play_with_the_same_numbers(asked):
+    cases = [case.drop for case in list_cases()]
+    answers = asked([["simulate", drop.to_mapping(), None, 200] for drop in cases])
+    for drop, ours in zip(cases, answers, strict=True):
+        theirs = json.loads(play.play_drop(drop, None, 200))
+        compare_plays(ours["answer"], theirs)
+
+
+def compare_plays(ours, theirs):
+    """Compare the answers of a play: its frames are rounded by the server alone."""
+    frames, rounded = ours.pop("frames"), theirs.pop("frames")
+    assert theirs.pop("stackbounce")
+    place, near = ours["separate"] or {}, theirs["separate"] or {}
+    assert close(place.pop("position", []), near.pop("position", []))
+    assert list(differences(ours, theirs)) == []
+    assert frames.pop("time") == rounded.pop("time")
+    ours_energy, theirs_energy = frames.pop("energy"), rounded.pop("energy")
+    most = np.max(theirs_energy["total"])
+    for name, values in theirs_energy.items():
+        assert np.array(ours_energy[name]) == pytest.approx(np.array(values), abs=1e-8 * most)
+    for name, values in rounded.items():
+        assert close(frames[name], values), name
+
+
+def close(ours, theirs):
+    if not theirs:
+        return ours == theirs
+    most = np.max(np.abs(theirs))
+    return np.array(ours) == pytest.approx(np.array(theirs), abs=1e-8 * max(most, 1e-300))
+
+
+@pytest.mark.parametrize("until", [0.5, 0.05])
+def test_a_whole_drop_with_gravity_plays_the_same(asked, until):
+    cases = [case.drop for case in list_cases()][::4]
+    mappings = [drop.to_mapping() | {"gravity": 9.80665} for drop in cases]
+    answers = asked([["simulate", drop, until, 300] for drop in mappings])
+    for drop, ours in zip(mappings, answers, strict=True):
+        theirs = play.play_drop(sb.Drop.from_mapping(drop), until, 300)
+        compare_plays(ours["answer"], json.loads(theirs))
+
+
+def compare_drawn(asked, batches, count, monkeypatch):
+    """Compare random drops, some of which would take minutes with more events."""
+    monkeypatch.setattr(play, "LIMITS", dataclasses.replace(play.LIMITS, events=EVENTS))
+    told = [one for batch in batches for one in drawn(SEED, batch, count)]
+    answers = asked([["simulate", drop, None, 2] for drop, _ in told], events=EVENTS)
+    alike = 0
+    for (mapping, _), ours in zip(told, answers, strict=True):
+        drop = sb.Drop.from_mapping(mapping)
+        theirs = json.loads(play.play_drop(drop, None, 2))
+        near = [answer.pop("separate") for answer in (ours["answer"], theirs)]
+        for answer in (ours["answer"], theirs):
+            answer.pop("frames")
+        theirs.pop("stackbounce")
+        assert list(differences(ours["answer"], theirs)) == [], mapping
+        alike += compare_textbook(*near)
+    assert alike > 0.7 * len(told)
+
+
+def compare_textbook(ours, theirs):
+    """Compare separate collisions; return whether their restitutions are the same bits.
+
+    If they are not, many collisions can make anything of the last digit.
+    """
+    if theirs is None or "error" in theirs:
+        assert ours == theirs
+        return True
+    assert list(differences(ours["restitutions"], theirs["restitutions"])) == []
+    if ours["restitutions"] != theirs["restitutions"]:
+        return False
+    for one in (ours, theirs):
+        one.pop("position")
+    assert list(differences(ours, theirs)) == []
+    return True
+
+
+def test_random_drops_have_the_same_numbers(asked, monkeypatch):
+    compare_drawn(asked, range(12), 25, monkeypatch)
+
+
+@pytest.mark.slow
+def test_five_thousand_random_drops_have_the_same_numbers(asked, monkeypatch):
+    compare_drawn(asked, range(25), 200, monkeypatch)
+
+
+def compare_scenarios(asked, seed, count):
+    drops = scenarios(seed, count)
+    questions = [["read", drop] for drop in drops]
+    told = compare(asked, questions, [lambda d=drop: read_drop(d).to_mapping() for drop in drops])
+    assert 0.3 < refused(told) < 0.9
+    return told
+
+
+def test_random_scenarios_are_read_or_refused_alike(asked):
+    compare_scenarios(asked, SEED, 1500)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(4))
+def test_many_random_scenarios_are_read_or_refused_alike(asked, seed):
+    told = compare_scenarios(asked, seed, 10_000)
+    assert len({one["error"] for one in told if "error" in one}) > 2000
+
+
+def contacts(seed, count):
+    """Return random contacts with a mass and a speed."""
+    chance = random.Random(seed)
+    for batch in range(count):
+        (mapping, _) = next(drawn(seed, batch, 1))
+        index = chance.randrange(len(mapping["contacts"]))
+        yield (
+            mapping["contacts"][index],
+            10.0 ** chance.uniform(-3, 1),
+            10.0 ** chance.uniform(-2, 2),
+        )
+
+
+def compare_laws(asked, seed, count):
+    chance = random.Random(seed)
+    questions, calls = [], []
+    for contact, mass, speed in contacts(seed, count):
+        if creeps_apart(contact, mass, speed):
+            continue
+        to = chance.choice(list(sb.model.LAWS))
+        e, time = (
+            chance.choice((None, 0.8, 1.0, chance.uniform(0.01, 1))),
+            chance.choice((None, 5e-3)),
+        )
+        like = {
+            "to": to,
+            "mass": mass,
+            "impact_speed": speed,
+            "restitution": e,
+            "contact_time": time,
+        }
+        questions.append(["like", {"contact": contact} | like])
+        calls.append(lambda c=contact, to=like: catalogue.convert_law(read_law(c, "contact"), **to))
+        asked_of = {"mass": mass, "impact_speed": speed, "restitution": e, "contact_time": time}
+        asked_of["exponent"] = chance.choice((None, None, 1.0, 1.5, 2.0, 0.5))
+        questions.append(["law", {"law": to} | asked_of])
+        calls.append(lambda n=to, g=asked_of: catalogue.calibrate_law(n, **g))
+    return compare(asked, questions, calls, hardly_bounces)
+
+
+def creeps_apart(contact, mass, speed):
+    """Return whether strong viscous damping leaves fewer than 12 digits of the end of a contact.
+
+    The speeds keep theirs, see docs/benchmark.md.
+    """
+    if not isinstance(contact, dict) or contact.get("law") != "Viscoelastic":
+        return False
+    try:
+        return sb.restitution(read_law(contact, "contact"), mass, speed) < 1e-4
+    except sb.StackbounceError:
+        return False
+
+
+def hardly_bounces(answer):
+    """Return how near the numbers of a law have to be.
+
+    Of a solid that relaxes nearly all of its force, restitutions below 0.001 are a difference of
+    numbers near 1: their calibration returns what was asked for to 1e-10 only.
+    """
+    strength = answer.get("answer", {}).get("contact", {}).get("relaxation_strength", 0.0)
+    return 1e-9 if strength > STRONG else CLOSE
+
+
+def test_laws_are_calibrated_and_converted_alike(asked):
+    told = compare_laws(asked, SEED, 150)
+    assert 0.05 < refused(told) < 0.6
+
+
+@pytest.mark.slow
+def test_many_laws_are_calibrated_and_converted_alike(asked):
+    compare_laws(asked, SEED + 1, 2000)
+
+
+def test_stacks_of_the_catalogue_are_the_same(asked):
+    names = [entry.ball.name for entry in sb.model.catalogue.BALLS]
+    chance = random.Random(SEED)
+    stacks = [[chance.choice(names) for _ in range(chance.randint(1, 6))] for _ in range(200)]
+    compare(
+        asked,
+        [["stack", balls, 0.5] for balls in stacks],
+        [lambda b=balls: catalogue.stack_balls(b, 0.5) for balls in stacks],
+    )
+
+
+def test_texts_of_a_drop_are_the_same_bytes(asked):
+    drops = [case.drop.to_mapping() for case in list_cases()]
+    drops += [drop for drop, _ in drawn(SEED, 3, 10)]
+    drops[0]["balls"][0]["name"] = 'a "b" \\ \x7f é\n'
+    for kind in ("toml", "python"):
+        answers = asked([["exportText", kind, drop, None] for drop in drops])
+        for drop, ours in zip(drops, answers, strict=True):
+            theirs = exports.export_drop(kind, sb.Drop.from_mapping(drop), None).decode()
+            assert ours["answer"] == theirs
+
+
+ERRORS = (0.0, 1e-3, "1 g", "2 mm", "1 %", -0.1, "0.5", "many", 1e-7, 1e200)
+
+
+def uncertain(seed, count):
+    """Return random drops, and errors of some of their numbers, many of which make none."""
+    chance = random.Random(seed)
+    for batch in range(count):
+        mapping, _ = next(drawn(seed, batch, 1))
+        paths = [*numbers_of(sb.Drop.from_mapping(mapping)), "gaps.9"]
+        chosen = chance.sample(paths, chance.choice((0, 1, 1, 2, 3)))
+        yield mapping, {path: chance.choice(ERRORS) for path in chosen}
+
+
+def test_texts_of_a_drop_have_the_errors_of_its_numbers(asked):
+    pairs = list(uncertain(SEED, 300))
+    for kind in ("toml", "python"):
+        answers = asked([["exportText", kind, drop, None, errors] for drop, errors in pairs])
+        for (drop, errors), ours in zip(pairs, answers, strict=True):
+            given = kind, sb.Drop.from_mapping(drop), None, errors
+            theirs = library(lambda g=given: [exports.export_drop(*g).decode()])
+            if "answer" in theirs:
+                assert [ours["answer"]] == theirs["answer"]
+            else:
+                assert same(ours["error"], theirs["error"], CLOSE)
+        assert 0.2 < refused(answers) < 0.8
+
+
+def test_the_table_of_a_drop_has_the_same_numbers(asked):
+    drops = [case.drop for case in list_cases()][::3]
+    answers = asked([["exportText", "csv", drop.to_mapping(), None] for drop in drops])
+    for drop, ours in zip(drops, answers, strict=True):
+        theirs = exports.export_drop("csv", drop, None).decode()
+        table, wanted = (
+            [line.split(",") for line in text.splitlines()] for text in (ours["answer"], theirs)
+        )
+        assert table[0] == wanted[0]
+        found = np.array(table[1:], dtype=float)
+        assert found == pytest.approx(np.array(wanted[1:], dtype=float), rel=CLOSE, abs=1e-12)
+
+
+SHOWS = ("rebound_ratio.1", "rebound_height.0", "collisions.1", "energy_retained", "collisions.7")
+
+
+def requests(seed, count, log):
+    """Return random requests for a map, some of which make none; with logarithmic sides or not."""
+    chance = random.Random(seed)
+    for batch in range(count):
+        mapping, _ = next(drawn(seed, batch, 1))
+        if len(mapping["balls"]) < 2:
+            continue
+        drop = sb.Drop.from_mapping(mapping)
+        paths = json.loads(maps.list_paths(drop))["paths"]
+        sides = []
+        for one in chance.sample(paths, 2):
+            low = chance.choice((0.5 * one["value"], 0.0, -1.0))
+            if log:
+                low = abs(low) or chance.choice((0.0, 1e-3))
+            high = chance.choice((2.0 * one["value"], 1.0, low))
+            side = {"path": one["path"], "low": low, "high": high, "log": log}
+            sides.append(side | {"count": chance.randint(2, 5)})
+        yield mapping, *sides, chance.choice(SHOWS)
+
+
+def compare_maps(asked, seed, count, log, monkeypatch):
+    """Compare maps: the powers of ten of a logarithmic side differ in their last bit."""
+    monkeypatch.setattr(maps, "LIMITS", dataclasses.replace(maps.LIMITS, events=EVENTS))
+    questions, calls = [], []
+    for drop, x, y, show in requests(seed, count, log):
+        questions.append(["map", {"drop": drop, "x": x, "y": y, "show": show}])
+        sides = Axis(**x), Axis(**y)
+        base = sb.Drop.from_mapping(drop)
+        calls.append(lambda b=base, s=sides, w=show: without_version(maps.map_drop(b, *s, w)))
+        questions.append(["mapPaths", drop])
+        calls.append(lambda b=base: maps.list_paths(b))
+    return compare(asked, questions, calls, 1e-9 if log else CLOSE, events=EVENTS)
+
+
+def without_version(text):
+    answer = json.loads(text)
+    del answer["stackbounce"]
+    return answer
+
+
+@pytest.mark.parametrize("log", [False, True])
+def test_maps_are_the_same(asked, log, monkeypatch):
+    told = compare_maps(asked, SEED, 40, log, monkeypatch)
+    assert 0.05 < refused(told) < 0.6
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("log", [False, True])
+def test_many_maps_are_the_same(asked, log, monkeypatch):
+    compare_maps(asked, SEED + 1, 1000, log, monkeypatch)

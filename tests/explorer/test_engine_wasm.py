@@ -1,0 +1,184 @@
+"""The engine in a browser, here in node: the bits are those of this machine's library."""
+
+import math
+import shutil
+import subprocess
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from fuzz import draw
+from stackbounce.engine import codes, native
+from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, Drops
+from stackbounce.engine.tables import Table
+from stackbounce.run.batch import new_outcomes
+from stackbounce.run.engines import FINITE, RIGID
+from stackbounce.run.memory import memory, spring_workspace
+from stackbounce.run.options import Options
+
+SEED = 3
+BATCHES = 12  # all heights that have rigid and finite batches, and a third rigid
+SAMPLED = 4  # one drop in so many is looked at on its way
+LIMIT = 300
+SIMULATE, SWEEP, SPRINGS = 0, 1, 2
+RUN = Path(__file__).with_name("run_engine.mjs")
+ENGINE = files("stackbounce.explorer").joinpath("static/js/engine/engine.js")
+
+pytestmark = pytest.mark.skipif(not shutil.which("node"), reason="node is not installed")
+
+
+def bits(numbers):
+    """Return the bits of numbers; all nans are one, as processors differ in their sign."""
+    numbers = np.asarray(numbers, dtype=float)
+    return np.where(np.isnan(numbers), np.nan, numbers).view(np.uint64)
+
+
+def run_node(jobs, folder):
+    """Let the page's engine do jobs, lists of numbers, and write its answers to a file."""
+    asked = folder / "asked"
+    asked.write_bytes(np.concatenate(jobs).astype("<f8").tobytes())
+    command = ["node", RUN, str(ENGINE), native.FOLDER, asked, folder / "answered"]
+    return subprocess.run(command, capture_output=True, text=True, check=False)
+
+
+def job(kind, drops, rigid, options, times=()):
+    """Return the numbers that tell node what to run."""
+    head = [kind, *drops.mass.shape, rigid, options.rtol, options.until, options.event_limit]
+    return np.concatenate([[*head, len(times), *times], *map(np.ravel, drops)])
+
+
+def numbers_of(drops, rows):
+    """Return some random drops as the engine takes them."""
+    names = "mass kind stiffness exponent extra second gap velocity gravity".split()
+    return Drops._make(np.ascontiguousarray(getattr(drops, name)[rows]) for name in names)
+
+
+def simulated(drop, rigid, options, times=()):
+    """Return what `engine.js` returns of one drop, and the time of its end."""
+    engine, balls = RIGID if rigid else FINITE, drop.mass.shape[1]
+    room = memory(engine, balls, compiled=True)
+    room.put(Drops._make(array[0] for array in drop))
+    samples = room.samples(list(times))
+    run, log, stage, status = room.run_with(samples), [], BEGIN_WITH_PEAKS, 0
+    while status == codes.RUNNING:
+        status, stage = run(stage, *options), CONTINUE
+        log += room.take_log()
+    infinite = room.stack.infinite if rigid else np.zeros(balls)
+    after = room.space.after.copy()
+    parts = [[status, after[END], len(log)], after[AFTER:], log, infinite, *samples[1:]]
+    return np.concatenate(parts), after[END]
+
+
+def swept(drops, rigid, options, springs=False):
+    """Return the outcomes of many drops."""
+    engine, (count, balls) = RIGID if rigid else FINITE, drops.mass.shape
+    out = new_outcomes(count, balls)
+    if springs:
+        table, space = Table(out), Table(spring_workspace(compiled=True))
+        native.compiled("run_two_springs")(Table(drops), options.event_limit, table, space)
+        asked = np.flatnonzero(out.status == codes.ASK)
+        answers = swept(Drops._make(array[asked] for array in drops), rigid, options)
+        for array, answer in zip(out, answers, strict=True):
+            array[asked] = answer
+    else:
+        room = memory(engine, balls, compiled=True)
+        room.run_batch(engine.run_batch, drops, options, out)
+    native.compiled("find_ratios")(Table(drops), Table(out))
+    return out
+
+
+def compare(jobs, expected, folder):
+    done = run_node(jobs, folder)
+    assert (done.returncode, done.stderr) == (0, "")
+    found, wanted = np.fromfile(folder / "answered", dtype="<f8"), np.concatenate(expected)
+    assert len(found) == len(wanted)
+    assert np.flatnonzero(bits(found) != bits(wanted)).tolist() == []
+
+
+def compare_random_drops(batches, count, folder):
+    """Simulate and sweep random drops by both."""
+    jobs, expected = [], []
+    for batch in range(batches):
+        drawn, rigid = draw.drops_of(SEED, batch, count), draw.is_rigid(batch)
+        for row in range(count):
+            drop = numbers_of(drawn, slice(row, row + 1))
+            options = Options(drawn.until[row], drawn.rtol[row], int(drawn.limit[row]))
+            answer, end = simulated(drop, rigid, options)
+            times = ()
+            if row % SAMPLED == 0 and 0.0 < end < math.inf:
+                times = [0.0, 0.3 * end, 0.7 * end, end, 1.1 * end]
+                answer, _ = simulated(drop, rigid, options, times)
+            jobs.append(job(SIMULATE, drop, rigid, options, times))
+            expected.append(answer)
+        drops, options = numbers_of(drawn, slice(None)), Options(math.inf, 1e-9, LIMIT)
+        jobs.append(job(SWEEP, drops, rigid, options))
+        expected += map(np.ravel, swept(drops, rigid, options))
+    compare(jobs, expected, folder)
+
+
+def test_random_drops(tmp_path):
+    compare_random_drops(BATCHES, 25, tmp_path)
+
+
+@pytest.mark.slow
+def test_many_random_drops(tmp_path):
+    compare_random_drops(len(draw.BALLS), 400, tmp_path)
+
+
+def two_springs(count):
+    """Return drops of two balls on springs, some of them beyond the reach of their own engine."""
+    random = np.random.default_rng(SEED)
+    mass = 10.0 ** random.uniform(-1.6, 1.6, (count, 2))
+    stiffness = 10.0 ** random.uniform(2.0, 5.0, (count, 2))
+    reach = np.where(random.random(count) < 0.5, 2.0 * random.random(count), 0.0)
+    gap = np.column_stack([np.zeros(count), reach * np.sqrt(mass[:, 0] / stiffness[:, 0])])
+    one, nothing = np.ones((count, 2)), np.zeros((count, 2))
+    kind = np.full((count, 2), codes.POWER)
+    return Drops(mass, kind, stiffness, one, nothing, nothing, gap, -one, np.zeros(count))
+
+
+@pytest.mark.parametrize("count", [1, 300, pytest.param(10_800, marks=pytest.mark.slow)])
+def test_two_springs(tmp_path, count):
+    drops, options = two_springs(count), Options(math.inf, 1e-12, 1_000_000)
+    out = swept(drops, rigid=False, options=options, springs=True)
+    compare([job(SPRINGS, drops, False, options)], list(map(np.ravel, out)), tmp_path)
+    assert (out.status == codes.FINISHED).any()
+    if count > 1:
+        raw, space = new_outcomes(count, 2), Table(spring_workspace(compiled=True))
+        native.compiled("run_two_springs")(Table(drops), 1_000_000, Table(raw), space)
+        assert 0 < (raw.status == codes.ASK).sum() < count // 2
+
+
+def test_memory_grows_while_stacks_are_kept(tmp_path):
+    small, large = two_springs(5), two_springs(4000)
+    options = Options(math.inf, 1e-12, 1_000_000)
+    jobs = [job(SWEEP, drops, False, options) for drops in (small, large, small)]
+    outs = [swept(drops, rigid=False, options=options) for drops in (small, large, small)]
+    compare(jobs, [np.ravel(array) for out in outs for array in out], tmp_path)
+
+
+def test_a_log_longer_than_its_room(tmp_path):
+    """A ball on a spring bounces for ever, if it is watched so long."""
+    one = np.ones((1, 1))
+    kind = np.full((1, 1), codes.POWER)
+    drop = Drops(one, kind, 1e3 * one, one, *[0.0 * one] * 3, -one, np.full(1, 9.8))
+    options = Options(1e4, 1e-9, 3000)
+    answer, _ = simulated(drop, False, options)
+    assert answer[0] == codes.EVENT_LIMIT
+    assert answer[2] == 2000 * codes.LOG_COLUMNS  # without the changes that are not logged
+    compare([job(SIMULATE, drop, False, options)], [answer], tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("kind", "limit", "says"),
+    [
+        (SWEEP, 0, "eventLimit: it must be a whole number from 1"),
+        (SPRINGS, LIMIT, "springs: there must be 2 balls, not 1"),
+    ],
+)
+def test_what_would_leave_its_memory_is_refused(tmp_path, kind, limit, says):
+    drops = Drops._make(array[:, :1] if array.ndim > 1 else array for array in two_springs(3))
+    done = run_node([job(kind, drops, False, Options(math.inf, 1e-9, limit))], tmp_path)
+    assert says in done.stderr

@@ -1,0 +1,223 @@
+"""`stackbounce app`: where it listens, what it says, how it ends."""
+
+import asyncio
+import base64
+import contextlib
+import hashlib
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import httpx
+import pytest
+
+from adversary.requests_server import LONG_MAP, serving
+from stackbounce.cli import main
+from stackbounce.explorer import LIMITS, paper_pages
+from stackbounce.explorer.serve import PORT
+
+APP = [sys.executable, "-m", "stackbounce", "app", "--no-browser", "--workers", "1"]
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        (["--port", "70000"], "port must be a whole number from 0 to 65535, got 70000"),
+        (["--port", "x"], "'--port': Input should be a valid integer"),
+        (["--host", "no.such.host.invalid"], "--host must be an address of this machine"),
+        (
+            ["--host", ""],
+            "--host must be an address of this machine, such as 127.0.0.1, or 0.0.0.0",
+        ),
+        (["--host", "203.0.113.7"], "--host must be an address of this machine"),  # RFC 5737
+        (["--workers", "0"], "--workers must be a whole number from 1 to 64, got 0"),
+    ],
+)
+def test_what_is_wrong_is_told(capsys, options, message):
+    assert main(["app", "--no-browser", *options]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert message in err
+    assert err.count("\n") == 1
+
+
+def test_a_port_that_is_taken(capsys):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        taken.listen()
+        port = taken.getsockname()[1]
+        assert main(["app", "--no-browser", "--port", str(port)]) == 2
+    assert f"127.0.0.1, port {port} cannot be used" in capsys.readouterr().err
+
+
+def children(process):
+    tasks = Path(f"/proc/{process.pid}/task").glob("*/children")
+    return [int(child) for task in tasks for child in task.read_text().split()]
+
+
+def runs(pid):
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+@pytest.mark.fast_cases(1)
+@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
+def test_it_serves_until_it_is_interrupted_and_leaves_nothing(how):
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with subprocess.Popen([*APP, "--json", "--port", "0"], **pipes) as process:
+        lines = [process.stdout.readline() for _ in range(5)]
+        told = json.loads("".join(lines))
+        address = told["address"]
+        assert told["others"] == []
+        answer = httpx.post(f"{address}api/stack", json={"balls": ["B1"]}, timeout=60.0)
+        assert answer.status_code == 200
+        workers = children(process)
+        assert workers
+        os.kill(process.pid, how)
+        out, err = process.communicate(timeout=30)
+    assert process.returncode == 0
+    assert out == ""
+    assert err == ""
+    assert not left_of(workers)
+
+
+def left_of(pids):
+    """Return those of the processes that do not end by themselves."""
+    for _ in range(100):
+        pids = [pid for pid in pids if runs(pid)]
+        if not pids:
+            break
+        time.sleep(0.1)
+    return pids
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGKILL])
+def test_open_requests_do_not_keep_it_from_ending(how):
+    large = json.dumps(LONG_MAP).encode()
+    head = b"POST /api/map HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+    begun = [
+        b"",
+        b"GET / HTT",
+        head + b"Content-Length: %d\r\n\r\n" % len(large),
+        head + b"Content-Length: %d\r\n\r\n" % len(large) + large,
+        b"GET /paper/ HTTP/1.1\r\nHost: localhost\r\n\r\n",
+    ]
+    with serving(stderr=subprocess.PIPE) as server, contextlib.ExitStack() as stack:
+        httpx.post(f"{server.address}api/stack", json={"balls": ["B1"]}, timeout=60.0)
+        for request in begun * 3:
+            connection = stack.enter_context(socket.create_connection(server.place))
+            connection.sendall(request)
+        time.sleep(1.0)
+        workers = server.children()
+        assert workers
+        os.kill(server.process.pid, how)
+        _, err = server.process.communicate(timeout=15)
+        assert not left_of(workers)
+    if how == signal.SIGTERM:
+        assert server.process.returncode == 0
+        assert err == ""
+
+
+@pytest.mark.slow
+def test_without_a_port_the_first_free_one_is_taken():
+    with socket.socket() as first:
+        first.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        try:
+            first.bind(("127.0.0.1", PORT))
+        except OSError:
+            pass  # somebody else has it, which does as well
+        else:
+            first.listen()
+        with subprocess.Popen(APP, stdout=subprocess.PIPE, text=True) as process:
+            try:
+                line = process.stdout.readline()
+            finally:
+                process.terminate()
+    port = int(line.split()[2].rstrip("/").rpartition(":")[2])
+    assert PORT < port < PORT + 20
+    assert line.endswith("(Ctrl+C ends it)\n")
+
+
+def test_a_class_is_told_addresses_that_it_can_type():
+    command = [*APP, "--host", "0.0.0.0", "--port", "0"]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, encoding="utf-8") as process:
+        try:
+            first, others, code = (process.stdout.readline() for _ in range(3))
+            port = first.split()[2].rstrip("/").rpartition(":")[2]
+            if "in no network" in others:
+                pytest.skip("this machine is in no network")
+            addresses = others.partition(": ")[2].split(" or ")
+            assert all(one.strip().endswith(f":{port}/") for one in addresses)
+            assert not any("127.0.0.1" in one or "localhost" in one for one in addresses)
+            assert set(code.strip()) == {"█"}
+            places = httpx.get(f"{addresses[0].strip()}api/places", timeout=60.0).json()["places"]
+        finally:
+            process.terminate()
+    assert [one["address"] for one in places] == [one.strip() for one in addresses]
+    assert len(places[0]["code"]) == len(places[0]["code"][0])
+
+
+class Stub:
+    """Workers that write a page at once, or fail."""
+
+    def __init__(self, error=None):
+        self.error = error
+
+    async def run(self, job, folder, seconds):
+        assert job is paper_pages.paper.write_paper
+        assert seconds == LIMITS.paper_seconds
+        if self.error:
+            raise self.error
+        Path(folder, "index.html").write_text("<h1>The paper</h1><script>let a = 1;</script>")
+
+
+def pages(stub, folder, names):
+    made = paper_pages.Papers(stub, folder, LIMITS.paper_seconds)
+
+    async def ask():
+        answers = []
+        for name in names:
+            try:
+                answers.append(await made.page(name))
+            except Exception as error:
+                answers.append(error)
+            await asyncio.sleep(0.01)
+        return answers
+
+    return asyncio.run(ask())
+
+
+def test_pages_of_the_paper(tmp_path):
+    secret = tmp_path / "secret"
+    secret.write_text("secret")
+    folder = tmp_path / "pages"
+    folder.mkdir()
+    names = ["", "", "index.html", "none.html", "../secret", "../pages/../secret", "figures"]
+    names += ["\0", "index.html\0", "a" * 5000, "/etc/passwd", "index.html/", "."]
+    waiting, lead, page, *others = pages(Stub(), folder, names)
+    assert b"is being recomputed" in waiting.body
+    assert waiting.headers["refresh"] == "2"
+    assert lead.headers["location"] == "/paper/index.html"
+    assert b"The paper" in page.body
+    digest = base64.b64encode(hashlib.sha256(b"let a = 1;").digest()).decode()
+    policy = page.headers["content-security-policy"]
+    assert policy.endswith(f"; script-src 'sha256-{digest}'")  # its own script, and no other
+    assert [other.status_code for other in others] == [404] * 10
+
+
+def test_a_paper_that_failed_says_so_and_is_tried_again(tmp_path):
+    first, second, third = pages(
+        Stub(paper_pages.StackbounceError("no room <left>")), tmp_path, [""] * 3
+    )
+    assert b"is being recomputed" in first.body
+    assert b"It failed: no room &lt;left&gt;" in second.body
+    assert second.status_code == 503
+    assert b"is being recomputed" in third.body
