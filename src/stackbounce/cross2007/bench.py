@@ -91,7 +91,7 @@ impact_speed=2.0))'
 
 def _text(value: Any) -> str:
     if isinstance(value, tuple):
-        return f"[{', '.join(_text(one) for one in value)}]"
+        return f"[{', '.join(_text(member) for member in value)}]"
     if not is_dataclass(value):
         return repr(value)
     derived = getattr(value, "derived", None)

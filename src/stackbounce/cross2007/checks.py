@@ -131,7 +131,7 @@ class Row:
         """Whether the number agrees, or has a reason and a reading that agrees."""
         if self.verdict != DIFFERS:
             return True
-        return bool(self.attempts) and any(one.verdict != DIFFERS for one in self.attempts)
+        return bool(self.attempts) and any(attempt.verdict != DIFFERS for attempt in self.attempts)
 
 
 @dataclass

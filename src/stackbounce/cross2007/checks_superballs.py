@@ -35,7 +35,7 @@ def _(b: Bench) -> Number:
         b("B3.dynamic_stiffness") / b("B3.diameter"),
     )
     mean = sum(ratios) / 3
-    return max((one / mean for one in ratios), key=lambda one: abs(one - 1.0))
+    return max((ratio / mean for ratio in ratios), key=lambda share: abs(share - 1.0))
 
 
 @STEEL.check("IV.steel_diameters", "ratio of the steel balls' diameters", "1.411")
@@ -282,7 +282,7 @@ def _fewest_collisions(b: Bench) -> int:
     steps = [0.05 * step for step in range(2, 21)]
     drops = [rigid_pair(masses, floor, between=between) for floor in steps for between in steps]
     counts = [b.simulate(drop).collisions for drop in drops]
-    return min(sum(one) for one in counts if min(one) >= 0)  # -1 stands for infinitely many
+    return min(sum(count) for count in counts if min(count) >= 0)  # -1 stands for infinitely many
 
 
 SUPERBALLS.other(

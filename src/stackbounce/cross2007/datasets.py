@@ -143,7 +143,9 @@ def _pair(lower: str, upper: str) -> DataSet:
 def _basketball() -> DataSet:
     balls = [Ball(_value(f"{name}.mass"), _value(f"{name}.diameter")) for name in _STACK]
     stiffnesses = _value("fig9.floor_stiffness"), _value("fig9.ball_stiffness")
-    drop = Drop(balls, [Spring(one) for one in stiffnesses], height=_value("stack.drop_height"))
+    drop = Drop(
+        balls, [Spring(stiffness) for stiffness in stiffnesses], height=_value("stack.drop_height")
+    )
     data = {
         "rebound_heights": [_known("stack.lower_height"), _known("stack.upper_height")],
         "durations.0": _known("stack.duration"),
@@ -192,8 +194,9 @@ def _value(key: str) -> float:
 
 def _known(key: str) -> tuple[float, float]:
     """Return a number of the paper with its error."""
-    one = PAPER[key]
-    return one.value, max(one.spread, _LEAST) if one.unit == "s" else one.spread
+    number = PAPER[key]
+    error = max(number.spread, _LEAST) if number.unit == "s" else number.spread
+    return number.value, error
 
 
 _STACK = ("basketball", "tennis")

@@ -49,7 +49,7 @@ def rigid_pair(
 
 def spring_pair(masses: Two, stiffnesses: Two, *, speed: float = 1.0, gap: float = 0.0) -> Drop:
     """Return a drop with a simultaneous collision without loss (eqs 5 and 6)."""
-    return pair(masses, [Spring(one) for one in stiffnesses], speed=speed, gap=gap)
+    return pair(masses, [Spring(stiffness) for stiffness in stiffnesses], speed=speed, gap=gap)
 
 
 def after_meeting(result: Result, count: int) -> Two:

@@ -105,7 +105,7 @@ def draw_figure_8_hollow(bench: Bench) -> Picture:
     note(panels[0], "solid: touching\ndashed: 2 mm apart\ngrey: springs")
     film = hollow_pair(bench)
     lower, upper = bench.simulate(film).rebound_ratios
-    rise, slower = (format_ms(force_above(one, 0, 0.5)[0]) for one in (result, springs))
+    rise, slower = (format_ms(force_above(run, 0, 0.5)[0]) for run in (result, springs))
     quiet = format_ms(force_above(late, 1, 0.03)[0])
     return Picture(
         "8-hollow",

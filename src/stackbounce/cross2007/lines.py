@@ -154,7 +154,7 @@ def _over_stiffness(b: Bench, lower: str, upper: str, drop: Drop) -> Line:
         "measured speeds: the paper asks at which stiffness ratio the curves meet them.",
         replace(drop, balls=balls),
         STIFFNESS,
-        tuple((one.n, one.s) for one in measured),
+        tuple((ratio.n, ratio.s) for ratio in measured),
     )
 
 

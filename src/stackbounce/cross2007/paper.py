@@ -90,7 +90,7 @@ class Audit:
             "stackbounce": __version__,
             "counts": self.counts,
             "rows": [{**asdict(row), "explained": row.explained} for row in self.rows],
-            "inputs": [asdict(one) for one in self.data.values()],
+            "inputs": [asdict(number) for number in self.data.values()],
         }
 
 

@@ -101,7 +101,10 @@ def _csv(done: Audit) -> str:
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(_COLUMNS)
     for row in done.rows:
-        readings = [f"{one.reading}: {one.computed:.6g} ({one.verdict})" for one in row.attempts]
+        readings = [
+            f"{attempt.reading}: {attempt.computed:.6g} ({attempt.verdict})"
+            for attempt in row.attempts
+        ]
         writer.writerow(
             (
                 row.id,
