@@ -13,35 +13,16 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.calibration import calibrate
+from stackbounce import HollowBall, HuntCrossley, Hysteretic, Result, Spring, calibrate
+from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import fallen_speed, force_above, pair
 from stackbounce.cross2007.stacks import gap_for_delay, stack_masses
 from stackbounce.fitting import FitProblem, Model
-from stackbounce.model import ContactLaw, HollowBall, HuntCrossley, Hysteretic, Spring
-from stackbounce.run.result import Result
+from stackbounce.model import ContactLaw
 from studies.table2 import inputs
 from studies.table2.searches import fit_model
 from studies.table2.theories import ELASTIC, SHARED
-
-__all__ = [
-    "GAPS",
-    "HOLLOW",
-    "HOLLOW_BOTH",
-    "READINGS",
-    "THEORIES",
-    "Buckling",
-    "Limits",
-    "Reading",
-    "Stack",
-    "StackTheory",
-    "find_limits",
-    "fit_bucklings",
-    "fit_stack",
-    "fit_stacks",
-    "read_restitution",
-]
 
 GAPS = (0.0, PAPER["stack.gap"].value)
 """The smallest and the largest gap in m that the paper allows."""
@@ -125,9 +106,9 @@ def read_restitution(name: str, fall: float = PAPER["stack.drop_height"].value) 
 def _list_readings() -> tuple[Reading, ...]:
     fall, recorded = PAPER["stack.drop_height"].value, PAPER["fig8.drop_height"].value
     speed, radius = PAPER["stack.impact_speed"].value, 0.5 * PAPER["basketball.diameter"].value
-    printed = tuple(PAPER[f"tennis_on_basketball.{one}"].value for one in ("lower", "upper"))
+    printed = tuple(PAPER[f"tennis_on_basketball.{ball}"].value for ball in ("lower", "upper"))
     heights = tuple(
-        math.sqrt(PAPER[f"stack.{one}_height"].value / fall) for one in ("lower", "upper")
+        math.sqrt(PAPER[f"stack.{ball}_height"].value / fall) for ball in ("lower", "upper")
     )
     return (
         Reading("as printed", fall, recorded, speed, (printed[0], printed[1])),
@@ -201,7 +182,7 @@ def find_limits(reading: Reading) -> Limits:
 
 def fit_stacks() -> list[Stack]:
     """Fit all theories, with each reading and each gap."""
-    return [fit_stack(*one) for one in product(THEORIES, READINGS, GAPS)]
+    return [fit_stack(*case) for case in product(THEORIES, READINGS, GAPS)]
 
 
 def fit_bucklings() -> list[Stack]:
@@ -212,10 +193,12 @@ def fit_bucklings() -> list[Stack]:
     list of Stack
         Nine choices of buckling for the readings with Table II's ratios.
     """
-    hollow = next(one for one in THEORIES if one.name == HOLLOW)
-    choices = [Buckling(*one) for one in product((0.02, 0.04, 0.08), (0.3, 0.5, 0.7))]
+    hollow = next(theory for theory in THEORIES if theory.name == HOLLOW)
+    choices = [Buckling(*numbers) for numbers in product((0.02, 0.04, 0.08), (0.3, 0.5, 0.7))]
     read = READINGS[0], READINGS[2]
-    return [fit_stack(hollow, one, GAPS[1], buckling) for one in read for buckling in choices]
+    return [
+        fit_stack(hollow, reading, GAPS[1], buckling) for reading in read for buckling in choices
+    ]
 
 
 def fit_stack(
@@ -274,9 +257,9 @@ def _model(theory: StackTheory, reading: Reading, gap: float, buckling: Buckling
         own = {name: float(tie(middle)[0]) for (j, name), tie in ties.items() if j == i}
         contacts.append(law(**own, **_fixed(law, theory.exponent)))
     speeds = {"film": reading.speed, "record": fallen_speed(reading.recorded)}
-    drops = {key: pair(_MASSES, contacts, speed=one, gap=gap) for key, one in speeds.items()}
+    drops = {key: pair(_MASSES, contacts, speed=own, gap=gap) for key, own in speeds.items()}
     vary = {"time": _TIMES, "between": _STIFFNESS[theory.exponent]}
-    tie = {f"{key}.contacts.{i}.{name}": one for key in drops for (i, name), one in ties.items()}
+    tie = {f"{key}.contacts.{i}.{name}": own for key in drops for (i, name), own in ties.items()}
     return Model(drops, vary, tie)
 
 

@@ -2,11 +2,9 @@
 
 import math
 
-from stackbounce.model import HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
+from stackbounce import HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
 from studies.table2.inputs import PRINTED
 from studies.table2.theories import ELASTIC, OWN, SHARED, Theory
-
-__all__ = ["AS_HEIGHTS", "AS_PRINTED", "CHOSEN", "FLOOR_ONLY", "MISPRINT", "NAMES", "THEORIES"]
 
 AS_PRINTED = {f"e_{ball}": value for ball, value in PRINTED.items()}
 """Table I's COR taken as restitutions."""

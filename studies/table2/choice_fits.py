@@ -7,8 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.fitting import Fit
-from stackbounce.fitting.comparison import Comparison
+from stackbounce.fitting import Comparison, Fit
 from stackbounce.fitting.least_squares import Minimum
 from studies.table2.catalogue import NAMES, THEORIES
 from studies.table2.choices import BASE, CHOICES, LATE, Choice
@@ -16,8 +15,6 @@ from studies.table2.comparison import FittedModels, Score, score
 from studies.table2.observed import observe
 from studies.table2.searches import fit_model, fit_near
 from studies.table2.workers import spread
-
-__all__ = ["MODELS", "Cell", "ChoiceFits", "fit_choices", "fit_row"]
 
 MODELS = (*NAMES, *THEORIES)
 """The names of all models."""
@@ -52,9 +49,9 @@ class ChoiceFits:
         found: dict[str, dict[str, Cell]] = {name: {} for name in self[BASE].order}
         for choice, fits in self.columns.items():
             scores = {name: score(fits[name]) for name in found}
-            least = min(one.bic for one in scores.values())
-            for name, one in scores.items():
-                found[name][choice] = Cell(one, one.bic - least)
+            least = min(score.bic for score in scores.values())
+            for name, own in scores.items():
+                found[name][choice] = Cell(own, own.bic - least)
         return found
 
     @functools.cached_property
@@ -65,7 +62,7 @@ class ChoiceFits:
     def as_dict(self) -> dict[str, Any]:
         """Return the table as plain values, for JSON."""
         return {
-            "choices": {one.name: one._asdict() for one in CHOICES},
+            "choices": {choice.name: choice._asdict() for choice in CHOICES},
             "leaders": self.leaders,
             "cells": {
                 name: {
@@ -113,14 +110,14 @@ def fit_row(name: str) -> list[list[float]]:
     """
     fits: dict[str, tuple[Choice, Fit]] = {}
     for choice in CHOICES:
-        known = next((fit for one, fit in fits.values() if choice.same(one, name)), None)
+        known = next((fit for other, fit in fits.values() if choice.same(other, name)), None)
         if known is None:
             model, data = choice.model(name), choice.data()
             if choice in (BASE, LATE):
                 known = fit_model(model, data)
             else:
-                near = [fits[one.name][1] for one in (BASE, LATE)]
-                falling = [fit for one, fit in fits.values() if choice.gravity and one.gravity]
+                near = [fits[searched.name][1] for searched in (BASE, LATE)]
+                falling = [fit for other, fit in fits.values() if choice.gravity and other.gravity]
                 known = fit_near(model, data, near + falling[:1])
         fits[choice.name] = choice, known
     return [fit.x.tolist() for _, fit in fits.values()]

@@ -3,25 +3,13 @@
 from dataclasses import replace
 from typing import Any, NamedTuple
 
-from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007 import PAPER
 from stackbounce.fitting import FitProblem
 from stackbounce.model import STANDARD_GRAVITY
 from studies.table2 import inputs
 from studies.table2.catalogue import AS_HEIGHTS, NAMES, THEORIES
 from studies.table2.readings import READINGS
 from studies.table2.theories import Theory, make_rigid_model
-
-__all__ = [
-    "ALL_EARLY",
-    "ALL_LATE",
-    "BASE",
-    "CHOICES",
-    "FALLING",
-    "FALLING_LATE",
-    "LATE",
-    "Choice",
-    "known_errors",
-]
 
 _LOOSE = 1e-3  # s: the least error of a delay, if delays are known less well
 _ROLLING = "B1_on_B1"

@@ -12,17 +12,6 @@ from studies.table2.choice_fits import Cell, ChoiceFits
 from studies.table2.choices import CHOICES
 from studies.table2.predictions import predict_restitutions
 
-__all__ = [
-    "DECISIVE",
-    "EXCLUDED",
-    "FITS",
-    "NEAR",
-    "POSITIVE",
-    "Claim",
-    "check_claims",
-    "state_headline",
-]
-
 FITS = 0.05
 """A model gives the data if so large a chi squared has at least this probability."""
 
@@ -59,7 +48,7 @@ def check_claims(fits: ChoiceFits) -> list[Claim]:
     found = []
     for text, is_true in _CLAIMS.items():
         true = {choice: is_true(fits, choice) for choice in fits.columns}
-        holds = [choice for choice, one in true.items() if one]
+        holds = [choice for choice, holds_there in true.items() if holds_there]
         found.append(Claim(text, holds, [choice for choice in true if choice not in holds]))
     return found
 
@@ -69,7 +58,7 @@ def state_headline(fits: ChoiceFits, claims: list[Claim]) -> str:
 
     Gravity acts, whatever the paper assumes: choices with it and without it are counted apart.
     """
-    falling = [one.name for one in CHOICES if one.gravity and one.name in fits.leaders]
+    falling = [choice.name for choice in CHOICES if choice.gravity and choice.name in fits.leaders]
     others = [name for name in fits.leaders if name not in falling]
     if len(set(fits.leaders.values())) == 1:
         leader = next(iter(fits.leaders.values()))
@@ -79,19 +68,19 @@ def state_headline(fits: ChoiceFits, claims: list[Claim]) -> str:
         counted = {"With gravity, which is a fact,": falling, "Without gravity": others}
         for what, names in counted.items():
             if names:
-                often = Counter(fits.leaders[one] for one in names).most_common()
+                often = Counter(fits.leaders[name] for name in names).most_common()
                 named = ", ".join(f"“{model}” with {count}" for model, count in often)
                 first += f" {what} the smallest BIC belongs to {named} of {len(names)} choices."
-    kept = [one.text for one in claims if one.survives]
+    kept = [claim.text for claim in claims if claim.survives]
     if not kept:
         return f"{first} No claim holds with every choice."
-    said = f"{first} With every choice, and among these models: {'; '.join(kept)}."
-    more = [one.text for one in claims if one.fails and not set(one.fails) & set(falling)]
-    return f"{said} With gravity also: {'; '.join(more)}." if falling and more else said
+    headline = f"{first} With every choice, and among these models: {'; '.join(kept)}."
+    more = [claim.text for claim in claims if claim.fails and not set(claim.fails) & set(falling)]
+    return f"{headline} With gravity also: {'; '.join(more)}." if falling and more else headline
 
 
 def _excluded(*names: str) -> Callable[[ChoiceFits, str], bool]:
-    """Return a function that tells whether all these models are excluded with a choice."""
+    """Return a function of whether all these models are excluded with a choice."""
     return lambda fits, choice: all(
         fits.cells[name][choice].score.probability < EXCLUDED for name in names
     )
@@ -102,31 +91,31 @@ def _column(fits: ChoiceFits, choice: str) -> dict[str, Cell]:
 
 
 def _none_fits(fits: ChoiceFits, choice: str) -> bool:
-    return all(one.score.probability < FITS for one in _column(fits, choice).values())
+    return all(cell.score.probability < FITS for cell in _column(fits, choice).values())
 
 
 def _decided(fits: ChoiceFits, choice: str) -> bool:
-    return sorted(one.behind for one in _column(fits, choice).values())[1] > DECISIVE
+    return sorted(cell.behind for cell in _column(fits, choice).values())[1] > DECISIVE
 
 
 def _leads(*names: str) -> Callable[[ChoiceFits, str], bool]:
-    """Return a function that tells whether one of these models has the smallest BIC."""
+    """Return a function of whether one of these models has the smallest BIC."""
     return lambda fits, choice: fits.leaders[choice] in names
 
 
 def _behind(limit: float, *names: str) -> Callable[[ChoiceFits, str], bool]:
-    """Return a function that tells whether the BIC of all these models is too large."""
+    """Return a function of whether the BIC of all these models is too large."""
     return lambda fits, choice: all(fits.cells[name][choice].behind > limit for name in names)
 
 
 def _beats(better: str, worse: str) -> Callable[[ChoiceFits, str], bool]:
-    """Return a function that tells whether a model has a smaller BIC than another."""
+    """Return a function of whether a model has a smaller BIC than another."""
     return lambda fits, choice: fits.cells[better][choice].behind < fits.cells[worse][choice].behind
 
 
 def _bounces(fits: ChoiceFits, choice: str) -> bool:
     """Return whether B1 alone has a restitution above 0.82 in every model near the smallest BIC."""
-    near = [name for name, one in _column(fits, choice).items() if one.behind <= NEAR]
+    near = [name for name, cell in _column(fits, choice).items() if cell.behind <= NEAR]
     fall = np.array([inputs.HEIGHT])
     return all(predict_restitutions(fits.columns[choice], name, fall)[0] > _PLAIN for name in near)
 

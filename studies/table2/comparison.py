@@ -5,13 +5,10 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from stackbounce.fitting import Fit, Residual
-from stackbounce.fitting.comparison import Comparison
-from stackbounce.model import Drop
+from stackbounce import Drop
+from stackbounce.fitting import Comparison, Fit, Residual
 from studies.table2 import inputs
 from studies.table2.catalogue import THEORIES
-
-__all__ = ["FittedModels", "Score", "score"]
 
 _MISS = 2.0  # errors
 
@@ -46,26 +43,28 @@ class FittedModels:
 
     def ratios(self, name: str) -> list[Residual]:
         """Return the residuals of the values of Table II, without those of the delays."""
-        return [one for one in self[name].residuals if one.name in inputs.RATIOS]
+        return [residual for residual in self[name].residuals if residual.name in inputs.RATIOS]
 
     def of_ratios(self, name: str) -> float:
         """Return chi squared of the values of Table II alone."""
-        return sum(one.pull**2 for one in self.ratios(name))
+        return sum(ratio.pull**2 for ratio in self.ratios(name))
 
     def worst(self, name: str) -> list[Residual]:
         """Return the values of Table II that a model misses by more than two errors."""
-        missed = [one for one in self.ratios(name) if abs(one.pull) > _MISS]
-        return sorted(missed, key=lambda one: -abs(one.pull))
+        missed = [ratio for ratio in self.ratios(name) if abs(ratio.pull) > _MISS]
+        return sorted(missed, key=lambda residual: -abs(residual.pull))
 
     def within(self, name: str) -> int:
         """Return how many of these values lie within the printed error of 0.02."""
-        return sum(abs(one.pull) <= 1.0 for one in self.ratios(name))
+        return sum(abs(ratio.pull) <= 1.0 for ratio in self.ratios(name))
 
     def pairs(self, name: str) -> dict[str, dict[str, float]]:
         """Return each pair's ratios, their pulls, gap in m and delay in s, by a fitted model."""
         found = {}
         for pair in inputs.PAIRS:
-            lower, upper, delay = (one for one in self[name].residuals if one.drop == pair)
+            lower, upper, delay = (
+                residual for residual in self[name].residuals if residual.drop == pair
+            )
             found[pair] = {
                 "e1": lower.fitted,
                 "e2": upper.fitted,
@@ -92,7 +91,7 @@ class FittedModels:
             "rigid, one": "separate collisions, one restitution",
             "rigid, two": "separate collisions, of the floor and of balls",
         }
-        return {**rigid_ones, **{name: one.title for name, one in THEORIES.items()}}
+        return {**rigid_ones, **{name: theory.title for name, theory in THEORIES.items()}}
 
 
 class Score(NamedTuple):

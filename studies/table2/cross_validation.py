@@ -10,14 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stackbounce.fitting import Fit
-from stackbounce.fitting.quantities import Array
 from studies.table2 import inputs
 from studies.table2.choice_fits import MODELS, ChoiceFits
 from studies.table2.choices import BASE, LATE, Choice
+from studies.table2.inputs import Array
 from studies.table2.readings import Combination
 from studies.table2.searches import refit
-
-__all__ = ["HeldOut", "cross_validate", "cross_validate_selection", "predict_held_out"]
 
 _STEPS = 601  # of the gap
 _SPAN = 4.0  # errors of the delay
@@ -61,7 +59,7 @@ def cross_validate(
 def _left_out(choice: Choice, name: str, pair: str, whole: Fit) -> Mapping[str, float]:
     """Return the search coordinates of the numbers that a model shares, from the other pairs."""
     model = choice.model(name)
-    if not any(one for one in model.vary if not one.endswith("gaps.0")):
+    if not any(name for name in model.vary if not name.endswith("gaps.0")):
         return {}
     data: dict[str, Any] = choice.data()
     data[pair] = {inputs.DELAY: data[pair][inputs.DELAY]}
@@ -83,8 +81,8 @@ def predict_held_out(whole: Fit, shared: Mapping[str, float], pair: str) -> Held
     times = delay.value + delay.error * np.linspace(-_SPAN, _SPAN, _STEPS)
     curves = np.stack(
         [
-            np.interp(times, touch[order], ratio[order]) / one.error
-            for ratio, one in ((first, lower), (second, upper))
+            np.interp(times, touch[order], ratio[order]) / datum.error
+            for ratio, datum in ((first, lower), (second, upper))
         ]
     )
     measured = np.array([[lower.value / lower.error], [upper.value / upper.error]])
@@ -128,7 +126,7 @@ def cross_validate_selection(tried: list[Combination]) -> list[HeldOut]:
     """
     rows = []
     for pair in inputs.PAIRS:
-        best = min(tried, key=lambda one: one.fit.chi_squared - one.of_pair(pair))
+        best = min(tried, key=lambda case: case.fit.chi_squared - case.of_pair(pair))
         held = predict_held_out(best.fit, {}, pair)
         rows.append(held._replace(chosen=f"{best.law}, {best.reading}"))
     return rows

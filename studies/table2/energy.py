@@ -11,11 +11,9 @@ contact that takes longer than that of the ball alone loses no smaller share.
 import math
 from typing import NamedTuple
 
-from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007 import PAPER
 from studies.table2 import inputs
 from studies.table2.catalogue import AS_HEIGHTS, AS_PRINTED
-
-__all__ = ["EnergyBound", "bound_energy"]
 
 _HEIGHT_ERROR = 1e-2  # m: "about 20 cm" (Sec. IV)
 
@@ -62,7 +60,7 @@ def bound_energy(pair: str) -> EnergyBound:
     >>> bound = bound_energy("B2_on_B1")
     >>> round(bound.measured, 3), round(bound.printed, 3), round(bound.heights, 3)
     (0.76, 0.683, 0.822)
-    >>> [round(one, 1) for one in bound.excesses.values()]
+    >>> [round(excess, 1) for excess in bound.excesses.values()]
     [4.5, 2.5, 1.6]
     """
     lower, upper = (ball.mass for ball in inputs.make_balls(pair))
@@ -72,7 +70,7 @@ def bound_energy(pair: str) -> EnergyBound:
     spread = 2.0 * math.hypot(lower * first * error, upper * second * other) / whole
     name = inputs.PAIRS[pair][0]
     printed, heights = (
-        (lower * one[f"e_{name}"] ** 2 + upper) / whole for one in (AS_PRINTED, AS_HEIGHTS)
+        (lower * read[f"e_{name}"] ** 2 + upper) / whole for read in (AS_PRINTED, AS_HEIGHTS)
     )
     off = 2.0 * lower * inputs.PRINTED[name] * PAPER["B1.restitution"].spread / whole
     squared = (measured * whole - upper) / lower

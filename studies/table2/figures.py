@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["LINES", "draw_comparison", "draw_delays", "draw_misfits", "make_wide_figure"]
-
 _WIDE = 7.4  # inches
 _GREEN = "#009E73"
 LINES = {"A": (FLOOR, "--"), "S": (BLACK, "-"), "H": (_GREEN, "-."), "B": (UPPER, ":")}
@@ -54,7 +52,9 @@ def draw_comparison(fits: ChoiceFits) -> Picture:
     ax = figure.subplots()
     figure.subplots_adjust(left=0.57, right=0.97, bottom=0.5 / figure.get_figheight(), top=0.99)
     places = np.arange(len(order))
-    early, late = ([fits.cells[name][one.name].score.bic for name in order] for one in (BASE, LATE))
+    early, late = (
+        [fits.cells[name][choice.name].score.bic for name in order] for choice in (BASE, LATE)
+    )
     ax.hlines(places, early, late, color=GREY, lw=0.8)
     ax.plot(early, places, "o", color=BLACK, label="2 ms")
     ax.plot(late, places, "s", mfc="white", mec=UPPER, label="7 ms")
@@ -143,7 +143,7 @@ def draw_delays(compared: FittedModels) -> Picture:
 def _column(compared: FittedModels, pair: str, panels: "list[Axes]") -> None:
     """Draw one pair: e1 below, e2 above."""
     gaps = np.linspace(1e-4, _GAPS[pair], 160)
-    delay, spread = (1e3 * one for one in inputs.MEASURED[pair][inputs.DELAY])
+    delay, spread = (1e3 * time for time in inputs.MEASURED[pair][inputs.DELAY])
     ends = []
     for name in CHOSEN:
         *ratios, touch = sweep_gap(compared, name, pair, gaps)
@@ -155,7 +155,7 @@ def _column(compared: FittedModels, pair: str, panels: "list[Axes]") -> None:
         ax.axhspan(measured - inputs.ERROR, measured + inputs.ERROR, color=GREY, alpha=0.3, lw=0)
         ax.axvspan(delay - spread, delay + spread, color=GREY, alpha=0.15, lw=0)
         if pair == "B1_on_B3":
-            late, error = (1e3 * one for one in inputs.LATE)
+            late, error = (1e3 * time for time in inputs.LATE)
             ax.axvspan(late - error, late + error, color=UPPER, alpha=0.12, lw=0)
         ax.set_ylim(measured + _SHOWN[0], measured + _SHOWN[1])
         ax.set_xlim(0.5, math.floor(min(ends) * 2.0) / 2.0)

@@ -16,8 +16,6 @@ from studies.table2.predictions import predict_restitutions, sweep_gap
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["draw_decisive", "draw_energy"]
-
 
 def draw_energy(rows: list[EnergyBound]) -> Picture:
     """Draw the measured energy of each pair beside its bounds."""
@@ -46,7 +44,7 @@ def draw_energy(rows: list[EnergyBound]) -> Picture:
             k, one.measured, one.error, fmt="o", color=BLACK, capsize=3, label=_first(k, "measured")
         )
     ax.set(xlim=(-0.6, len(rows) - 0.4), ylim=(0.2, 1.03), ylabel="energy left")
-    ax.set_xticks(range(len(rows)), [name_pair(one.pair) for one in rows])
+    ax.set_xticks(range(len(rows)), [name_pair(row.pair) for row in rows])
     ax.tick_params(axis="x", which="both", bottom=False, top=False)
     ax.legend(loc="lower left", frameon=False, fontsize=9)
     return Picture(

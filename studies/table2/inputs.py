@@ -4,28 +4,16 @@ The five pairs of superballs are fitted together. B1 has 105 g, from Table II's 
 12.3, 1.040); only the upper ball of the pair of two balls B1 has Table I's 101 g.
 """
 
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeAlias
 
-from stackbounce.cross2007.data import PAPER
-from stackbounce.cross2007.datasets import load_pair
-from stackbounce.model import Ball
+import numpy as np
+from numpy.typing import NDArray
 
-__all__ = [
-    "DELAY",
-    "ERROR",
-    "HEAVY",
-    "HEIGHT",
-    "LATE",
-    "MEASURED",
-    "PAIRS",
-    "PRINTED",
-    "RATIOS",
-    "Solo",
-    "delay_late",
-    "make_balls",
-    "read_ratios",
-    "read_solo",
-]
+from stackbounce import Ball
+from stackbounce.cross2007 import PAPER
+from stackbounce.cross2007.datasets import load_dataset
+
+Array: TypeAlias = NDArray[np.float64]
 
 PAIRS: dict[str, tuple[str, str]] = {
     "B2_on_B1": ("B1", "B2"),
@@ -80,7 +68,7 @@ def make_balls(key: str, heavy: float = HEAVY) -> list[Ball]:
 
 def _measured(key: str) -> dict[str, Any]:
     """Return Table II's row of a pair, and the delay of its force record."""
-    _, data = load_pair(*PAIRS[key])
+    data = load_dataset("-".join(PAIRS[key])).data
     usual = PAPER["superballs.delay"]
     delay = _TWINS if key == "B1_on_B1" else (usual.value, usual.spread)
     return {"rebound_ratios": data["rebound_ratios"], DELAY: delay}

@@ -4,15 +4,12 @@ from dataclasses import fields
 
 import numpy as np
 
+from stackbounce import Drop, simulate
 from stackbounce.fitting import FitProblem
 from stackbounce.fitting.objective import Objective
-from stackbounce.fitting.quantities import Array
-from stackbounce.model import Drop
-from stackbounce.run.driver import simulate
 from stackbounce.run.paths import drop_at
 from studies.table2 import inputs
-
-__all__ = ["Observed", "observe"]
+from studies.table2.inputs import Array
 
 _RTOL = 1e-6
 _LATER = 40e-3  # s: every impact is over, and no ball is back on the floor
@@ -22,7 +19,7 @@ _HEIGHT = "height"
 def observe(model: FitProblem) -> "Observed":
     """Return the objective of a model with data."""
     whole = model.objective
-    own = {one.name: getattr(whole, one.name) for one in fields(whole) if one.init}
+    own = {field.name: getattr(whole, field.name) for field in fields(whole) if field.init}
     return Observed(**{**own, "rtol": _RTOL})
 
 
@@ -51,11 +48,11 @@ class Observed(Objective):
     def _fall(self, key: str, x: Array) -> Array:
         """Return the same with gravity; equal drops are run once."""
         rows = self.rows(key, x)
-        table = np.stack([np.broadcast_to(one, len(x)) for one in rows.values()], axis=1)
+        table = np.stack([np.broadcast_to(row, len(x)) for row in rows.values()], axis=1)
         different, where = np.unique(table, axis=0, return_inverse=True)
         found = [
-            self._one(key, drop_at(self.drops[key], dict(zip(rows, one.tolist(), strict=True))))
-            for one in different
+            self._one(key, drop_at(self.drops[key], dict(zip(rows, row.tolist(), strict=True))))
+            for row in different
         ]
         return np.array(found)[where.ravel()]
 
@@ -67,4 +64,4 @@ class Observed(Objective):
             "rebound_ratios": np.sqrt(np.maximum(squares, 0.0)) / drop.reference_speed,
             "first_touch": result.first_touch,
         }
-        return [float(known[one.quantity][one.index]) for one in self.measured[key].data]
+        return [float(known[datum.quantity][datum.index]) for datum in self.measured[key].data]

@@ -6,11 +6,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from stackbounce import __version__
 from stackbounce.cross2007.pages import data_uri, make_environment
 from stackbounce.cross2007.style import Picture, render, use_style
 from stackbounce.files import prepare_folder, write_folder
 from stackbounce.fitting import Residual
-from stackbounce.version import __version__
 from studies.table2 import inputs
 from studies.table2.catalogue import CHOSEN
 from studies.table2.choices import (
@@ -29,16 +29,11 @@ from studies.table2.figures import (
     draw_misfits,
     name_pair,
 )
-from studies.table2.figures_hierarchy import draw_information, draw_probabilities
 from studies.table2.figures_predictions import draw_decisive, draw_energy
-from studies.table2.hierarchy import GROUPS
-from studies.table2.inner_mode_ranges import RANGES
 from studies.table2.readings import LAWS, READINGS, penalty
 from studies.table2.results import Study, run_study
 
-__all__ = ["draw_pictures", "make_files", "render_page", "write"]
-
-_FIGURES = "comparison misfits delays energy decisive probabilities information".split()
+_FIGURES = "comparison misfits delays energy decisive".split()
 
 
 def write(out: Path, progress: Callable[[str], None] = lambda _: None, workers: int = 1) -> None:
@@ -81,8 +76,6 @@ def draw_pictures(done: Study) -> list[Picture]:
             draw_delays(done.compared),
             draw_energy(done.kept),
             draw_decisive(done.compared),
-            draw_probabilities(done.weighed),
-            draw_information(done.expected),
         ]
 
 
@@ -128,28 +121,26 @@ def render_page(done: Study, drawn: dict[str, tuple[Picture, str]]) -> str:
         measured={pair: inputs.read_ratios(pair) for pair in inputs.PAIRS},
         balls=READINGS,
         tried={
-            choice: {(one.reading, one.law): one.fit.chi_squared for one in tried}
+            choice: {(case.reading, case.law): case.fit.chi_squared for case in tried}
             for choice, tried in done.readings.items()
         },
         penalty=penalty,
         total=_total,
-        expected=lambda rows: sum(one.expected for one in rows),
+        expected=lambda rows: sum(row.expected for row in rows),
         best_first=lambda rows: sorted(rows, key=lambda name: _total(rows[name])),
         correction=six.aicc - six.chi_squared - 2.0 * six.free,
         fits=FITS,
         excluded=EXCLUDED,
-        said={one.what: one for one in done.predictions},
+        predicted={prediction.what: prediction for prediction in done.predictions},
         laws=list(LAWS),
         chosen=CHOSEN,
-        mode_ranges=RANGES,
-        groups=GROUPS,
         version=__version__,
     )
 
 
 def _total(rows: list[HeldOut]) -> float:
     """Return the sum of the scores of the pairs that were left out."""
-    return sum(one.score for one in rows)
+    return sum(row.score for row in rows)
 
 
 _LEAST = 1e-4  # the smallest probability that is printed
@@ -184,8 +175,8 @@ def _number(value: float, digits: int = 1, *, sign: bool = False) -> str:
 def _misses(rows: list[Residual]) -> str:
     """Format the residuals that a model misses."""
     found = [
-        f"{_datum(one)} ({_number(one.pull, 1 if abs(one.pull) < 10 else 0, sign=True)})"
-        for one in rows
+        f"{_datum(row)} ({_number(row.pull, 1 if abs(row.pull) < 10 else 0, sign=True)})"
+        for row in rows
     ]
     return ", ".join(found) or "none by more than two errors"
 
@@ -219,9 +210,9 @@ def _plain(value: Any) -> Any:
     if hasattr(value, "_asdict"):
         return _plain(value._asdict())
     if isinstance(value, dict):
-        return {str(key): _plain(one) for key, one in value.items()}
+        return {str(key): _plain(member) for key, member in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
+        return [_plain(member) for member in value]
     if isinstance(value, float) and math.isnan(value):
         return None
     return value

@@ -6,15 +6,11 @@ from typing import NamedTuple, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce import Drop, simulate, sweep
 from stackbounce.cross2007.drops import fallen_speed, risen_height
-from stackbounce.model import Drop
-from stackbounce.run.driver import simulate
-from stackbounce.sweeps import sweep
 from studies.table2 import inputs
 from studies.table2.catalogue import CHOSEN
 from studies.table2.comparison import FittedModels
-
-__all__ = ["Prediction", "predict", "predict_restitutions", "sweep_gap"]
 
 Array: TypeAlias = NDArray[np.float64]
 

@@ -5,13 +5,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, NamedTuple
 
+from stackbounce import HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
 from stackbounce.fitting import Fit
-from stackbounce.model import HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
 from studies.table2.catalogue import AS_HEIGHTS, AS_PRINTED, MISPRINT
 from studies.table2.searches import fit_model
 from studies.table2.theories import SHARED, Theory
-
-__all__ = ["LAWS", "READINGS", "Combination", "fit_combinations", "penalty"]
 
 READINGS = {
     "as printed": AS_PRINTED,
@@ -40,7 +38,7 @@ class Combination(NamedTuple):
 
     def of_pair(self, pair: str) -> float:
         """Return chi squared of one pair."""
-        return sum(one.pull**2 for one in self.fit.residuals if one.drop == pair)
+        return sum(residual.pull**2 for residual in self.fit.residuals if residual.drop == pair)
 
 
 def fit_combinations(data: Mapping[str, Any]) -> list[Combination]:

@@ -4,16 +4,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
+from stackbounce import Result, simulate
+from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.bench import Bench
-from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import peak_times
 from stackbounce.cross2007.stacks import gap_for_delay
-from stackbounce.run.driver import simulate
-from stackbounce.run.result import Result
 from studies.table2.catalogue import CHOSEN
 from studies.table2.comparison import FittedModels
-
-__all__ = ["Fact", "compare_records", "simulate_at_delay"]
 
 _RTOL = 1e-9
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from stackbounce.version import __version__
+from stackbounce import __version__
 from studies.table2 import inputs
 from studies.table2.basketball import (
     READINGS,
@@ -25,16 +25,11 @@ from studies.table2.cross_validation import (
     cross_validate_selection,
 )
 from studies.table2.energy import EnergyBound, bound_energy
-from studies.table2.hierarchy import Hierarchy, weigh_models
-from studies.table2.information import Information, rank_measurements
-from studies.table2.inner_mode_ranges import InnerModes, study_inner_modes
 from studies.table2.predictions import Prediction, predict
 from studies.table2.readings import Combination, fit_combinations
 from studies.table2.records import Fact, compare_records
 from studies.table2.section_v import Refit, refit_section_v
 from studies.table2.sensitivity import scan_loss, vary_assumptions
-
-__all__ = ["BOTH", "Study", "run_study"]
 
 BOTH = (BASE, LATE)
 """The two delays of B1 on B3: nothing in the paper decides which one belongs to Table II."""
@@ -67,9 +62,6 @@ class Study:
     bucklings: list[Stack]
     limits: list[Limits]
     refits: list[Refit]
-    weighed: Hierarchy
-    expected: Information
-    modes: InnerModes
 
     @property
     def compared(self) -> FittedModels:
@@ -111,16 +103,15 @@ class Study:
         return {
             "stackbounce": __version__,
             "headline": self.headline,
-            "claims": [one._asdict() for one in self.claims],
-            "data": {one.name: one.data() for one in BOTH},
+            "claims": [claim._asdict() for claim in self.claims],
+            "data": {choice.name: choice.data() for choice in BOTH},
             "models": [{**row, "pairs": own.pairs(row["name"])} for row in self.rows],
             "choices": self.fits.as_dict(),
-            "energy": [{**one._asdict(), "excesses": one.excesses} for one in self.kept],
-            "inner_modes": self.modes.as_dict(),
+            "energy": [{**bound._asdict(), "excesses": bound.excesses} for bound in self.kept],
             "readings": {
                 choice: [
-                    {"reading": one.reading, "law": one.law, "chi_squared": one.fit.chi_squared}
-                    for one in tried
+                    {"reading": case.reading, "law": case.law, "chi_squared": case.fit.chi_squared}
+                    for case in tried
                 ]
                 for choice, tried in self.readings.items()
             },
@@ -128,17 +119,15 @@ class Study:
             "changes": self.changes,
             "held_out": self.held_out,
             "selected": self.selected,
-            "records": [one._asdict() for one in self.facts],
-            "predictions": [one._asdict() for one in self.predictions],
-            "basketball": [one._asdict() for one in self.stacks],
-            "buckling": [one._asdict() for one in self.bucklings],
-            "basketball_limits": [one._asdict() for one in self.limits],
+            "records": [fact._asdict() for fact in self.facts],
+            "predictions": [prediction._asdict() for prediction in self.predictions],
+            "basketball": [stack._asdict() for stack in self.stacks],
+            "buckling": [buckling._asdict() for buckling in self.bucklings],
+            "basketball_limits": [limit._asdict() for limit in self.limits],
             "section_v": [
-                {**one._asdict(), "numbers": [number._asdict() for number in one.numbers]}
-                for one in self.refits
+                {**refit._asdict(), "numbers": [number._asdict() for number in refit.numbers]}
+                for refit in self.refits
             ],
-            "hierarchy": self.weighed.as_dict(),
-            "information": self.expected.as_dict(),
         }
 
 
@@ -154,16 +143,14 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
     """
     fits = fit_choices(progress, workers)
     progress("study: readings of Table I with every law")
-    read = {one.name: fit_combinations(one.data()) for one in BOTH}
+    read = {choice.name: fit_combinations(choice.data()) for choice in BOTH}
     progress("study: the loss between two balls, and smaller assumptions")
-    scan = {one.name: scan_loss(fits[one], one) for one in BOTH}
+    scan = {choice.name: scan_loss(fits[choice], choice) for choice in BOTH}
     changed = vary_assumptions(fits[BASE])
     held = cross_validate(fits, progress)
     progress("study: force records and measurements that would decide")
-    shown, said = compare_records(fits[BASE]), predict(fits[BASE])
-    weighed = weigh_models(progress)
-    expected = rank_measurements(weighed, progress)
-    progress("study: the basketball, section V's fits, and inner vibrations")
+    facts, predictions = compare_records(fits[BASE]), predict(fits[BASE])
+    progress("study: the basketball, and section V's fits")
     return Study(
         fits,
         [bound_energy(pair) for pair in inputs.PAIRS],
@@ -172,13 +159,10 @@ def run_study(progress: Callable[[str], None] = lambda _: None, workers: int = 1
         changed,
         held,
         {choice: cross_validate_selection(tried) for choice, tried in read.items()},
-        shown,
-        said,
+        facts,
+        predictions,
         fit_stacks(),
         fit_bucklings(),
-        [find_limits(one) for one in READINGS],
+        [find_limits(reading) for reading in READINGS],
         refit_section_v(),
-        weighed,
-        expected,
-        study_inner_modes(),
     )

@@ -12,10 +12,8 @@ import numpy as np
 
 from stackbounce.fitting import Fit, FitProblem
 from stackbounce.fitting.least_squares import Minimum, descend, find_minima
-from stackbounce.fitting.quantities import Array
+from studies.table2.inputs import Array
 from studies.table2.observed import Observed, observe
-
-__all__ = ["fit_model", "fit_near", "refit"]
 
 _SCREENED, _FOLLOWED = 32, 3
 _GAPS = 48  # trials of a gap at known shared numbers
@@ -42,11 +40,11 @@ def fit_near(model: FitProblem, data: Mapping[str, Any], near: Iterable[Fit]) ->
 
     Numbers that are new start from what is known of them, and each gap from the best of many.
     """
-    starts = [dict(zip(one.names, one.x, strict=True)) for one in near]
+    starts = [dict(zip(fit.names, fit.x, strict=True)) for fit in near]
 
     def best(objective: Observed) -> Minimum:
         ends = [_descend(objective, _start(objective, known)) for known in starts]
-        return min(ends, key=lambda one: one.chi_squared)
+        return min(ends, key=lambda end: end.chi_squared)
 
     return _apart(model, data, best)
 
@@ -65,7 +63,10 @@ def _descend(objective: Observed, x: Array) -> Minimum:
 def _start(objective: Observed, known: Mapping[str, float]) -> Array:
     """Return a trial with the shared numbers of a similar fit, and the best gaps for them."""
     x = np.array(
-        [known.get(one.name, one.prior[0] if one.prior else np.nan) for one in objective.parameters]
+        [
+            known.get(parameter.name, parameter.prior[0] if parameter.prior else np.nan)
+            for parameter in objective.parameters
+        ]
     )
     for key in objective.measured:
         for k in objective.own(key):
@@ -85,7 +86,7 @@ def _best(objective: Observed) -> Minimum:
 def _apart(model: FitProblem, data: Mapping[str, Any], solve: Callable[[Observed], Minimum]) -> Fit:
     """Return a fit; pairs that share no parameter are fitted one by one."""
     objective = observe(replace(model, data=data))
-    own = {key: [one for one in model.vary if one.startswith(f"{key}.")] for key in data}
+    own = {key: [name for name in model.vary if name.startswith(f"{key}.")] for key in data}
     if sum(map(len, own.values())) < len(model.vary):
         return Fit(objective, [solve(objective)])
     found: dict[str, float] = {}

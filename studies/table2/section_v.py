@@ -3,12 +3,10 @@
 from dataclasses import replace
 from typing import NamedTuple
 
-from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007 import PAPER
 from stackbounce.cross2007.datasets import load_dataset
 from stackbounce.fitting import Interval, fit
 from studies.table2 import inputs
-
-__all__ = ["Refit", "refit_section_v"]
 
 _FITS = {"B2_on_B1": ("B1-B2", "fig13"), "B3_on_B1": ("B1-B3", "B3_fit")}
 _NAMES = {
@@ -58,7 +56,7 @@ def _refit(pair: str, name: str, key: str) -> Refit:
     for path, short in _NAMES.items():
         shown = PAPER[f"{key}.{short}"]
         numbers.append(Number(path, shown.printed, shown.value, found.best[path], intervals[path]))
-    lower, upper = (one.fitted for one in found.residuals[:2])
+    lower, upper = (residual.fitted for residual in found.residuals[:2])
     return Refit(
         pair,
         numbers,
@@ -67,7 +65,7 @@ def _refit(pair: str, name: str, key: str) -> Refit:
         inputs.read_ratios(pair),
         found.chi_squared,
         found.degrees_of_freedom,
-        [one.name for one in found.residuals],
+        [residual.name for residual in found.residuals],
     )
 
 

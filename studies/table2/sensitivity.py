@@ -4,15 +4,13 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from stackbounce.cross2007.data import PAPER
+from stackbounce.cross2007 import PAPER
 from studies.table2 import inputs
 from studies.table2.catalogue import AS_HEIGHTS, THEORIES
 from studies.table2.choices import Choice
 from studies.table2.comparison import FittedModels
 from studies.table2.searches import fit_near, refit
 from studies.table2.theories import Theory
-
-__all__ = ["scan_loss", "vary_assumptions"]
 
 _BETWEEN = (0.0, 0.5, 1.0, 1.5, 2.0, 3.0)
 _SCANNED = "S, fitted"
@@ -49,9 +47,9 @@ def _other(ball: str, sign: float) -> Callable[[Theory], Theory]:
 
     def change(theory: Theory) -> Theory:
         known = dict(theory.known)
-        for one in balls:
-            shown = inputs.PRINTED[one] + step
-            known[f"e_{one}"] = math.sqrt(shown) if theory.known == AS_HEIGHTS else shown
+        for ball in balls:
+            shown = inputs.PRINTED[ball] + step
+            known[f"e_{ball}"] = math.sqrt(shown) if theory.known == AS_HEIGHTS else shown
         return replace(theory, known=known)
 
     return change

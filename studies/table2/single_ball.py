@@ -15,11 +15,9 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from stackbounce.calibration import calibrate
+from stackbounce import calibrate
 from stackbounce.model import ContactLaw
 from studies.table2.inputs import Solo
-
-__all__ = ["LOWEST", "RELAXATION", "Numbers", "calibrate_numbers", "loss_unit"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -127,11 +125,11 @@ def _at(law: Any, restitution: Array, name: str, other: Array) -> tuple[Array, A
     x = 2.0 * (restitution - LOWEST) / (1.0 - LOWEST) - 1.0
     if other.ndim == 0:
         table = _of_restitution(law, name, float(other))
-        found = [chebyshev.chebval(x, one) for one in table]
+        found = [chebyshev.chebval(x, row) for row in table]
     else:
         low, high, *_ = _OTHER[name]
         y = 2.0 * (other - low) / (high - low) - 1.0
-        found = [chebyshev.chebval2d(x, y, one) for one in _of_both(law, name)]
+        found = [chebyshev.chebval2d(x, y, grid) for grid in _of_both(law, name)]
     # round-off must not make a lossless contact gain energy
     top = 1.0 if law.loss == "restitution" else np.inf
     return np.exp(found[0]), np.clip(found[1], 0.0, top), found[2]

@@ -7,9 +7,9 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from stackbounce import Drop, Rigid
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.fitting import FitProblem, Model, Range
-from stackbounce.model import Drop, Rigid
 from studies.table2 import inputs
 from studies.table2.single_ball import (
     RELAXATION,
@@ -17,8 +17,6 @@ from studies.table2.single_ball import (
     calibrate_numbers,
     loss_unit,
 )
-
-__all__ = ["ELASTIC", "OWN", "SHARED", "Theory", "make_rigid_model"]
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -125,7 +123,7 @@ class Theory:
     def drop(self, key: str, gap: float = 0.0, varied: Mapping[str, float] | None = None) -> Drop:
         """Return one pair with a gap in m and values of the varied numbers."""
         values = self._values(varied or {})
-        contacts = [self._law(values, one) for one in self.contacts(values)[key]]
+        contacts = [self._law(values, contact) for contact in self.contacts(values)[key]]
         balls = inputs.make_balls(key, self.heavy)
         return Drop(balls, contacts, gaps=[gap], height=self.height, gravity=self.gravity)
 
@@ -253,7 +251,9 @@ def make_rigid_model(
         for key in pairs
     }
     vary: dict[str, Any] = dict.fromkeys(names, _BOUNDS["e"])
-    vary |= _known_with_errors({k: one for k, one in (priors or {}).items() if k == "height"})
+    vary |= _known_with_errors(
+        {name: prior for name, prior in (priors or {}).items() if name == "height"}
+    )
     vary |= {f"{key}.gaps.0": (0.0, _WIDEST) for key in drops}
     ends = {"contacts.0.restitution": names[0], "contacts.1.restitution": names[-1]}
     return Model(drops, vary, ends)
@@ -262,7 +262,7 @@ def make_rigid_model(
 def _creep_time(f: Array, lower: Numbers, upper: Numbers) -> Array:
     """Return the creep time ``(1 + Δ) τ`` of two solids; the lower one has the share f."""
     creeps = f * lower.loss / (1.0 + lower.loss), (1.0 - f) * upper.loss / (1.0 + upper.loss)
-    times = [(1.0 + one.loss) * one.relaxation for one in (lower, upper)]
+    times = [(1.0 + ball.loss) * ball.relaxation for ball in (lower, upper)]
     whole = creeps[0] + creeps[1]
     share = np.where(whole > 0.0, creeps[0] / np.where(whole > 0.0, whole, 1.0), f)
     return np.asarray(times[0] ** share * times[1] ** (1.0 - share))

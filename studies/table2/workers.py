@@ -5,8 +5,6 @@ import signal
 from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
-__all__ = ["spread"]
-
 Task = TypeVar("Task")
 Answer = TypeVar("Answer")
 

@@ -31,7 +31,7 @@ from studies.table2.theories import Theory, make_rigid_model
 import stackbounce as sb
 from stackbounce.calibration import between
 from stackbounce.cross2007 import PAPER
-from stackbounce.fitting.comparison import Comparison
+from stackbounce.fitting import Comparison
 from stackbounce.model import Drop, HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
 
 PLAIN = ("Hertz", "A", "X", "S")  # nothing fitted but gaps
