@@ -83,7 +83,7 @@ attack: $(DEV) kernels  ## all attacks of tests/adversary in great number, a row
 	@cd tests && for name in $(ATTACKS); do ../$(BIN)/python -m adversary.$$name --seed $(SEED) || failed=1; done; \
 	  ../$(BIN)/python -m adversary.flood || failed=1; exit $${failed:-0}
 
-frozen: $(DEV) kernels  ## compare all answers with those that were kept in tests/frozen
+frozen: $(DEV) kernels  ## compare the bits of random drops and of all laws with those kept in tests/frozen
 	@cd tests && PYTHONPATH=.. ../$(BIN)/python -m frozen
 
 kernels: $(RUNTIME)  ## compile the engine's kernels anew if its sources changed: a minute or two

@@ -1,7 +1,6 @@
-"""What must not change while the package is rebuilt: its answers, kept as numbers and texts.
+"""Bits that must not change while the engine is rebuilt, kept as texts that a diff shows.
 
-``make frozen`` (``PYTHONPATH=.. python -m frozen`` in ``tests``) computes all groups again and
-compares them with `data`; with ``--write`` it writes `data` anew. Answers are asked for by the
-command line, the public names and HTTP, so that modules can move. Only `coverage` and `drops`
-import more: what they need stands at the top.
+``make frozen`` computes `fuzz` and `laws` again and compares them with ``fuzz.txt`` and
+``laws.txt``; ``python -m frozen --write`` (in ``tests``) writes these anew. A line is a name and
+what came of it: a number in full, or the digest of the bits of an array.
 """

@@ -1,12 +1,13 @@
 """Contact laws: maps of what a pair does under each, what is measured of them, and their texts."""
 
 import itertools
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 import stackbounce as sb
-from frozen.values import summary
+from frozen.lines import lines
 
 LAWS: dict[str, tuple[Any, Any]] = {  # of the floor, and between two balls of 0.1 kg at 1 m/s
     "Rigid": (sb.Rigid(0.9), sb.Rigid(0.6)),
@@ -47,17 +48,15 @@ MASSES, SPEEDS = (0.01, 0.1, 2.0), (0.03, 1.0, 10.0)
 TIMES, RATIOS = (5e-4, 5e-3, 0.05), (0.2, 0.6, 0.9, 1.0)
 
 
-def answers() -> dict[str, Any]:
-    """Return maps, single values, and texts for each law."""
-    found: dict[str, Any] = {}
+def answers() -> Iterator[str]:
+    """Yield lines of maps, single values, and texts for each law."""
     for name, pair in LAWS.items():
-        found[name] = {
-            "maps": _maps(*pair),
-            "measures": [_measures(law) for law in pair],
-            "calibrated": _calibrated(type(pair[0])) if "," not in name else {},
-            "texts": _texts(*pair),
-        }
-    return found | {"series": _series()}
+        yield from lines(name, {"maps": _maps(*pair), "texts": _texts(*pair)})
+        for place, law in zip(("floor", "balls"), pair, strict=True):
+            yield from lines(f"{name}/{place}", _measures(law))
+        if "," not in name:
+            yield from lines(f"{name}/calibrated", _calibrated(type(pair[0])))
+    yield from lines("series", _series())
 
 
 def _maps(floor: Any, between: Any) -> dict[str, Any]:
@@ -77,11 +76,10 @@ def _maps(floor: Any, between: Any) -> dict[str, Any]:
 
 
 def _map(found: Any) -> dict[str, Any]:
-    """Return all rebound ratios of a sweep, and of the rest what sums it up."""
+    """Return all numbers of a sweep; the rebound ratios by the mass ratio."""
+    whole = {str(name): found[name].values for name in found.variables if name != "rebound_ratio"}
     ratios = found.rebound_ratio.values
-    rest = [name for name in found.variables if name != "rebound_ratio"]
-    told = {"rebound_ratio": ratios.reshape(len(MASS_RATIOS), -1, 2), "attributes": found.attrs}
-    return told | {str(name): summary(np.ravel(found[name].values)) for name in rest}
+    return whole | {"ratios": dict(enumerate(ratios.reshape(len(MASS_RATIOS), -1, 2)))}
 
 
 def _measures(law: Any) -> dict[str, Any]:
@@ -101,8 +99,9 @@ def _calibrated(kind: Any) -> dict[str, Any]:
     exponents = {sb.PowerLaw: (1.2, 2.5), sb.HuntCrossley: (None, 1.0), sb.Hysteretic: (None, 1.5)}
     for time, kept, exponent in itertools.product(TIMES, RATIOS, exponents.get(kind, (None,))):
         asked = {"mass": 0.057, "impact_speed": 3.0, "contact_time": time, "restitution": kept}
-        told = {} if exponent is None else {"exponent": exponent}
-        law = _tried(lambda a=asked, t=told: sb.calibrate(kind, **a, **t))
+        if exponent is not None:
+            asked["exponent"] = exponent
+        law = _tried(lambda known=asked: sb.calibrate(kind, **known))
         found[f"{time:g} s, {kept:g}, exponent {exponent}"] = repr(law)
     return found
 
@@ -140,6 +139,8 @@ def _series() -> dict[str, Any]:
     """Return what laws in series are, and contacts from size and material."""
     steel = sb.Ball(0.0286, diameter=0.0191, young_modulus=210e9, poisson_ratio=0.3)
     found = {"steel": repr(sb.Hertz.between(steel, steel)), "floor": repr(sb.Hertz.between(steel))}
-    for (name, one), (other, two) in itertools.combinations_with_replacement(LAWS.items(), 2):
-        found[f"{name} and {other}"] = repr(_tried(sb.series, one[0], two[1]))
+    for (name, pair), (other, pair_of_other) in itertools.combinations_with_replacement(
+        LAWS.items(), 2
+    ):
+        found[f"{name} and {other}"] = repr(_tried(sb.series, pair[0], pair_of_other[1]))
     return found
