@@ -11,6 +11,7 @@ from stackbounce.model.laws import LAWS
 
 __all__ = [
     "DROP",
+    "RARE",
     "AsJson",
     "Overwrite",
     "Plot",
@@ -19,8 +20,13 @@ __all__ = [
     "Until",
     "What",
     "add_options",
+    "ball_names",
+    "law_names",
     "option",
 ]
+
+RARE = "Rarely needed"
+"""The last panel of a command's help."""
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
@@ -67,6 +73,19 @@ def add_options(options: Mapping[str, tuple[Any, Any]]) -> Callable[[Command], C
     return changed
 
 
+def ball_names(incomplete: str) -> list[str]:
+    """Return the balls of the catalogue that begin so, for the shell's completion."""
+    from stackbounce.model.catalogue import BALLS, CLASS_BALLS
+
+    names = [str(entry.ball.name).replace(" ", "-") for entry in (*BALLS, *CLASS_BALLS)]
+    return [name for name in names if name.startswith(incomplete)]
+
+
+def law_names(incomplete: str) -> list[str]:
+    """Return the contact laws that begin so, for the shell's completion."""
+    return [name for name in LAWS if name.casefold().startswith(incomplete.casefold())]
+
+
 DROP = {
     "height": option(str | None, "LENGTH", "Height fallen from rest, such as 0.63m."),
     "speed": option(str | None, "SPEED", "Impact speed, such as 3.53m/s."),
@@ -78,6 +97,7 @@ DROP = {
         "LAW",
         "Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
         f"lowest first. Laws: {', '.join(LAWS)}; none for no floor.",
+        autocompletion=law_names,
     ),
     "gravity": option(str | None, "ACCELERATION", "Gravity during the run, such as 9.81m/s^2."),
 }
@@ -93,6 +113,7 @@ What = Annotated[
         metavar="SCENARIO|BALLS",
         help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
         show_default=False,
+        autocompletion=ball_names,
     ),
 ]
 Overwrite = Annotated[
@@ -101,6 +122,7 @@ Overwrite = Annotated[
         "--overwrite",
         help="Replace files that are there. Without it only those are replaced that stackbounce "
         "wrote and nobody changed since.",
+        rich_help_panel=RARE,
     ),
 ]
 Until = Annotated[
@@ -109,7 +131,11 @@ Until = Annotated[
 ]
 Tolerance = Annotated[
     float,
-    typer.Option(metavar="NUMBER", help="Relative error to aim at under nonlinear contact laws."),
+    typer.Option(
+        metavar="NUMBER",
+        help="Relative error to aim at under nonlinear contact laws.",
+        rich_help_panel=RARE,
+    ),
 ]
 Save = Annotated[
     Path | None,

@@ -213,7 +213,7 @@ def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
 
 
 def _joined(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
-    from stackbounce.gaps_and_masses.ranking import join_contacts
+    from stackbounce.towers.ranking import join_contacts
 
     try:
         return join_contacts(names, laws)
