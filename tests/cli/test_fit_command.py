@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import fit_results, main
+from stackbounce.cli import main
 from stackbounce.fitting import Fit
 
 PAIR = ("basketball", "tennis", "--height", "63cm")
@@ -340,21 +340,11 @@ def test_the_probability_is_told_in_words(run, tmp_path):
 
 def test_the_same_digits_for_a_value_and_its_limits(run):
     """Where an interval is shorter on one side, that side says how many digits count."""
-    found = fit_results.run(
-        fit_results.read_problem(
-            ["basketball", "tennis"],
-            data=None,
-            measured=["rebound_ratios.1=1.64 ± 0.02"],
-            vary=["contacts.1.stiffness=0.7kN/m:2.5kN/m"],
-            tie=[],
-            height="63cm",
-        ),
-        starts=16,
-        seed=0,
-        interval=True,
-        sample=None,
-    )
-    low, high, *_ = found.intervals["contacts.1.stiffness"]
+    springs = [sb.Spring(2500.0), sb.Spring(1000.0)]
+    drop = sb.Drop([sb.Ball(0.150), sb.Ball(0.057)], springs, height=0.63)
+    vary = {"contacts.1.stiffness": ("0.7kN/m", "2.5kN/m")}
+    found = sb.fit(drop, {"rebound_ratios.1": "1.64 ± 0.02"}, vary, starts=16)
+    low, high, *_ = found.intervals()["contacts.1.stiffness"]
     _, out, _ = run(*ONE, "--interval", "--starts", "16")
     ((*_, shown_low, shown_high, _),) = cells(out, "contacts.1.stiffness")
     assert (shown_low, shown_high) == (f"{low:.0f}", f"{high:.0f}")
