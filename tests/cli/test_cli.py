@@ -17,6 +17,7 @@ from stackbounce.cli import app, main, output, tables
 from stackbounce.cli.scenario import read, read_contact
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import LAWS
+from stackbounce.plots import style
 from stackbounce.version import __version__
 
 PAIR = ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"]
@@ -787,10 +788,11 @@ def test_sweep_writes_a_store_and_a_picture(run, tmp_path):
 def test_sweep_draws_the_ball_that_is_asked_for(run, monkeypatch):
     drawn = []
     monkeypatch.setattr(plots, "lines", lambda _, *asked, **which: drawn.append((asked, which)))
-    monkeypatch.setattr(output, "draw", lambda make, *_: make())
-    over = ["--over", "balls.0.mass = 50 g, 60 g", "--out", "a.zarr", "--plot", "a.png", "--show"]
+    monkeypatch.setattr(style, "render", lambda draw, *_: draw() or b"")
+    over = ["--over", "balls.0.mass = 50 g, 60 g", "--out", "a.zarr", "--overwrite"]
     for asked in ("rebound_ratio.0", "collisions"):
-        assert run("sweep", "basketball", "tennis", *over, asked)[0] == 0
+        shown = ["--plot", "a.png", "--show", asked]
+        assert run("sweep", "basketball", "tennis", *over, *shown)[0] == 0
     assert drawn == [(("rebound_ratio",), {"index": 0}), (("collisions",), {})]
 
 

@@ -5,16 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from stackbounce.cli import output
 from stackbounce.cli.fit_options import QUESTION, RESULTS, What
 from stackbounce.cli.options import DROP, AsJson, Overwrite, Plot, add_options
-from stackbounce.cli.output import (
-    check_picture,
-    console,
-    draw_picture,
-    print_files,
-    print_json,
-    progress_bar,
-)
 from stackbounce.errors import InvalidValue
 from stackbounce.extras import need
 
@@ -45,37 +38,37 @@ def run(
     from stackbounce.fitting.question import build_problem
 
     save, draws, corner = given["save"], given["draws"], given["corner"]
-    check_picture(plot, overwrite)
-    check_picture(corner, overwrite, "--corner")
+    output.check_picture(plot, overwrite)
+    output.check_picture(corner, overwrite, "--corner")
     _check_together(given)
     parts = fit_files.read_parts_of(what, {name: given[name] for name in DROP})
     question = {name: given[name] for name in QUESTION}
     problem = build_problem(parts, **question, compared=given["compare"])
     if given["compare"]:
         compared = _compare(problem, given)
-        draw_picture(plot, overwrite, "compared", compared)
+        output.draw_picture(plot, overwrite, "compared", compared)
         if as_json:
-            print_json(comparison_tables.comparison_as_dict(compared))
+            output.print_json(comparison_tables.comparison_as_dict(compared))
         else:
-            comparison_tables.print_comparison(console(), compared)
-            print_files(plot)
+            comparison_tables.print_comparison(output.console(), compared)
+            output.print_files(plot)
         return
     fit_files.check_save(save, overwrite, problem, what)
     fit_files.check_save(draws, overwrite, problem, what, "--draws", ".csv")
     done = _fit(problem, given, as_json)
-    draw_picture(plot, overwrite, "fitted", done.fit)
-    draw_picture(corner, overwrite, "corner", done.posterior)
+    output.draw_picture(plot, overwrite, "fitted", done.fit)
+    output.draw_picture(corner, overwrite, "corner", done.posterior)
     saved = fit_files.save(done.fit, save, overwrite)
     drawn = fit_files.save_draws(done.fit, done.posterior, draws, overwrite)
     if as_json:
-        print_json(fit_tables.as_dict(done, saved, drawn))
+        output.print_json(fit_tables.as_dict(done, saved, drawn))
         return
-    fit_tables.print_fit(console(), done)
+    fit_tables.print_fit(output.console(), done)
     if saved:
         typer.echo(f"Fitted: {save}; now: stackbounce simulate {saved[0]}")
     if drawn:
         typer.echo(f"Draws: {draws}; now: stackbounce sweep … --draws {drawn[0]}")
-    print_files(plot, corner)
+    output.print_files(plot, corner)
 
 
 def _check_together(given: Mapping[str, Any]) -> None:
@@ -99,20 +92,20 @@ def _fit(problem: "FitProblem", given: Mapping[str, Any], as_json: bool) -> "Fit
 
     seed, intervals, posterior = given["seed"], None, None
     try:
-        with progress_bar("trials") as progress:
+        with output.progress_bar("trials") as progress:
             fit = problem.fit(starts=given["starts"], seed=seed, progress=progress)
         try:
             if given["interval"]:
-                with progress_bar("trials of intervals") as progress:
+                with output.progress_bar("trials of intervals") as progress:
                     intervals = fit.intervals(progress=progress)
             if given["sample"] is not None:
-                with progress_bar("draws") as progress:
+                with output.progress_bar("draws") as progress:
                     posterior = fit.sample(given["sample"], seed=seed, progress=progress)
         except KeyboardInterrupt as stopped:
             raise Interrupted(fit) from stopped
     except Interrupted as stopped:
         if as_json:
-            print_json({"interrupted": str(stopped), "values": stopped.fit.best})
+            output.print_json({"interrupted": str(stopped), "values": stopped.fit.best})
         else:
             typer.echo(f"Interrupted: {stopped}")
         raise
@@ -126,5 +119,5 @@ def _compare(problem: "FitProblem", given: Mapping[str, Any]) -> "Comparison":
 
     models = standard_models(problem.drops, times=any(map(has_times, problem.data.values())))
     search = {name: given[name] for name in ("starts", "seed")}
-    with progress_bar("trials of a model") as progress:
+    with output.progress_bar("trials of a model") as progress:
         return compare(models, problem.data, **search, progress=progress)

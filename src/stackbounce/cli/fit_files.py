@@ -5,12 +5,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from stackbounce.cli import scenario
-from stackbounce.cli.draws import draws_text
 from stackbounce.cli.output import check_file
 from stackbounce.cross2007.datasets import PREFIX, load_dataset
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.files import check_own, check_place, write_file
 from stackbounce.fitting.files import Parts, read_parts
+from stackbounce.sweeps.draws import draws_text
 
 if TYPE_CHECKING:
     from stackbounce.fitting import Fit, FitProblem, Posterior
@@ -40,7 +40,7 @@ def check_save(
 ) -> None:
     """Refuse a path for --save or --draws that cannot be written, before anything is computed."""
     if path is None or len(problem.drops) == 1:
-        check_file(path, overwrite, option, suffix, read)
+        check_file(path, overwrite, option, (suffix,), read)
     elif path.suffix or (path.exists() and not path.is_dir()):
         raise InvalidValue(
             f"{option} must name a folder for {len(problem.drops)} drops, a file each, got {path}"

@@ -6,6 +6,7 @@ from typing import Annotated, Any
 
 import typer
 
+from stackbounce.cli import output
 from stackbounce.cli.options import (
     DROP,
     RARE,
@@ -16,16 +17,7 @@ from stackbounce.cli.options import (
     add_options,
     ball_names,
     law_names,
-)
-from stackbounce.cli.output import (
-    check_picture,
-    check_scenario,
-    check_solved,
-    console,
-    draw_picture,
-    print_files,
-    print_json,
-    write_scenario,
+    option,
 )
 from stackbounce.errors import InvalidValue, positive, shown
 
@@ -34,7 +26,56 @@ __all__ = ["EPILOG", "run"]
 EPILOG = "For example: stackbounce highest B1 B2 B3 tennis --gap 0 --gap 2mm --masses"
 
 
-@add_options({name: DROP[name] for name in ("height", "speed", "contact")})
+_FALL = {name: DROP[name] for name in ("height", "speed", "contact")}
+_HIGHEST = {
+    "balls": option(int, "NUMBER", "Balls in a stack.", default=3),
+    "gap": option(
+        list[str] | None,
+        "LENGTH",
+        "Gap between all neighbours, once for each that is tried; the order is that of the first; "
+        "by default 0, 1 mm and 5 mm, or those of a file's stack.",
+    ),
+    "masses": option(
+        bool, None, "Find the best inner masses of the best stack, too.", "--masses", default=False
+    ),
+    "within": option(
+        str | None,
+        "MASS:MASS",
+        "The smallest and the largest mass for --masses, such as 10g:1kg; by default those of the "
+        "lowest and the top ball.",
+        rich_help_panel=RARE,
+    ),
+    "in_order": option(
+        bool,
+        None,
+        "Try only the stack in the order given, with its contacts in simulate; --contact does so, "
+        "too.",
+        "--in-order",
+        default=False,
+        rich_help_panel=RARE,
+    ),
+    "repeat": option(
+        bool,
+        None,
+        "Take each ball any number of times.",
+        "--repeat",
+        default=False,
+        rich_help_panel=RARE,
+    ),
+    "law": option(
+        str,
+        "LAW",
+        "Of the catalogue's contacts, with the ball's contact time and restitution: hysteretic, or "
+        "spring, which loses nothing.",
+        default="hysteretic",
+        rich_help_panel=RARE,
+        autocompletion=law_names,
+    ),
+    "rows": option(int, "NUMBER", "Stacks to print.", default=10, min=1),
+}
+
+
+@add_options(_HIGHEST | _FALL)
 def run(
     what: Annotated[
         list[str] | None,
@@ -47,52 +88,6 @@ def run(
         ),
     ] = None,
     *,
-    balls: Annotated[int, typer.Option(metavar="NUMBER", help="Balls in a stack.")] = 3,
-    gap: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="LENGTH",
-            help="Gap between all neighbours, once for each that is tried; the order is that of "
-            "the first; by default 0, 1 mm and 5 mm, or those of a file's stack.",
-        ),
-    ] = None,
-    masses: Annotated[
-        bool,
-        typer.Option("--masses", help="Find the best inner masses of the best stack, too."),
-    ] = False,
-    within: Annotated[
-        str | None,
-        typer.Option(
-            metavar="MASS:MASS",
-            help="The smallest and the largest mass for --masses, such as 10g:1kg; by default "
-            "those of the lowest and the top ball.",
-            rich_help_panel=RARE,
-        ),
-    ] = None,
-    in_order: Annotated[
-        bool,
-        typer.Option(
-            "--in-order",
-            help="Try only the stack in the order given, with its contacts in simulate; --contact "
-            "does so, too.",
-            rich_help_panel=RARE,
-        ),
-    ] = False,
-    repeat: Annotated[
-        bool,
-        typer.Option("--repeat", help="Take each ball any number of times.", rich_help_panel=RARE),
-    ] = False,
-    law: Annotated[
-        str,
-        typer.Option(
-            metavar="LAW",
-            help="Of the catalogue's contacts, with the ball's contact time and restitution: "
-            "hysteretic, or spring, which loses nothing.",
-            rich_help_panel=RARE,
-            autocompletion=law_names,
-        ),
-    ] = "hysteretic",
-    rows: Annotated[int, typer.Option(metavar="NUMBER", help="Stacks to print.", min=1)] = 10,
     save: Save = None,
     plot: Plot = None,
     overwrite: Overwrite = False,
@@ -109,26 +104,29 @@ def run(
     from stackbounce.units import quantity
 
     what = what or []
-    check_picture(plot, overwrite)
-    check_scenario(save, overwrite, what)
-    chosen: dict[str, Any] = {"masses": _limits(within) if within else masses}
-    if gap:
-        chosen["gaps"] = [quantity(text, "m", "--gap") for text in gap]
-    if in_order or given["contact"] or (len(what) == 1 and is_file(what[0])):
-        chosen["balls"] = read(what, **given).drop
+    output.check_picture(plot, overwrite)
+    output.check_scenario(save, overwrite, what)
+    within, fall = given["within"], {name: given[name] for name in _FALL}
+    chosen: dict[str, Any] = {"masses": _limits(within) if within else given["masses"]}
+    if given["gap"]:
+        chosen["gaps"] = [quantity(text, "m", "--gap") for text in given["gap"]]
+    if given["in_order"] or given["contact"] or (len(what) == 1 and is_file(what[0])):
+        chosen["balls"] = read(what, **fall).drop
     else:
         named = [Drop.from_toml(name) if is_file(name) else name for name in what]
-        chosen |= {"balls": named or None, "count": balls, "repeat": repeat, "law": law_named(law)}
+        chosen |= {"balls": named or None, "count": given["balls"], "repeat": given["repeat"]}
+        chosen["law"] = law_named(given["law"])
         chosen["impact_speed"] = _impact_speed(given["height"], given["speed"])
     data = highest(**chosen)
-    write_scenario(data.attrs["best"], save, overwrite)
-    draw_picture(plot, overwrite, "highest", data)
+    output.write_scenario(data.attrs["best"], save, overwrite)
+    output.draw_picture(plot, overwrite, "highest", data)
     if as_json:
-        print_json(summary(data))
+        output.print_json(summary(data))
     else:
-        print_stacks(console(), data, rows)
-        print_files(plot, best=save)
-    check_solved(Counter(Status(status).name for status in data["status"].values.ravel()))
+        print_stacks(output.console(), data, given["rows"])
+        output.print_files(plot, best=save)
+    statuses = data["status"].values.ravel()
+    output.check_solved(Counter(Status(status).name for status in statuses))
 
 
 def _limits(text: str) -> tuple[float, ...]:

@@ -13,7 +13,7 @@ from stackbounce.cli.output import (
     check_picture,
     check_scenario,
     console,
-    draw,
+    draw_picture,
     print_json,
     write_scenario,
 )
@@ -88,9 +88,7 @@ def run(
     law = _law_of(known, done) if "law" in known else None
     saved = {} if save is None else _save(done, law, save, known, name, overwrite)
     if plot is not None:
-        from stackbounce import plots
-
-        draw(lambda: plots.measured(done[0].data, done[0].found[-1]), plot, overwrite)
+        draw_picture(plot, overwrite, "measured", done[0].data, done[0].found[-1])
     if as_json:
         print_json(_summary(done, law, saved))
         return

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from rich import box
 from rich.table import Table
@@ -19,6 +20,7 @@ __all__ = [
     "new_table",
     "number",
     "percent",
+    "with_error",
     "write_count",
 ]
 
@@ -72,6 +74,20 @@ def number(value: float) -> str:
     if 1e3 <= abs(value) < 1e7:
         return f"{value:.0f}"
     return f"{value:#.4g}".removesuffix(".")
+
+
+def with_error(value: Any) -> str:
+    """Return a number with the error of its last digits in parentheses.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> with_error(ufloat(6.297, 0.017)), with_error(ufloat(1234.0, 56.0)), with_error(None)
+    ('6.297(17)', '1234(56)', '–')
+    """
+    if value is None or not math.isfinite(value.nominal_value):
+        return "–"
+    return f"{value:.2uS}" if value.std_dev > 0.0 else number(value.nominal_value)
 
 
 def percent(share: float) -> str:
