@@ -13,8 +13,9 @@ from typer.testing import CliRunner
 import stackbounce as sb
 from stackbounce import cross2007, plots
 from stackbounce.calibration import separate
-from stackbounce.cli import app, main, output, tables
-from stackbounce.cli.scenario import read, read_contact
+from stackbounce.cli import app, descriptions, main, output, tables
+from stackbounce.cli.drop_options import read_contact
+from stackbounce.cli.scenario import read
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import LAWS
 from stackbounce.plots import style
@@ -99,6 +100,34 @@ def test_wrong_usage_is_one_line(run, arguments, expected, command):
     assert expected in err
     assert err.endswith(f" (see {command} --help)\n")
     assert err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "found"),
+    [
+        ("hi", {"highest"}),
+        ("simulate te", {"tennis", "tennis-ball"}),
+        ("simulate B1 --contact Hy", {"Hysteretic"}),
+        ("highest --law Hun", {"HuntCrossley"}),
+        ("datasets golf-marble-h", {"golf-marble-heights"}),
+        ("fit --compa", {"--compare"}),
+    ],
+)
+def test_the_shell_completes(words, found, monkeypatch, capsys):
+    words = ["stackbounce", *words.split()]
+    monkeypatch.setenv("_STACKBOUNCE_COMPLETE", "complete_bash")
+    monkeypatch.setenv("COMP_WORDS", " ".join(words))
+    monkeypatch.setenv("COMP_CWORD", str(len(words) - 1))
+    with pytest.raises(SystemExit) as ended:
+        main([])
+    assert ended.value.code == 0
+    assert set(capsys.readouterr().out.split()) == found
+
+
+def test_the_shells_script_asks_this_program(capsys):
+    with pytest.raises(SystemExit):
+        main(["--show-completion", "bash"])
+    assert "_STACKBOUNCE_COMPLETE=complete_bash" in capsys.readouterr().out
 
 
 # simulate
@@ -688,8 +717,8 @@ def test_contacts_in_words():
     )
     law = sb.Hysteretic(2000.0, exponent=1.5, restitution=0.5)
     text = "Hysteretic, stiffness 2000 N/m^1.5, exponent 1.5, restitution 0.5"
-    assert tables.law_text(law) == text
-    assert tables.law_text(None) == "none"
+    assert descriptions.law_text(law) == text
+    assert descriptions.law_text(None) == "none"
 
 
 @pytest.mark.parametrize(
@@ -723,7 +752,7 @@ def test_contacts_in_words():
 )  # fmt: skip
 def test_every_law_is_read_and_told(words, law, text):
     assert read_contact(words, "x") == law
-    assert tables.law_text(law) == text
+    assert descriptions.law_text(law) == text
 
 
 def test_help_names_every_law(run):

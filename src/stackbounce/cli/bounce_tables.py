@@ -5,10 +5,9 @@ from typing import TYPE_CHECKING, Any
 
 from rich.table import Table
 
+from stackbounce.cli.descriptions import label, meeting
 from stackbounce.cli.tables import (
     add_columns,
-    label,
-    meeting,
     new_table,
     number,
     percent,

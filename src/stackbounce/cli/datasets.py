@@ -22,9 +22,21 @@ _FACTS = ("measured", "ball", "surface", "mass", "diameter", "source", "doi", "a
 _MORE = ("quoted_by", "licence", "remarks")
 
 
+def _names(incomplete: str) -> list[str]:
+    from stackbounce.datasets import names
+
+    return [name for name in names() if name.startswith(incomplete)]
+
+
 def run(
     name: Annotated[
-        str, typer.Argument(metavar="[NAME]", help="A dataset to show.", show_default=False)
+        str,
+        typer.Argument(
+            metavar="[NAME]",
+            help="A dataset to show.",
+            show_default=False,
+            autocompletion=_names,
+        ),
     ] = "",
     as_json: AsJson = False,
 ) -> None:

@@ -141,7 +141,7 @@ def _limits(text: str) -> tuple[float, ...]:
 
 def _impact_speed(height: str | None, speed: str | None) -> float | None:
     """Return the impact speed in m/s of ``--height`` or ``--speed``."""
-    from stackbounce.cli.scenario import read_fall
+    from stackbounce.cli.drop_options import read_fall
     from stackbounce.model import STANDARD_GRAVITY
 
     fall = read_fall(height, speed)

@@ -23,8 +23,6 @@ from stackbounce.measure.hints import Hint
 from stackbounce.measure.options import OPTIONS, Option
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from stackbounce.measure.constants import LawConstants
     from stackbounce.measure.measurement import Measurement
 
@@ -68,6 +66,7 @@ def run(
 ) -> None:
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
     need("measure", "stackbounce measure")
+    from stackbounce.cli.measure_tables import print_measured, summary
     from stackbounce.measure.measurement import measure_file, measure_numbers
     from stackbounce.measure.option_values import read_options
 
@@ -90,9 +89,9 @@ def run(
     if plot is not None:
         draw_picture(plot, overwrite, "measured", done[0].data, done[0].found[-1])
     if as_json:
-        print_json(_summary(done, law, saved))
+        print_json(summary(done, law, saved))
         return
-    _tell(console(), done, law)
+    print_measured(console(), done, law)
     if save is not None:
         typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
     if plot is not None:
@@ -186,63 +185,3 @@ def _save(
     drop = one_ball(parts, **plain, name=name)
     write_scenario(drop.to_toml(), path, overwrite)
     return drop.to_mapping()
-
-
-def _summary(
-    done: "Sequence[Measurement]", law: "LawConstants | None", ball: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Return what was found, for machines."""
-    from stackbounce.measure.measurement import row_mapping
-    from stackbounce.version import __version__
-
-    return {
-        "stackbounce": __version__,
-        "files": [one.to_mapping() for one in done],
-        "law": None if law is None else [row_mapping(row) for row in law.all_rows()],
-        "ball": dict(ball) or None,
-    }
-
-
-def _tell(console: "Console", done: "Sequence[Measurement]", law: "LawConstants | None") -> None:
-    """Print what was found, for people."""
-    for one in done:
-        console.print(f"{one.source}: {one.told['format']}", style="bold")
-        if one.told["why"]:
-            console.print(f"  {one.told['why']}")
-        if one.told["doubt"]:
-            console.print(f"  Unsure: {one.told['doubt']}")
-        _table(console, one.rows)
-        for note in one.notes:
-            console.print(f"  {note}")
-    if law is not None:
-        console.print(f"The contact as {type(law.law).__name__}", style="bold")
-        _table(console, law.all_rows())
-
-
-def _table(console: "Console", rows: Sequence[Any]) -> None:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD)
-    table.add_column("")
-    table.add_column("value", justify="right")
-    table.add_column("error", justify="right")
-    table.add_column("unit")
-    for row in rows:
-        table.add_row(row.name, *_written(row.value), row.unit)
-    console.print(table)
-
-
-def _written(value: Any) -> tuple[str, str]:
-    """Return a value and its error as text, the error with two significant digits."""
-    from stackbounce.cli.tables import number
-
-    if isinstance(value, str):
-        return value, ""
-    if not hasattr(value, "nominal_value"):
-        return (str(value) if isinstance(value, int) else number(value)), ""
-    if not value.std_dev > 0.0:
-        return number(value.nominal_value), ""
-    body, _, power = f"{value:.2u}".replace("(", "").partition(")")
-    one, _, other = body.partition("+/-")
-    return one + power, other + power

@@ -83,7 +83,7 @@ def ball_names(incomplete: str) -> list[str]:
 
 def law_names(incomplete: str) -> list[str]:
     """Return the contact laws that begin so, for the shell's completion."""
-    return [name for name in LAWS if name.casefold().startswith(incomplete.casefold())]
+    return [name for name in LAWS if name.startswith(incomplete)]
 
 
 DROP = {

@@ -49,12 +49,13 @@ def run(
     from stackbounce import predict, simulate
     from stackbounce.calibration import separate
     from stackbounce.cli import scenario
+    from stackbounce.cli.drop_options import read_until
     from stackbounce.cli.errors_given import read_errors, split_errors
     from stackbounce.cli.simulation_tables import print_simulation
 
     output.check_picture(plot, overwrite)
     plain, written = split_errors(given)
-    chosen, end = scenario.read(what, with_errors=True, **plain), scenario.read_until(until)
+    chosen, end = scenario.read(what, with_errors=True, **plain), read_until(until)
     errors = read_errors(chosen.drop, {**chosen.errors, **written}, error)
     prediction = None
     if errors:

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 
 from stackbounce.cli.bounce_tables import Bounce
+from stackbounce.cli.descriptions import incidence, law_text, meeting
 from stackbounce.cli.scenario import Scenario
-from stackbounce.cli.tables import incidence, law_text, meeting, number, percent, write_count
+from stackbounce.cli.tables import number, percent, write_count
 from stackbounce.model import Tabulated
 from stackbounce.run.result import Result, Status
 

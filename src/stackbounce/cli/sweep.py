@@ -86,13 +86,14 @@ def run(
     """Drop a stack for all combinations of other numbers in it, into a Zarr store."""
     from stackbounce.cli import scenario
     from stackbounce.cli.cluster import connect
+    from stackbounce.cli.drop_options import read_until
     from stackbounce.cli.sweep_tables import print_sweep, summary
     from stackbounce.sweeps import opened, write
 
     output.check_picture(plot, overwrite)
     check_place(out)
     drop = scenario.read(what, **{name: given[name] for name in DROP}).drop
-    end = scenario.read_until(until)
+    end = read_until(until)
     values = _values(drop, given["over"] or [], given["draws"])
     if plot is not None:
         _check_shown(drop, given)
