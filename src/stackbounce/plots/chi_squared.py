@@ -142,17 +142,9 @@ def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
 def _draw_minima(axes: "Axes", fit: Any) -> None:
     """Mark the best values with their errors, and the other minima."""
     first, second = (fit[name] for name in fit.names)
-    axes.errorbar(
-        first.nominal_value,
-        second.nominal_value,
-        xerr=first.std_dev,
-        yerr=second.std_dev,
-        fmt="o",
-        color=_BEST,
-        markeredgecolor="black",
-        linewidth=1.2,
-        zorder=4,
-    )
+    bars = {"xerr": first.std_dev, "yerr": second.std_dev, "linewidth": 1.2}
+    look: Any = {"fmt": "o", "color": _BEST, "markeredgecolor": "black", "zorder": 4}
+    axes.errorbar(first.nominal_value, second.nominal_value, **bars, **look)
     for one in fit.minima[1:]:
         place = [p.value(x) for p, x in zip(fit.objective.parameters, one.x, strict=True)]
         axes.plot(*place, "s", color=_OTHER, markeredgecolor="black", markersize=6, zorder=3)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.plots.style import COLORS, styled_figure
+from stackbounce.plots.style import COLORS, two_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,15 +34,13 @@ def draw(data: Any, found: Any) -> "Figure":
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    with styled_figure(7.2, 5.2) as figure:
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+    with two_panels(5.2, [3, 2]) as (figure, above, below):
         times = np.array([one.nominal_value for one in found.times])
         _draw_sound(above, data, found, times)
         _draw_flights(below, found, times)
         pad = _MARGIN * max(float(np.ptp(times)), 0.1)
         below.set_xlim(times[0] - 2.0 * pad, times[-1] + 2.0 * pad)
         below.set_xlabel("time (s)")
-        figure.align_ylabels()
     return figure
 
 
