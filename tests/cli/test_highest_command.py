@@ -6,24 +6,8 @@ from pathlib import Path
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import main
 
 RIGID = ["--contact", "Rigid restitution=1"] * 3
-
-
-@pytest.fixture(autouse=True)
-def _in_a_folder_of_its_own(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-
-@pytest.fixture
-def run(capfd):
-    def run_main(*arguments):
-        code = main(list(arguments))
-        out, err = capfd.readouterr()
-        return code, out, err
-
-    return run_main
 
 
 def test_highest_for_machines_and_to_a_file(run):
@@ -98,9 +82,5 @@ def test_it_says_when_the_best_masses_lie_beyond(run):
         (["--save", "no/best.toml"], "there is no folder"),
     ],
 )
-def test_what_is_wrong_is_said_in_one_line(run, arguments, message):
-    code, out, err = run("highest", *arguments)
-    assert (code, out) == (2, "")
-    assert err.startswith("stackbounce: error: ")
-    assert err.count("\n") == 1
-    assert message in err
+def test_what_is_wrong_is_said_in_one_line(refused, arguments, message):
+    assert message in refused("highest", *arguments)

@@ -77,8 +77,7 @@ def two_panels(height: float, ratios: Sequence[float]) -> "Iterator[tuple[Figure
     Examples
     --------
     >>> with two_panels(4.4, [3, 2]) as (figure, above, below):
-    ...     below.set_xlim(0.0, 2.0)
-    (0.0, 2.0)
+    ...     _ = below.set_xlim(0.0, 2.0)
     >>> above.get_xlim()
     (0.0, 2.0)
     """

@@ -51,8 +51,9 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         axes.plot(wide, expected, color=COLORS[1], label=label)
         errors = np.nan_to_num([one.std_dev for one in rows])
         axes.errorbar(at, values, yerr=errors, fmt="o", color=COLORS[0], capsize=3, label="read")
-        for k, kept in enumerate(found.restitutions):
-            annotate(axes, f"e = {with_error(kept, '.3f')}", (at[k + 1], values[k + 1]), COLORS[0])
+        for k, restitution in enumerate(found.restitutions, start=1):
+            text = "e = " + with_error(restitution, ".3f")
+            annotate(axes, text, (at[k], values[k]), COLORS[0])
         after = "bounce" if found.repeated else "after bounce"
         axes.set_xticks(at, ["drop", *(f"{after} {k}" for k in at[:-1])])
         axes.set_ylim(0.0, 1.12 * float(values.max()))
