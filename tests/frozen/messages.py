@@ -31,9 +31,7 @@ CALLS: dict[str, Callable[[], Any]] = {
     ),
     "a missing speed": lambda: sb.restitution(sb.HuntCrossley(1.0, 1.5, 0.1)),
     "nothing to fit": lambda: sb.fit(_pair(), {}, ["balls.0.mass"]),
-    "one ball apart": lambda: sb.separation_limit(
-        sb.Drop(_BALLS[:1], _SPRINGS[:1], impact_speed=1.0)
-    ),
+    "one ball apart": lambda: sb.transition(sb.Drop(_BALLS[:1], _SPRINGS[:1], impact_speed=1.0)),
     "unknown balls": lambda: sb.highest(["B7"]),
 }
 

@@ -151,9 +151,9 @@ def _label_contacts(axes: "Axes", contacts: Any, factor: float, wide: float) -> 
         room = 0.0075 * wide * len(text)
         row = 0 if middle - room > ends[0] else 1
         ends[row] = middle + room
-        box = {"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.5}
+        box: Any = {"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.5}
         place: Any = {"xytext": (0, -4 - 12 * row), "textcoords": "offset points", "ha": "center"}
-        top = {"xycoords": axes.get_xaxis_transform(), "va": "top", "fontsize": 9.5}
+        top: Any = {"xycoords": axes.get_xaxis_transform(), "va": "top", "fontsize": 9.5}
         axes.annotate(text, (middle, 1.0), color=_SHADE, bbox=box, **place, **top)
 
 
