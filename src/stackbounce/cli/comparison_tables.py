@@ -18,7 +18,7 @@ def comparison_as_dict(done: Comparison) -> dict[str, Any]:
     return {
         **done.as_dict(),
         "left_out": {
-            name: [{**one._asdict(), "pull": one.pull} for one in rows]
+            name: [{**row._asdict(), "pull": row.pull} for row in rows]
             for name, rows in done.left_out.items()
         },
     }

@@ -50,7 +50,7 @@ def run(
         else:
             _print_dataset(console(), about)
         return
-    found = [describe(one) for one in names()]
+    found = [describe(known) for known in names()]
     if as_json:
         print_json(_summary(found))
     else:
@@ -60,7 +60,7 @@ def run(
 def _summary(found: "Sequence[Description]") -> dict[str, object]:
     from stackbounce.version import __version__
 
-    return {"stackbounce": __version__, "datasets": [asdict(one) for one in found]}
+    return {"stackbounce": __version__, "datasets": [asdict(dataset) for dataset in found]}
 
 
 def _print_list(console: "Console", found: "Sequence[Description]") -> None:
@@ -79,7 +79,9 @@ def _print_dataset(console: "Console", about: "Description") -> None:
 
     words = [column for column in about.columns if column.unit == "text"]
     numbers = [column for column in about.columns if column.unit != "text"]
-    table = new_table(None, [_heading(one) for one in words], [_heading(one) for one in numbers])
+    table = new_table(
+        None, [_heading(column) for column in words], [_heading(column) for column in numbers]
+    )
     for i in range(len(about.columns[0].values)):
         table.add_row(*(_cell(column, i) for column in (*words, *numbers)))
     console.print(f"\n{about.title}", style="bold")

@@ -78,7 +78,7 @@ def read_changes(
     """
     changes: dict[str, Any] = {**read_fall(height, speed)}
     if gap:
-        changes["gaps"] = [quantity(one, "m", "--gap") for one in gap]
+        changes["gaps"] = [quantity(text, "m", "--gap") for text in gap]
     if contact:
         changes["contacts"] = [
             read_contact(text, f"--contact {i}") for i, text in enumerate(contact)

@@ -105,11 +105,11 @@ def _tabulate_parameters(done: Fitted) -> "Table":
     headings += ["draws\n15.9 %", "\n50 %", "\n84.1 %"] if done.posterior else []
     table = new_table(None, ["\nVaried"], headings)
     table.add_column("\nunit")
-    for name, one in done.fit.values.items():
+    for name, best in done.fit.values.items():
         interval = done.intervals[name][:2] if done.intervals else ()
         drawn = done.posterior.quantiles(name, _QUANTILES).tolist() if done.posterior else []
-        values = [one.nominal_value, one.std_dev, *interval, *drawn]
-        errors = [one.std_dev, *(abs(end - values[0]) for end in interval), *np.diff(drawn)]
+        values = [best.nominal_value, best.std_dev, *interval, *drawn]
+        errors = [best.std_dev, *(abs(end - values[0]) for end in interval), *np.diff(drawn)]
         # the smallest error sets the decimals, unless it is nearly 0
         least = min((error for error in errors if error > 0.01 * errors[0]), default=errors[0])
         unit, factor = handy(max(map(abs, values)), done.fit.units[name])
@@ -126,12 +126,12 @@ def _tabulate_residuals(found: Fit) -> "Table":
     table = new_table(None, ["\nMeasured"], headings)
     table.add_column("\nunit")
     most: dict[str, float] = {}
-    for one in found.residuals:
-        most[one.name] = max(most.get(one.name, 0.0), abs(one.measured), one.error)
-    for one in found.residuals:
-        unit, factor = handy(most[one.name], one.unit)
-        numbers = [factor * value for value in (one.measured, one.error, one.fitted)]
-        table.add_row(one.label, *rounded(numbers, factor * one.error), f"{one.pull:+.2f}", unit)
+    for row in found.residuals:
+        most[row.name] = max(most.get(row.name, 0.0), abs(row.measured), row.error)
+    for row in found.residuals:
+        unit, factor = handy(most[row.name], row.unit)
+        numbers = [factor * value for value in (row.measured, row.error, row.fitted)]
+        table.add_row(row.label, *rounded(numbers, factor * row.error), f"{row.pull:+.2f}", unit)
     return table
 
 

@@ -100,7 +100,7 @@ def run(
 
 def _words(hint: Hint) -> str:
     """Return the options of a hint as they are typed, with the whole command if it names a file."""
-    known = {one.name: one.on_command_line for one in OPTIONS}
+    known = {option.name: option.on_command_line for option in OPTIONS}
     typed = []
     for name, value in hint.options.items():
         columns = value.items() if isinstance(value, Mapping) else ()
@@ -140,7 +140,7 @@ def _signature() -> inspect.Signature:
     """Return the command's signature, with the table's options between its own."""
     own = inspect.signature(run)
     files, name, *rest, _ = own.parameters.values()
-    mass, diameter, *others = (_parameter(one) for one in OPTIONS)
+    mass, diameter, *others = (_parameter(option) for option in OPTIONS)
     ordered = [mass, diameter, name, *others, *rest]
     return own.replace(parameters=[files, *ordered])
 
@@ -161,7 +161,7 @@ def _law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawCons
         names = ("mass", "diameter", "drag_coefficient", "air_density")
         drag = drag_of(*(known.get(name) for name in names))
         speed = speed_after_fall(known["height"], known.get("gravity", STANDARD_GRAVITY), drag)
-    found = [one for each in done for one in each.found]
+    found = [finding for each in done for finding in each.found]
     return one_law(known["law"], found, **given, impact_speed=speed)
 
 

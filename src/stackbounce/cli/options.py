@@ -32,7 +32,7 @@ Command = TypeVar("Command", bound=Callable[..., None])
 
 
 def option(
-    kind: Any, metavar: str | None, says: str, *names: str, default: Any = None, **more: Any
+    kind: Any, metavar: str | None, text: str, *names: str, default: Any = None, **more: Any
 ) -> tuple[Any, Any]:
     """Return the annotation and the default of an option, for `add_options`.
 
@@ -40,7 +40,7 @@ def option(
     ----------
     kind : type
         The type annotation that typer reads.
-    metavar, says : str
+    metavar, text : str
         The name of its value in the help, and the help text.
     *names : str
         Its names on the command line; by default ``--`` and its key.
@@ -49,7 +49,7 @@ def option(
     **more
         Other arguments of `typer.Option`.
     """
-    return Annotated[kind, typer.Option(*names, metavar=metavar, help=says, **more)], default
+    return Annotated[kind, typer.Option(*names, metavar=metavar, help=text, **more)], default
 
 
 def add_options(options: Mapping[str, tuple[Any, Any]]) -> Callable[[Command], Command]:
@@ -61,7 +61,7 @@ def add_options(options: Mapping[str, tuple[Any, Any]]) -> Callable[[Command], C
     def changed(run: Command) -> Command:
         own = inspect.signature(run)
         *rest, _ = own.parameters.values()
-        first = [one for one in rest if one.kind is not one.KEYWORD_ONLY]
+        first = [each for each in rest if each.kind is not each.KEYWORD_ONLY]
         added = [
             inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=kind, default=value)
             for name, (kind, value) in options.items()

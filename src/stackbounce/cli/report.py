@@ -1,4 +1,4 @@
-"""Commands that write a folder of pages, with one that says what came out."""
+"""Commands that write a folder of pages, with a table of what came out."""
 
 from collections.abc import Callable
 from pathlib import Path

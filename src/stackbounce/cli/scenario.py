@@ -107,7 +107,7 @@ def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
         impact_speed=None if lowest.height is not None else lowest.reference_speed,
         gravity=lowest.gravity,
     )
-    pairs = [f"{one} and {other} in series" for one, other in itertools.pairwise(names)]
+    pairs = [f"{lower} and {upper} in series" for lower, upper in itertools.pairwise(names)]
     return Scenario(drop, (names[0], *pairs), ("no gap given",) * len(pairs), names[0])
 
 

@@ -26,7 +26,7 @@ def _print_verdicts(console: "Console", done: "Validation") -> None:
     from stackbounce.cli.tables import new_table
 
     table = new_table("Contact laws and published measurements", ["dataset", "laws"])
-    for one in done.comparisons:
-        table.add_row(one.series.name, one.summary)
+    for compared in done.comparisons:
+        table.add_row(compared.series.name, compared.summary)
     console.print(table)
     console.print(f"\n{done.summary}\n")

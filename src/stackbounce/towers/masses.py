@@ -150,7 +150,7 @@ def mass_range(drop: Drop, within: object) -> tuple[float, float]:
         right = "balls must have outer masses that differ, unless within is given"
     else:
         try:
-            low, high = (positive("within", one, "kilograms") for one in within)  # type: ignore[attr-defined]
+            low, high = (positive("within", mass, "kilograms") for mass in within)  # type: ignore[attr-defined]
         except (TypeError, ValueError) as error:
             if isinstance(error, StackbounceError):
                 raise

@@ -38,7 +38,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         axes = figure.subplots()
         rows = [found.drop_height, *found.bounce_heights]
         at = np.arange(len(rows))
-        values = np.array([one.nominal_value for one in rows])
+        values = np.array([height.nominal_value for height in rows])
         kept, start = found.mean.nominal_value, rows[0].nominal_value
         wide = np.linspace(at[0], at[-1], 160)
         mean = with_error(found.mean, ".3f")
@@ -49,7 +49,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
             expected = _curve(found, start, kept, wide)
             label = f"restitution {mean} at each bounce"
         axes.plot(wide, expected, color=COLORS[1], label=label)
-        errors = np.nan_to_num([one.std_dev for one in rows])
+        errors = np.nan_to_num([height.std_dev for height in rows])
         axes.errorbar(at, values, yerr=errors, fmt="o", color=COLORS[0], capsize=3, label="read")
         for k, restitution in enumerate(found.restitutions, start=1):
             text = "e = " + with_error(restitution, ".3f")
@@ -67,4 +67,4 @@ def _curve(found: Any, start: float, kept: float, bounces: "NDArray[np.float64]"
     """Return the heights at one restitution after some bounces."""
     if found.drag is None:
         return start * kept ** (2.0 * bounces)
-    return np.array([found.drag.height_after(start, kept, one) for one in bounces.tolist()])
+    return np.array([found.drag.height_after(start, kept, bounce) for bounce in bounces.tolist()])

@@ -59,7 +59,9 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, found: Any) -> None:
         ball.times[used], ball.heights[used], label=_label(ball, named, found.units.speed), **dots
     )
     axes.plot(ball.times[~used], ball.heights[~used], **hollow)
-    impacts = dict(zip(ball.bounces, (one.nominal_value for one in ball.impact_times), strict=True))
+    impacts = dict(
+        zip(ball.bounces, (time.nominal_value for time in ball.impact_times), strict=True)
+    )
     for j, (first, last) in enumerate(ball.fit.flights):
         start = impacts.get(j - 1, ball.times[first])
         stop = impacts.get(j, ball.times[last - 1])

@@ -76,7 +76,7 @@ def _draw_panel(
     _draw_record(axes, found, low, high, factor)
     for contact in contacts:
         _draw_contact(axes, found, contact, factor, flanks=named)
-    top = max((one.peak_force.nominal_value for one in contacts), default=0.0)
+    top = max((contact.peak_force.nominal_value for contact in contacts), default=0.0)
     if top > 0.0:
         inside = (found.times >= low) & (found.times <= high)
         least = min(float(found.force[inside].min()), -0.04 * top)
