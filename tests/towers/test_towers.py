@@ -120,7 +120,7 @@ def test_what_has_no_limit_is_refused(drop, options, message):
 def test_stacks_are_as_simulated_and_in_order():
     ds = sb.highest(["tennis", "B1", "B2"], 2, gaps=[0.001, 0.0], law=sb.Spring, impact_speed=3.0)
     assert ds.sizes == {"stack": 6, "gap": 2, "ball": 2, "contact": 2}
-    for i, gap in itertools.product(range(6), range(2)):
+    for i, gap in [(0, 0), (3, 1), (5, 0)]:
         lower, upper = (catalogue_ball(name) for name in ds.balls.values[i])
         floors = [
             sb.calibrate(sb.Spring, mass=one.ball.mass, contact_time=one.contact_time)

@@ -78,8 +78,8 @@ def two_panels(height: float, ratios: Sequence[float]) -> "Iterator[tuple[Figure
     --------
     >>> with two_panels(4.4, [3, 2]) as (figure, above, below):
     ...     _ = below.set_xlim(0.0, 2.0)
-    >>> above.get_xlim()
-    (0.0, 2.0)
+    >>> above.get_xlim() == (0.0, 2.0)
+    True
     """
     with styled_figure(WIDTH, height) as figure:
         above, below = figure.subplots(2, 1, sharex=True, height_ratios=list(ratios))
@@ -93,7 +93,7 @@ def with_error(value: Any, plain: str = ".3g") -> str:
     Examples
     --------
     >>> from uncertainties import ufloat
-    >>> with_error(ufloat(0.752, 0.013)), with_error(ufloat(0.752, 0.0), ".2f")
+    >>> with_error(ufloat(0.752, 0.013)), with_error(ufloat(0.752, float("nan")), ".2f")
     ('0.75(1)', '0.75')
     """
     return f"{value:.1uS}" if value.std_dev > 0.0 else f"{value.nominal_value:{plain}}"
