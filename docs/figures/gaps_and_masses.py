@@ -28,12 +28,12 @@ MASSES = [  # what is drawn, its color, and the drop
 
 def gap():
     """The basketball and the tennis ball from touching to separate."""
-    hand_over(plots.transition, sb.transition(BASKETBALL))
+    hand_over(plots.lines, sb.sweep(BASKETBALL, {"gaps.0": np.linspace(0.0, 0.12, 121)}))
 
 
 def lossy():
     """Two superballs, the light one below, with losses on the floor."""
-    hand_over(plots.transition, sb.transition(LIGHT_BELOW))
+    hand_over(plots.lines, sb.sweep(LIGHT_BELOW, {"gaps.0": np.linspace(0.0, 0.02, 201)}))
 
 
 def stacks():

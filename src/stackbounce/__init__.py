@@ -9,7 +9,6 @@ if TYPE_CHECKING:
     from stackbounce.calibration import calibrate, contact_time, restitution, separate
     from stackbounce.errors import StackbounceError
     from stackbounce.fitting import Fit, Model, Range, compare, fit, standard_models
-    from stackbounce.gaps_and_masses import best_masses, highest, transition
     from stackbounce.measure import read
     from stackbounce.model import (
         Air,
@@ -36,6 +35,7 @@ if TYPE_CHECKING:
     from stackbounce.run.driver import simulate
     from stackbounce.run.result import Result, Status
     from stackbounce.sweeps import sweep
+    from stackbounce.towers import best_masses, highest, separation_limit
     from stackbounce.version import __version__
 
 __all__ = [
@@ -75,11 +75,11 @@ __all__ = [
     "read",
     "restitution",
     "separate",
+    "separation_limit",
     "series",
     "simulate",
     "standard_models",
     "sweep",
-    "transition",
 ]
 
 # Each name is imported when it is first used, so that nothing waits for what it does not need.
@@ -87,13 +87,13 @@ _ROOMS = {
     "calibration": ("calibrate", "contact_time", "restitution", "separate"),
     "errors": ("StackbounceError",),
     "fitting": ("Fit", "Model", "Range", "compare", "fit", "standard_models"),
-    "gaps_and_masses": ("best_masses", "highest", "transition"),
     "measure": ("read",),
     "prediction": ("Prediction", "predict"),
     "run.driver": ("simulate",),
     "run.result": ("Result", "Status"),
     "run.bounces": ("bounces_in_air",),
     "sweeps": ("sweep",),
+    "towers": ("best_masses", "highest", "separation_limit"),
     "version": ("__version__",),
 }
 _HOMES = dict.fromkeys(__all__, "model") | {

@@ -7,12 +7,13 @@ import re
 import subprocess
 import sys
 import tomllib
+from functools import partial
 from pathlib import Path
 
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import fit_results, main
+from stackbounce.cli import main
 from stackbounce.fitting import Fit
 
 PAIR = ("basketball", "tennis", "--height", "63cm")
@@ -28,21 +29,14 @@ high;63;1;1,68 ± 0,02
 
 
 @pytest.fixture
-def run(capfd, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-
-    def run_main(*arguments):
-        code = main(["fit", *arguments])
-        captured = capfd.readouterr()
-        return code, captured.out, captured.err
-
-    return run_main
+def fit(run):
+    return partial(run, "fit")
 
 
 @pytest.fixture
-def told(run):
+def told(fit):
     def run_json(*arguments):
-        code, out, err = run(*arguments, "--json")
+        code, out, err = fit(*arguments, "--json")
         assert (code, err) == (0, "")
         return json.loads(out)
 
@@ -69,8 +63,8 @@ def test_what_is_found_is_what_the_library_finds(told):
     assert found["probability"] is None  # nothing is left to tell
 
 
-def test_a_table_for_people(run):
-    code, out, err = run(*ONE, "--interval")
+def test_a_table_for_people(fit):
+    code, out, err = fit(*ONE, "--interval")
     assert (code, err) == (0, "")
     ((_, value, error, low, high, unit),) = cells(out, "contacts.1.stiffness")
     assert (value, error, unit) == ("1477", "55", "N/m")
@@ -81,8 +75,8 @@ def test_a_table_for_people(run):
     assert max(map(len, out.splitlines())) <= 100
 
 
-def test_notes_and_handy_units(run):
-    code, out, _ = run(
+def test_notes_and_handy_units(fit):
+    code, out, _ = fit(
         *PAIR,
         *("--measured", "rebound_ratios.1=1.90 ± 0.01", "--measured", "rebound_ratios.0=.1 ± .01"),
         *("--measured", "first_touch.1=1.5 ± 0.1 ms", "--measured", "collisions.1=3"),
@@ -97,9 +91,9 @@ def test_notes_and_handy_units(run):
     assert "Note: collisions.1: 3 seen, 1 in the fit." in text
 
 
-def test_strong_correlations_are_told(run, told):
+def test_strong_correlations_are_told(fit, told):
     asked = (*ONE, "--vary", "gaps.0=1.3 ± 0.9 mm")
-    _, out, _ = run(*asked)
+    _, out, _ = fit(*asked)
     (_, correlation), _ = told(*asked)["correlations"]
     assert abs(correlation) > 0.5
     words = f"Correlations: contacts.1.stiffness and gaps.0 {correlation:+.2f}"
@@ -117,19 +111,19 @@ def test_what_is_known_beforehand_and_what_follows(told):
     assert drop.contacts[0].stiffness == pytest.approx(2.0 * drop.contacts[1].stiffness)
 
 
-def test_a_drop_that_is_saved_does_what_was_measured(run, tmp_path):
-    code, out, err = run(*ONE, "--save", "fitted.toml")
+def test_a_drop_that_is_saved_does_what_was_measured(fit, tmp_path):
+    code, out, err = fit(*ONE, "--save", "fitted.toml")
     assert (code, err) == (0, "")
     assert "Fitted: fitted.toml; now: stackbounce simulate fitted.toml" in out
     result = sb.simulate(sb.Drop.from_toml(tmp_path / "fitted.toml"))
     assert result.rebound_ratios[1] == pytest.approx(1.64, abs=1e-6)
     assert main(["simulate", "fitted.toml"]) == 0
-    again = run("fitted.toml", *ONE[4:])
+    again = fit("fitted.toml", *ONE[4:])
     assert cells(again[1], "contacts.1.stiffness") == cells(out, "contacts.1.stiffness")
     assert [path.name for path in tmp_path.iterdir()] == ["fitted.toml"]
 
 
-def test_several_drops_are_saved_into_a_folder(run, told, tmp_path):
+def test_several_drops_are_saved_into_a_folder(fit, told, tmp_path):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     asked = (*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness")
     found = told(*asked, "--save", "fitted")
@@ -145,7 +139,7 @@ def test_several_drops_are_saved_into_a_folder(run, told, tmp_path):
         "rebound_ratios.1",
         "rebound_ratios.0",
     ]
-    code, out, _ = run(*asked)
+    code, out, _ = fit(*asked)
     assert code == 0
     assert len(cells(out, "low.rebound_ratios.1")) == len(cells(out, "high.rebound_ratios.1")) == 1
 
@@ -175,8 +169,8 @@ def test_draws_and_their_picture(told, tmp_path):
     assert told(*ONE, "--sample", "3200", "--seed", "3")["posterior"] == drawn
 
 
-def test_draws_in_a_table(run):
-    code, out, err = run(*ONE, "--sample", "3200", "--interval")
+def test_draws_in_a_table(fit):
+    code, out, err = fit(*ONE, "--sample", "3200", "--interval")
     assert (code, err) == (0, "")
     ((*numbers, unit),) = cells(out, "contacts.1.stiffness")
     assert (len(numbers), unit) == (8, "N/m")
@@ -186,8 +180,8 @@ def test_draws_in_a_table(run):
 
 
 @pytest.mark.parametrize("picture", ["fit.png", "fit.svg"])
-def test_a_picture(run, tmp_path, picture):
-    code, out, _ = run(*ONE, "--plot", picture)
+def test_a_picture(fit, tmp_path, picture):
+    code, out, _ = fit(*ONE, "--plot", picture)
     assert code == 0
     assert f"Picture: {picture}" in out
     assert (tmp_path / picture).stat().st_size > 10_000
@@ -211,13 +205,13 @@ def test_a_terminal_sees_how_far_the_draws_are(tmp_path):
     assert b"320000/320000" in seen
 
 
-def test_an_interruption_leaves_nothing_behind(run, tmp_path, monkeypatch):
+def test_an_interruption_leaves_nothing_behind(fit, tmp_path, monkeypatch):
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
     monkeypatch.setattr(Fit, "sample", interrupted)
     asked = (*ONE, "--sample", "3200", "--save", "fitted.toml", "--plot", "fit.png")
-    code, out, err = run(*asked)
+    code, out, err = fit(*asked)
     assert (code, err) == (130, "stackbounce: interrupted\n")
     assert re.fullmatch(
         r"Interrupted: the best of \d+ trials, .*: contacts.1.stiffness = 1477.* N/m\n", out
@@ -225,14 +219,14 @@ def test_an_interruption_leaves_nothing_behind(run, tmp_path, monkeypatch):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_file_that_cannot_be_written_is_whole_or_not_there(run, tmp_path, monkeypatch):
+def test_a_file_that_cannot_be_written_is_whole_or_not_there(fit, tmp_path, monkeypatch):
     (tmp_path / "fitted.toml").write_text("before", encoding="utf-8")
 
     def full(path, _):
         raise OSError(28, "No space left on device", str(path))
 
     monkeypatch.setattr("pathlib.Path.replace", full)
-    code, _, err = run(*ONE, "--save", "fitted.toml", "--overwrite")
+    code, _, err = fit(*ONE, "--save", "fitted.toml", "--overwrite")
     assert (code, err.count("\n")) == (2, 1)
     assert "fitted.toml cannot be written: No space left on device" in err
     assert [path.read_text("utf-8") for path in tmp_path.iterdir()] == ["before"]
@@ -277,12 +271,8 @@ def test_a_file_that_cannot_be_written_is_whole_or_not_there(run, tmp_path, monk
         (("cricket", *ONE[2:]), "cricket"),
     ],
 )
-def test_bad_input_is_one_line(run, tmp_path, arguments, expected):
-    code, out, err = run(*arguments)
-    assert (code, out) == (2, "")
-    assert err.startswith("stackbounce: error: ")
-    assert expected in err
-    assert err.count("\n") == 1
+def test_bad_input_is_one_line(refused, tmp_path, arguments, expected):
+    assert expected in refused("fit", *arguments)
     assert list(tmp_path.iterdir()) == []
 
 
@@ -295,66 +285,44 @@ def test_bad_input_is_one_line(run, tmp_path, arguments, expected):
         (("--vary", "low.gaps.1"), "low.gaps.1 is not a parameter of the drop; did you mean"),
     ],
 )
-def test_what_is_wrong_with_several_drops(run, tmp_path, arguments, expected):
+def test_what_is_wrong_with_several_drops(refused, tmp_path, arguments, expected):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     asked = (*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness", *arguments)
-    code, out, err = run(*asked)
-    assert (code, out, err.count("\n")) == (2, "", 1)
-    assert expected in err
+    assert expected in refused("fit", *asked)
 
 
-def test_a_table_of_drops_needs_one_drop_without_data(run, tmp_path):
+def test_a_table_of_drops_needs_one_drop_without_data(refused, tmp_path):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
     (tmp_path / "fit.toml").write_text(
         "height = 1\nmeasured.durations.0 = '5.0 ± 0.1 ms'\n"
         "[[balls]]\nmass = '56.7 g'\n[[contacts]]\nlaw = 'Spring'\nstiffness = 1e4\n",
         encoding="utf-8",
     )
-    code, _, err = run("fit.toml", "--data", "drops.csv")
-    assert code == 2
+    err = refused("fit", "fit.toml", "--data", "drops.csv")
     assert "--data has drops and what was measured of them" in err
 
 
-def test_help_names_every_option_and_loads_nothing_heavy(run):
-    code, out, _ = run("--help")
+def test_help_names_every_option(fit):
+    code, out, _ = fit("--help")
     assert code == 0
     for option in ("--data", "--measured", "--vary", "--tie", "--interval", "--sample", "--save"):
         assert option in out
-    check = (
-        "import sys; from stackbounce.cli import main; main(['fit', '--help']); "
-        "heavy = {'numpy', 'lmfit', 'xarray', 'matplotlib', 'numba', 'emcee', 'corner', 'scipy'}; "
-        "sys.exit(', '.join(sorted(heavy & set(sys.modules))))"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", check], capture_output=True, text=True, check=False
-    )
-    assert done.stderr.strip() == ""
 
 
-def test_the_probability_is_told_in_words(run, tmp_path):
+def test_the_probability_is_told_in_words(fit, tmp_path):
     (tmp_path / "drops.csv").write_text(TABLE, encoding="utf-8")
-    _, out, _ = run(*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness=1kN/m:1.3kN/m")
+    _, out, _ = fit(*PAIR, "--data", "drops.csv", "--vary", "contacts.1.stiffness=1kN/m:1.3kN/m")
     assert "for 1 degree of freedom; were the model right, it would be larger in" in out
     assert "% of" in out
 
 
-def test_the_same_digits_for_a_value_and_its_limits(run):
+def test_the_same_digits_for_a_value_and_its_limits(fit):
     """Where an interval is shorter on one side, that side says how many digits count."""
-    found = fit_results.run(
-        fit_results.read_problem(
-            ["basketball", "tennis"],
-            data=None,
-            measured=["rebound_ratios.1=1.64 ± 0.02"],
-            vary=["contacts.1.stiffness=0.7kN/m:2.5kN/m"],
-            tie=[],
-            height="63cm",
-        ),
-        starts=16,
-        seed=0,
-        interval=True,
-        sample=None,
-    )
-    low, high, *_ = found.intervals["contacts.1.stiffness"]
-    _, out, _ = run(*ONE, "--interval", "--starts", "16")
+    springs = [sb.Spring(2500.0), sb.Spring(1000.0)]
+    drop = sb.Drop([sb.Ball(0.150), sb.Ball(0.057)], springs, height=0.63)
+    vary = {"contacts.1.stiffness": ("0.7kN/m", "2.5kN/m")}
+    found = sb.fit(drop, {"rebound_ratios.1": "1.64 ± 0.02"}, vary, starts=16)
+    low, high, *_ = found.intervals()["contacts.1.stiffness"]
+    _, out, _ = fit(*ONE, "--interval", "--starts", "16")
     ((*_, shown_low, shown_high, _),) = cells(out, "contacts.1.stiffness")
     assert (shown_low, shown_high) == (f"{low:.0f}", f"{high:.0f}")

@@ -63,7 +63,6 @@ def test_a_missing_extra_is_named(monkeypatch):
         ["balls"],
         ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"],
         ["simulate", "B1", "--contact", "HuntCrossley stiffness=1e5 exponent=1.5 dissipation=.1"],
-        ["transition", "basketball", "tennis"],
         ["highest", "--balls", "2"],
         *([command, "--help"] for command in ("measure", "fit", "paper", "app", "sweep")),
     ],
@@ -92,7 +91,11 @@ def test_a_plain_install_sweeps():
     [
         (["measure", "sound.wav"], "measure", "stackbounce measure"),
         (["fit", "drop.toml"], "fit", "stackbounce fit"),
-        (["masses", "basketball", "tennis", "B3"], "masses", "stackbounce masses"),
+        (
+            ["highest", "B1", "B2", "--in-order", "--masses"],
+            "masses",
+            "a search for masses",
+        ),
         (["paper", "--out", "paper"], "paper", "stackbounce paper"),
         (["validate", "--out", "validate"], "paper", "stackbounce validate"),
         (["app"], "web", "stackbounce app"),

@@ -11,7 +11,7 @@ import pytest
 
 import stackbounce as sb
 from hardening import Hardening
-from stackbounce.cli import main, tables
+from stackbounce.cli import descriptions, main
 from stackbounce.engine import codes, forces
 from stackbounce.explorer.answers.catalogue import list_choices
 from stackbounce.explorer.limits import LIMITS
@@ -97,7 +97,7 @@ def goes_through_every_face(kind, tmp_path, capfd):
     assert json.loads(capfd.readouterr().out)["drop"]["contacts"] == [law.to_mapping()]
     assert main(["simulate", str(file)]) == 0
     table = capfd.readouterr().out
-    assert tables.law_text(law) in " ".join(table.split())
+    assert descriptions.law_text(law) in " ".join(table.split())
 
     (page,) = [one for one in json.loads(list_choices(LIMITS))["laws"] if one["law"] == name]
     assert (page["formula"], page["source"], page["says"]) == (kind.formula, kind.source, kind.says)
@@ -162,7 +162,7 @@ def test_a_new_law_with_a_known_form_of_force_is_one_class(added, tmp_path, capf
     fits_its_stiffness(law, result)
     is_told_by_a_force_record(law, result)
     assert cone in LAWS.values()
-    assert tables.law_text(law) == f"SharpCone, stiffness {law.stiffness:.6g} N/m^2"
+    assert descriptions.law_text(law) == f"SharpCone, stiffness {law.stiffness:.6g} N/m^2"
     power = sb.PowerLaw(law.stiffness, 2.0)
     assert np.array_equal(result.rebound_speeds, sb.simulate(alone(power)).rebound_speeds)
 
@@ -176,7 +176,7 @@ def test_a_new_law_with_a_form_of_its_own_is_one_class(added, tmp_path, capfd):
     fits_its_stiffness(law, result)
     is_told_by_a_force_record(law, result)
     words = f"Hardening, stiffness {law.stiffness:.6g} N/m, length 0.002 m"
-    assert tables.law_text(law) == words
+    assert descriptions.law_text(law) == words
 
 
 def test_a_law_without_closed_forms_is_measured_by_a_run():

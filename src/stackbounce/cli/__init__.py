@@ -14,12 +14,10 @@ from stackbounce.cli import (
     explorer,
     fit,
     highest,
-    masses,
     measure,
     paper,
     simulate,
     sweep,
-    transition,
     validate,
 )
 from stackbounce.cli.output import Unsolved
@@ -29,7 +27,6 @@ __all__ = ["app", "main"]
 
 app = typer.Typer(
     name="stackbounce",
-    add_completion=False,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -53,9 +50,7 @@ app.command("simulate", epilog=simulate.EPILOG)(simulate.run)
 app.command("sweep", epilog=sweep.EPILOG)(sweep.run)
 app.command("measure", epilog=measure.EPILOG)(measure.run)
 app.command("fit", epilog=fit.EPILOG)(fit.run)
-app.command("transition", epilog=transition.EPILOG)(transition.run)
 app.command("highest", epilog=highest.EPILOG)(highest.run)
-app.command("masses", epilog=masses.EPILOG)(masses.run)
 app.command("balls")(balls.run)
 app.command("datasets", epilog=datasets.EPILOG)(datasets.run)
 app.command("paper")(paper.run)

@@ -22,9 +22,21 @@ _FACTS = ("measured", "ball", "surface", "mass", "diameter", "source", "doi", "a
 _MORE = ("quoted_by", "licence", "remarks")
 
 
+def _names(incomplete: str) -> list[str]:
+    from stackbounce.datasets import names
+
+    return [name for name in names() if name.startswith(incomplete)]
+
+
 def run(
     name: Annotated[
-        str, typer.Argument(metavar="[NAME]", help="A dataset to show.", show_default=False)
+        str,
+        typer.Argument(
+            metavar="[NAME]",
+            help="A dataset to show.",
+            show_default=False,
+            autocompletion=_names,
+        ),
     ] = "",
     as_json: AsJson = False,
 ) -> None:
@@ -38,7 +50,7 @@ def run(
         else:
             _print_dataset(console(), about)
         return
-    found = [describe(one) for one in names()]
+    found = [describe(known) for known in names()]
     if as_json:
         print_json(_summary(found))
     else:
@@ -48,7 +60,7 @@ def run(
 def _summary(found: "Sequence[Description]") -> dict[str, object]:
     from stackbounce.version import __version__
 
-    return {"stackbounce": __version__, "datasets": [asdict(one) for one in found]}
+    return {"stackbounce": __version__, "datasets": [asdict(dataset) for dataset in found]}
 
 
 def _print_list(console: "Console", found: "Sequence[Description]") -> None:
@@ -67,7 +79,9 @@ def _print_dataset(console: "Console", about: "Description") -> None:
 
     words = [column for column in about.columns if column.unit == "text"]
     numbers = [column for column in about.columns if column.unit != "text"]
-    table = new_table(None, [_heading(one) for one in words], [_heading(one) for one in numbers])
+    table = new_table(
+        None, [_heading(column) for column in words], [_heading(column) for column in numbers]
+    )
     for i in range(len(about.columns[0].values)):
         table.add_row(*(_cell(column, i) for column in (*words, *numbers)))
     console.print(f"\n{about.title}", style="bold")

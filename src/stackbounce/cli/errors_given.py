@@ -92,4 +92,4 @@ def _split_contact(text: str, path: str, written: dict[str, str]) -> str:
     for word in words:
         key, equals, value = word.partition("=")
         plain.append(key + equals + _split(value, f"{path}.{key}", written))
-    return shlex.join(plain) if any(one.startswith(f"{path}.") for one in written) else text
+    return shlex.join(plain) if any(name.startswith(f"{path}.") for name in written) else text

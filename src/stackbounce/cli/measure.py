@@ -13,7 +13,7 @@ from stackbounce.cli.output import (
     check_picture,
     check_scenario,
     console,
-    draw,
+    draw_picture,
     print_json,
     write_scenario,
 )
@@ -23,8 +23,6 @@ from stackbounce.measure.hints import Hint
 from stackbounce.measure.options import OPTIONS, Option
 
 if TYPE_CHECKING:
-    from rich.console import Console
-
     from stackbounce.measure.constants import LawConstants
     from stackbounce.measure.measurement import Measurement
 
@@ -68,6 +66,7 @@ def run(
 ) -> None:
     """Find restitutions, stiffnesses, speeds and heights in what was measured, with errors."""
     need("measure", "stackbounce measure")
+    from stackbounce.cli.measure_tables import print_measured, summary
     from stackbounce.measure.measurement import measure_file, measure_numbers
     from stackbounce.measure.option_values import read_options
 
@@ -88,13 +87,11 @@ def run(
     law = _law_of(known, done) if "law" in known else None
     saved = {} if save is None else _save(done, law, save, known, name, overwrite)
     if plot is not None:
-        from stackbounce import plots
-
-        draw(lambda: plots.measured(done[0].data, done[0].found[-1]), plot, overwrite)
+        draw_picture(plot, overwrite, "measured", done[0].data, done[0].found[-1])
     if as_json:
-        print_json(_summary(done, law, saved))
+        print_json(summary(done, law, saved))
         return
-    _tell(console(), done, law)
+    print_measured(console(), done, law)
     if save is not None:
         typer.echo(f"Ball: {save}; now: stackbounce simulate {save}")
     if plot is not None:
@@ -103,7 +100,7 @@ def run(
 
 def _words(hint: Hint) -> str:
     """Return the options of a hint as they are typed, with the whole command if it names a file."""
-    known = {one.name: one.on_command_line for one in OPTIONS}
+    known = {option.name: option.on_command_line for option in OPTIONS}
     typed = []
     for name, value in hint.options.items():
         columns = value.items() if isinstance(value, Mapping) else ()
@@ -143,7 +140,7 @@ def _signature() -> inspect.Signature:
     """Return the command's signature, with the table's options between its own."""
     own = inspect.signature(run)
     files, name, *rest, _ = own.parameters.values()
-    mass, diameter, *others = (_parameter(one) for one in OPTIONS)
+    mass, diameter, *others = (_parameter(option) for option in OPTIONS)
     ordered = [mass, diameter, name, *others, *rest]
     return own.replace(parameters=[files, *ordered])
 
@@ -164,7 +161,7 @@ def _law_of(known: Mapping[str, Any], done: "Sequence[Measurement]") -> "LawCons
         names = ("mass", "diameter", "drag_coefficient", "air_density")
         drag = drag_of(*(known.get(name) for name in names))
         speed = speed_after_fall(known["height"], known.get("gravity", STANDARD_GRAVITY), drag)
-    found = [one for each in done for one in each.found]
+    found = [finding for each in done for finding in each.found]
     return one_law(known["law"], found, **given, impact_speed=speed)
 
 
@@ -188,63 +185,3 @@ def _save(
     drop = one_ball(parts, **plain, name=name)
     write_scenario(drop.to_toml(), path, overwrite)
     return drop.to_mapping()
-
-
-def _summary(
-    done: "Sequence[Measurement]", law: "LawConstants | None", ball: Mapping[str, Any]
-) -> dict[str, Any]:
-    """Return what was found, for machines."""
-    from stackbounce.measure.measurement import row_mapping
-    from stackbounce.version import __version__
-
-    return {
-        "stackbounce": __version__,
-        "files": [one.to_mapping() for one in done],
-        "law": None if law is None else [row_mapping(row) for row in law.all_rows()],
-        "ball": dict(ball) or None,
-    }
-
-
-def _tell(console: "Console", done: "Sequence[Measurement]", law: "LawConstants | None") -> None:
-    """Print what was found, for people."""
-    for one in done:
-        console.print(f"{one.source}: {one.told['format']}", style="bold")
-        if one.told["why"]:
-            console.print(f"  {one.told['why']}")
-        if one.told["doubt"]:
-            console.print(f"  Unsure: {one.told['doubt']}")
-        _table(console, one.rows)
-        for note in one.notes:
-            console.print(f"  {note}")
-    if law is not None:
-        console.print(f"The contact as {type(law.law).__name__}", style="bold")
-        _table(console, law.all_rows())
-
-
-def _table(console: "Console", rows: Sequence[Any]) -> None:
-    from rich import box
-    from rich.table import Table
-
-    table = Table(box=box.SIMPLE_HEAD)
-    table.add_column("")
-    table.add_column("value", justify="right")
-    table.add_column("error", justify="right")
-    table.add_column("unit")
-    for row in rows:
-        table.add_row(row.name, *_written(row.value), row.unit)
-    console.print(table)
-
-
-def _written(value: Any) -> tuple[str, str]:
-    """Return a value and its error as text, the error with two significant digits."""
-    from stackbounce.cli.tables import number
-
-    if isinstance(value, str):
-        return value, ""
-    if not hasattr(value, "nominal_value"):
-        return (str(value) if isinstance(value, int) else number(value)), ""
-    if not value.std_dev > 0.0:
-        return number(value.nominal_value), ""
-    body, _, power = f"{value:.2u}".replace("(", "").partition(")")
-    one, _, other = body.partition("+/-")
-    return one + power, other + power

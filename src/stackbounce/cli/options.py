@@ -11,6 +11,7 @@ from stackbounce.model.laws import LAWS
 
 __all__ = [
     "DROP",
+    "RARE",
     "AsJson",
     "Overwrite",
     "Plot",
@@ -19,14 +20,19 @@ __all__ = [
     "Until",
     "What",
     "add_options",
+    "ball_names",
+    "law_names",
     "option",
 ]
+
+RARE = "Rarely needed"
+"""The last panel of a command's help."""
 
 Command = TypeVar("Command", bound=Callable[..., None])
 
 
 def option(
-    kind: Any, metavar: str | None, says: str, *names: str, default: Any = None, **more: Any
+    kind: Any, metavar: str | None, text: str, *names: str, default: Any = None, **more: Any
 ) -> tuple[Any, Any]:
     """Return the annotation and the default of an option, for `add_options`.
 
@@ -34,7 +40,7 @@ def option(
     ----------
     kind : type
         The type annotation that typer reads.
-    metavar, says : str
+    metavar, text : str
         The name of its value in the help, and the help text.
     *names : str
         Its names on the command line; by default ``--`` and its key.
@@ -43,7 +49,7 @@ def option(
     **more
         Other arguments of `typer.Option`.
     """
-    return Annotated[kind, typer.Option(*names, metavar=metavar, help=says, **more)], default
+    return Annotated[kind, typer.Option(*names, metavar=metavar, help=text, **more)], default
 
 
 def add_options(options: Mapping[str, tuple[Any, Any]]) -> Callable[[Command], Command]:
@@ -55,7 +61,7 @@ def add_options(options: Mapping[str, tuple[Any, Any]]) -> Callable[[Command], C
     def changed(run: Command) -> Command:
         own = inspect.signature(run)
         *rest, _ = own.parameters.values()
-        first = [one for one in rest if one.kind is not one.KEYWORD_ONLY]
+        first = [each for each in rest if each.kind is not each.KEYWORD_ONLY]
         added = [
             inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, annotation=kind, default=value)
             for name, (kind, value) in options.items()
@@ -65,6 +71,19 @@ def add_options(options: Mapping[str, tuple[Any, Any]]) -> Callable[[Command], C
         return run
 
     return changed
+
+
+def ball_names(incomplete: str) -> list[str]:
+    """Return the balls of the catalogue that begin so, for the shell's completion."""
+    from stackbounce.model.catalogue import BALLS, CLASS_BALLS
+
+    names = [str(entry.ball.name).replace(" ", "-") for entry in (*BALLS, *CLASS_BALLS)]
+    return [name for name in names if name.startswith(incomplete)]
+
+
+def law_names(incomplete: str) -> list[str]:
+    """Return the contact laws that begin so, for the shell's completion."""
+    return [name for name in LAWS if name.startswith(incomplete)]
 
 
 DROP = {
@@ -78,6 +97,7 @@ DROP = {
         "LAW",
         "Contact below a ball, such as 'Spring stiffness=2.5kN/m'; once per ball, "
         f"lowest first. Laws: {', '.join(LAWS)}; none for no floor.",
+        autocompletion=law_names,
     ),
     "gravity": option(str | None, "ACCELERATION", "Gravity during the run, such as 9.81m/s^2."),
 }
@@ -93,6 +113,7 @@ What = Annotated[
         metavar="SCENARIO|BALLS",
         help="A scenario file in TOML, or balls of the catalogue, the lowest first.",
         show_default=False,
+        autocompletion=ball_names,
     ),
 ]
 Overwrite = Annotated[
@@ -101,6 +122,7 @@ Overwrite = Annotated[
         "--overwrite",
         help="Replace files that are there. Without it only those are replaced that stackbounce "
         "wrote and nobody changed since.",
+        rich_help_panel=RARE,
     ),
 ]
 Until = Annotated[
@@ -109,7 +131,11 @@ Until = Annotated[
 ]
 Tolerance = Annotated[
     float,
-    typer.Option(metavar="NUMBER", help="Relative error to aim at under nonlinear contact laws."),
+    typer.Option(
+        metavar="NUMBER",
+        help="Relative error to aim at under nonlinear contact laws.",
+        rich_help_panel=RARE,
+    ),
 ]
 Save = Annotated[
     Path | None,

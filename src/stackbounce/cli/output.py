@@ -1,9 +1,10 @@
 """Output: the terminal, JSON, and files, whose paths are checked before anything is computed."""
 
 import contextlib
+import functools
 import sys
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,6 @@ from stackbounce.extras import need
 from stackbounce.files import check_own, check_place, write_file
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
     from rich.console import Console
 
 __all__ = [
@@ -25,7 +25,6 @@ __all__ = [
     "check_scenario",
     "check_solved",
     "console",
-    "draw",
     "draw_picture",
     "json_text",
     "print_files",
@@ -43,17 +42,7 @@ class Unsolved(Exception):
 
 
 def check_solved(counts: Mapping[str, int]) -> None:
-    """Refuse to end as if all drops had been solved, if some have not.
-
-    Parameters
-    ----------
-    counts : mapping
-        The number of drops by the name of their `Status`.
-
-    Raises
-    ------
-    Unsolved
-        If some are EVENT_LIMIT or INVALID.
+    """Raise `Unsolved` if drops, counted by the name of their `Status`, have no result.
 
     Examples
     --------
@@ -70,27 +59,23 @@ def check_solved(counts: Mapping[str, int]) -> None:
 
 
 def check_picture(path: Path | None, overwrite: bool, option: str = "--plot") -> None:
-    """Refuse a picture's path with another suffix, or where it cannot be written.
+    """Refuse a picture's path that `check_file` refuses, or one without matplotlib."""
+    check_file(path, overwrite, option, SUFFIXES)
+    if path is not None:
+        need("plots", option)
 
-    Raises
-    ------
-    InvalidValue
-        If the suffix is none of `SUFFIXES`.
-    FileError
-        If the folder does not exist, or `path` is one, or a file that may not be replaced.
-    MissingExtra
-        If matplotlib is not installed.
-    """
-    if path is None:
-        return
-    if path.suffix.lower() not in SUFFIXES:
-        raise InvalidValue(f"{option} must end in {', '.join(SUFFIXES)}, got {path}")
-    _check_file(path, overwrite)
-    need("plots", option)
+
+def check_scenario(path: Path | None, overwrite: bool, read: Sequence[str] = ()) -> None:
+    """Refuse a path of --save; see `check_file`."""
+    check_file(path, overwrite, "--save", (".toml",), read)
 
 
 def check_file(
-    path: Path | None, overwrite: bool, option: str, suffix: str, read: Sequence[str] = ()
+    path: Path | None,
+    overwrite: bool,
+    option: str,
+    suffixes: Sequence[str],
+    read: Sequence[str] = (),
 ) -> None:
     """Refuse a file's path with another suffix, or where it cannot be written.
 
@@ -103,54 +88,31 @@ def check_file(
     """
     if path is None:
         return
-    if path.suffix.lower() != suffix:
-        raise InvalidValue(f"{option} must end in {suffix}, got {path}")
-    _check_file(path, overwrite, read)
-
-
-def check_scenario(path: Path | None, overwrite: bool, read: Sequence[str] = ()) -> None:
-    """Refuse a path of --save; see `check_file`."""
-    check_file(path, overwrite, "--save", ".toml", read)
-
-
-def _check_file(path: Path, overwrite: bool, read: Sequence[str] = ()) -> None:
+    if path.suffix.lower() not in suffixes:
+        raise InvalidValue(f"{option} must end in {', '.join(suffixes)}, got {path}")
     if path.is_dir():
         raise FileError(f"{path} cannot be written: it is a folder")
     check_place(path)
     check_own(path, overwrite, read)
 
 
-def draw(make: Callable[[], "Figure"], path: Path, overwrite: bool) -> None:
-    """Write a picture, in the format that the file's suffix names.
-
-    Raises
-    ------
-    FileError
-        If the file cannot be written.
-    """
-    from stackbounce.plots.style import render
-
-    write_file(path, render(make, path.suffix.lower().removeprefix(".")), overwrite)
-
-
 def draw_picture(
     path: Path | None, overwrite: bool, kind: str, *given: Any, **options: Any
 ) -> None:
-    """Write a picture of `stackbounce.plots` into a file, if one is asked for."""
+    """Write a picture of `stackbounce.plots` into a file, if one is asked for.
+
+    The suffix of the file names its format.
+    """
     if path is not None:
         from stackbounce import plots
+        from stackbounce.plots.style import render
 
-        draw(lambda: getattr(plots, kind)(*given, **options), path, overwrite)
+        draw = functools.partial(getattr(plots, kind), *given, **options)
+        write_file(path, render(draw, path.suffix.lower().removeprefix(".")), overwrite)
 
 
 def write_scenario(text: str, path: Path | None, overwrite: bool) -> None:
-    """Write a scenario file, if one is asked for.
-
-    Raises
-    ------
-    FileError
-        If it cannot be written.
-    """
+    """Write a scenario file, if one is asked for."""
     if path is not None:
         write_file(path, text.encode(), overwrite)
 

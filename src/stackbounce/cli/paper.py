@@ -1,13 +1,9 @@
 """The command ``stackbounce paper``: the paper recomputed."""
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from stackbounce.cli.options import AsJson
-from stackbounce.cli.output import console, print_json
-from stackbounce.errors import InvalidValue
+from stackbounce.cli.report import Out, write_report
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
@@ -18,28 +14,16 @@ if TYPE_CHECKING:
 __all__ = ["run"]
 
 
-def run(
-    out: Annotated[
-        str, typer.Option(metavar="DIR", help="Folder to write to.", show_default=False)
-    ],
-    as_json: AsJson = False,
-) -> None:
+def run(out: Out, as_json: AsJson = False) -> None:
     """Recompute the paper: its figures, its tables, and an audit of every number in it."""
     need("paper", "stackbounce paper")
     from stackbounce import cross2007
 
-    if not out:  # Path("") is the current folder
-        raise InvalidValue("--out must name a folder, got ''")
-    folder = Path(out)
-    audit = cross2007.write(folder, lambda line: typer.echo(line, err=True))
-    if as_json:
-        print_json(audit.as_dict())
-    else:
-        print_audit(console(), audit, folder / "index.html")
+    write_report(out, as_json, cross2007.write, _print_audit)
 
 
-def print_audit(console: "Console", done: "Audit", page: Path) -> None:
-    """Print how many rows of the audit have which verdict, and where its page lies."""
+def _print_audit(console: "Console", done: "Audit") -> None:
+    """Print how many rows of the audit have which verdict."""
     from stackbounce.cli.tables import new_table
 
     table = new_table("Audit of the paper", ["verdict"], ["rows"])
@@ -48,4 +32,3 @@ def print_audit(console: "Console", done: "Audit", page: Path) -> None:
     console.print(table)
     unexplained = sum(not row.explained for row in done.rows)
     console.print(f"\nRows that disagree without an explanation: {unexplained}")
-    console.print(f"Open {page}", soft_wrap=True)

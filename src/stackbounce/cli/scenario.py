@@ -2,28 +2,17 @@
 
 import dataclasses
 import itertools
-import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from stackbounce.errors import InvalidValue, shown
+from stackbounce.cli.drop_options import read_changes
+from stackbounce.errors import InvalidValue
 from stackbounce.model.catalogue import stack
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import ContactLaw
-from stackbounce.model.schema import read_law
-from stackbounce.units import quantity
 
-__all__ = [
-    "DEFAULT_HEIGHT",
-    "Scenario",
-    "change",
-    "is_file",
-    "read",
-    "read_contact",
-    "read_fall",
-    "read_until",
-]
+__all__ = ["DEFAULT_HEIGHT", "Scenario", "change", "is_file", "read"]
 
 DEFAULT_HEIGHT = 1.0
 """The height in m from which balls of the catalogue fall without --height and --speed."""
@@ -52,19 +41,14 @@ def read(what: Sequence[str], *, with_errors: bool = False, **options: Any) -> S
     with_errors : bool, optional
         Take a single file whose numbers have errors; without it these are refused.
     **options
-        ``height``, ``speed`` and ``gravity``, texts with or without a unit, replace the numbers of
-        the file; ``gap`` and ``contact``, sequences of texts, all gaps and all contacts.
-
-    Returns
-    -------
-    Scenario
+        As `read_changes` takes them; they replace the numbers of the file.
 
     Raises
     ------
     StackbounceError
         If one of them cannot be read.
     """
-    changes = _changes(**options)
+    changes = read_changes(**options)
     if any(is_file(name) for name in what):
         if not all(is_file(name) for name in what):
             raise InvalidValue(
@@ -79,45 +63,7 @@ def read(what: Sequence[str], *, with_errors: bool = False, **options: Any) -> S
 
 def change(drop: Drop, **options: Any) -> Drop:
     """Return a drop changed by the options of `read`."""
-    return _with(Scenario(drop, (), (), ""), _changes(**options)).drop
-
-
-def read_contact(text: str, path: str) -> ContactLaw | None:
-    """Return the contact law of a text such as ``"Spring stiffness=2.5kN/m"``.
-
-    Parameters
-    ----------
-    text : str
-        The law's name and its numbers, with or without units; ``"none"`` for no floor.
-    path : str
-        What messages call it.
-
-    Returns
-    -------
-    ContactLaw or None
-
-    Raises
-    ------
-    InvalidValue
-        If it cannot be read.
-
-    Examples
-    --------
-    >>> read_contact("Spring stiffness=2.5kN/m", "--contact")
-    Spring(stiffness=2500.0)
-    """
-    try:
-        words = shlex.split(text)
-    except ValueError:
-        words = []
-    law, pairs = (words[0], [word.partition("=") for word in words[1:]]) if words else ("", [])
-    if not law or "=" in law or any(not key or not value for key, _, value in pairs):
-        right = "'LAW key=value …', such as 'Spring stiffness=2.5kN/m'"
-        raise InvalidValue(f"{path} must be {right}, got {shown(text)}")
-    keys = ["law", *(key for key, _, _ in pairs)]
-    if len(set(keys)) < len(keys):
-        raise InvalidValue(f"{path} must give each key once, got {shown(text)}")
-    return read_law({"law": law} | {key: value for key, _, value in pairs}, path)
+    return _with(Scenario(drop, (), (), ""), read_changes(**options)).drop
 
 
 def is_file(name: str) -> bool:
@@ -129,53 +75,6 @@ def is_file(name: str) -> bool:
     (True, False)
     """
     return name.endswith(".toml") or Path(name).name != name
-
-
-def read_fall(height: str | None, speed: str | None) -> dict[str, float]:
-    """Return the height or the impact speed of ``--height`` and ``--speed``, if one is given.
-
-    Examples
-    --------
-    >>> read_fall("63cm", None), read_fall(None, None)
-    ({'height': 0.63}, {})
-    """
-    if height is not None and speed is not None:
-        raise InvalidValue("--height and --speed: only one of the two can be given, got both")
-    if height is not None:
-        return {"height": quantity(height, "m", "--height")}
-    return {} if speed is None else {"impact_speed": quantity(speed, "m/s", "--speed")}
-
-
-def read_until(text: str | None) -> float | None:
-    """Return the time in s of ``--until``.
-
-    Examples
-    --------
-    >>> read_until("5 ms")
-    0.005
-    """
-    return None if text is None else quantity(text, "s", "--until")
-
-
-def _changes(
-    *,
-    height: str | None = None,
-    speed: str | None = None,
-    gap: Sequence[str] | None = None,
-    contact: Sequence[str] | None = None,
-    gravity: str | None = None,
-) -> dict[str, Any]:
-    """Return the fields of a drop that the options change."""
-    changes: dict[str, Any] = {**read_fall(height, speed)}
-    if gap:
-        changes["gaps"] = [quantity(one, "m", "--gap") for one in gap]
-    if contact:
-        changes["contacts"] = [
-            read_contact(text, f"--contact {i}") for i, text in enumerate(contact)
-        ]
-    if gravity is not None:
-        changes["gravity"] = quantity(gravity, "m/s**2", "--gravity")
-    return changes
 
 
 def _from_file(name: str, *, with_errors: bool) -> Scenario:
@@ -208,12 +107,12 @@ def _from_files(names: Sequence[str], changes: dict[str, Any]) -> Scenario:
         impact_speed=None if lowest.height is not None else lowest.reference_speed,
         gravity=lowest.gravity,
     )
-    pairs = [f"{one} and {other} in series" for one, other in itertools.pairwise(names)]
+    pairs = [f"{lower} and {upper} in series" for lower, upper in itertools.pairwise(names)]
     return Scenario(drop, (names[0], *pairs), ("no gap given",) * len(pairs), names[0])
 
 
 def _joined(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
-    from stackbounce.gaps_and_masses.ranking import join_contacts
+    from stackbounce.towers.ranking import join_contacts
 
     try:
         return join_contacts(names, laws)

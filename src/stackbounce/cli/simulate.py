@@ -4,6 +4,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from stackbounce.cli import output
 from stackbounce.cli.options import (
     DROP,
     AsJson,
@@ -13,15 +14,6 @@ from stackbounce.cli.options import (
     Until,
     What,
     add_options,
-)
-from stackbounce.cli.output import (
-    check_picture,
-    check_solved,
-    console,
-    draw_picture,
-    print_files,
-    print_json,
-    progress_bar,
 )
 
 if TYPE_CHECKING:
@@ -57,28 +49,29 @@ def run(
     from stackbounce import predict, simulate
     from stackbounce.calibration import separate
     from stackbounce.cli import scenario
+    from stackbounce.cli.drop_options import read_until
     from stackbounce.cli.errors_given import read_errors, split_errors
     from stackbounce.cli.simulation_tables import print_simulation
 
-    check_picture(plot, overwrite)
+    output.check_picture(plot, overwrite)
     plain, written = split_errors(given)
-    chosen, end = scenario.read(what, with_errors=True, **plain), scenario.read_until(until)
+    chosen, end = scenario.read(what, with_errors=True, **plain), read_until(until)
     errors = read_errors(chosen.drop, {**chosen.errors, **written}, error)
     prediction = None
     if errors:
-        with progress_bar("draws") as progress:
+        with output.progress_bar("draws") as progress:
             prediction = predict(chosen.drop, errors, until=end, rtol=rtol, progress=progress)
     result = simulate(chosen.drop, until=end, rtol=rtol)
     laws = chosen.drop.contacts
     joined = any(law is not None and law.pulls for law in laws)  # no collision of the textbook's
     textbook = None if chosen.drop.rigid or joined else simulate(separate(chosen.drop))
-    draw_picture(plot, overwrite, "bounce", prediction or result)
+    output.draw_picture(plot, overwrite, "bounce", prediction or result)
     if as_json:
-        print_json(summary(chosen, result, textbook, prediction))
+        output.print_json(summary(chosen, result, textbook, prediction))
     else:
-        print_simulation(console(), chosen, result, textbook, prediction)
-        print_files(plot)
-    check_solved({result.status.name: 1})
+        print_simulation(output.console(), chosen, result, textbook, prediction)
+        output.print_files(plot)
+    output.check_solved({result.status.name: 1})
 
 
 def summary(

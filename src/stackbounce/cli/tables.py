@@ -1,24 +1,19 @@
-"""Tables of at most 100 columns, and how numbers, balls and laws are written in them."""
+"""Tables of at most 100 columns, and how numbers are written in them."""
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from rich import box
 from rich.table import Table
 
-from stackbounce.cli.scenario import DEFAULT_HEIGHT, Scenario
-from stackbounce.model.drop import Drop
-from stackbounce.model.laws import ContactLaw
-
 __all__ = [
     "add_columns",
-    "incidence",
-    "label",
-    "law_text",
-    "meeting",
     "new_table",
     "number",
     "percent",
+    "table_of_rows",
+    "with_error",
     "write_count",
 ]
 
@@ -74,6 +69,44 @@ def number(value: float) -> str:
     return f"{value:#.4g}".removesuffix(".")
 
 
+def with_error(value: Any) -> str:
+    """Return a number with the error of its last digits in parentheses.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> with_error(ufloat(6.297, 0.017)), with_error(ufloat(1234.0, 56.0)), with_error(None)
+    ('6.297(17)', '1234(56)', '–')
+    """
+    if value is None or not math.isfinite(value.nominal_value):
+        return "–"
+    return f"{value:.2uS}" if value.std_dev > 0.0 else number(value.nominal_value)
+
+
+def table_of_rows(rows: Sequence[Any]) -> Table:
+    """Return the table of results that have a name, a value, maybe with an error, and a unit."""
+    table = Table("", box=box.SIMPLE_HEAD)
+    for heading in ("value", "error"):
+        table.add_column(heading, justify="right")
+    table.add_column("unit")
+    for row in rows:
+        table.add_row(row.name, *_value_and_error(row.value), row.unit)
+    return table
+
+
+def _value_and_error(value: Any) -> tuple[str, str]:
+    """Return a value and its error as text, the error with two significant digits."""
+    if isinstance(value, str):
+        return value, ""
+    if not hasattr(value, "nominal_value"):
+        return (str(value) if isinstance(value, int) else number(value)), ""
+    if not value.std_dev > 0.0:
+        return number(value.nominal_value), ""
+    body, _, power = f"{value:.2u}".replace("(", "").partition(")")
+    one, _, other = body.partition("+/-")
+    return one + power, other + power
+
+
 def percent(share: float) -> str:
     """Return a share in percent.
 
@@ -94,49 +127,3 @@ def write_count(count: int) -> str:
     ('3', '∞')
     """
     return "∞" if count < 0 else str(count)
-
-
-def label(name: str | None, i: int) -> str:
-    """Return the name of ball `i` in tables: printable, and at most 16 characters.
-
-    Examples
-    --------
-    >>> label(None, 1), label("B1", 0)
-    ('ball 1', 'B1')
-    """
-    text = "".join(c if c.isprintable() else "?" for c in name or f"ball {i}")
-    return text if len(text) <= 16 else text[:15] + "…"
-
-
-def incidence(scenario: Scenario) -> str:
-    """Return the names of the balls, and their height or speed."""
-    drop = scenario.drop
-    names = " + ".join(label(ball.name, i) for i, ball in enumerate(drop.balls))
-    if drop.velocities is not None:
-        text = "coming in at " + ", ".join(number(v) for v in drop.velocities) + " m/s"
-    elif drop.height is not None:
-        text = f"from {drop.height:.6g} m, at {number(drop.reference_speed)} m/s"
-    else:
-        text = f"at {number(drop.reference_speed)} m/s"
-    if scenario.speed_source == "default":
-        text += f" ({DEFAULT_HEIGHT:g} m unless --height or --speed is given)"
-    return f"{names} {text}"
-
-
-def meeting(drop: Drop, contact: int) -> str:
-    """Return the two sides of a contact: the floor or the ball below, and the ball above."""
-    upper = label(drop.balls[contact].name, contact)
-    below = "floor" if contact == 0 else label(drop.balls[contact - 1].name, contact - 1)
-    return f"{below} – {upper}"
-
-
-def law_text(law: ContactLaw | None) -> str:
-    """Return a contact law in words.
-
-    Examples
-    --------
-    >>> from stackbounce.model import Spring
-    >>> law_text(Spring(2500))
-    'Spring, stiffness 2500 N/m'
-    """
-    return "none" if law is None else law.described()

@@ -1,13 +1,9 @@
 """The command ``stackbounce validate``: contact laws beside published measurements."""
 
-from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
-
-import typer
+from typing import TYPE_CHECKING
 
 from stackbounce.cli.options import AsJson
-from stackbounce.cli.output import console, print_json
-from stackbounce.errors import InvalidValue
+from stackbounce.cli.report import Out, write_report
 from stackbounce.extras import need
 
 if TYPE_CHECKING:
@@ -18,32 +14,19 @@ if TYPE_CHECKING:
 __all__ = ["run"]
 
 
-def run(
-    out: Annotated[
-        str, typer.Option(metavar="DIR", help="Folder to write to.", show_default=False)
-    ],
-    as_json: AsJson = False,
-) -> None:
+def run(out: Out, as_json: AsJson = False) -> None:
     """Try each contact law on published measurements: which law for which ball."""
     need("paper", "stackbounce validate")
     from stackbounce import validation
 
-    if not out:  # Path("") is the current folder
-        raise InvalidValue("--out must name a folder, got ''")
-    folder = Path(out)
-    done = validation.write(folder, lambda line: typer.echo(line, err=True))
-    if as_json:
-        print_json(done.as_dict())
-    else:
-        _print_verdicts(console(), done, folder / "index.html")
+    write_report(out, as_json, validation.write, _print_verdicts)
 
 
-def _print_verdicts(console: "Console", done: "Validation", page: Path) -> None:
+def _print_verdicts(console: "Console", done: "Validation") -> None:
     from stackbounce.cli.tables import new_table
 
     table = new_table("Contact laws and published measurements", ["dataset", "laws"])
-    for one in done.comparisons:
-        table.add_row(one.series.name, one.summary)
+    for compared in done.comparisons:
+        table.add_row(compared.series.name, compared.summary)
     console.print(table)
-    console.print(f"\n{done.summary}")
-    console.print(f"\nOpen {page}", soft_wrap=True)
+    console.print(f"\n{done.summary}\n")

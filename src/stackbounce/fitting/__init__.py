@@ -23,6 +23,7 @@ comparison    `compare`: several models of the same data
 standard      the usual models of a stack
 files         a problem from a TOML file
 tables        drops, and what was measured of each, from a CSV file
+question      a problem from texts, as typed beside a file
 ============= ====================================================================
 """
 

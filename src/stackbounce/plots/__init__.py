@@ -6,7 +6,7 @@ from stackbounce.plots.impact import bounce
 from stackbounce.plots.measurement import measured
 from stackbounce.plots.model_comparison import compared
 from stackbounce.plots.posterior import corner
-from stackbounce.plots.stacks import highest, transition
+from stackbounce.plots.stacks import highest
 from stackbounce.plots.sweep_curves import heatmap, lines
 
 __all__ = [
@@ -18,7 +18,6 @@ __all__ = [
     "highest",
     "lines",
     "measured",
-    "transition",
 ]
 
 need("plots", "a picture")

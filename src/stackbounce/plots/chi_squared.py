@@ -57,9 +57,12 @@ def draw_map(figure: "SubFigure", fit: Any) -> None:
     (top, corner), (axes, right) = figure.subplots(2, 2, sharex="col", sharey="row", **grid)
     corner.set_axis_off()
     across, up = (np.linspace(*_extent(fit, k), _CELLS) for k in (0, 1))
-    trials = np.stack([one.ravel() for one in np.meshgrid(across, up)], axis=1)
+    trials = np.stack([axis.ravel() for axis in np.meshgrid(across, up)], axis=1)
     above = (fit.objective.chi_squared(trials) - fit.chi_squared).reshape(_CELLS, _CELLS)
-    x, y = (one.value(own) for one, own in zip(fit.objective.parameters, (across, up), strict=True))
+    x, y = (
+        parameter.value(own)
+        for parameter, own in zip(fit.objective.parameters, (across, up), strict=True)
+    )
     _draw_bands(axes, x, y, np.maximum(above, 0.0))
     near = above < _BANDS[-1]
     for kink in _kinks(fit, trials[near.ravel()]):
@@ -86,7 +89,9 @@ def _extent(fit: Any, k: int) -> tuple[float, float]:
     low, high = parameter.span
     slope = abs(parameter.slope(float(fit.x[k])))
     reach = _REACH * fit[parameter.name].std_dev / slope
-    near = [one.x[k] for one in fit.minima if one.chi_squared < fit.chi_squared + _WORTH]
+    near = [
+        minimum.x[k] for minimum in fit.minima if minimum.chi_squared < fit.chi_squared + _WORTH
+    ]
     return max(low, min(near) - reach), min(high, max(near) + reach)
 
 
@@ -101,7 +106,7 @@ def _kinks(fit: Any, trials: Array) -> list[NDArray[np.int64]]:
     found = []
     for key in fit.objective.measured:
         counts = fit.objective.outcomes(key, trials)[0].collisions
-        found += [one for one in counts.T if np.ptp(one) > 0]
+        found += [count for count in counts.T if np.ptp(count) > 0]
     return found
 
 
@@ -142,17 +147,9 @@ def _draw_kinks(axes: "Axes", x: Array, y: Array, counts: Array) -> None:
 def _draw_minima(axes: "Axes", fit: Any) -> None:
     """Mark the best values with their errors, and the other minima."""
     first, second = (fit[name] for name in fit.names)
-    axes.errorbar(
-        first.nominal_value,
-        second.nominal_value,
-        xerr=first.std_dev,
-        yerr=second.std_dev,
-        fmt="o",
-        color=_BEST,
-        markeredgecolor="black",
-        linewidth=1.2,
-        zorder=4,
-    )
-    for one in fit.minima[1:]:
-        place = [p.value(x) for p, x in zip(fit.objective.parameters, one.x, strict=True)]
+    bars = {"xerr": first.std_dev, "yerr": second.std_dev, "linewidth": 1.2}
+    look: Any = {"fmt": "o", "color": _BEST, "markeredgecolor": "black", "zorder": 4}
+    axes.errorbar(first.nominal_value, second.nominal_value, **bars, **look)
+    for minimum in fit.minima[1:]:
+        place = [p.value(x) for p, x in zip(fit.objective.parameters, minimum.x, strict=True)]
         axes.plot(*place, "s", color=_OTHER, markeredgecolor="black", markersize=6, zorder=3)

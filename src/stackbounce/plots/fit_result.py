@@ -76,7 +76,7 @@ def _title(fit: Any) -> str:
 def _draw_pulls(axes: "Axes", residuals: Sequence[Any], count: int) -> None:
     """Draw the pull of each measured number as a dot, the first one on top."""
     places = np.arange(len(residuals))
-    pulls = np.array([one.pull for one in residuals])
+    pulls = np.array([residual.pull for residual in residuals])
     wide = min(max(3.0, 1.15 * float(np.abs(pulls).max())), _HELD)
     for reach, shade in ((2.0, 0.08), (1.0, 0.14)):
         axes.axvspan(-reach, reach, color=COLORS[0], alpha=shade, linewidth=0)
@@ -89,12 +89,12 @@ def _draw_pulls(axes: "Axes", residuals: Sequence[Any], count: int) -> None:
         axes.plot(side * wide, place, ">" if side > 0 else "<", markersize=8, **look)
     axes.set_xlim(-wide, wide)
     axes.set_ylim(len(residuals) - 0.4, -0.6)
-    axes.set_yticks(places, [f"{one.drop}  {one.name}".strip() for one in residuals])
+    axes.set_yticks(places, [f"{residual.drop}  {residual.name}".strip() for residual in residuals])
     axes.grid(visible=False, axis="y")
     axes.tick_params(axis="y", length=0)
     axes.set_xlabel("fitted − measured (errors)")
     values = axes.secondary_yaxis("right")
-    values.set_yticks(places, [_both(one) for one in residuals])
+    values.set_yticks(places, [_both(residual) for residual in residuals])
     values.tick_params(axis="y", length=0)
     values.spines["right"].set_visible(False)
     if count > len(residuals):

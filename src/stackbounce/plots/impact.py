@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
-from stackbounce.plots.style import color_of, styled_figure, written
+from stackbounce.plots.style import color_of, two_panels, written
 from stackbounce.run.result import Result
 
 if TYPE_CHECKING:
@@ -63,8 +63,7 @@ def bounce(result: "Result | Prediction") -> "Figure":
         if not hasattr(result, "band"):
             raise InvalidType(f"result must be a Result or Prediction, got {type(result).__name__}")
         prediction, result = result, result.result
-    with styled_figure(7.2, 5.6) as figure:
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+    with two_panels(5.6, [3, 2]) as (figure, above, below):
         times = np.linspace(*choose_window(result), _SAMPLES)
         sample = sample_with_approach(result, times)
         _check_size(sample.position.values, "m")
@@ -79,7 +78,6 @@ def bounce(result: "Result | Prediction") -> "Figure":
         floor = result.drop.contacts[0] is not None
         below.set_xlabel("time" + floor * " since the lowest ball touched the floor" + " (ms)")
         below.set_xlim(1e3 * times[0], 1e3 * times[-1])
-        figure.align_ylabels()
     return figure
 
 

@@ -51,7 +51,7 @@ def draw_levels(axes: "Axes", x: Scale, y: Scale, values: NDArray[Any], unit: st
         bar.ax.minorticks_off()
     if signed:
         bar.ax.set_ylim(low, high)
-    rising = all((np.diff(one.places) > 0.0).all() for one in (x, y))
+    rising = all((np.diff(scale.places) > 0.0).all() for scale in (x, y))
     if min(values.shape) >= _LEAST and rising and not level:
         color = "#202020" if signed else "white"
         shape: Any = {"levels": _LEVELS, "colors": color, "linewidths": 0.7}

@@ -1,7 +1,7 @@
 """The style of all plots."""
 
 import io
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -13,10 +13,14 @@ __all__ = [
     "COLORS",
     "FORCES",
     "STYLE",
+    "WIDTH",
     "annotate",
     "color_of",
+    "file_of",
     "render",
     "styled_figure",
+    "two_panels",
+    "with_error",
     "written",
 ]
 
@@ -40,6 +44,9 @@ STYLE: Any = {
 }
 """Matplotlib's settings."""
 
+WIDTH = 7.2
+"""The usual width of a figure in inches."""
+
 _UNDATED = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}
 
 
@@ -61,6 +68,46 @@ def styled_figure(width: float, height: float, style: Any = None) -> "Iterator[F
 
     with mpl.rc_context(STYLE | (style or {})):
         yield Figure(figsize=(width, height))
+
+
+@contextmanager
+def two_panels(height: float, ratios: Sequence[float]) -> "Iterator[tuple[Figure, Axes, Axes]]":
+    """Yield a figure, as `styled_figure`, and its two panels with one horizontal axis.
+
+    Examples
+    --------
+    >>> with two_panels(4.4, [3, 2]) as (figure, above, below):
+    ...     _ = below.set_xlim(0.0, 2.0)
+    >>> above.get_xlim() == (0.0, 2.0)
+    True
+    """
+    with styled_figure(WIDTH, height) as figure:
+        above, below = figure.subplots(2, 1, sharex=True, height_ratios=list(ratios))
+        yield figure, above, below
+        figure.align_ylabels()
+
+
+def with_error(value: Any, plain: str = ".3g") -> str:
+    """Return a number with the error of its last digit, or written as `plain` if it has none.
+
+    Examples
+    --------
+    >>> from uncertainties import ufloat
+    >>> with_error(ufloat(0.752, 0.013)), with_error(ufloat(0.752, float("nan")), ".2f")
+    ('0.75(1)', '0.75')
+    """
+    return f"{value:.1uS}" if value.std_dev > 0.0 else f"{value.nominal_value:{plain}}"
+
+
+def file_of(data: Any) -> str:
+    """Return the name of the file that data were read from, or an empty text.
+
+    Examples
+    --------
+    >>> file_of(None)
+    ''
+    """
+    return str(getattr(data, "attrs", {}).get("source", ""))
 
 
 def render(make: "Callable[[], Figure]", kind: str) -> bytes:

@@ -68,8 +68,7 @@ def lines(data: "xr.Dataset", show: str = "rebound_ratio", index: int | None = N
     >>> figure.axes[0].get_xlabel()
     'balls.0.mass (kg)'
     """
-    data, (dim,) = _sorted(data, show, 1)
-    part, own, unfinished = _finished(data, show)
+    data, (dim,), part, own, unfinished = _prepared(data, show, 1)
     chosen = range(own.sizes[part]) if part else range(1)
     if part and index is not None:
         chosen = range(_index(own, part, index), _index(own, part, index) + 1)
@@ -126,8 +125,7 @@ def heatmap(data: "xr.Dataset", show: str = "rebound_ratio", index: int = -1) ->
     >>> plots.heatmap(sb.sweep(drop, over)).axes[0].get_xlabel()
     'contacts.1.stiffness (N/m)'
     """
-    data, (up, across) = _sorted(data, show, 2)
-    part, own, unfinished = _finished(data, show)
+    data, (up, across), part, own, unfinished = _prepared(data, show, 2)
     title = TITLES[show]
     if part:
         title += f" of {name_of(data, part, _index(own, part, index))}"
@@ -216,8 +214,17 @@ def check_source(data: Any, name: str, source: str) -> None:
         raise InvalidType(f"data must be a Dataset from {source}, got {shown(data)}")
 
 
-def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, ...]]:
-    """Return a sweep sorted by its numeric dimensions, and its dimensions; raise if not `count`."""
+def _prepared(
+    data: Any, show: str, count: int
+) -> tuple["xr.Dataset", tuple[Any, ...], str, "xr.DataArray", str]:
+    """Return what is to be drawn of a sweep, and raise if it has not `count` dimensions.
+
+    That is: the sweep sorted by its numeric dimensions; these dimensions; the dimension of the
+    result besides them, "ball", "contact" or ""; the result, with nan for unfinished drops; and a
+    note with the number of these, or "".
+    """
+    from stackbounce.run.result import Status
+
     check_source(data, "status", "sweep")
     if show not in TITLES:
         raise InvalidValue(f"show must name a result, got {shown(show)}; {nearest(show, TITLES)}")
@@ -226,26 +233,18 @@ def _sorted(data: Any, show: str, count: int) -> tuple["xr.Dataset", tuple[Any, 
         right = "one dimension" if count == 1 else "two dimensions"
         got = ", ".join(map(str, dims)) or "none"
         raise InvalidValue(f"data must have {right}, got {got}: choose with data.sel or data.isel")
-    numbers = [dim for dim in dims if dim in data.coords and data[dim].dtype.kind in "iuf"]
-    return data.sortby(numbers), dims
-
-
-def _finished(data: "xr.Dataset", show: str) -> tuple[str, "xr.DataArray", str]:
-    """Return the values to draw, with nan for unfinished drops.
-
-    The first result is their dimension besides those of the sweep: "ball", "contact" or "". The
-    last one is a note with the number of unfinished drops, or "".
-    """
-    from stackbounce.run.result import Status
-
+    data = data.sortby([dim for dim in dims if dim in data.coords and _is_numeric(data[dim])])
     wrong = data["status"].isin([int(Status.EVENT_LIMIT), int(Status.INVALID)])
-    own = data[show]
-    part = next((name for name in ("ball", "contact") if name in own.dims), "")
-    count, words = int(wrong.sum()), ""
-    if count:
+    own, unfinished, note = data[show], int(wrong.sum()), ""
+    if unfinished:
         own = own.where(~wrong, drop=False).assign_attrs(own.attrs)
-        words = f"{count} of {wrong.size} drops could not be finished: see status"
-    return part, own, words
+        note = f"{unfinished} of {wrong.size} drops could not be finished: see status"
+    part = next((name for name in ("ball", "contact") if name in own.dims), "")
+    return data, dims, part, own, note
+
+
+def _is_numeric(values: "xr.DataArray") -> bool:
+    return values.dtype.kind in "iuf"
 
 
 def _index(own: "xr.DataArray", part: str, index: int) -> int:

@@ -8,6 +8,7 @@ store    a sweep larger than memory, written block by block to a file; resumable
 progress which blocks of it are written, and by which process
 files    the Zarr store
 axes     reads texts such as those of ``--over``: a parameter and its values
+draws    tables of draws, each row a drop
 ======== ==========================================================================
 
 The drops of a sweep are run by `stackbounce.run.batch`.

@@ -53,8 +53,8 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
             annotate(axes, f"e = {kept:.1uS}", (place, 0.86), "black", bbox=box, **at)
         axes.set_yscale("symlog", linthresh=20.0, linscale=1.2)
         top = float(values.max())
-        ticks = [one for one in (0, 9.8, 20, 50, 100, 200, 500, 1000) if one < 3.0 * top]
-        axes.set_yticks(ticks, [f"{one:g}" for one in ticks])
+        ticks = [tick for tick in (0, 9.8, 20, 50, 100, 200, 500, 1000) if tick < 3.0 * top]
+        axes.set_yticks(ticks, [f"{tick:g}" for tick in ticks])
         axes.minorticks_off()
         axes.set_ylim(-1.0, 8.0 * np.maximum(top, 20.0))
         axes.set_xlabel("time (s)")

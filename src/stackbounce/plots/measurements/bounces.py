@@ -32,16 +32,16 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     """
     with styled_figure(7.2, 4.4) as figure:
         axes = figure.subplots()
-        speeds = np.array([getattr(one, "nominal_value", one) for one in found.impact_speeds])
-        kept = np.array([one.nominal_value for one in found.restitutions])
-        errors = np.nan_to_num([one.std_dev for one in found.restitutions])
+        speeds = np.array([getattr(speed, "nominal_value", speed) for speed in found.impact_speeds])
+        kept = np.array([number.nominal_value for number in found.restitutions])
+        errors = np.nan_to_num([number.std_dev for number in found.restitutions])
         grid = np.linspace(0.9 * speeds.min(), 1.04 * speeds.max(), 160)
         for k, law in enumerate(found.laws):
             line = [law.at(float(speed)) for speed in grid]
-            middle = np.array([one.nominal_value for one in line])
+            middle = np.array([number.nominal_value for number in line])
             axes.plot(grid, middle, _LINES[law.form], color=COLORS[1 + k], label=_formula(law))
             if law.form == "linear":
-                wide = np.array([one.std_dev for one in line])
+                wide = np.array([number.std_dev for number in line])
                 axes.fill_between(
                     grid, middle - wide, middle + wide, color=COLORS[1], alpha=0.15, linewidth=0
                 )

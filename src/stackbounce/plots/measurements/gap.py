@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, FORCES, STYLE
+from stackbounce.plots.style import COLORS, FORCES, two_panels
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -27,9 +27,6 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
     kink, stack, alone = found.kink, found.stack, found.alone
     touch, lasting = (stack.contacts[0].start, alone.contacts[0].time)
     since = stack.times - touch.nominal_value
@@ -39,9 +36,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     seen = (since > -0.2 * lasting.nominal_value) & (since < 1.15 * end)
     ms, force = 1e3 * since[seen], stack.force[seen]
     like = kink.gain * np.interp(since[seen], own, alone.force, left=np.nan, right=np.nan)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 5.8))
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
+    with two_panels(5.8, [3, 2]) as (figure, above, below):
         above.plot(ms, force, color=COLORS[0], linewidth=1.3, label="both balls")
         above.plot(ms, like, color=COLORS[1], linewidth=1.3, label="lower ball alone, as high")
         below.plot(ms, force - like, color=COLORS[2], linewidth=1.1)
@@ -61,5 +56,4 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         below.set_ylabel("difference")
         below.set_xlabel("time since the touch (ms)")
         above.legend(frameon=False, loc="upper right")
-        figure.align_ylabels()
     return figure

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, annotate, styled_figure
+from stackbounce.plots.style import COLORS, annotate, styled_figure, with_error
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,20 +38,22 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         axes = figure.subplots()
         rows = [found.drop_height, *found.bounce_heights]
         at = np.arange(len(rows))
-        values = np.array([one.nominal_value for one in rows])
+        values = np.array([height.nominal_value for height in rows])
         kept, start = found.mean.nominal_value, rows[0].nominal_value
         wide = np.linspace(at[0], at[-1], 160)
+        mean = with_error(found.mean, ".3f")
         if found.repeated:
             expected = np.full(len(wide), _curve(found, start, kept, np.ones(1))[0])
-            label = f"mean restitution {_written(found.mean)}"
+            label = f"mean restitution {mean}"
         else:
             expected = _curve(found, start, kept, wide)
-            label = f"restitution {_written(found.mean)} at each bounce"
+            label = f"restitution {mean} at each bounce"
         axes.plot(wide, expected, color=COLORS[1], label=label)
-        errors = np.nan_to_num([one.std_dev for one in rows])
+        errors = np.nan_to_num([height.std_dev for height in rows])
         axes.errorbar(at, values, yerr=errors, fmt="o", color=COLORS[0], capsize=3, label="read")
-        for k, one in enumerate(found.restitutions):
-            annotate(axes, f"e = {_written(one)}", (at[k + 1], values[k + 1]), COLORS[0])
+        for k, restitution in enumerate(found.restitutions, start=1):
+            text = "e = " + with_error(restitution, ".3f")
+            annotate(axes, text, (at[k], values[k]), COLORS[0])
         after = "bounce" if found.repeated else "after bounce"
         axes.set_xticks(at, ["drop", *(f"{after} {k}" for k in at[:-1])])
         axes.set_ylim(0.0, 1.12 * float(values.max()))
@@ -65,8 +67,4 @@ def _curve(found: Any, start: float, kept: float, bounces: "NDArray[np.float64]"
     """Return the heights at one restitution after some bounces."""
     if found.drag is None:
         return start * kept ** (2.0 * bounces)
-    return np.array([found.drag.height_after(start, kept, one) for one in bounces.tolist()])
-
-
-def _written(number: Any) -> str:
-    return f"{number:.1uS}" if number.std_dev > 0.0 else f"{number.nominal_value:.3f}"
+    return np.array([found.drag.height_after(start, kept, bounce) for bounce in bounces.tolist()])

@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.plots.style import styled_figure
+from stackbounce.plots.style import file_of, styled_figure, with_error
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -33,12 +33,11 @@ def draw(data: Any, found: Any) -> "Figure":
         axes.axis("off")
         if cells:
             axes.table(cells, colLabels=["", "value", "unit"], loc="upper center", edges="open")
-        axes.set_title(getattr(data, "attrs", {}).get("source", ""), loc="left", fontsize=10)
+        axes.set_title(file_of(data), loc="left", fontsize=10)
     return figure
 
 
 def _written(value: Any) -> str:
-    if getattr(value, "std_dev", 0.0) > 0.0:
-        return f"{value:.1uS}"
-    plain = getattr(value, "nominal_value", value)
-    return f"{plain:.4g}" if isinstance(plain, float) else str(plain)
+    if hasattr(value, "std_dev"):
+        return with_error(value, ".4g")
+    return f"{value:.4g}" if isinstance(value, float) else str(value)

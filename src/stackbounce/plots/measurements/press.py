@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, STYLE
+from stackbounce.plots.style import COLORS, file_of, two_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,12 +42,7 @@ def draw(data: Any, found: Any) -> "Figure":
     >>> [axes.get_ylabel() for axes in draw(data, press(data)).axes]
     ['force (N)', 'force − fit (N)']
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(7.2, 6.0))
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3.4, 1])
+    with two_panels(6.0, [3.4, 1]) as (figure, above, below):
         _draw_record(above, found)
         _draw_branches(above, found)
         _draw_line(above, found)
@@ -58,7 +53,6 @@ def draw(data: Any, found: Any) -> "Figure":
         below.set_ylabel("force − fit (N)")
         below.set_xlabel("compression from contact (mm)")
         above.set_ylim(*_limits(found))
-        figure.align_ylabels()
     return figure
 
 
@@ -152,7 +146,7 @@ def _draw_residuals(axes: "Axes", found: Any) -> None:
 
 def _title(data: Any, found: Any) -> str:
     """Return one line: the file, the exponent and the restitution."""
-    source = getattr(data, "attrs", {}).get("source", "")
+    source = file_of(data)
     words = [source] if source and source != "synthetic" else []
     for name in ("exponent", "restitution"):
         value = getattr(found, name)

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.plots.style import COLORS, styled_figure
+from stackbounce.plots.style import COLORS, two_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -34,15 +34,13 @@ def draw(data: Any, found: Any) -> "Figure":
     matplotlib.figure.Figure
         Not shown and not saved.
     """
-    with styled_figure(7.2, 5.2) as figure:
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 2])
-        times = np.array([one.nominal_value for one in found.times])
+    with two_panels(5.2, [3, 2]) as (figure, above, below):
+        times = np.array([time.nominal_value for time in found.times])
         _draw_sound(above, data, found, times)
         _draw_flights(below, found, times)
         pad = _MARGIN * max(float(np.ptp(times)), 0.1)
         below.set_xlim(times[0] - 2.0 * pad, times[-1] + 2.0 * pad)
         below.set_xlabel("time (s)")
-        figure.align_ylabels()
     return figure
 
 
@@ -62,7 +60,7 @@ def _draw_sound(axes: "Axes", data: Any, found: Any, times: NDArray[np.float64])
     label = f"{len(times)} knock{'s' * (len(times) != 1)}"
     axes.plot(times, above, "v", color=_BLUE, markersize=6, label=label, clip_on=False)
     axes.vlines(times, -top, top, color=_BLUE, linewidth=0.7, alpha=0.55)
-    left = np.array([one.time for one in found.dropped])
+    left = np.array([sound.time for sound in found.dropped])
     left = left[(left > times[0] - pad) & (left < times[-1] + pad)]
     if len(left):
         label = f"{len(left)} left out ({_words(found)})"
@@ -86,7 +84,7 @@ def _folded(data: Any) -> tuple[NDArray[np.float64], float]:
 
 
 def _words(found: Any) -> str:
-    whys = sorted({one.why for one in found.dropped})
+    whys = sorted({sound.why for sound in found.dropped})
     return _WORDS.get(whys[0], whys[0]) if len(whys) == 1 else "echoes and other sounds"
 
 

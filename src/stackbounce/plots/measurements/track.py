@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import annotate, color_of, styled_figure
+from stackbounce.plots.style import annotate, color_of, two_panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,8 +33,7 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
     """
     length, time = found.units
     many, small = (1e3, "mm") if length == "m" else (1.0, length)
-    with styled_figure(7.2, 5.8) as figure:
-        above, below = figure.subplots(2, 1, sharex=True, height_ratios=[3, 1])
+    with two_panels(5.8, [3, 1]) as (figure, above, below):
         for k, ball in enumerate(found.balls):
             _draw_ball(above, ball, color_of(k), found)
             left = many * ball.fit.residuals
@@ -48,7 +47,6 @@ def draw(data: Any, found: Any) -> "Figure":  # noqa: ARG001
         above.set_title(_summary(found), loc="left", fontsize=10)
         above.margins(y=0.16)
         above.legend(loc="best", frameon=True, framealpha=0.9, edgecolor="none")
-        figure.align_ylabels()
     return figure
 
 
@@ -61,7 +59,9 @@ def _draw_ball(axes: "Axes", ball: Any, color: str, found: Any) -> None:
         ball.times[used], ball.heights[used], label=_label(ball, named, found.units.speed), **dots
     )
     axes.plot(ball.times[~used], ball.heights[~used], **hollow)
-    impacts = dict(zip(ball.bounces, (one.nominal_value for one in ball.impact_times), strict=True))
+    impacts = dict(
+        zip(ball.bounces, (time.nominal_value for time in ball.impact_times), strict=True)
+    )
     for j, (first, last) in enumerate(ball.fit.flights):
         start = impacts.get(j - 1, ball.times[first])
         stop = impacts.get(j, ball.times[last - 1])

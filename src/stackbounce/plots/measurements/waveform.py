@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.plots.style import COLORS, FORCES, STYLE
+from stackbounce.plots.style import COLORS, FORCES, WIDTH, file_of, styled_figure
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -48,14 +48,10 @@ def draw(data: Any, found: Any) -> "Figure":
     >>> draw(record, waveform(record)).axes[0].get_ylabel()
     'force (N)'
     """
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        low, high = _extent(found, found.contacts)
-        first = next((one for one in found.contacts if one.time is not None), None)
-        tiny = first is not None and first.time.nominal_value < _TINY * (high - low)
-        figure = Figure(figsize=(7.2, 6.4 if tiny else 4.2))
+    low, high = _extent(found, found.contacts)
+    first = next((contact for contact in found.contacts if contact.time is not None), None)
+    tiny = first is not None and first.time.nominal_value < _TINY * (high - low)
+    with styled_figure(WIDTH, 6.4 if tiny else 4.2) as figure:
         panels = figure.subplots(1 + tiny, 1, squeeze=False)[:, 0]
         _draw_panel(panels[0], found, found.contacts, (low, high), named=not tiny)
         if tiny:
@@ -64,18 +60,9 @@ def draw(data: Any, found: Any) -> "Figure":
         _title(panels[0], data, found)
         names = [axes.get_legend_handles_labels() for axes in panels]
         known = {label: mark for panel in names for mark, label in zip(*panel, strict=True)}
-        panels[-1].legend(
-            known.values(),
-            known.keys(),
-            frameon=False,
-            loc="lower right",
-            bbox_to_anchor=(1.0, 1.0),
-            ncols=4,
-            borderpad=0.0,
-            handlelength=1.4,
-            columnspacing=1.2,
-            fontsize=9,
-        )
+        place: Any = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "ncols": 4}
+        look: Any = {"frameon": False, "borderpad": 0.0, "handlelength": 1.4, "fontsize": 9}
+        panels[-1].legend(known.values(), known.keys(), columnspacing=1.2, **place, **look)
         figure.align_ylabels()
     return figure
 
@@ -89,7 +76,7 @@ def _draw_panel(
     _draw_record(axes, found, low, high, factor)
     for contact in contacts:
         _draw_contact(axes, found, contact, factor, flanks=named)
-    top = max((one.peak_force.nominal_value for one in contacts), default=0.0)
+    top = max((contact.peak_force.nominal_value for contact in contacts), default=0.0)
     if top > 0.0:
         inside = (found.times >= low) & (found.times <= high)
         least = min(float(found.force[inside].min()), -0.04 * top)
@@ -149,16 +136,8 @@ def _draw_contact(axes: "Axes", found: Any, contact: Any, factor: float, *, flan
             axes.plot(factor * flank.times, flank.force, **look)
     times = [factor * time.nominal_value for time, _ in contact.peaks]
     heights = [force.nominal_value for _, force in contact.peaks]
-    axes.plot(
-        times,
-        heights,
-        "v",
-        color=_PEAK,
-        markersize=7,
-        markeredgecolor="white",
-        label="peaks",
-        zorder=4,
-    )
+    mark: Any = {"color": _PEAK, "markersize": 7, "markeredgecolor": "white", "zorder": 4}
+    axes.plot(times, heights, "v", label="peaks", **mark)
 
 
 def _label_contacts(axes: "Axes", contacts: Any, factor: float, wide: float) -> None:
@@ -172,23 +151,15 @@ def _label_contacts(axes: "Axes", contacts: Any, factor: float, wide: float) -> 
         room = 0.0075 * wide * len(text)
         row = 0 if middle - room > ends[0] else 1
         ends[row] = middle + room
-        axes.annotate(
-            text,
-            xy=(middle, 1.0),
-            xycoords=axes.get_xaxis_transform(),
-            xytext=(0, -4 - 12 * row),
-            textcoords="offset points",
-            ha="center",
-            va="top",
-            color=_SHADE,
-            fontsize=9.5,
-            bbox={"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.5},
-        )
+        box: Any = {"facecolor": "white", "alpha": 0.7, "edgecolor": "none", "pad": 0.5}
+        place: Any = {"xytext": (0, -4 - 12 * row), "textcoords": "offset points", "ha": "center"}
+        top: Any = {"xycoords": axes.get_xaxis_transform(), "va": "top", "fontsize": 9.5}
+        axes.annotate(text, (middle, 1.0), color=_SHADE, bbox=box, **place, **top)
 
 
 def _title(axes: "Axes", data: Any, found: Any) -> None:
     """Write the title: the number of contacts, and the name of the file."""
     count = len(found.contacts)
     words = f"{count or 'no'} contact{'s' * (count != 1)}"
-    source = getattr(data, "attrs", {}).get("source", "")
+    source = file_of(data)
     axes.set_title(f"{source}: {words}" if source else words, loc="left", fontsize=10)

@@ -14,7 +14,7 @@ from stackbounce.sweeps import sweep
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["join_sweeps", "solve_drops"]
+__all__ = ["solve_drops"]
 
 
 def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> "xr.Dataset":
@@ -55,15 +55,8 @@ def solve_drops(drops: Sequence[Drop], gaps: Sequence[float] | None = None) -> "
             one = xr.DataArray(list(gaps), dims="gap")
             values |= {f"gaps.{i}": one for i in range(len(own[0].gaps))}
         parts.append(sweep(own[0], values).drop_vars(values).assign_coords(stack=places))
-    return join_sweeps(parts, "stack")
-
-
-def join_sweeps(parts: "Sequence[xr.Dataset]", dim: str) -> "xr.Dataset":
-    """Join sweeps along a dimension that all of them have, sorted by its values."""
-    import xarray as xr
-
     how: Any = {"data_vars": "all", "coords": "minimal", "compat": "override", "join": "outer"}
-    return xr.concat(parts, dim, **how).sortby(dim)
+    return xr.concat(parts, "stack", **how).sortby("stack")
 
 
 def _kind(drop: Drop) -> tuple[Any, ...]:

@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidType, InvalidValue, StackbounceError, positive, shown
 from stackbounce.extras import need
-from stackbounce.gaps_and_masses.batch import solve_drops
 from stackbounce.model import Ball, ContactLaw, Drop
 from stackbounce.run.options import run_options
+from stackbounce.towers.batch import solve_drops
 
-__all__ = ["Contacts", "best_masses", "geometric_masses", "replace_masses"]
+__all__ = ["Contacts", "best_masses", "geometric_means", "mass_range"]
 
 Contacts: TypeAlias = Callable[[Sequence[Ball]], Sequence[ContactLaw | None]]
 """A function of the balls that returns their contacts, the lowest first."""
@@ -77,7 +77,7 @@ def best_masses(
     >>> round(sb.best_masses(springs).balls[1].mass, 5)
     0.48518
     """
-    need("masses", "stackbounce masses")
+    need("masses", "a search for masses")
     from scipy.optimize import differential_evolution
 
     run_options(drop, None, 1e-12, 1)
@@ -85,10 +85,10 @@ def best_masses(
         raise InvalidValue(f"balls must be three or more, got {len(drop.balls)}")
     if contacts is not None and not callable(contacts):
         raise InvalidType(f"contacts must be a function of the balls, got {shown(contacts)}")
-    ends = np.log(_limits(drop, within))
+    ends = np.log(mass_range(drop, within))
 
     def lost(logs: NDArray[np.float64]) -> NDArray[np.float64]:
-        stacks = [replace_masses(drop, np.exp(row), contacts) for row in logs.T]
+        stacks = [_replace_masses(drop, np.exp(row), contacts) for row in logs.T]
         ds = solve_drops(stacks)
         ratio = ds.rebound_ratio.values[:, -1]
         return -np.where(np.isfinite(ratio), ratio, -np.inf)
@@ -105,35 +105,28 @@ def best_masses(
         init="sobol",
         **search,
     )
-    return replace_masses(drop, np.exp(found.x), contacts)
+    return _replace_masses(drop, np.exp(found.x), contacts)
 
 
-def geometric_masses(drop: Drop) -> list[float]:
-    """Return the masses in kg of a stack in which all neighbours have the same mass ratio.
+def geometric_means(drop: Drop) -> Drop:
+    """Return a stack with inner masses that give all neighbours the same mass ratio.
 
     Examples
     --------
     >>> from stackbounce.model import Spring
-    >>> balls = [Ball(1.0), Ball(0.5), Ball(0.01)]
-    >>> [round(m, 9) for m in geometric_masses(Drop(balls, [Spring(1.0)] * 3, impact_speed=1.0))]
-    [1.0, 0.1, 0.01]
+    >>> balls = [Ball(1.0), Ball(0.8, diameter=0.1), Ball(0.01)]
+    >>> drop = geometric_means(Drop(balls, [Spring(1.0)] * 3, impact_speed=1.0))
+    >>> round(drop.balls[1].mass, 9), round(drop.balls[1].diameter, 9)
+    (0.1, 0.05)
     """
     masses = np.geomspace(drop.balls[0].mass, drop.balls[-1].mass, len(drop.balls))
-    return [float(mass) for mass in masses]
+    return _replace_masses(drop, masses[1:-1])
 
 
-def replace_masses(drop: Drop, between: Sequence[float], contacts: Contacts | None = None) -> Drop:
-    """Return a stack with other inner masses; diameters change at constant density.
-
-    Examples
-    --------
-    >>> from stackbounce.model import Spring
-    >>> balls = [Ball(1.0), Ball(0.5, diameter=0.1), Ball(0.01)]
-    >>> replace_masses(Drop(balls, [Spring(1.0)] * 3, impact_speed=1.0), [4.0]).balls[1]
-    Ball(mass=4.0, diameter=0.2, name=None, young_modulus=None, poisson_ratio=None)
-    """
+def _replace_masses(drop: Drop, inner: Any, contacts: Contacts | None = None) -> Drop:
+    """Return a stack with other inner masses; diameters change at constant density."""
     balls = list(drop.balls)
-    for i, mass in enumerate(between, start=1):
+    for i, mass in enumerate(inner, start=1):
         ball = balls[i]
         wide = ball.diameter and ball.diameter * (mass / ball.mass) ** (1.0 / 3.0)
         balls[i] = dataclasses.replace(ball, mass=float(mass), diameter=wide)
@@ -141,15 +134,23 @@ def replace_masses(drop: Drop, between: Sequence[float], contacts: Contacts | No
     return dataclasses.replace(drop, balls=balls, contacts=laws)
 
 
-def _limits(drop: Drop, within: object) -> tuple[float, float]:
-    """Return the smallest and the largest mass to try, in kg."""
+def mass_range(drop: Drop, within: object) -> tuple[float, float]:
+    """Return the smallest and the largest mass in kg that `best_masses` tries.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Spring
+    >>> drop = Drop([Ball(1.0), Ball(0.5), Ball(0.01)], [Spring(1.0)] * 3, impact_speed=1.0)
+    >>> mass_range(drop, None)
+    (0.01, 1.0)
+    """
     outer = sorted([drop.balls[0].mass, drop.balls[-1].mass])
     if within is None:
         low, high = outer
         right = "balls must have outer masses that differ, unless within is given"
     else:
         try:
-            low, high = (positive("within", one, "kilograms") for one in within)  # type: ignore[attr-defined]
+            low, high = (positive("within", mass, "kilograms") for mass in within)  # type: ignore[attr-defined]
         except (TypeError, ValueError) as error:
             if isinstance(error, StackbounceError):
                 raise

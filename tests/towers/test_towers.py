@@ -10,11 +10,11 @@ import pytest
 
 import stackbounce as sb
 from stackbounce import plots
-from stackbounce.calibration import between
+from stackbounce.calibration import between, separate
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.gaps_and_masses.batch import solve_drops
-from stackbounce.gaps_and_masses.separation_limit import find_separation_limit, replace_gaps
 from stackbounce.model.catalogue import catalogue_ball
+from stackbounce.towers.batch import solve_drops
+from stackbounce.towers.separation import replace_gaps
 
 
 def pair(lower, upper, laws, **options):
@@ -40,22 +40,10 @@ SLOW = {  # a restitution that does
 # from touching to separate
 
 
-@pytest.mark.fast_cases(1)
-@pytest.mark.parametrize("drop", FAST.values(), ids=FAST)
-def test_separate_collisions_are_the_textbooks(drop):
-    ds = sb.transition(drop)
-    beyond = ds.sel(gap=slice(ds.separate_from, None))
-    assert beyond.sizes["gap"] > 5
-    for name in ("rebound_ratio", "collisions"):
-        textbook = ds["textbook_" + name.removeprefix("rebound_")]
-        assert np.allclose(beyond[name], textbook, rtol=0.0, atol=1e-9), name
-    assert ds.textbook_energy == pytest.approx(float(beyond.energy_retained[0]), abs=1e-9)
-
-
 @pytest.mark.fast_cases(2)
 @pytest.mark.parametrize("drop", (FAST | SLOW).values(), ids=FAST | SLOW)
 def test_nothing_changes_from_there_on_and_something_just_before(drop):
-    limit = sb.transition(drop).separate_from
+    limit = sb.separation_limit(drop)
 
     def intervals(share):
         result = sb.simulate(replace_gaps(drop, None, share * limit))
@@ -66,107 +54,48 @@ def test_nothing_changes_from_there_on_and_something_just_before(drop):
         assert intervals(share)[0] == pytest.approx(ratios, abs=1e-9)
         assert intervals(share)[1] == pytest.approx(lasting, rel=1e-6)
     assert np.abs(intervals(0.9)[0] - ratios).max() > 1e-9
+    if drop in FAST.values():
+        textbook = sb.simulate(separate(replace_gaps(drop, None, limit)))
+        assert ratios == pytest.approx(textbook.rebound_ratios, abs=1e-9)
 
 
 def test_equal_balls_on_equal_springs_are_separate_after_half_a_period():
-    assert sb.transition(pair(1.0, 1.0, SPRINGS)).separate_from == pytest.approx(math.pi, rel=1e-12)
+    assert sb.separation_limit(pair(1.0, 1.0, SPRINGS)) == pytest.approx(math.pi, rel=1e-12)
     drop = pair(4.0, 1.0, [sb.Spring(9.0)] * 2, impact_speed=2.0)  # m2 < m1
     half = math.pi * math.sqrt(4.0 / 9.0)
-    assert sb.transition(drop).separate_from == pytest.approx(2.0 * half, rel=1e-12)
+    assert sb.separation_limit(drop) == pytest.approx(2.0 * half, rel=1e-12)
 
 
 def test_a_dashpot_is_waited_for_until_its_compression_is_gone():
     """When the floor's force ends the compression goes on at a constant rate for b/k."""
     law = sb.Dashpot(1.0, 0.2)
     time = sb.contact_time(law, mass=5.0) + law.damping / law.stiffness
-    limit = sb.transition(pair(5.0, 1.0, [law, sb.Spring(0.01)])).separate_from
+    limit = sb.separation_limit(pair(5.0, 1.0, [law, sb.Spring(0.01)]))
     assert limit == pytest.approx(time, rel=1e-9)  # the upper ball came down at 1 m/s
 
 
-def test_touching_is_the_first_gap():
-    drop = FAST["springs"]
-    first = sb.transition(drop).isel(gap=0)
-    assert float(first.gap) == 0.0
-    assert first.rebound_ratio.values == pytest.approx(sb.simulate(drop).rebound_ratios, abs=1e-12)
-
-
-def test_every_gap_is_what_simulate_returns():
-    drop = FAST["hysteretic"]
-    ds = sb.transition(drop)
-    for gap in ds.gap.values[::200]:
-        result = sb.simulate(replace_gaps(drop, None, float(gap)))
-        assert ds.rebound_ratio.sel(gap=gap).values == pytest.approx(result.rebound_ratios)
-        assert ds.first_touch.sel(gap=gap).values == pytest.approx(result.first_touch)
-
-
-@pytest.mark.fast_cases(1)
-@pytest.mark.parametrize("name", ["springs", "light below", "hysteretic", "dashpot"])
-def test_no_change_of_a_count_is_missed(name):
-    drop = FAST[name]
-    ds = sb.transition(drop)
-    even = sb.sweep(drop, {"gaps.0": np.linspace(0.0, float(ds.gap[-1]), 20001)})
-
-    def different(counts):
-        return [row for row, _ in itertools.groupby(map(tuple, counts.values))]
-
-    assert different(ds.collisions) == different(even.collisions)
-    assert len(different(ds.collisions)) == len(ds.changes) + 1
-    bent = np.interp(even["gaps.0"], ds.gap, ds.rebound_ratio.sel(ball=0))
-    assert np.abs(bent - even.rebound_ratio.sel(ball=0)).max() < 5e-3
-
-
-def test_changes_are_known_to_seven_digits():
-    ds = sb.transition(FAST["light below"])
-    assert len(ds.changes) == 8
-    for gap in ds.changes:
-        i = int(np.flatnonzero(ds.gap == gap)[0])
-        assert (ds.collisions[i] != ds.collisions[i - 1]).any()
-        assert gap - float(ds.gap[i - 1]) <= 1e-7 * gap
-
-
-def test_a_change_where_the_lower_ball_stops():
-    """A ball that stops is sent to the floor again if the gap is wider still."""
-    ds = sb.transition(pair(0.150, 0.057, [sb.Spring(2500.0), sb.Spring(1000.0)]))
-    (gap,) = ds.changes
-    assert ds.collisions.sel(gap=gap).values.tolist() == [2, 1]
-    assert float(ds.rebound_ratio.sel(gap=gap, ball=0)) == pytest.approx(0.0, abs=1e-6)
-
-
-@pytest.mark.slow
 def test_collisions_without_end_are_never_separate():
     laws = [sb.Hysteretic(1.0, restitution=0.5)] * 2
-    ds = sb.transition(pair(1.0, 10.0, laws), stop=100.0)
-    assert ds.separate_from == math.inf
-    assert (ds.textbook_collisions == -1).all()
-    counts = ds.collisions.sum("contact").values
-    assert (np.diff(counts) >= 0).all()
-    assert counts[-1] >= 7
+    assert sb.separation_limit(pair(1.0, 10.0, laws)) == math.inf
 
 
 def test_one_gap_varies_and_the_others_stay():
     balls = [sb.Ball(m) for m in (3.0, 1.0, 0.5)]
     drop = sb.Drop(balls, [sb.Spring(1.0)] * 3, [0.3, 0.2], impact_speed=1.0)
-    ds = sb.transition(drop, 1)
-    gap = float(ds.gap[40])
-    result = sb.simulate(dataclasses.replace(drop, gaps=[0.3, gap]))
-    assert ds.rebound_ratio.values[40] == pytest.approx(result.rebound_ratios, abs=1e-9)
-    far = sb.simulate(dataclasses.replace(drop, gaps=[0.3, 30.0 * ds.separate_from]))
-    assert ds.rebound_ratio.values[-1] == pytest.approx(far.rebound_ratios, abs=1e-9)
-    assert not np.allclose(ds.rebound_ratio[-1], ds.textbook_ratio, atol=1e-2)
-
-
-def test_stop_cuts_the_range():
-    ds = sb.transition(pair(1.0, 1.0, SPRINGS), stop=0.5)
-    assert float(ds.gap[-1]) == 0.5
-    assert ds.separate_from == pytest.approx(math.pi)
-    assert ds.changes == []
+    limit = sb.separation_limit(drop, 1)
+    ratios = [
+        sb.simulate(dataclasses.replace(drop, gaps=[0.3, share * limit])).rebound_ratios
+        for share in (0.98, 1.0, 30.0)
+    ]
+    assert ratios[1] == pytest.approx(ratios[2], abs=1e-9)
+    assert ratios[0] != pytest.approx(ratios[2], abs=1e-9)
 
 
 def test_touches_of_round_off_do_not_count():
     """The cannon's lower balls come to rest but for round-off: they touch again, much later."""
     balls = [sb.Ball(m) for m in (0.3, 0.1, 0.05)]
     drop = sb.Drop(balls, [sb.Hertz(1e9)] * 3, impact_speed=1.0)
-    assert 0.0 < find_separation_limit(drop, None, 1e-4, 1e-12) < 1e-2
+    assert 0.0 < sb.separation_limit(drop) < 1e-2
 
 
 @pytest.mark.parametrize(
@@ -177,17 +106,12 @@ def test_touches_of_round_off_do_not_count():
         (pair(1.0, 1.0, SPRINGS, gravity=9.81), {}, "gravity must be 0, got 9.81"),
         (pair(1.0, 1.0, [None, sb.Spring(1.0)]), {}, "contacts that close"),
         (pair(1.0, 1.0, SPRINGS), {"only": 1}, "only must be a whole number from 0 to 0, got 1"),
-        (pair(1.0, 1.0, SPRINGS), {"stop": -1.0}, "stop must be a positive number of metres"),
+        ("basketball", {}, "drop must be a Drop"),
     ],
 )
-def test_what_has_no_transition_is_refused(drop, options, message):
-    with pytest.raises(InvalidValue, match=message):
-        sb.transition(drop, **options)
-
-
-def test_a_transition_of_no_drop_is_a_type_error():
-    with pytest.raises(InvalidType, match="drop must be a Drop"):
-        sb.transition("basketball")
+def test_what_has_no_limit_is_refused(drop, options, message):
+    with pytest.raises((InvalidValue, InvalidType), match=message):
+        sb.separation_limit(drop, **options)
 
 
 # stacks in order
@@ -196,7 +120,7 @@ def test_a_transition_of_no_drop_is_a_type_error():
 def test_stacks_are_as_simulated_and_in_order():
     ds = sb.highest(["tennis", "B1", "B2"], 2, gaps=[0.001, 0.0], law=sb.Spring, impact_speed=3.0)
     assert ds.sizes == {"stack": 6, "gap": 2, "ball": 2, "contact": 2}
-    for i, gap in itertools.product(range(6), range(2)):
+    for i, gap in [(0, 0), (3, 1), (5, 0)]:
         lower, upper = (catalogue_ball(name) for name in ds.balls.values[i])
         floors = [
             sb.calibrate(sb.Spring, mass=one.ball.mass, contact_time=one.contact_time)
@@ -320,12 +244,6 @@ def test_no_other_mass_is_better(law):
     assert best.balls[1].mass > 0.2  # and not the geometric mean, 0.1
 
 
-def test_wide_gaps_bring_the_geometric_mean_back():
-    balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
-    drop = sb.Drop(balls, [sb.Spring(1e4)] * 3, [0.1, 0.1], impact_speed=1.0)
-    assert sb.best_masses(drop).balls[1].mass == pytest.approx(0.1, rel=1e-5)
-
-
 @pytest.mark.slow
 def test_contacts_may_depend_on_the_masses():
     seen = []
@@ -342,11 +260,33 @@ def test_contacts_may_depend_on_the_masses():
     assert len(seen) > 100
 
 
-@pytest.mark.slow
-def test_what_is_tried_can_be_said():
+def test_a_given_stack_is_ranked_with_its_best_masses():
+    balls = [sb.Ball(1.0), sb.Ball(0.5, name="middle"), sb.Ball(0.01)]
+    drop = sb.Drop(balls, [sb.Rigid(1.0)] * 3, [0.01, 0.02], impact_speed=2.0)
+    ds = sb.highest(drop, masses=(0.2, 0.4))
+    assert ds["stack"].values.tolist() == [
+        "ball 0 + 100 g + ball 2 (geometric means)",
+        "ball 0 + 200 g + ball 2 (best masses)",
+        "ball 0 + middle + ball 2",
+    ]
+    best = sb.Drop.from_mapping(tomllib.loads(ds.attrs["best"]))
+    assert best.balls[1].mass == ds.mass.values[1, 1] == pytest.approx(0.2)
+    assert (best.gaps, ds.impact_speed) == (drop.gaps, 2.0)
+    assert (ds.attrs["within"], ds.attrs["at_the_end"]) == ((0.2, 0.4), [1])
+    assert np.isnan(ds.gap).all()
+    assert ds.rebound_ratio.values[2, 0] == pytest.approx(sb.simulate(drop).rebound_ratios)
+    assert plots.highest(ds).legends[0].get_texts()[0].get_text() == "with its own gaps"
+
+
+def test_masses_are_best_at_the_first_gap():
     balls = [sb.Ball(1.0), sb.Ball(0.5), sb.Ball(0.01)]
-    drop = sb.Drop(balls, [sb.Rigid(1.0)] * 3, impact_speed=1.0)
-    assert sb.best_masses(drop, within=(0.2, 0.4)).balls[1].mass == pytest.approx(0.2)
+    drop = sb.Drop(balls, [sb.Spring(1e4)] * 3, impact_speed=1.0)
+    ds = sb.highest(drop, gaps=[0.003, 0.0], masses=True)
+    best = ds.isel(stack=0)
+    assert str(best["stack"].values).endswith("(best masses)")
+    assert best.place.values.tolist() == [1, 2]
+    assert float(best.mass[1]) == sb.best_masses(replace_gaps(drop, None, 0.003)).balls[1].mass
+    assert (ds.attrs["at_the_end"], ds.attrs["within"]) == ([], (0.01, 1.0))
 
 
 @pytest.mark.parametrize(
@@ -370,30 +310,18 @@ def test_masses_that_make_no_search_are_refused(masses, options, error, message)
 # pictures
 
 
-def test_the_picture_of_a_transition_shows_what_there_is():
-    ds = sb.transition(pair(1.0, 1.0, SPRINGS))
-    above, below = plots.transition(ds).axes
-    lower = above.get_lines()[0].get_xydata().T
-    assert np.array_equal(lower, [ds.gap, ds.rebound_ratio.sel(ball=0)])
-    assert np.array_equal(below.get_lines()[1].get_ydata(), ds.collisions.sel(contact=1))
-    assert (above.get_xlim(), below.get_xlabel()) == ((0.0, float(ds.gap[-1])), "gap (m)")
-    (grey,) = above.patches
-    assert grey.get_x() == ds.separate_from
-
-
 def test_the_picture_of_stacks_shows_the_best_above():
     ds = sb.highest(["B1", "B2", "B3"], 2)
     (axes,) = plots.highest(ds).axes
     names = [text.get_text() for text in axes.get_yticklabels()]
-    assert names == [" + ".join(stack) for stack in ds.balls.values]
+    assert names == [" + ".join(stack) for stack in ds.balls.values] == ds["stack"].values.tolist()
     assert axes.get_ylim()[0] > axes.get_ylim()[1]
     assert np.array_equal(axes.get_lines()[0].get_xdata(), ds.height_ratio.isel(gap=0))
 
 
 def test_pictures_of_something_else_are_refused():
-    for draw in (plots.transition, plots.highest):
-        with pytest.raises(InvalidType, match="data must be a Dataset from"):
-            draw(sb.sweep(pair(1.0, 1.0, SPRINGS), {"balls.0.mass": [1.0, 2.0]}))
+    with pytest.raises(InvalidType, match="data must be a Dataset from"):
+        plots.highest(sb.sweep(pair(1.0, 1.0, SPRINGS), {"balls.0.mass": [1.0, 2.0]}))
     many = sb.highest(["B1", "B2"], 2, gaps=list(np.linspace(0.0, 0.01, 9)))
     with pytest.raises(InvalidValue, match="at most 8 gaps, got 9"):
         plots.highest(many)

@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.errors import InvalidValue
+from stackbounce.errors import InvalidValue, shown, whole
 from stackbounce.model import Drop
 from stackbounce.run.driver import simulate
+from stackbounce.run.options import run_options
 from stackbounce.run.result import Status
 
-__all__ = ["find_separation_limit", "measure_fall", "replace_gaps"]
+__all__ = ["replace_gaps", "separation_limit"]
 
 _TRIES, _WIDER = 10, 4.0  # up to 250 000 times the distance fallen during the touching impact
 _STEADY = 1e-6  # relative; durations that do not depend on the gap differ by less
@@ -34,51 +35,63 @@ def replace_gaps(drop: Drop, only: int | None, gap: float) -> Drop:
     return dataclasses.replace(drop, gaps=gaps)
 
 
-def measure_fall(drop: Drop, only: int | None, rtol: float) -> float:
-    """Return the impact speed times the duration of the impact of touching balls, in m.
-
-    Raises
-    ------
-    InvalidValue
-        If no contact ever closes.
-    """
-    last = simulate(replace_gaps(drop, only, 0.0), rtol=rtol).last_release
-    if np.isnan(last).all():
-        raise InvalidValue(
-            "drop must have contacts that close, got balls that neither meet a floor nor each other"
-        )
-    return float(drop.reference_speed * np.nanmax(last))
-
-
-def find_separation_limit(drop: Drop, only: int | None, length: float, rtol: float) -> float:
+def separation_limit(drop: Drop, only: int | None = None, *, rtol: float = 1e-12) -> float:
     """Return the separation limit in m: above it the outcome does not depend on the gap.
 
     Parameters
     ----------
     drop : Drop
-        On finite contacts, without gravity.
-    only : int or None
-        The index of the gap that varies; None for all gaps, with the same value.
-    length : float
-        In m, from `measure_fall`: where the search begins.
-    rtol : float
+        Two balls or more on finite contacts, without gravity. Its own gaps are used only if
+        `only` is given.
+    only : int, optional
+        The index of the gap that varies while the others stay as they are. By default all gaps
+        vary together, with the same value.
+    rtol : float, optional
         As in `simulate`.
 
     Returns
     -------
     float
-        inf if there is none below 250 000 times `length`.
+        inf if there is none below 250 000 times the distance that the stack falls during the impact
+        of touching balls: mostly where separate collisions are infinitely many, because they follow
+        each other faster than any contact can open.
+
+    Raises
+    ------
+    InvalidValue
+        If there is only one ball, gravity is not 0, contacts are rigid, no contact ever closes, or
+        a number is out of its range.
+    InvalidType
+        If something has the wrong type.
 
     Notes
     -----
-    With a wide gap g the impact consists of separate events: single collisions, or groups of them
-    where other gaps are narrow. A wider gap only lengthens the flights between the events, so that
-    each contact interval begins at ``a + b g`` and keeps its duration. Two runs determine all a and
-    b. This holds down to the gap at which one event begins at the moment when another event of the
-    same ball ends; the largest of these gaps is returned. A contact with a clipped force counts as
-    closed until its compression is gone.
+    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), section II. With a wide gap g the impact
+    consists of separate events: single collisions, or groups of them where other gaps are narrow. A
+    wider gap only lengthens the flights between the events, so that each contact interval begins at
+    ``a + b g`` and keeps its duration. Two runs determine all a and b. This holds down to the gap
+    at which one event begins at the moment when another event of the same ball ends; the largest of
+    these gaps is returned, and is exact. A contact with a clipped force counts as closed until its
+    compression is gone.
+
+    Examples
+    --------
+    Two equal balls on equal springs. At the separation limit the lower ball leaves the floor, half
+    a period after its touch, at the moment when the gap closes:
+
+    >>> import stackbounce as sb
+    >>> drop = sb.Drop([sb.Ball(1.0)] * 2, [sb.Spring(1.0)] * 2, impact_speed=1.0)
+    >>> round(sb.separation_limit(drop), 9)
+    3.141592654
     """
-    gap = length
+    run_options(drop, None, rtol, 1)
+    _check(drop, only)
+    last = simulate(replace_gaps(drop, only, 0.0), rtol=rtol).last_release
+    if np.isnan(last).all():
+        raise InvalidValue(
+            "drop must have contacts that close, got balls that neither meet a floor nor each other"
+        )
+    gap = float(drop.reference_speed * np.nanmax(last))  # fallen during the impact
     for _ in range(_TRIES):
         narrow, wide = (_intervals(replace_gaps(drop, only, g), rtol) for g in (gap, 2.0 * gap))
         if narrow is not None and wide is not None and _alike(narrow, wide):
@@ -87,6 +100,23 @@ def find_separation_limit(drop: Drop, only: int | None, length: float, rtol: flo
                 return found
         gap *= _WIDER
     return math.inf
+
+
+def _check(drop: Drop, only: object) -> None:
+    if len(drop.balls) < 2:
+        raise InvalidValue("balls must be two or more for a gap, got 1")
+    if only is not None:
+        whole("only", only, 0, len(drop.gaps) - 1)
+    if drop.rigid:
+        raise InvalidValue(
+            "contacts must be finite ones, such as Spring, got Rigid: such collisions are "
+            "separate whatever the gap"
+        )
+    if drop.gravity > 0.0:
+        raise InvalidValue(
+            f"gravity must be 0, got {shown(drop.gravity)}: with it the outcome changes with every "
+            "gap"
+        )
 
 
 def _intervals(drop: Drop, rtol: float) -> NDArray[Any] | None:

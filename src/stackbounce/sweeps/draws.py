@@ -6,13 +6,13 @@ import re
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from stackbounce.errors import FileError, InvalidValue, shown
 from stackbounce.files import content_of
-
-if TYPE_CHECKING:
-    from stackbounce.model.drop import Drop
+from stackbounce.model import Drop
+from stackbounce.run.paths import number_at
+from stackbounce.units import factor
 
 __all__ = ["draws_text", "read_draws"]
 
@@ -21,7 +21,7 @@ _BYTES = 2**27  # of a table, at most
 _HEADING = re.compile(r"([^\s(\[]+)\s*(?:[(\[](.*)[)\]])?")
 
 
-def read_draws(drop: "Drop", path: Path) -> dict[str, tuple[str, list[float]]]:
+def read_draws(drop: Drop, path: Path) -> dict[str, tuple[str, list[float]]]:
     """Return the draws of a table by path, each with the dimension that all of them share.
 
     Parameters
@@ -53,7 +53,7 @@ def read_draws(drop: "Drop", path: Path) -> dict[str, tuple[str, list[float]]]:
         raise InvalidValue(f"{name}: {error}") from error
 
 
-def draws_text(drop: "Drop", draws: Mapping[str, Any]) -> str:
+def draws_text(drop: Drop, draws: Mapping[str, Any]) -> str:
     """Return draws, arrays by path, as such a table with all digits.
 
     Examples
@@ -66,8 +66,6 @@ def draws_text(drop: "Drop", draws: Mapping[str, Any]) -> str:
     0.3
     0.31
     """
-    from stackbounce.run.paths import number_at
-
     units = {path: number_at(drop, path).unit for path in draws}
     headings = [f"{path} ({unit})" if unit else path for path, unit in units.items()]
     columns = [values.tolist() for values in draws.values()]
@@ -75,11 +73,8 @@ def draws_text(drop: "Drop", draws: Mapping[str, Any]) -> str:
     return "\n".join([",".join(headings), *rows, ""])
 
 
-def _columns(drop: "Drop", headings: Sequence[str]) -> dict[str, Decimal]:
+def _columns(drop: Drop, headings: Sequence[str]) -> dict[str, Decimal]:
     """Return the factor to SI units of each column, by its path."""
-    from stackbounce.run.paths import number_at
-    from stackbounce.units import factor
-
     found: dict[str, Decimal] = {}
     for text in headings:
         parts = _HEADING.fullmatch(text.strip())
@@ -93,7 +88,7 @@ def _columns(drop: "Drop", headings: Sequence[str]) -> dict[str, Decimal]:
 
 
 def _numbers(
-    drop: "Drop", rows: Sequence[tuple[int, Sequence[str]]], decimal: str
+    drop: Drop, rows: Sequence[tuple[int, Sequence[str]]], decimal: str
 ) -> dict[str, tuple[str, list[float]]]:
     """Return the numbers of each column in SI units; the first row is the heading."""
     if len(rows) < 2:
