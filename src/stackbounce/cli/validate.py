@@ -13,7 +13,7 @@ from stackbounce.extras import need
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from stackbounce.validation import Validation
+    from stackbounce.fitting.validation import Validation
 
 __all__ = ["run"]
 
@@ -26,7 +26,7 @@ def run(
 ) -> None:
     """Try each contact law on published measurements: which law for which ball."""
     need("paper", "stackbounce validate")
-    from stackbounce import validation
+    from stackbounce.fitting import validation
 
     if not out:  # Path("") is the current folder
         raise InvalidValue("--out must name a folder, got ''")

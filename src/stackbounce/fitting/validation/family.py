@@ -7,9 +7,9 @@ import numpy as np
 
 from stackbounce.calibration import calibrate, contact_time, restitution
 from stackbounce.errors import StackbounceError
+from stackbounce.fitting.quantities import Array
+from stackbounce.fitting.validation.series import CONTACT_TIME, RESTITUTION, Series
 from stackbounce.model.laws import LAWS, ContactLaw
-from stackbounce.validation.fall import Array
-from stackbounce.validation.series import CONTACT_TIME, RESTITUTION, Series
 
 __all__ = ["Family", "families", "predicted", "reason_to_skip"]
 

@@ -5,12 +5,12 @@ import json
 
 import pytest
 
-from stackbounce import datasets, validation
+from stackbounce import datasets
 from stackbounce.cli import main
 from stackbounce.errors import FileError
+from stackbounce.fitting import validation
+from stackbounce.fitting.validation.comparison import AGREES, REFUTED, verdict
 from stackbounce.model import LAWS
-from stackbounce.validation.comparison import AGREES, REFUTED, verdict
-from stackbounce.validation.results import validate
 
 FEW = ("granite-spheres", "superball-knocks")
 
@@ -68,7 +68,7 @@ def test_the_folder_must_have_a_name(capsys):
 
 @pytest.fixture(scope="module")
 def everything():
-    return validate()
+    return validation.validate()
 
 
 @pytest.mark.slow

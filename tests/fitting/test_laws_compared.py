@@ -7,11 +7,11 @@ import pytest
 
 import stackbounce as sb
 from stackbounce import datasets
+from stackbounce.fitting.validation import comparison
+from stackbounce.fitting.validation.comparison import AGREES, REFUTED, compare_laws
+from stackbounce.fitting.validation.family import Family, families, predicted, reason_to_skip
+from stackbounce.fitting.validation.series import CONTACT_TIME, RESTITUTION, Series, make_series
 from stackbounce.model import LAWS
-from stackbounce.validation import comparison
-from stackbounce.validation.comparison import AGREES, REFUTED, compare_laws
-from stackbounce.validation.family import Family, families, predicted, reason_to_skip
-from stackbounce.validation.series import CONTACT_TIME, RESTITUTION, Series, make_series
 
 SPEEDS = np.array([4.0, 3.0, 2.0, 1.0, 0.5])
 ERROR = 0.004
