@@ -7,7 +7,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidType, InvalidValue
-from stackbounce.fitting import FitProblem, Question
+from stackbounce.fitting import FitProblem
 
 STIFFNESS = "contacts.0.stiffness"
 DROP = sb.Drop([sb.Ball(0.0567)], [sb.Spring(1e4)], height=0.3)
@@ -81,9 +81,3 @@ def test_several_drops_stay_several():
     problem = FitProblem(drops, data, [STIFFNESS])
     assert problem.drop == problem.drops == drops
     assert [one.drop for one in problem.fit(starts=4).residuals] == ["low", "high"]
-
-
-def test_the_former_name_is_kept():
-    assert Question is FitProblem
-    found = Question({"": DROP}, {"": DATA}, [STIFFNESS]).fit(starts=4)
-    assert found.problem is found.objective

@@ -166,7 +166,9 @@ def read_description(name: str, mapping: Mapping[str, Any]) -> Description:
     if not isinstance(columns, list | type(None)) or columns == []:
         raise InvalidValue(f"{name}: columns must be a list of tables, got {shown(columns)}")
     if columns is not None:
-        table["columns"] = tuple(_column(f"{name}: {one.get('name')}", one) for one in columns)
+        table["columns"] = tuple(
+            _column(f"{name}: {column.get('name')}", column) for column in columns
+        )
     made = _made(Description, name, table | {"name": name})
     for key, allowed in (("seen", SEEN), ("kind", KINDS)):
         if getattr(made, key) not in allowed:
@@ -208,7 +210,7 @@ def _value(path: str, value: object, *, words: bool) -> Value:
             raise InvalidValue(f"{path} must be words, got {shown(value)}")
         return value
     if isinstance(value, list):
-        return tuple(finite(path, one) for one in value)
+        return tuple(finite(path, item) for item in value)
     return finite(path, value)
 
 

@@ -25,8 +25,8 @@ def published() -> dict[str, Description]:
     """
     folder = files("stackbounce.datasets").joinpath("tables")
     found = {
-        one.name.removesuffix(".toml"): tomllib.loads(one.read_text(encoding="utf-8"))
-        for one in folder.iterdir()
-        if one.name.endswith(".toml")
+        file.name.removesuffix(".toml"): tomllib.loads(file.read_text(encoding="utf-8"))
+        for file in folder.iterdir()
+        if file.name.endswith(".toml")
     }
     return {name: read_description(name, found[name]) for name in sorted(found)}

@@ -46,7 +46,6 @@ __all__ = [
     "Interval",
     "Model",
     "Posterior",
-    "Question",
     "Range",
     "Record",
     "Residual",
@@ -58,5 +57,3 @@ __all__ = [
 ]
 
 need("fit", "stackbounce fit")
-
-Question = FitProblem  # the former name, for one release

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Parts", "convert_measured", "read_force_record", "read_parts", "read_question"]
 
-_DROP = tuple(one.name for one in fields(Drop))
+_DROP = tuple(field.name for field in fields(Drop))
 _OWN = ("measured", "vary", "tie", "drops")
 _INCIDENCE = ("impact_speed", "height", "velocities")
 _RANGE = ("low", "high", "prior")
@@ -143,7 +143,7 @@ def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
     _check_keys(table, _RECORD + _READING, f"{name}.")
     path = folder / table["file"]
     data = read(path, **{key: one for key, one in table.items() if key in _READING})
-    own = [one for one in data.data_vars if str(one).split("_")[0] in ("force", "voltage")]
+    own = [name for name in data.data_vars if str(name).split("_")[0] in ("force", "voltage")]
     if data.attrs["holds"] != "waveform" or not own:
         raise InvalidValue(
             f"{name}: {path} holds no force over time, but {a_or_an(data.attrs['holds'])}"

@@ -121,11 +121,12 @@ class FitProblem:
         measured = self._read_data()
         parameters = read_parameters(self.drops, self.vary)
         touches = tuple(_touch(key, one) for key, one in measured.items() if one.waveforms)
-        own = {one.name for one in parameters}
-        for one in touches:
-            if one.name in own:
+        own = {parameter.name for parameter in parameters}
+        for parameter in touches:
+            if parameter.name in own:
                 raise InvalidValue(
-                    f"{one.name} is the time of first touch in a force record: take another name"
+                    f"{parameter.name} is the time of first touch in a force record: take another "
+                    "name"
                 )
         ties = read_ties(self.drops, parameters, self.tie)
         objective = Objective(self.drops, measured, parameters + touches, ties, self.rtol)
@@ -191,7 +192,7 @@ class FitProblem:
         _announce(objective, first, expected)
         course = objective.course
         try:
-            with course.told(progress, expected):
+            with course.reported(progress, expected):
                 minima = find_minima(objective, first[None], count, start)
         except KeyboardInterrupt as stopped:
             if course.best is None:
@@ -337,11 +338,11 @@ def _touch(key: str, measured: Measured) -> Parameter:
 def _first_trial(objective: Objective) -> Any:
     """Return the trial (parameters,) of the drops' own numbers, or mid-range outside the bounds."""
     found = []
-    for one in objective.parameters:
-        at = find_numbers(objective.drops, one.name)
+    for parameter in objective.parameters:
+        at = find_numbers(objective.drops, parameter.name)
         value = value_in(objective.drops[at[0][0]], at[0][1]) if at else np.nan
-        inside = one.low <= value <= one.high
-        found.append(one.coordinate(value) if inside else 0.5 * sum(one.span))
+        inside = parameter.low <= value <= parameter.high
+        found.append(parameter.coordinate(value) if inside else 0.5 * sum(parameter.span))
     return np.array(found)
 
 

@@ -73,12 +73,12 @@ def solve_draws(
         done = stop
         if progress is not None:
             progress(done, len(draws))
-    status = np.concatenate([one.status for one in parts])
+    status = np.concatenate([part.status for part in parts])
     if done < min(FEWEST, len(draws)):
         raise InvalidValue(_why_few(inputs, draws[:done], status))
     names = parts[0].tables
-    tables = {name: np.concatenate([one.tables[name] for one in parts]) for name in names}
-    return Solved(tables, status, np.concatenate([one.work for one in parts]))
+    tables = {name: np.concatenate([part.tables[name] for part in parts]) for name in names}
+    return Solved(tables, status, np.concatenate([part.work for part in parts]))
 
 
 def _why_few(inputs: Inputs, draws: Array, status: NDArray[np.int64]) -> str:

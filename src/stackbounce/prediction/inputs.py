@@ -67,13 +67,15 @@ class Inputs:
     @functools.cached_property
     def values(self) -> Array:
         """(numbers,) values without errors, in SI units."""
-        return np.array([one.nominal_value for one in self.errors])
+        return np.array([error.nominal_value for error in self.errors])
 
     @functools.cached_property
     def spread(self) -> Array:
         """(numbers, variables) change of each number by one standard deviation of a variable."""
-        variables = list(dict.fromkeys(v for one in self.errors for v in one.derivatives))
-        rows = [[one.derivatives.get(v, 0.0) * v.std_dev for v in variables] for one in self.errors]
+        variables = list(dict.fromkeys(v for error in self.errors for v in error.derivatives))
+        rows = [
+            [error.derivatives.get(v, 0.0) * v.std_dev for v in variables] for error in self.errors
+        ]
         return np.array(rows)
 
     @property
@@ -238,7 +240,7 @@ def _with_error(number: Number, value: Any) -> Any:
     if isinstance(value, str):
         found = quantity_with_error(value, unit, path)
     elif isinstance(value, Sequence) and len(value) == 2:
-        mean, error = (quantity(one, unit, path) for one in value)
+        mean, error = (quantity(item, unit, path) for item in value)
         found = known_to(mean, deviation(path, error))
     if not hasattr(found, "nominal_value"):
         raise InvalidType(f"{path} must be {right}, got {shown(value)}")
@@ -267,7 +269,7 @@ def _as_normal(draws: Sequence[Array]) -> list[Any]:
 
     if not draws:
         return []
-    means = [float(np.mean(one)) for one in draws]
+    means = [float(np.mean(own)) for own in draws]
     return list(correlated_values(means, np.atleast_2d(np.cov(np.array(draws)))))
 
 

@@ -93,7 +93,7 @@ def _changed_counts(counts: Array) -> str:
     for contact, column in enumerate(counts.T.tolist()):
         known = sorted(set(column), key=lambda count: (count < 0, count))
         if len(known) > 1:
-            words = ["infinitely many" if one < 0 else f"{one}" for one in known]
+            words = ["infinitely many" if count < 0 else f"{count}" for count in known]
             if len(words) > 3:
                 words = [f"{words[0]} to {words[-1]}"]
             return f"contact {contact} collides {_alternatives(words)} times"

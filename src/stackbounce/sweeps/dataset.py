@@ -119,7 +119,7 @@ def check_together(numbers: Sequence[Number]) -> None:
     for number in numbers:
         if number.field == "restitution":
             other = f"{number.part}.{number.index}.unloading_exponent"
-            if any(one.path == other for one in numbers):
+            if any(number.path == other for number in numbers):
                 raise InvalidValue(f"{number.path} and {other}: only one of the two can vary")
 
 
