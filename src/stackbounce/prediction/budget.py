@@ -1,4 +1,4 @@
-"""The runs of draws, in parts: their work together is limited, and their progress is told."""
+"""The runs of draws, in parts: their work together is limited, and their progress is reported."""
 
 from collections.abc import Callable
 
@@ -6,10 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from stackbounce.errors import InvalidValue
-from stackbounce.model import Drop
 from stackbounce.prediction.inputs import FEWEST, Array, Inputs
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import Solved, solve_quantities
+from stackbounce.run.quantities import Solved
 from stackbounce.run.result import Status
 
 __all__ = ["DRAWS", "Progress", "budget", "solve_draws"]
@@ -30,7 +29,7 @@ def budget(options: Options, draws: int) -> int:
 
 
 def solve_draws(
-    drop: Drop, inputs: Inputs, draws: Array, options: Options, progress: Progress | None = None
+    inputs: Inputs, draws: Array, options: Options, progress: Progress | None = None
 ) -> Solved:
     """Run draws until all are done, or until further ones would exceed the budget.
 
@@ -38,8 +37,6 @@ def solve_draws(
 
     Parameters
     ----------
-    drop : Drop
-        With the values of the numbers.
     inputs : Inputs
         The numbers with errors.
     draws : ndarray
@@ -66,8 +63,7 @@ def solve_draws(
         stop = min(len(draws), max(_FIRST, 2 * done), affordable)
         if stop <= done or (affordable < FEWEST and stopped == done):
             break
-        rows = inputs.rows(draws[done:stop])
-        parts.append(solve_quantities(drop, rows, stop - done, options))
+        parts.append(inputs.solve(draws[done:stop], options))
         spent += int(np.sum(parts[-1].work))
         stopped += int(np.sum(parts[-1].status == Status.EVENT_LIMIT))
         done = stop
@@ -83,12 +79,12 @@ def solve_draws(
 
 def _why_few(inputs: Inputs, draws: Array, status: NDArray[np.int64]) -> str:
     """Return the message of why too few draws were run."""
-    limited, said = np.flatnonzero(status == Status.EVENT_LIMIT), ""
+    limited, met = np.flatnonzero(status == Status.EVENT_LIMIT), ""
     if len(limited):
         values = zip(inputs.paths, draws[limited[0]].tolist(), strict=True)
         there = ", ".join(f"{path} = {value:.4g}" for path, value in values)
-        said = f" ({len(limited)} met a limit, the first with {there})"
+        met = f" ({len(limited)} met a limit, the first with {there})"
     return (
         f"errors lead to drops that take too long: {FEWEST} draws are needed, and only "
-        f"{len(draws)} could be run{said}; give smaller errors, or raise event_limit"
+        f"{len(draws)} could be run{met}; give smaller errors, or raise event_limit"
     )

@@ -17,7 +17,9 @@ from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmaske
 from stackbounce.measure.quantities import deviation, known_to, quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.columns import check
+from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, number_at, value_in
+from stackbounce.run.quantities import Solved, solve_quantities
 from stackbounce.sweeps.dataset import check_together
 from stackbounce.units import quantity
 
@@ -28,7 +30,6 @@ __all__ = [
     "add_value",
     "error_of_deviation",
     "of_draws",
-    "possible",
     "read_inputs",
 ]
 
@@ -47,6 +48,8 @@ class Inputs:
 
     Parameters
     ----------
+    base : Drop
+        The drop that has them; their values take the place of its own.
     numbers : tuple of Number
         Which numbers.
     errors : tuple of UFloat
@@ -55,6 +58,7 @@ class Inputs:
         Draws (n,) of those numbers that were given by draws, by index: a row holds for all of them.
     """
 
+    base: Drop
     numbers: tuple[Number, ...]
     errors: tuple[Any, ...]
     given: Mapping[int, Array]
@@ -93,24 +97,46 @@ class Inputs:
         """Whether no two numbers depend on the same variable."""
         return not self.given and bool(np.all(np.count_nonzero(self.spread, axis=0) <= 1))
 
-    def rows(self, x: Array) -> dict[Number, Array]:
-        """Return values (n, numbers) as a batch takes them."""
-        return dict(zip(self.numbers, x.T, strict=True))
+    @functools.cached_property
+    def drop(self) -> Drop:
+        """The drop with the values of the numbers."""
+        return self.drop_at(self.values)
+
+    def drop_at(self, x: Array) -> Drop:
+        """Return the drop with other numbers (numbers,)."""
+        return drop_at(self.base, dict(zip(self.numbers, x.tolist(), strict=True)))
+
+    def solve(self, x: Array, options: Options) -> Solved:
+        """Return all quantities of drops with numbers (n, numbers)."""
+        rows = dict(zip(self.numbers, x.T, strict=True))
+        return solve_quantities(self.drop, rows, len(x), options)
+
+    def possible(self, x: Array) -> tuple[NDArray[np.bool_], str]:
+        """Return which rows (n, numbers) are possible drops, and the first message of those not."""
+        every = np.ones(len(x), dtype=bool)
+        try:
+            check(self.drop, dict(zip(self.numbers, x.T, strict=True)), lambda _: "")
+        except (InvalidValue, InvalidType) as error:
+            for i, row in enumerate(x):
+                try:
+                    self.drop_at(row)
+                except (InvalidValue, InvalidType):
+                    every[i] = False
+            return every, str(error).strip()
+        return every, ""
 
     def linear(self, value: float, slopes: Array) -> Any:
         """Return a value that depends on the numbers with these derivatives (numbers,)."""
         found: Any = known_to(value, 0.0)
-        for one, slope in zip(self.errors, slopes.tolist(), strict=True):
-            found += slope * (one - one.nominal_value)
+        for number, slope in zip(self.errors, slopes.tolist(), strict=True):
+            found += slope * (number - number.nominal_value)
         return found
 
-    def draw(self, drop: Drop, count: int, seed: int) -> tuple[Array, str, float]:
+    def draw(self, count: int, seed: int) -> tuple[Array, str, float]:
         """Return draws from the normal distribution of the numbers that are possible drops.
 
         Parameters
         ----------
-        drop : Drop
-            The drop that has the numbers.
         count : int
             The number of draws; all given ones, if there are any.
         seed : int
@@ -140,7 +166,7 @@ class Inputs:
             x = self.values + np.sum(z[:, None, :] * self.spread, axis=2)
             for k, draws in self.given.items():
                 x[:, k] = draws
-            good, wrong = possible(drop, self.numbers, x)
+            good, wrong = self.possible(x)
             refused = refused or wrong
             left_out += int(np.sum(~good))
             found = np.concatenate([found, x[good]])[:count]
@@ -204,7 +230,7 @@ def read_inputs(drop: Drop, errors: object) -> Inputs:
         known[k] if k in known else _with_error(number, errors[number.path])
         for k, number in enumerate(numbers)
     )
-    inputs = Inputs(numbers, values, given)
+    inputs = Inputs(drop, numbers, values, given)
     if not inputs.spread.any():
         raise InvalidValue("errors must have a number with an error above 0, got none")
     return inputs
@@ -271,19 +297,3 @@ def _as_normal(draws: Sequence[Array]) -> list[Any]:
         return []
     means = [float(np.mean(own)) for own in draws]
     return list(correlated_values(means, np.atleast_2d(np.cov(np.array(draws)))))
-
-
-def possible(drop: Drop, numbers: Sequence[Number], x: Array) -> tuple[NDArray[np.bool_], str]:
-    """Return which rows (n, numbers) are possible drops, and the first message of those not."""
-    every = np.ones(len(x), dtype=bool)
-    try:
-        check(drop, dict(zip(numbers, x.T, strict=True)), lambda _: "")
-    except (InvalidValue, InvalidType) as error:
-        wrong = str(error).strip()
-        for i, row in enumerate(x.tolist()):
-            try:
-                drop_at(drop, dict(zip(numbers, row, strict=True)))
-            except (InvalidValue, InvalidType):
-                every[i] = False
-        return every, wrong
-    return every, ""

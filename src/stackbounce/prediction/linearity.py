@@ -5,10 +5,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.model import Drop
 from stackbounce.prediction.inputs import Array, Inputs
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, Solved, solve_quantities
+from stackbounce.run.quantities import QUANTITIES, Solved
 from stackbounce.run.result import Status
 
 __all__ = ["ROUND_OFF", "STEP", "Slopes", "differentiate"]
@@ -23,14 +22,12 @@ Slopes = Mapping[str, tuple[Array, Array]]
 
 
 def differentiate(
-    drop: Drop, inputs: Inputs, draws: Array, solved: Solved, options: Options
+    inputs: Inputs, draws: Array, solved: Solved, options: Options
 ) -> tuple[Slopes, str, float]:
     """Return the derivatives of all quantities, and why they do not do, if so.
 
     Parameters
     ----------
-    drop : Drop
-        With the values of the numbers.
     inputs : Inputs
         The numbers with errors.
     draws : ndarray
@@ -53,7 +50,7 @@ def differentiate(
     count = len(inputs.numbers)
     steps = np.diag(STEP * inputs.deviations)
     x = np.concatenate([inputs.values[None], inputs.values + steps, inputs.values - steps])
-    near = solve_quantities(drop, inputs.rows(x), len(x), options)
+    near = inputs.solve(x, options)
     found = {
         name: np.concatenate([table, solved.tables[name]]) for name, table in near.tables.items()
     }

@@ -11,19 +11,12 @@ import numpy as np
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
 from stackbounce.prediction.budget import budget
-from stackbounce.prediction.inputs import (
-    FEWEST,
-    Array,
-    Inputs,
-    error_of_deviation,
-    of_draws,
-    possible,
-)
+from stackbounce.prediction.inputs import FEWEST, Array, Inputs, error_of_deviation, of_draws
 from stackbounce.prediction.linearity import Slopes
 from stackbounce.prediction.runs import Runs
 from stackbounce.prediction.sensitivity import fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, Solved, solve_quantities
+from stackbounce.run.quantities import QUANTITIES, Solved
 from stackbounce.run.result import Result, Status
 from stackbounce.units import rounded
 from stackbounce.version import __version__
@@ -72,8 +65,6 @@ class Prediction:
 
     Parameters
     ----------
-    drop : Drop
-        With the values of the numbers.
     inputs : Inputs
         The numbers with errors.
     options : Options
@@ -103,7 +94,6 @@ class Prediction:
     ('derivatives', '4.93+/-0.05')
     """
 
-    drop: Drop
     inputs: Inputs = field(repr=False)
     options: Options = field(repr=False)
     reason: str
@@ -113,6 +103,11 @@ class Prediction:
     solved: Solved = field(repr=False)
     refused: str = field(repr=False)
     asked: int = field(repr=False)
+
+    @property
+    def drop(self) -> Drop:
+        """The drop with the values of the numbers."""
+        return self.inputs.drop
 
     @property
     def method(self) -> str:
@@ -132,7 +127,7 @@ class Prediction:
     @functools.cached_property
     def _runs(self) -> Runs:
         few = self.drawn[: min(_RUNS, self._affordable(3))] if self.reason else None
-        return Runs(self.drop, self.inputs, self.options, few)
+        return Runs(self.inputs, self.options, few)
 
     def _affordable(self, each: int) -> int:
         """Return how often so many runs cost no more than all draws may; see `budget`."""
@@ -278,9 +273,11 @@ class Prediction:
         if not np.isfinite(shares).all():
             return ""
         best = int(np.argmax(shares))
-        words = f"measure {self.inputs.paths[best]} better: it makes {100.0 * shares[best]:.0f} %"
         together = "" if self.inputs.independent else " (the errors are correlated)"
-        return f"{words} of the variance of {name}{together}"
+        return (
+            f"measure {self.inputs.paths[best]} better: it makes {100.0 * shares[best]:.0f} % of "
+            f"the variance of {name}{together}"
+        )
 
     @property
     def how(self) -> str:
@@ -446,11 +443,9 @@ class Prediction:
 
     def _solve(self, x: Array) -> dict[str, Array]:
         """Return all quantities of some drops; nan for those that are not possible."""
-        inputs, good = self.inputs, np.ones(len(x), dtype=bool)
-        if self.refused:
-            good, _ = possible(self.drop, inputs.numbers, x)
-        rows = inputs.rows(np.where(good[:, None], x, inputs.values))
-        tables = solve_quantities(self.drop, rows, len(x), self.options).tables
+        good, _ = self.inputs.possible(x)
+        x = np.where(good[:, None], x, self.inputs.values)
+        tables = self.inputs.solve(x, self.options).tables
         return {name: np.where(good[:, None], table, np.nan) for name, table in tables.items()}
 
     def _linear(self) -> dict[str, Any]:
