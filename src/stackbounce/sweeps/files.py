@@ -136,19 +136,20 @@ def opened(path: Path) -> "xr.Dataset":
     return xr.open_dataset(path, engine="zarr", chunks=None)
 
 
-def lost(path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:
-    """Return the sides of a block, and the numbers of the blocks that are not there."""
+def lost(path: Path, form: Form) -> tuple[list[Block], int]:
+    """Return the blocks of a store that are not there, and the number of all its blocks."""
     import zarr
 
     group: Any = zarr.open_group(path, mode="r")
     arrays = {name: group[name] for name in form.results}
     sides = tuple(next(iter(arrays.values())).chunks[: len(form.grid)])
-    missing = []
-    for number, block in enumerate(blocks(form.grid, sides)):
+    missing, count = [], 0
+    for block in blocks(form.grid, sides):
+        count += 1
         place = [side.start // length for side, length in zip(block, sides, strict=True)]
         if not all(_is_there(path / name, array, place, block) for name, array in arrays.items()):
-            missing.append(number)
-    return sides, missing
+            missing.append(block)
+    return missing, count
 
 
 def _check_metadata(store: Path) -> None:
