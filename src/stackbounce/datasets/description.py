@@ -60,7 +60,7 @@ class Column:
 
     @property
     def repeated(self) -> bool:
-        """Whether each value is a tuple of repeated readings."""
+        """Return whether each value is a tuple of repeated readings."""
         return isinstance(self.values[0], tuple)
 
 
@@ -193,7 +193,7 @@ def _column(path: str, table: Mapping[str, Any]) -> Column:
     each = errors if isinstance(errors, list) else [errors] * len(values)
     if each and len(each) != len(values):
         raise InvalidValue(f"{path}.errors must be a number or one for each value")
-    given["errors"] = tuple(non_negative(f"{path}.errors", one) for one in each)
+    given["errors"] = tuple(non_negative(f"{path}.errors", error) for error in each)
     made = _made(Column, path, given)
     if bool(made.assumed_error) != bool(made.assumed_because):
         raise InvalidValue(f"{path}: assumed_error and assumed_because go together")
@@ -221,7 +221,7 @@ def _made(kind: type[_T], path: str, given: Mapping[str, Any]) -> _T:
             raise InvalidValue(f"{path}: {key} is unknown; {nearest(key, list(known))}")
         if known[key].type is str and (not isinstance(value, str) or not value.strip()):
             raise InvalidValue(f"{path}: {key} must be a text, got {shown(value)}")
-    missing = [key for key, one in known.items() if one.default is MISSING and key not in given]
+    missing = [key for key, field in known.items() if field.default is MISSING and key not in given]
     if missing:
         raise InvalidValue(f"{path}: {', '.join(missing)} must be given")
     return kind(**given)

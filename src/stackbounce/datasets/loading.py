@@ -94,7 +94,9 @@ def load(name: str) -> "xr.Dataset":
     for key, unit in (("mass", "kg"), ("diameter", "m")):
         if attributes[key]:
             attributes[key] = quantity(attributes[key], unit)
-    return xr.Dataset(variables, attrs={key: one for key, one in attributes.items() if one != ""})
+    return xr.Dataset(
+        variables, attrs={key: value for key, value in attributes.items() if value != ""}
+    )
 
 
 def si_unit(column: Column) -> str:
@@ -132,7 +134,7 @@ def _variables(column: Column) -> dict[str, Any]:
         return {column.name: (dims, list(column.values), attributes)}
     shift = _OFFSETS.get(column.unit, (0.0, ""))[0]
     values = [
-        [one + shift for one in _in_si(row, column.unit, unit)]
+        [number + shift for number in _in_si(row, column.unit, unit)]
         if isinstance(row, tuple)
         else _in_si([row], column.unit, unit)[0] + shift
         for row in column.values

@@ -142,7 +142,7 @@ def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
         raise InvalidValue(f"{name} must be the name of a file with a force, got {shown(value)}")
     _check_keys(table, _RECORD + _READING, f"{name}.")
     path = folder / table["file"]
-    data = read(path, **{key: one for key, one in table.items() if key in _READING})
+    data = read(path, **{key: value for key, value in table.items() if key in _READING})
     own = [name for name in data.data_vars if str(name).split("_")[0] in ("force", "voltage")]
     if data.attrs["holds"] != "waveform" or not own:
         raise InvalidValue(
@@ -168,7 +168,7 @@ def _parts(mapping: Mapping[str, Any], folder: Path) -> Parts:
     else:
         measured = _measured(mapping.get("measured", {}), "measured", folder)
         drops, data = {"": Drop.from_mapping(rest)}, {"": measured}
-    data = {key: one for key, one in data.items() if one}
+    data = {key: own for key, own in data.items() if own}
     tie = _flat(_table(mapping.get("tie", {}), "tie"))
     return Parts(drops, data, _vary(mapping.get("vary", {})), tie)
 
@@ -180,8 +180,8 @@ def _several(
         raise InvalidValue(f"drops must be tables, each under [[drops]], got {shown(given)}")
     drops: dict[str, Drop] = {}
     data = {}
-    for k, one in enumerate(given):
-        own = dict(_table(one, f"drops.{k}"))
+    for k, drop in enumerate(given):
+        own = dict(_table(drop, f"drops.{k}"))
         name = own.pop("name", None)
         if not (isinstance(name, str) and name.isidentifier()) or name in drops:
             raise InvalidValue(

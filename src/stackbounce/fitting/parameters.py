@@ -81,7 +81,7 @@ class Parameter:
 
     @property
     def logarithmic(self) -> bool:
-        """Whether the search coordinate is the logarithm of the number."""
+        """Return whether the search coordinate is the logarithm of the number."""
         return self.low > 0.0 and self.high > _LOG * self.low
 
     @property

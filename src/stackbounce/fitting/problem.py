@@ -120,7 +120,7 @@ class FitProblem:
         """
         measured = self._read_data()
         parameters = read_parameters(self.drops, self.vary)
-        touches = tuple(_touch(key, one) for key, one in measured.items() if one.waveforms)
+        touches = tuple(_touch(key, own) for key, own in measured.items() if own.waveforms)
         own = {parameter.name for parameter in parameters}
         for parameter in touches:
             if parameter.name in own:
@@ -146,8 +146,8 @@ class FitProblem:
             if key not in self.drops:
                 raise InvalidValue(f"data of {shown(key)}: no drop; {nearest(key, self.drops)}")
         return {
-            key: read_measured(self.drops[key], one, f"{key}." if key else "")
-            for key, one in data.items()
+            key: read_measured(self.drops[key], own, f"{key}." if key else "")
+            for key, own in data.items()
         }
 
     def fit(
@@ -316,14 +316,14 @@ def _read_drops(drops: object) -> dict[str, Drop]:
         return {"": drops}
     if not isinstance(drops, Mapping) or not drops:
         raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(drops)}")
-    for key, one in drops.items():
+    for key, drop in drops.items():
         alone = key == "" and len(drops) == 1
         if not alone and not (isinstance(key, str) and key.isidentifier() and key.isascii()):
             raise InvalidValue(
                 f"a drop's name must be letters, digits and _, such as B2_on_B1, got {shown(key)}"
             )
-        if not isinstance(one, Drop):
-            raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(one)}")
+        if not isinstance(drop, Drop):
+            raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(drop)}")
     return dict(drops)
 
 

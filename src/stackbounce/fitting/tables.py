@@ -41,7 +41,7 @@ class _Column(NamedTuple):
 
     @property
     def numeric(self) -> bool:
-        """Whether its cells may have a decimal mark."""
+        """Return whether its cells may have a decimal mark."""
         return self.kind in ("number", "data", "error")
 
 

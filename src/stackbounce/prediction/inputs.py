@@ -94,7 +94,7 @@ class Inputs:
 
     @property
     def independent(self) -> bool:
-        """Whether no two numbers depend on the same variable."""
+        """Return whether no two numbers depend on the same variable."""
         return not self.given and bool(np.all(np.count_nonzero(self.spread, axis=0) <= 1))
 
     @functools.cached_property

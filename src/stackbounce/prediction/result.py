@@ -237,7 +237,9 @@ class Prediction:
         half = min(len(self.drawn) // 2, self._affordable(len(self.inputs.numbers)))
         enough = self.reason and self.inputs.independent and half >= FEWEST // 2
         found = self._sobol(half) if enough else self._linear()
-        labels = [_label(name, k) for name, one in found.items() for k in range(len(one.first))]
+        labels = [
+            _label(name, k) for name, shares in found.items() for k in range(len(shares.first))
+        ]
         fields = {
             key: (("quantity", "number"), np.concatenate([getattr(s, key) for s in found.values()]))
             for key in ("first", "first_error", "total", "total_error")
@@ -331,8 +333,8 @@ class Prediction:
     def table(self) -> str:
         """Return all numbers with their errors as a text, a line each."""
         lines = []
-        for name, one in self._all.items():
-            value, error = rounded((one.nominal_value, one.std_dev), one.std_dev)
+        for name, number in self._all.items():
+            value, error = rounded((number.nominal_value, number.std_dev), number.std_dev)
             unit = QUANTITIES[name.partition(".")[0]].unit
             lines.append(f"{name:<20} {value:>10} ± {error:<8} {unit}".rstrip())
         return "\n".join(lines)
@@ -413,8 +415,8 @@ class Prediction:
             "how": self.how,
             "advice": self.advice(),
             "notes": list(self.notes),
-            "numbers": {name: _plain(one) for name, one in self.errors.items()},
-            "values": {name: _plain(one) for name, one in self._all.items()},
+            "numbers": {name: _plain(number) for name, number in self.errors.items()},
+            "values": {name: _plain(number) for name, number in self._all.items()},
             "shares": {
                 number: self.sensitivity["first"].sel(number=number).to_series().to_dict()
                 for number in self.inputs.paths
@@ -449,12 +451,12 @@ class Prediction:
         return {name: np.where(good[:, None], table, np.nan) for name, table in tables.items()}
 
     def _linear(self) -> dict[str, Any]:
-        inputs, slopes = self.inputs, {name: one for name, (_, one) in self.slopes.items()}
+        inputs, slopes = self.inputs, {name: slope for name, (_, slope) in self.slopes.items()}
         if self.reason:
             slopes = {name: fit_slopes(self.drawn, self.solved.tables[name]) for name in _FLOATS}
         return {
-            name: linear_shares(one, inputs.covariance, independent=inputs.independent)
-            for name, one in slopes.items()
+            name: linear_shares(slope, inputs.covariance, independent=inputs.independent)
+            for name, slope in slopes.items()
         }
 
     def _sobol(self, half: int) -> dict[str, Any]:

@@ -120,7 +120,7 @@ def split_errors(mapping: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, 
                 for key, one in value.items()
             }
         if isinstance(value, list):
-            return [plain(one, f"{path}.{k}") for k, one in enumerate(value)]
+            return [plain(part, f"{path}.{k}") for k, part in enumerate(value)]
         return value
 
     return plain(mapping, ""), errors

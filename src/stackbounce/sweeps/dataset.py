@@ -239,8 +239,8 @@ def run_block(
     def where(index: Sequence[int]) -> str:
         place = ", ".join(f"{dim} {i}" for dim, i in zip(dims, index, strict=False))
         there = ", ".join(
-            f"{one.path} = {np.broadcast_to(values, shape)[tuple(index)]:.10g}"
-            for one, values in rows.items()
+            f"{number.path} = {np.broadcast_to(values, shape)[tuple(index)]:.10g}"
+            for number, values in rows.items()
         )
         return f"(at {place}: {there})" if place else f"(at {there})"
 

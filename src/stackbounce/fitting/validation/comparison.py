@@ -81,7 +81,7 @@ class Outcome:
 
     @property
     def steady(self) -> bool:
-        """Whether half and twice the assumed errors leave the verdict as it is."""
+        """Return whether half and twice the assumed errors leave the verdict as it is."""
         given = [p for p in (self.p_half, self.p_twice) if p is not None]
         return all(verdict(p) == self.verdict for p in given)
 
@@ -116,12 +116,12 @@ class Comparison:
 
     @property
     def tells_apart(self) -> bool:
-        """Whether one law agrees and another one is refuted."""
+        """Return whether one law agrees and another one is refuted."""
         return {AGREES, REFUTED} <= {outcome.verdict for outcome in self.outcomes}
 
     @property
     def steady(self) -> bool:
-        """Whether half and twice the assumed errors leave all verdicts as they are."""
+        """Return whether half and twice the assumed errors leave all verdicts as they are."""
         return all(outcome.steady for outcome in self.outcomes)
 
     @property

@@ -44,7 +44,7 @@ class Family:
 
     @property
     def is_constant(self) -> bool:
-        """Whether it is known of the class that what is predicted is the same at all speeds."""
+        """Return whether the class is known to give the same at all speeds."""
         return self.quantity == RESTITUTION and "speed" not in self.law_class.loss_depends_on
 
     def law(self, value: float) -> ContactLaw:

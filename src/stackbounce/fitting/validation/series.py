@@ -97,12 +97,14 @@ class Series:
         """
         whole = self.covariance(scale)
         shares = [np.trace(np.linalg.solve(whole, part)) / len(part) for part, _ in self.scatters]
-        inverse = sum(share**2 / one for share, (_, one) in zip(shares, self.scatters, strict=True))
+        inverse = sum(
+            share**2 / freedom for share, (_, freedom) in zip(shares, self.scatters, strict=True)
+        )
         return float(1.0 / inverse) if inverse else math.inf
 
     @property
     def has_assumed_errors(self) -> bool:
-        """Whether some of the errors are assumed."""
+        """Return whether some of the errors are assumed."""
         return bool(np.any(self.assumed != 0.0))
 
 
