@@ -126,7 +126,9 @@ def values(found):
 
 def test_an_option_that_is_not_there_or_another_function_s_is_refused():
     data = sb.read(LAB / "basketball-press.csv")
-    with pytest.raises(TypeError, match="unexpected keyword argument 'holds'"):
+    with pytest.raises(InvalidType, match="'masss' is no option of analyse; did you mean mass"):
+        analyse(data, masss=1.0)
+    with pytest.raises(InvalidType, match="'holds' is no option of analyse; read takes it"):
         analyse(data, holds="table")
     with pytest.raises(InvalidValue, match="exponent is given twice, by law and on its own"):
         read_options({"exponent": 1.2, "law": "hertz exponent=1.3"}, lambda one: one.name)
