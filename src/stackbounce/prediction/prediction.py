@@ -8,9 +8,8 @@ import numpy as np
 from stackbounce.errors import whole
 from stackbounce.extras import need
 from stackbounce.model import Drop
-from stackbounce.prediction.budget import DRAWS, Progress, solve_draws
+from stackbounce.prediction.draws import DRAWS, Progress, Slopes, differentiate, solve_draws
 from stackbounce.prediction.inputs import FEWEST, read_inputs
-from stackbounce.prediction.linearity import Slopes, differentiate
 from stackbounce.prediction.result import Prediction
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options, run_options

@@ -10,9 +10,8 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
-from stackbounce.prediction.budget import budget
+from stackbounce.prediction.draws import Slopes, budget
 from stackbounce.prediction.inputs import FEWEST, Array, Inputs, error_of_deviation, of_draws
-from stackbounce.prediction.linearity import Slopes
 from stackbounce.prediction.runs import Runs
 from stackbounce.prediction.sensitivity import fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.options import Options

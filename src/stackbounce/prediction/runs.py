@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from stackbounce.prediction.draws import ROUND_OFF, STEP
 from stackbounce.prediction.inputs import Array, Inputs, of_draws
-from stackbounce.prediction.linearity import ROUND_OFF, STEP
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
 from stackbounce.run.result import Result
