@@ -9,16 +9,10 @@ from pathlib import Path
 import pytest
 
 import stackbounce as sb
-from slow_sweep import DROP, OVER
+from slow_sweep import DROP, OVER, VALUES, write_some
 from stackbounce.errors import FileError
 from stackbounce.sweeps import grid, write
 from stackbounce.sweeps.progress import only_writer
-
-VALUES = grid(DROP, OVER)
-
-
-class Stopped(Exception):
-    pass
 
 
 def content(store):
@@ -39,17 +33,6 @@ def out(whole, tmp_path):
     return tmp_path / whole.name
 
 
-def begin(out):
-    """Write the first block, and stop."""
-
-    def stop(done, _):
-        if done:
-            raise Stopped
-
-    with pytest.raises(Stopped):
-        write(out, DROP, VALUES, block=64, progress=stop)
-
-
 def log_of(out):
     return out.with_name(f"{out.name}.progress")
 
@@ -57,7 +40,7 @@ def log_of(out):
 def test_a_damaged_store_beside_one_that_is_not_complete(tmp_path):
     out, kept = tmp_path / "map.zarr", tmp_path / "kept"
     shutil.move(write(out, DROP, VALUES, block=64), kept)
-    begin(out)
+    write_some(out)
     shutil.move(kept, out)
     (out / "status" / "0.0").unlink()
     before = content(tmp_path)
@@ -72,7 +55,7 @@ def test_a_damaged_store_beside_one_that_is_not_complete(tmp_path):
 
 def test_files_of_others_in_a_store_are_kept(tmp_path):
     out = tmp_path / "map.zarr"
-    begin(out)
+    write_some(out)
     own = tmp_path / "map.zarr.partial" / "status" / "notes.partial"
     own.write_text("mine")
     write(out, DROP, VALUES, block=64)
