@@ -86,7 +86,7 @@ def test_a_plain_install_sweeps():
     assert (run.stdout, run.stderr) == ("[1 1]\n", "")
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("arguments", "extra", "what"),
     [
