@@ -1,4 +1,4 @@
-"""A sweep that waits after each block: ``python slow_sweep.py FILE`` is killed by its test."""
+"""A sweep that is stopped on the way: ``python slow_sweep.py FILE`` is killed by its test."""
 
 import sys
 import time
@@ -10,6 +10,27 @@ DROP = sb.Drop(
     [sb.Ball(0.15), sb.Ball(0.057)], [sb.Spring(2500.0), sb.Spring(1000.0)], impact_speed=3.53
 )
 OVER = ["balls.0.mass=50g:500g:30:log", "gaps.0=0mm:4mm:20"]
+VALUES = grid(DROP, OVER)
+
+
+class Stopped(Exception):
+    pass
+
+
+def write_some(out, values=VALUES, block=64):
+    """Write one block, and stop; return how many drops were done before and after."""
+    seen = []
+
+    def progress(done, _):
+        seen.append(done)
+        if len(seen) == 2:
+            raise Stopped
+
+    try:
+        write(out, DROP, values, block=block, progress=progress)
+    except Stopped:
+        return seen
+    raise AssertionError(f"not stopped: {seen}")
 
 
 def wait(done, _):
@@ -19,4 +40,4 @@ def wait(done, _):
 
 
 if __name__ == "__main__":
-    write(sys.argv[1], DROP, grid(DROP, OVER), block=64, progress=wait)
+    write(sys.argv[1], DROP, VALUES, block=64, progress=wait)

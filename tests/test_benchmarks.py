@@ -105,18 +105,8 @@ def test_starts_are_told_next_to_numpy():
 
 def test_a_start_is_the_median_of_its_rounds_and_of_their_ratios(monkeypatch):
     monkeypatch.setattr(startup, "STARTS", {startup.BASE: "1", "ours": "2"})
-    spent = iter(
-        [
-            (9.0, 9.0),
-            (9.0, 9.0),
-            (1.0, 2.0),
-            (3.0, 4.0),
-            (2.0, 2.0),
-            (4.0, 3.0),
-            (1.0, 1.0),
-            (8.0, 9.0),
-        ]
-    )
+    first, rounds = [(9.0, 9.0)] * 2, [(1, 2), (3, 4), (2, 2), (4, 3), (1, 1), (8, 9)]
+    spent = iter([*first, *rounds])
     monkeypatch.setattr(startup, "_spent", lambda _: next(spent))
     base, ours = startup.measure(quiet, rounds=3)
     assert base == startup.Start(startup.BASE, 1.0, 2.0, 1.0, 1.0)

@@ -37,15 +37,16 @@ HEIGHTS = ["measure", "--heights", "1, 0.6 m", "--mass", "57g"]
 FILES = pytest.mark.parametrize(
     ("command", "name"),
     [
+        ([*HEIGHTS, "--save"], "ball.toml"),
         (["simulate", "B1", "--plot"], "a.svg"),
         (["simulate", "B1", "--plot"], "a.png"),
         (["simulate", "B1", "--plot"], "a.pdf"),
-        ([*HEIGHTS, "--save"], "ball.toml"),
     ],
 )
 
 
 @FILES
+@pytest.mark.fast_cases(2)
 def test_a_full_disk_leaves_the_file_that_was_there(command, name, capsys, disk_of):
     Path(name).write_bytes(b"as it was")
     disk_of(10)
@@ -59,6 +60,7 @@ def test_a_full_disk_leaves_the_file_that_was_there(command, name, capsys, disk_
 
 
 @FILES
+@pytest.mark.fast_cases(2)
 def test_a_file_is_replaced_if_it_is_as_it_was_written_here(command, name, capsys):
     path = Path(name)
     assert main([*command, name]) == main([*command, name]) == 0

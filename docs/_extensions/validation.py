@@ -7,8 +7,8 @@ from docutils.statemachine import StringList
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-from stackbounce.validation import Comparison, validate
-from stackbounce.validation.comparison import format_p
+from stackbounce.fitting.validation import Comparison, validate
+from stackbounce.fitting.validation.comparison import format_p
 
 
 def row(one: Comparison) -> str:
@@ -37,7 +37,9 @@ class Validation(SphinxDirective):
         head = [f"| {' | '.join(names)} |", "|" + "---|" * len(names)]
         done = validate()
         rows = [row(one) for one in done.comparisons]
-        lines = StringList([*head, *rows, "", done.summary], source="stackbounce.validation")
+        lines = StringList(
+            [*head, *rows, "", done.summary], source="stackbounce.fitting.validation"
+        )
         holder = Element()
         self.state.nested_parse(lines, self.content_offset, holder)
         return holder.children

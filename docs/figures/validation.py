@@ -4,9 +4,9 @@ import matplotlib.pyplot as plt
 from shared import WIDE
 
 from stackbounce import datasets
-from stackbounce.validation.comparison import compare_laws
-from stackbounce.validation.figures import draw_on
-from stackbounce.validation.series import make_series
+from stackbounce.fitting.validation.comparison import compare_laws
+from stackbounce.fitting.validation.figures import draw_on
+from stackbounce.fitting.validation.series import make_series
 
 
 def _draw(axes, name, *, air=True):

@@ -220,7 +220,7 @@ def nearest(name: object, known: Iterable[str]) -> str:
     import difflib
 
     names = list(known)
-    folded = {one.casefold(): one for one in names}
+    folded = {name.casefold(): name for name in names}
     word = name[:60] if isinstance(name, str) else shown(name)
     close = difflib.get_close_matches(word.casefold(), folded, n=1)
     hint = f"did you mean {folded[close[0]]}? " if close else ""

@@ -135,7 +135,7 @@ def check_own(path: Path, overwrite: bool = False, read: Iterable[str] = ()) -> 
     exists = os.path.exists  # Path.exists raises where a name is too long
     if overwrite or not exists(path) or _is_stream(path):
         return
-    if any(exists(one) and path.samefile(one) for one in read):
+    if any(exists(other) and path.samefile(other) for other in read):
         raise FileError(f"{path} is read here: choose another name, or add --overwrite")
     try:
         content = path.read_bytes() if path.stat().st_size < _LARGEST else b""

@@ -139,15 +139,12 @@ def _made(own: Path, logs: Path, *, complete: bool) -> Path:
     """Return a complete store, or a part of one whose writer was killed."""
     out = own / STORE
     partial = out.with_name(f"{out.name}.partial")
-    progress = out.with_name(f"{out.name}.progress")
     while True:
         process = Forked(sweep(out.name), own, logs)
         if complete:
             process.wait()
             return out
-        while not out.exists() and (
-            not progress.exists() or progress.read_bytes().count(b"\n") < 5
-        ):
+        while not out.exists() and len(_files(partial / "status", "[0-9]*")) < 3:
             time.sleep(0.001)
         process.send(signal.SIGKILL, 0.0)
         process.wait()

@@ -5,7 +5,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import FileError, InvalidType, InvalidValue, ScenarioError
-from stackbounce.fitting import Question, Range, read_drops, read_question
+from stackbounce.fitting import FitProblem, Range, read_drops, read_question
 
 STACK = """
 [[balls]]
@@ -61,7 +61,7 @@ def record(path, unit="N"):
 
 def test_a_scenario_with_three_more_tables(write):
     asked = read_question(write(ONE + STACK))
-    assert isinstance(asked, Question)
+    assert isinstance(asked, FitProblem)
     (drop,) = asked.drops.values()
     assert (drop.gaps, drop.impact_speed, drop.balls) == ((0.002,), 3.53, BASE.balls)
     assert asked.data[""]["first_touch.1"] == "0.6 ± 0.1 ms"  # quotes around a name or none

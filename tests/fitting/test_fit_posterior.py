@@ -117,11 +117,6 @@ def test_draws_stay_between_the_bounds_and_progress_is_told():
     assert found.log_probability.shape == (75, 32)
 
 
-def test_short_chains_are_told():
-    note = linear().sample(640).notes[0]
-    assert note.startswith("the chains are only ")
-
-
 @pytest.mark.parametrize(
     ("options", "kind", "message"),
     [
@@ -136,12 +131,13 @@ def test_what_cannot_be_drawn(options, kind, message):
         linear().sample(**options)
 
 
-def test_a_name_that_was_not_varied():
+def test_short_chains_are_noted_and_a_name_that_was_not_varied_is_refused():
     found = linear()
-    with pytest.raises(InvalidValue, match=r"^'contacts' was not varied"):
-        found.sample(640)["contacts"]
-    with pytest.raises(InvalidValue, match=r"^'contacts' was not varied"):
-        found["contacts"]
+    draws = found.sample(640)
+    assert draws.notes[0].startswith("the chains are only ")
+    for values in (draws, found):
+        with pytest.raises(InvalidValue, match=r"^'contacts' was not varied"):
+            values["contacts"]
 
 
 def test_other_minima_are_told():

@@ -36,6 +36,10 @@ def test_a_record_in_newtons_tells_stiffness_and_touch():
     assert found.probability > 0.01
     assert found.residuals == []
     assert found.notes == ()
+    (record,) = found.records
+    assert record.times == pytest.approx(TIMES - found.best["touch"], abs=1e-12)
+    before = record.times < 0.0
+    assert np.ptp(record.fitted[before]) < 1e-9 < np.ptp(record.fitted[~before])
 
 
 def test_residuals_are_those_of_a_spring_by_hand():

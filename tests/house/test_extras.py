@@ -56,12 +56,12 @@ def test_a_missing_extra_is_named(monkeypatch):
         need("fit", "a fit")
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["balls"],
         ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"],
+        ["balls"],
         ["simulate", "B1", "--contact", "HuntCrossley stiffness=1e5 exponent=1.5 dissipation=.1"],
         ["highest", "--balls", "2"],
         *([command, "--help"] for command in ("measure", "fit", "paper", "app", "sweep")),
@@ -85,7 +85,7 @@ def test_a_plain_install_sweeps():
     assert (run.stdout, run.stderr) == ("[1 1]\n", "")
 
 
-@pytest.mark.fast_cases(2)
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("arguments", "extra", "what"),
     [
@@ -113,6 +113,7 @@ def test_a_command_names_the_extra_it_needs(arguments, extra, what, tmp_path):
     assert (run.returncode, run.stdout, list(tmp_path.iterdir())) == (2, "", [])
 
 
+@pytest.mark.fast_cases(1)
 @pytest.mark.parametrize(
     ("code", "extra"),
     [

@@ -1,6 +1,7 @@
 """What the files around the package promise."""
 
 import doctest
+import functools
 import re
 import subprocess
 from pathlib import Path
@@ -20,12 +21,15 @@ def read(name):
     return (ROOT / name).read_text(encoding="utf-8")
 
 
+@functools.cache
 def tracked():
+    """Return the texts of the files that git tracks, by name."""
     if not (ROOT / ".git").exists():
         pytest.skip("not a git checkout")
     git = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
     names = subprocess.run(git, cwd=ROOT, check=True, capture_output=True, text=True).stdout
-    return [path for name in names.split("\0") if name and (path := ROOT / name).is_file()]
+    paths = {name: ROOT / name for name in names.split("\0") if name and (ROOT / name).is_file()}
+    return {name: path.read_text("utf-8", errors="ignore") for name, path in paths.items()}
 
 
 def test_one_version():
@@ -56,11 +60,7 @@ def test_no_package_is_fetched_from_a_place_of_its_own():
 
 def _found(pattern):
     """Return the names of tracked files that a pattern is found in."""
-    return {
-        str(path.relative_to(ROOT))
-        for path in tracked()
-        if pattern.search(path.read_text(encoding="utf-8", errors="ignore"))
-    }
+    return {name for name, text in tracked().items() if pattern.search(text)}
 
 
 def test_constraints_are_versions_and_nothing_else():

@@ -1,4 +1,7 @@
-"""The two rules of the architecture, beyond what import-linter checks."""
+"""Rules of the architecture and of files, beyond what import-linter checks.
+
+Files are written by `stackbounce.files`; nothing is pickled, nor kept in a cache on the disk.
+"""
 
 import ast
 from pathlib import Path
@@ -9,8 +12,29 @@ import pytest
 import stackbounce
 
 SOURCE = Path(stackbounce.__file__).parent
+TREES = {
+    path.relative_to(SOURCE).as_posix(): ast.parse(path.read_text("utf-8"))
+    for path in SOURCE.rglob("*.py")
+}
 LAWS = {"Dashpot", "HuntCrossley", "Viscoelastic"}  # those that nothing else builds upon
 AT_HOME = ("model/laws/", "model/__init__.py", "__init__.py", "cross2007/")
+
+WRITERS = {
+    "write_text",
+    "write_bytes",
+    "to_csv",
+    "to_netcdf",
+    "to_zarr",
+    "dump",
+    "savefig",
+    "tofile",
+}
+HOMES = {
+    "files.py",  # the one writer
+    "plots/style.py",  # a picture, into memory
+    "cross2007/style.py",
+}
+UNSAFE = {"pickle", "cPickle", "marshal", "shelve", "dill", "cloudpickle", "joblib", "platformdirs"}
 
 
 def in_code(tree):
@@ -25,13 +49,31 @@ def in_code(tree):
 
 
 def test_a_law_is_named_where_it_is_defined_and_nowhere_else():
-    found = {
-        str(path.relative_to(SOURCE))
-        for path in SOURCE.rglob("*.py")
-        if LAWS & {text for text in in_code(ast.parse(path.read_text("utf-8"))) if text}
-    }
+    found = {name for name, tree in TREES.items() if LAWS & set(filter(None, in_code(tree)))}
     assert {name for name in found if not name.startswith(AT_HOME)} == set()
     assert found
+
+
+def test_files_are_written_in_one_place():
+    found = {
+        name
+        for name, tree in TREES.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call) and getattr(node.func, "attr", "") in WRITERS
+    }
+    assert found == HOMES
+
+
+def test_nothing_is_pickled_or_kept_in_a_cache():
+    found = {
+        (name, one)
+        for name, tree in TREES.items()
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Import | ast.ImportFrom)
+        for one in [getattr(node, "module", None), *(alias.name for alias in node.names)]
+        if one in UNSAFE
+    }
+    assert found == set()
 
 
 @pytest.fixture(scope="module")

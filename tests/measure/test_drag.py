@@ -14,10 +14,10 @@ from stackbounce import plots
 from stackbounce.cli import main
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.explorer.answers import records
+from stackbounce.fitting.validation.series import make_series
 from stackbounce.measure import Drag, analyse, bounces, heights, knocks
 from stackbounce.measure.kinds.sound.few_bounces import few_bounces
 from stackbounce.measure.option_values import read_options
-from stackbounce.validation.series import make_series
 from synthetic.sound import sound
 
 AT_REST, SLOPE = 0.92, 0.012  # restitution at no speed, and its fall per m/s

@@ -1,18 +1,16 @@
 """The page on fits: its commands print what it shows, in turn."""
 
 import re
-import shlex
 import shutil
 from pathlib import Path
 
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import main
+from pages.consoles import run_all, steps
 
 DOCS = Path(__file__).parents[2] / "docs"
 TEXT = (DOCS / "fit.md").read_text(encoding="utf-8")
-FENCES = re.findall(r"^```console\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
 
 
 @pytest.fixture(scope="module")
@@ -24,26 +22,13 @@ def folder(tmp_path_factory):
     return folder
 
 
-def steps():
-    """Return each command with the lines that the page shows of what it prints."""
-    found = []
-    for fence in FENCES:
-        for block in fence.replace("\\\n", " ").split("$ ")[1:]:
-            command, *lines = block.splitlines()
-            found.append((shlex.split(command)[1:], [" ".join(line.split()) for line in lines]))
-    return found
-
-
 @pytest.mark.slow
 def test_the_commands_in_turn_print_what_is_shown(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
-    asked = steps()
-    assert [command[0] for command, _ in asked].count("fit") == 6
-    for command, shown in asked:
-        assert main(command) == 0, command
-        printed = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
-        for line in shown:
-            assert any(one.startswith(line) for one in printed), (command, line, printed)
+    assert [command[0] for command, _ in steps(TEXT)].count("fit") == TEXT.count(
+        "$ stackbounce fit"
+    )
+    run_all(TEXT, capsys)
     for name in ("force", "valley", "draws", "models"):
         assert (folder / f"{name}.png").stat().st_size > 10_000
     drop = sb.Drop.from_toml(folder / "fitted" / "highest.toml")

@@ -1,29 +1,18 @@
 """The lab guide: its files are what its script writes, its commands print what the page shows."""
 
 import importlib.util
-import re
-import shlex
 import shutil
 from pathlib import Path
 
 import pytest
 
 import stackbounce as sb
-from stackbounce.cli import main
+from pages.consoles import run_all, steps
 from stackbounce.measure import analyse
 
 DOCS = Path(__file__).parents[2] / "docs"
 TEXT = (DOCS / "lab.md").read_text(encoding="utf-8")
-FENCES = re.findall(r"^```console\n(.*?)^```", TEXT, re.MULTILINE | re.DOTALL)
 FILES = sorted(path for path in (DOCS / "lab").iterdir() if path.suffix in (".wav", ".csv", ".txt"))
-
-
-def steps():
-    """Yield each command with the lines that the page shows of what it prints."""
-    for fence in FENCES:
-        for block in fence.replace("\\\n", " ").split("$ ")[1:]:
-            command, *lines = block.splitlines()
-            yield shlex.split(command)[1:], [" ".join(line.split()) for line in lines]
 
 
 def test_the_files_are_what_the_script_writes(tmp_path):
@@ -41,13 +30,8 @@ def test_the_commands_in_turn_print_what_is_shown(tmp_path, monkeypatch, capsys)
     for path in FILES:
         shutil.copy(path, tmp_path)
     monkeypatch.chdir(tmp_path)
-    asked = list(steps())
-    assert len(asked) == 8
-    for command, shown in asked:
-        assert main(command) == 0, command
-        printed = [" ".join(line.split()) for line in capsys.readouterr().out.splitlines()]
-        for line in shown:
-            assert any(one.startswith(line) for one in printed), (command, line)
+    assert len(steps(TEXT)) == TEXT.count("$ stackbounce")
+    run_all(TEXT, capsys)
     for name in ("tennis", "force", "press", "stack"):
         assert (tmp_path / f"{name}.png").stat().st_size > 10_000
 

@@ -7,7 +7,7 @@ import pytest
 
 import stackbounce as sb
 from stackbounce.errors import InvalidValue
-from stackbounce.prediction import budget, result
+from stackbounce.prediction import draws, result
 
 BALLS = [sb.Ball(0.6), sb.Ball(0.06)]
 DROP = sb.Drop(BALLS, [sb.Hertz(2e7), sb.Hertz(1e7)], [1e-3], height=0.63)
@@ -19,7 +19,7 @@ def limited(monkeypatch):
     """Return a function that limits the work of all draws together."""
 
     def limit(work):
-        for module in (budget, result):
+        for module in (draws, result):
             monkeypatch.setattr(module, "budget", lambda *_: work)
 
     return limit

@@ -78,10 +78,11 @@ def test_changing_counts_are_drawn():
 
 
 def test_draws_repeat_bit_for_bit_and_follow_the_seed():
-    first, second = (sb.predict(LOSSY, CHANGING).draws for _ in range(2))
+    first, second, other = (
+        sb.predict(LOSSY, CHANGING, draws=500, seed=seed).draws for seed in (0, 0, 1)
+    )
     assert first.identical(second)
-    other = sb.predict(LOSSY, CHANGING, seed=1)
-    assert not np.array_equal(other.draws.rebound_speeds, first.rebound_speeds)
+    assert not np.array_equal(other.rebound_speeds, first.rebound_speeds)
 
 
 def test_long_runs_are_drawn_less_often():
@@ -96,13 +97,12 @@ def test_long_runs_are_drawn_less_often():
 
 
 def test_an_error_that_comes_from_few_draws_is_said_to_be_rough():
-    errors = {"gaps.0": (0.0014, 3e-4), "balls.0.mass": (0.03, 0.001)}
-    (note,) = sb.predict(LOSSY, errors, draws=200).notes
+    (note,) = sb.predict(LOSSY, CHANGING, draws=200).notes
     assert note.startswith("the error of rebound_ratios.0, rebound_ratios.1, rebound_speeds.0 and")
 
 
 def test_draws_are_drops_of_their_own():
-    draws = sb.predict(LOSSY, CHANGING).draws.isel(draw=slice(300))
+    draws = sb.predict(LOSSY, CHANGING, draws=300).draws
     paths = list(CHANGING)
     ds = sb.sweep(LOSSY, {path: draws[path].drop_vars(paths) for path in paths})
     assert np.array_equal(ds.rebound_ratio, draws.rebound_ratios)

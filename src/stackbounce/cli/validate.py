@@ -9,7 +9,7 @@ from stackbounce.extras import need
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from stackbounce.validation import Validation
+    from stackbounce.fitting.validation import Validation
 
 __all__ = ["run"]
 
@@ -17,7 +17,7 @@ __all__ = ["run"]
 def run(out: Out, as_json: AsJson = False) -> None:
     """Try each contact law on published measurements: which law for which ball."""
     need("paper", "stackbounce validate")
-    from stackbounce import validation
+    from stackbounce.fitting import validation
 
     write_report(out, as_json, validation.write, _print_verdicts)
 

@@ -3,9 +3,8 @@
 `tables/` has one file for each; a file that is put there is a dataset.
 
 - `description.py`: what a dataset says of itself, and the check of its file
-- `published.py`: the files of `tables/` as descriptions
 - `paper.py`: the tables of Cross (2007), from `stackbounce.cross2007`, as descriptions
-- `loading.py`: `names`, `describe`, and `load`, which makes an xarray Dataset in SI units
+- `loading.py`: the files of `tables/`; `names`, `describe`, and `load`, which makes a Dataset
 """
 
 from stackbounce.datasets.description import Column, Description

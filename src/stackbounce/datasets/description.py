@@ -60,7 +60,7 @@ class Column:
 
     @property
     def repeated(self) -> bool:
-        """Whether each value is a tuple of repeated readings."""
+        """Return whether each value is a tuple of repeated readings."""
         return isinstance(self.values[0], tuple)
 
 
@@ -166,7 +166,9 @@ def read_description(name: str, mapping: Mapping[str, Any]) -> Description:
     if not isinstance(columns, list | type(None)) or columns == []:
         raise InvalidValue(f"{name}: columns must be a list of tables, got {shown(columns)}")
     if columns is not None:
-        table["columns"] = tuple(_column(f"{name}: {one.get('name')}", one) for one in columns)
+        table["columns"] = tuple(
+            _column(f"{name}: {column.get('name')}", column) for column in columns
+        )
     made = _made(Description, name, table | {"name": name})
     for key, allowed in (("seen", SEEN), ("kind", KINDS)):
         if getattr(made, key) not in allowed:
@@ -191,7 +193,7 @@ def _column(path: str, table: Mapping[str, Any]) -> Column:
     each = errors if isinstance(errors, list) else [errors] * len(values)
     if each and len(each) != len(values):
         raise InvalidValue(f"{path}.errors must be a number or one for each value")
-    given["errors"] = tuple(non_negative(f"{path}.errors", one) for one in each)
+    given["errors"] = tuple(non_negative(f"{path}.errors", error) for error in each)
     made = _made(Column, path, given)
     if bool(made.assumed_error) != bool(made.assumed_because):
         raise InvalidValue(f"{path}: assumed_error and assumed_because go together")
@@ -208,7 +210,7 @@ def _value(path: str, value: object, *, words: bool) -> Value:
             raise InvalidValue(f"{path} must be words, got {shown(value)}")
         return value
     if isinstance(value, list):
-        return tuple(finite(path, one) for one in value)
+        return tuple(finite(path, item) for item in value)
     return finite(path, value)
 
 
@@ -219,7 +221,7 @@ def _made(kind: type[_T], path: str, given: Mapping[str, Any]) -> _T:
             raise InvalidValue(f"{path}: {key} is unknown; {nearest(key, list(known))}")
         if known[key].type is str and (not isinstance(value, str) or not value.strip()):
             raise InvalidValue(f"{path}: {key} must be a text, got {shown(value)}")
-    missing = [key for key, one in known.items() if one.default is MISSING and key not in given]
+    missing = [key for key, field in known.items() if field.default is MISSING and key not in given]
     if missing:
         raise InvalidValue(f"{path}: {', '.join(missing)} must be given")
     return kind(**given)

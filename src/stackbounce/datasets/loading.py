@@ -1,17 +1,20 @@
 """The datasets by name, and each as an xarray Dataset in SI units."""
 
+import functools
+import tomllib
 from collections.abc import Iterable
 from dataclasses import fields
+from importlib.resources import files
 from typing import TYPE_CHECKING, Any
 
-from stackbounce.datasets.description import TEXT, Column, Description
+from stackbounce.datasets.description import TEXT, Column, Description, read_description
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.units import in_si, quantity
 
 if TYPE_CHECKING:
     import xarray as xr
 
-__all__ = ["describe", "load", "names", "si_unit"]
+__all__ = ["describe", "load", "names", "published", "si_unit"]
 
 _OFFSETS = {"degC": (273.15, "K")}  # units whose zero is shifted
 
@@ -94,7 +97,9 @@ def load(name: str) -> "xr.Dataset":
     for key, unit in (("mass", "kg"), ("diameter", "m")):
         if attributes[key]:
             attributes[key] = quantity(attributes[key], unit)
-    return xr.Dataset(variables, attrs={key: one for key, one in attributes.items() if one != ""})
+    return xr.Dataset(
+        variables, attrs={key: value for key, value in attributes.items() if value != ""}
+    )
 
 
 def si_unit(column: Column) -> str:
@@ -132,7 +137,7 @@ def _variables(column: Column) -> dict[str, Any]:
         return {column.name: (dims, list(column.values), attributes)}
     shift = _OFFSETS.get(column.unit, (0.0, ""))[0]
     values = [
-        [one + shift for one in _in_si(row, column.unit, unit)]
+        [number + shift for number in _in_si(row, column.unit, unit)]
         if isinstance(row, tuple)
         else _in_si([row], column.unit, unit)[0] + shift
         for row in column.values
@@ -153,6 +158,28 @@ def _in_si(values: Iterable[Any], unit: str, si: str) -> list[float]:
 
 def _all() -> dict[str, Description]:
     from stackbounce.datasets.paper import paper_datasets
-    from stackbounce.datasets.published import published
 
     return published() | paper_datasets()
+
+
+@functools.cache
+def published() -> dict[str, Description]:
+    """Return the datasets of the folder by their names, in alphabetical order.
+
+    Raises
+    ------
+    InvalidValue
+        If a file is not as `read_description` wants it.
+
+    Examples
+    --------
+    >>> published()["golf-marble-heights"].surface
+    'marble'
+    """
+    folder = files("stackbounce.datasets").joinpath("tables")
+    found = {
+        file.name.removesuffix(".toml"): tomllib.loads(file.read_text(encoding="utf-8"))
+        for file in folder.iterdir()
+        if file.name.endswith(".toml")
+    }
+    return {name: read_description(name, found[name]) for name in sorted(found)}

@@ -31,9 +31,9 @@ def paper_datasets() -> dict[str, Description]:
 
 
 def _description(name: str, title: str, place: str) -> Description:
-    inputs = [one for one in PAPER.values() if one.where == place]
-    values = tuple(one.value for one in inputs)
-    errors = tuple(one.spread for one in inputs)
+    inputs = [number for number in PAPER.values() if number.where == place]
+    values = tuple(number.value for number in inputs)
+    errors = tuple(number.spread for number in inputs)
     return Description(
         name=name,
         title=title,
@@ -45,10 +45,12 @@ def _description(name: str, title: str, place: str) -> Description:
         seen="full text",
         remarks=_ERRORS,
         columns=(
-            _words("quantity", "the number's name in this package", [one.key for one in inputs]),
-            _words("what", "what it is", [one.what for one in inputs]),
-            _words("printed", "as printed", [one.printed for one in inputs]),
-            _words("unit", "the SI unit of the value", [one.unit or "1" for one in inputs]),
+            _words(
+                "quantity", "the number's name in this package", [number.key for number in inputs]
+            ),
+            _words("what", "what it is", [number.what for number in inputs]),
+            _words("printed", "as printed", [number.printed for number in inputs]),
+            _words("unit", "the SI unit of the value", [number.unit or "1" for number in inputs]),
             Column("value", "1", "in the unit of its row", values, errors),
         ),
     )

@@ -47,7 +47,6 @@ __all__ = [
     "Interval",
     "Model",
     "Posterior",
-    "Question",
     "Range",
     "Record",
     "Residual",
@@ -59,5 +58,3 @@ __all__ = [
 ]
 
 need("fit", "stackbounce fit")
-
-Question = FitProblem  # the former name, for one release

@@ -93,7 +93,7 @@ class Comparison:
     @property
     def criterion(self) -> str:
         """``aicc``, or ``bic`` if the data are too few for it."""
-        return "aicc" if all(one.aicc < math.inf for one in self.fits.values()) else "bic"
+        return "aicc" if all(fit.aicc < math.inf for fit in self.fits.values()) else "bic"
 
     @functools.cached_property
     def scores(self) -> list[Score]:
@@ -112,7 +112,7 @@ class Comparison:
         import xarray as xr
 
         names = {
-            name: {one.label: one.pull for one in found.residuals}
+            name: {residual.label: residual.pull for residual in found.residuals}
             for name, found in self.fits.items()
         }
         data = list(dict.fromkeys(datum for own in names.values() for datum in own))
@@ -143,15 +143,16 @@ class Comparison:
             More is better.
         """
         return sum(
-            -0.5 * one.pull**2 - math.log(math.hypot(one.error, one.predicted_error) / one.error)
-            for one in self.left_out[name]
+            -0.5 * prediction.pull**2
+            - math.log(math.hypot(prediction.error, prediction.predicted_error) / prediction.error)
+            for prediction in self.left_out[name]
         )
 
     def as_dict(self) -> dict[str, Any]:
         """Return the comparison as plain values, for JSON."""
         return {
             "stackbounce": __version__,
-            "scores": [one._asdict() for one in self.scores],
+            "scores": [score._asdict() for score in self.scores],
             "refused": self.refused,
             "fits": {name: found.as_dict() for name, found in self.fits.items()},
         }

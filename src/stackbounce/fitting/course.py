@@ -46,8 +46,8 @@ class Course:
         return self.work * trials / max(1, self.trials)
 
     @contextlib.contextmanager
-    def told(self, progress: Progress | None, expected: int) -> Iterator[None]:
-        """Tell the progress of about so many trials that follow."""
+    def reported(self, progress: Progress | None, expected: int) -> Iterator[None]:
+        """Report the progress of about so many trials that follow."""
         self.progress, self.expected = progress, self.trials + expected
         try:
             yield

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Parts", "convert_measured", "read_force_record", "read_parts", "read_question"]
 
-_DROP = tuple(one.name for one in fields(Drop))
+_DROP = tuple(field.name for field in fields(Drop))
 _OWN = ("measured", "vary", "tie", "drops")
 _INCIDENCE = ("impact_speed", "height", "velocities")
 _RANGE = ("low", "high", "prior")
@@ -142,8 +142,8 @@ def read_force_record(name: str, value: object, folder: Path) -> "xr.DataArray":
         raise InvalidValue(f"{name} must be the name of a file with a force, got {shown(value)}")
     _check_keys(table, _RECORD + _READING, f"{name}.")
     path = folder / table["file"]
-    data = read(path, **{key: one for key, one in table.items() if key in _READING})
-    own = [one for one in data.data_vars if str(one).split("_")[0] in ("force", "voltage")]
+    data = read(path, **{key: value for key, value in table.items() if key in _READING})
+    own = [name for name in data.data_vars if str(name).split("_")[0] in ("force", "voltage")]
     if data.attrs["holds"] != "waveform" or not own:
         raise InvalidValue(
             f"{name}: {path} holds no force over time, but {a_or_an(data.attrs['holds'])}"
@@ -168,7 +168,7 @@ def _parts(mapping: Mapping[str, Any], folder: Path) -> Parts:
     else:
         measured = _measured(mapping.get("measured", {}), "measured", folder)
         drops, data = {"": Drop.from_mapping(rest)}, {"": measured}
-    data = {key: one for key, one in data.items() if one}
+    data = {key: own for key, own in data.items() if own}
     tie = _flat(_table(mapping.get("tie", {}), "tie"))
     return Parts(drops, data, _vary(mapping.get("vary", {})), tie)
 
@@ -180,8 +180,8 @@ def _several(
         raise InvalidValue(f"drops must be tables, each under [[drops]], got {shown(given)}")
     drops: dict[str, Drop] = {}
     data = {}
-    for k, one in enumerate(given):
-        own = dict(_table(one, f"drops.{k}"))
+    for k, drop in enumerate(given):
+        own = dict(_table(drop, f"drops.{k}"))
         name = own.pop("name", None)
         if not (isinstance(name, str) and name.isidentifier()) or name in drops:
             raise InvalidValue(

@@ -75,7 +75,7 @@ def read_formula(text: object, known: Collection[str], path: str) -> tuple[Formu
         raise InvalidValue(
             f"tie: {path} must have a formula of at most {_LONGEST} characters, got {len(text)}"
         )
-    words = {one["word"] for one in _TOKEN.finditer(text) if one["word"]}
+    words = {token["word"] for token in _TOKEN.finditer(text) if token["word"]}
     for word in sorted(words - set(known) - OWN_WORDS):
         raise InvalidValue(
             f"tie: {path} = {shown(text)} has {word[:60]}, which is neither varied nor a "
@@ -119,4 +119,4 @@ def _function(node: ast.AST, names: Mapping[str, str]) -> Formula:
 
 def _applied(function: Any, parts: list[ast.expr], names: Mapping[str, str]) -> Formula:
     inner = [_function(part, names) for part in parts]
-    return lambda values: function(*[one(values) for one in inner])
+    return lambda values: function(*[part(values) for part in inner])

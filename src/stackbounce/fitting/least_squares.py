@@ -92,9 +92,9 @@ def find_minima(
     chosen = _apart(objective, first, trials, follow)
     near = sorted((_descend_smooth(objective, x, None, _ROUGH) for x in chosen), key=_chi_squared)
     ends = sorted(
-        (descend(objective, one.x) for one in _promising(objective, near)), key=_chi_squared
+        (descend(objective, end.x) for end in _promising(objective, near)), key=_chi_squared
     )
-    good = [one for one in ends if one.chi_squared < ends[0].chi_squared + EQUAL]
+    good = [end for end in ends if end.chi_squared < ends[0].chi_squared + EQUAL]
     nearest = sorted(good, key=lambda one: np.sum(((one.x - chosen[0]) / objective.widths) ** 2))
     return _distinct(objective, nearest + ends[len(good) :])
 
@@ -108,10 +108,10 @@ def _promising(objective: Objective, near: list[Minimum]) -> list[Minimum]:
     widths = objective.widths
     limit = near[0].chi_squared + max(_HOPE, near[0].chi_squared)
     found: list[Minimum] = []
-    for one in near:
-        apart = all(np.max(np.abs(one.x - other.x) / widths) > _NEAR for other in found)
-        if apart and one.chi_squared <= limit:
-            found.append(one)
+    for end in near:
+        apart = all(np.max(np.abs(end.x - other.x) / widths) > _NEAR for other in found)
+        if apart and end.chi_squared <= limit:
+            found.append(end)
     return found
 
 
@@ -173,7 +173,7 @@ def _apart(objective: Objective, first: Array, trials: Array, count: int) -> lis
     for k in np.argsort(objective.chi_squared(trials), kind="stable"):
         if len(chosen) >= len(first) + count:
             break
-        if all(np.max(np.abs(trials[k] - one) / widths) > _APART for one in chosen):
+        if all(np.max(np.abs(trials[k] - start) / widths) > _APART for start in chosen):
             chosen.append(trials[k])
     return chosen
 
@@ -182,7 +182,7 @@ def _distinct(objective: Objective, ends: list[Minimum]) -> list[Minimum]:
     """Return the ends of descents without those that belong to a better one's minimum."""
     found: list[Minimum] = []
     for end in ends:
-        if not any(_is_same(objective, end, one) for one in found):
+        if not any(_is_same(objective, end, other) for other in found):
             found.append(end)
     return found
 
@@ -199,7 +199,7 @@ def _is_same(objective: Objective, end: Minimum, better: Minimum) -> bool:
     if np.max(objective.chi_squared(way)) < max(end.chi_squared, better.chi_squared) + _BARRIER:
         return True
     equal = abs(end.chi_squared - better.chi_squared) < EQUAL
-    return bool(equal and all(_is_undetermined(objective, one.x) for one in (end, better)))
+    return bool(equal and all(_is_undetermined(objective, x) for x in (end.x, better.x)))
 
 
 def _is_undetermined(objective: Objective, x: Array) -> bool:
@@ -219,7 +219,7 @@ def _parameters(objective: Objective, x: Array, fixed: int | None) -> Any:
 
 
 def _trial(parameters: Any) -> Array:
-    return np.array([one.value for one in parameters.values()])
+    return np.array([parameter.value for parameter in parameters.values()])
 
 
 def _descend_smooth(objective: Objective, x: Array, fixed: int | None, gain: float) -> Minimum:

@@ -133,7 +133,7 @@ def read_measured(drop: Drop, given: object, path: str = "") -> Measured:
                 Datum(name, base, index, *read_with_error(value, known.unit, shown_as, right))
             )
     every: list[Datum | Count | Waveform] = [*data, *counts, *waveforms]
-    names = [one.name for one in every]
+    names = [entry.name for entry in every]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InvalidValue(f"{path}{twice} is given twice")
@@ -159,5 +159,5 @@ def _one_by_one(drop: Drop, given: Mapping[Any, Any], path: str) -> list[tuple[s
                 f"where nothing was measured, or be of one {known.part} ({name}.0), "
                 f"got {shown(value)}"
             )
-        found += [(f"{name}.{i}", one) for i, one in enumerate(value) if one not in (None, "")]
+        found += [(f"{name}.{i}", part) for i, part in enumerate(value) if part not in (None, "")]
     return found

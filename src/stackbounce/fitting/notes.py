@@ -1,6 +1,6 @@
 """The notes of a fit: what is undetermined, bounds reached, other minima, misfits, an outlier."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
@@ -44,12 +44,14 @@ def describe_undetermined(names: Sequence[str], sizes: Array, directions: Array)
     In such a direction chi squared changes by less than 1 from one bound to the other, if it is as
     steep everywhere as at the best values.
     """
-    found = []
-    for direction in directions[sizes <= OPEN]:
-        part = np.abs(direction) / np.max(np.abs(direction))
-        open_ones = [name for name, one in zip(names, part, strict=True) if one > _SHARE]
-        found.append(_describe_direction(open_ones))
-    return tuple(found)
+    parts = [np.abs(direction) / np.max(np.abs(direction)) for direction in directions]
+    return tuple(
+        _describe_direction(
+            [name for name, share in zip(names, part, strict=True) if share > _SHARE]
+        )
+        for part, size in zip(parts, sizes, strict=True)
+        if size <= OPEN
+    )
 
 
 def _describe_direction(names: list[str]) -> str:
@@ -59,28 +61,24 @@ def _describe_direction(names: list[str]) -> str:
     return f"the data do not determine {listed} separately: they can change together without effect"
 
 
-def note_search(best: Minimum, unsolved: Mapping[str, int]) -> list[str]:
-    """Return notes on a search that did not converge, and on runs that did not finish."""
-    found = []
+def note_search(best: Minimum, unsolved: Mapping[str, int]) -> Iterator[str]:
+    """Yield notes on a search that did not converge, and on runs that did not finish."""
     if not best.converged:
-        found.append("the search ended before it converged: give narrower bounds")
-    found += [
-        f"{count} runs of the search did not finish ({name}) and were taken as far from all data: "
-        "give narrower bounds"
-        for name, count in unsolved.items()
-    ]
-    return found
+        yield "the search ended before it converged: give narrower bounds"
+    for name, count in unsolved.items():
+        yield (
+            f"{count} runs of the search did not finish ({name}) and were taken as far from all "
+            "data: give narrower bounds"
+        )
 
 
-def note_bounds(objective: Objective, x: Array) -> list[str]:
-    """Return a note for each parameter that lies at a bound."""
-    found = []
-    for one, at in zip(objective.parameters, x, strict=True):
-        low, high = one.span
-        for end, value in ((low, one.low), (high, one.high)):
+def note_bounds(objective: Objective, x: Array) -> Iterator[str]:
+    """Yield a note for each parameter that lies at a bound."""
+    for parameter, at in zip(objective.parameters, x, strict=True):
+        low, high = parameter.span
+        for end, value in ((low, parameter.low), (high, parameter.high)):
             if abs(at - end) < _EDGE * (high - low):
-                found.append(f"{one.name} lies at its bound, {value:g} {one.unit}".rstrip())
-    return found
+                yield f"{parameter.name} lies at its bound, {value:g} {parameter.unit}".rstrip()
 
 
 def note_misfits(
@@ -92,25 +90,24 @@ def note_misfits(
 ) -> list[str]:
     """Return notes on an unlikely chi squared, differing collisions and other minima."""
     chi_squared = minima[0].chi_squared
+    misfit = _note_outlier(chi_squared, residuals, leverages, degrees_of_freedom)
+    misfit = misfit or _note_unlikely(chi_squared, degrees_of_freedom)
     return [
-        *(
-            _note_outlier(chi_squared, residuals, leverages, degrees_of_freedom)
-            or _note_unlikely(chi_squared, degrees_of_freedom)
-        ),
+        *filter(None, [misfit]),
         *_note_collisions(objective, minima[0]),
-        *(f"{one.label}: the fitted drop has none" for one in residuals if _is_absent(one)),
+        *(
+            f"{residual.label}: the fitted drop has none"
+            for residual in residuals
+            if not abs(residual.pull) < ABSENT
+        ),
         *_note_other_minima(objective, minima),
     ]
 
 
-def _is_absent(residual: Residual) -> bool:
-    return not abs(residual.pull) < ABSENT
-
-
 def _note_outlier(
     chi_squared: float, residuals: Sequence[Residual], leverages: Array, degrees_of_freedom: int
-) -> list[str]:
-    """Return a note on the one number whose residual makes chi squared unlikely, if there is one.
+) -> str:
+    """Return a note on the one number whose residual makes chi squared unlikely; empty if none is.
 
     Without a number whose pull is r, a linear fit has a chi squared that is smaller by
     ``r**2 / (1 - h)``, with its leverage h. This square follows that of a normal distribution.
@@ -119,51 +116,46 @@ def _note_outlier(
 
     chance = float(chi2.sf(chi_squared, degrees_of_freedom))
     if degrees_of_freedom < 2 or chance >= _BAD:  # with one degree of freedom none has a rival
-        return []
-    pulls = np.array([one.pull for one in residuals])
+        return ""
+    pulls = np.array([residual.pull for residual in residuals])
     less = pulls**2 / np.maximum(1.0 - leverages[: len(pulls)], _ALONE)
     without = chi2.sf(chi_squared - less, degrees_of_freedom - 1)
     rare = len(pulls) * chi2.sf(less, 1) < _RARE
     (found,) = np.nonzero((without >= _BAD) & rare & (np.abs(pulls) < ABSENT))
     if len(found) != 1:
-        return []
+        return ""
     label, pull, then = residuals[found[0]].label, pulls[found[0]], without[found[0]]
-    off = f"{label} is {abs(pull):.1f} errors off"
-    said = f"{off}, and without it p is {then:.2g} instead of {chance:.1g}"
-    what_to_do = "check how it was measured, or try another law"
-    return [f"one number makes chi squared improbable: {said}; {what_to_do}"]
+    return (
+        f"one number makes chi squared improbable: {label} is {abs(pull):.1f} errors off, and "
+        f"without it p is {then:.2g} instead of {chance:.1g}; check how it was measured, or try "
+        "another law"
+    )
 
 
-def _note_unlikely(chi_squared: float, degrees_of_freedom: int) -> list[str]:
+def _note_unlikely(chi_squared: float, degrees_of_freedom: int) -> str:
     from scipy.stats import chi2
 
     # chi squared has no distribution with 0 degrees of freedom: 1 is taken instead
     if chi2.sf(chi_squared, max(1, degrees_of_freedom)) >= _UNLIKELY:
-        return []
+        return ""
     bad = f"chi squared is {chi_squared:.4g} for {describe_freedom(degrees_of_freedom)}"
-    return [f"the model does not describe the data: {bad}; its parameters' errors mean little"]
+    return f"the model does not describe the data: {bad}; its parameters' errors mean little"
 
 
-def _note_collisions(objective: Objective, best: Minimum) -> list[str]:
-    found = []
+def _note_collisions(objective: Objective, best: Minimum) -> Iterator[str]:
     for key, measured in objective.measured.items():
-        if not measured.counts:
-            continue
-        fitted = objective.counts(key, best.x)
+        fitted = objective.counts(key, best.x) if measured.counts else np.empty(0)
         for count in measured.counts:
             if fitted[count.index] != count.seen:
                 name = f"{key}.{count.name}" if key else count.name
-                found.append(f"{name}: {count.seen} seen, {fitted[count.index]} in the fit")
-    return found
+                yield f"{name}: {count.seen} seen, {fitted[count.index]} in the fit"
 
 
-def _note_other_minima(objective: Objective, minima: Sequence[Minimum]) -> list[str]:
-    found = []
-    for one in minima[1:]:
-        more = one.chi_squared - minima[0].chi_squared
+def _note_other_minima(objective: Objective, minima: Sequence[Minimum]) -> Iterator[str]:
+    for minimum in minima[1:]:
+        more = minimum.chi_squared - minima[0].chi_squared
         if more < _CLOSE:
-            values = objective.values(one.x[None])
+            values = objective.values(minimum.x[None])
             where = ", ".join(f"{name} = {array[0]:.4g}" for name, array in values.items())
             how = f"has chi squared only {more:.2g} higher" if more > EQUAL else "is as good"
-            found.append(f"another minimum {how}: {where}")
-    return found
+            yield f"another minimum {how}: {where}"

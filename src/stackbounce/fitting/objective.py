@@ -27,7 +27,7 @@ from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, numbers_of, value_in
 from stackbounce.run.result import Status
 
-__all__ = ["ABSENT", "Objective", "touch_name"]
+__all__ = ["ABSENT", "Objective", "differences", "touch_name"]
 
 ABSENT = 1e4
 """The residual, in errors, of a number that a trial does not have, such as a missing touch."""
@@ -84,17 +84,17 @@ class Objective:
     @property
     def names(self) -> list[str]:
         """The names of the parameters."""
-        return [one.name for one in self.parameters]
+        return [parameter.name for parameter in self.parameters]
 
     @property
     def units(self) -> dict[str, str]:
         """The SI unit of each parameter; empty for a pure number."""
-        return {one.name: one.unit for one in self.parameters}
+        return {parameter.name: parameter.unit for parameter in self.parameters}
 
     @cached_property
     def spans(self) -> Array:
         """(parameters, 2) bounds in search coordinates."""
-        return np.array([one.span for one in self.parameters])
+        return np.array([parameter.span for parameter in self.parameters])
 
     @property
     def widths(self) -> Array:
@@ -104,7 +104,7 @@ class Objective:
     @property
     def priors(self) -> list[Parameter]:
         """The parameters with a prior."""
-        return [one for one in self.parameters if one.prior is not None]
+        return [parameter for parameter in self.parameters if parameter.prior is not None]
 
     @property
     def records(self) -> list[str]:
@@ -114,7 +114,7 @@ class Objective:
     @property
     def size(self) -> int:
         """The number of residuals."""
-        numbers = sum(len(one.data) for one in self.measured.values()) + len(self.priors)
+        numbers = sum(len(measured.data) for measured in self.measured.values()) + len(self.priors)
         return numbers + sum(len(wave.times) for wave in self._waveforms)
 
     @property
@@ -124,15 +124,19 @@ class Objective:
 
     @property
     def _waveforms(self) -> list[Waveform]:
-        return [wave for one in self.measured.values() for wave in one.waveforms]
+        return [wave for measured in self.measured.values() for wave in measured.waveforms]
 
     def values(self, x: Array) -> dict[str, Array]:
         """Return the parameters of trials (n, parameters) by name, (n,) numbers in SI units."""
-        return {one.name: one.value(x[:, k]) for k, one in enumerate(self.parameters)}
+        return {
+            parameter.name: parameter.value(x[:, k]) for k, parameter in enumerate(self.parameters)
+        }
 
     def value_slopes(self, x: Array) -> Array:
         """Return the derivatives (parameters,) of the values by the coordinates of a trial."""
-        return np.array([one.slope(at) for one, at in zip(self.parameters, x, strict=True)])
+        return np.array(
+            [parameter.slope(at) for parameter, at in zip(self.parameters, x, strict=True)]
+        )
 
     def rows(self, key: str, x: Array) -> Rows:
         """Return the varied and tied numbers of one drop in trials (n, parameters), checked."""
@@ -159,16 +163,18 @@ class Objective:
         A tie that is a Python function may use every shared parameter and those of its own drop.
         """
         found: dict[str, str | None] = {touch_name(key): key for key in self.drops}
-        for one in self.parameters:
-            numbers = {key for key, _ in find_numbers(self.drops, one.name)}
-            users = {tie.drop for tie in self.ties if tie.uses and one.name in tie.uses}
+        for parameter in self.parameters:
+            numbers = {key for key, _ in find_numbers(self.drops, parameter.name)}
+            users = {tie.drop for tie in self.ties if tie.uses and parameter.name in tie.uses}
             keys = numbers | users
-            found.setdefault(one.name, keys.pop() if numbers and len(keys) == 1 else None)
+            found.setdefault(parameter.name, keys.pop() if numbers and len(keys) == 1 else None)
         return found
 
     def own(self, key: str) -> list[int]:
         """Return the indices of the parameters that belong to one drop only."""
-        return [k for k, one in enumerate(self.parameters) if self._owner[one.name] == key]
+        return [
+            k for k, parameter in enumerate(self.parameters) if self._owner[parameter.name] == key
+        ]
 
     def alone(self, key: str) -> "Objective":
         """Return the objective with all parameters but the data of one drop only."""
@@ -252,10 +258,10 @@ class Objective:
                 error = np.array([datum.error for datum in measured.data])
                 parts.append((self.predict(key, x) - value) / error)
         values = self.values(x)
-        for one in self.priors:
-            mean, known_to = one.prior or (0.0, 1.0)
-            parts.append(((values[one.name] - mean) / known_to)[:, None])
-        parts += [np.stack([self._of_records(key, one) for one in x]) for key in self.records]
+        for parameter in self.priors:
+            mean, known_to = parameter.prior or (0.0, 1.0)
+            parts.append(((values[parameter.name] - mean) / known_to)[:, None])
+        parts += [np.stack([self._of_records(key, trial) for trial in x]) for key in self.records]
         whole = np.concatenate(parts, axis=1)
         found = np.where(np.isfinite(whole), np.clip(whole, -ABSENT, ABSENT), ABSENT)
         self.course.add(x, np.sum(found**2, axis=1))
@@ -277,16 +283,28 @@ class Objective:
 
         The derivatives are central differences; all their trials are solved together.
         """
-        spans = self.spans
-        step = _STEP * self.widths
-        high, low = np.minimum(x + step, spans[:, 1]), np.maximum(x - step, spans[:, 0])
-        count = len(x)
+        trials = self.neighbours(x)
+        found = self.residuals(trials)
+        slopes = differences(found) / np.diag(differences(trials))[:, None]
+        return np.asarray(found[-1]), np.asarray(slopes.T)
+
+    def neighbours(self, x: Array) -> Array:
+        """Return the trials of central differences at one trial (n,): (2 n + 1, n).
+
+        First each coordinate is a step larger, then each a step smaller; the trial is the last.
+        """
+        step, count = _STEP * self.widths, len(x)
         trials = np.tile(x, (2 * count + 1, 1))
         each = np.arange(count)
-        trials[each, each], trials[count + each, each] = high, low
-        found = self.residuals(trials)
-        slopes = (found[:count] - found[count:-1]) / (high - low)[:, None]
-        return np.asarray(found[-1]), np.asarray(slopes.T)
+        trials[each, each] = np.minimum(x + step, self.spans[:, 1])
+        trials[count + each, each] = np.maximum(x - step, self.spans[:, 0])
+        return trials
+
+
+def differences(rows: Array) -> Array:
+    """Return the differences (n, ...) of what follows of `Objective.neighbours`, (2 n + 1, ...)."""
+    count = len(rows) // 2
+    return np.asarray(rows[:count] - rows[count:-1])
 
 
 class _Layout(NamedTuple):
@@ -300,14 +318,17 @@ class _Layout(NamedTuple):
 def _layout(objective: Objective, key: str) -> _Layout:
     drop = objective.drops[key]
     varied = [
-        (one.name, number)
-        for one in objective.parameters
-        for own, number in find_numbers(objective.drops, one.name)
+        (parameter.name, number)
+        for parameter in objective.parameters
+        for own, number in find_numbers(objective.drops, parameter.name)
         if own == key
     ]
     numbers = {path: value_in(drop, number) for path, number in numbers_of(drop).items()}
     ties = [tie for tie in objective.ties if tie.drop == key]
-    ends = {one.name: np.array([one.low, one.high]) for one in objective.parameters}
+    ends = {
+        parameter.name: np.array([parameter.low, parameter.high])
+        for parameter in objective.parameters
+    }
     check(drop, {number: ends[name] for name, number in varied}, lambda _: "(at the bounds)")
     return _Layout(varied, ties, numbers)
 

@@ -81,7 +81,7 @@ class Parameter:
 
     @property
     def logarithmic(self) -> bool:
-        """Whether the search coordinate is the logarithm of the number."""
+        """Return whether the search coordinate is the logarithm of the number."""
         return self.low > 0.0 and self.high > _LOG * self.low
 
     @property
@@ -132,8 +132,9 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
     --------
     >>> import stackbounce as sb
     >>> drop = sb.Drop([sb.Ball(1.0)], [sb.Spring(1.0)], height=1.0)
-    >>> [one.high for one in read_parameters({"": drop}, {"contacts.0.stiffness": (0.1, 10.0)})]
-    [10.0]
+    >>> (found,) = read_parameters({"": drop}, {"contacts.0.stiffness": (0.1, 10.0)})
+    >>> found.high
+    10.0
     """
     if isinstance(vary, Sequence) and not isinstance(vary, str):
         for name in vary:
@@ -146,10 +147,11 @@ def read_parameters(drops: Mapping[str, Drop], vary: object) -> tuple[Parameter,
             f"got {shown(vary)}"
         )
     found = tuple(_parameter(drops, name, given) for name, given in vary.items())
-    varied = [place for one in found for place in find_numbers(drops, one.name)]
-    for one in found:
-        if any(varied.count(place) > 1 for place in find_numbers(drops, one.name)):
-            raise InvalidValue(f"{one.name} is varied twice: only once for each drop")
+    places = {parameter.name: find_numbers(drops, parameter.name) for parameter in found}
+    varied = [place for own in places.values() for place in own]
+    for name, own in places.items():
+        if any(varied.count(place) > 1 for place in own):
+            raise InvalidValue(f"{name} is varied twice: only once for each drop")
     return found
 
 
@@ -232,8 +234,8 @@ def _default(
     if number.field == "restitution":
         return 0.01, 1.0
     if own == 0.0 or math.isnan(own):
-        told = "not given" if math.isnan(own) else "0"
-        raise InvalidValue(f"{name} is {told} in the drop and needs bounds, such as {name}=0.1:10")
+        what = "not given" if math.isnan(own) else "0"
+        raise InvalidValue(f"{name} is {what} in the drop and needs bounds, such as {name}=0.1:10")
     ends = sorted((own / _WIDE, own * _WIDE))
     return _legal(drops, at, own, *ends)
 

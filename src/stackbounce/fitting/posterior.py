@@ -211,7 +211,7 @@ def sample(
             progress((k + 1) * walkers, steps * walkers)
     burnt = int(_BURNT * steps)
     inner = sampler.get_chain(discard=burnt)
-    chain = [one.value(inner[:, :, k]) for k, one in enumerate(objective.parameters)]
+    chain = [parameter.value(inner[:, :, k]) for k, parameter in enumerate(objective.parameters)]
     return Posterior(
         objective.names,
         objective.units,
@@ -227,7 +227,9 @@ def sample(
 def _log_probability(objective: Objective) -> Any:
     spans = objective.spans
     # a prior is a density of the value; the density of its logarithm has the value as a factor
-    known = [one.prior is not None and one.logarithmic for one in objective.parameters]
+    known = [
+        parameter.prior is not None and parameter.logarithmic for parameter in objective.parameters
+    ]
 
     def evaluate(x: Array) -> Array:
         inside = np.all((x >= spans[:, 0]) & (x <= spans[:, 1]), axis=1)

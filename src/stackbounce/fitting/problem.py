@@ -120,12 +120,13 @@ class FitProblem:
         """
         measured = self._read_data()
         parameters = read_parameters(self.drops, self.vary)
-        touches = tuple(_touch(key, one) for key, one in measured.items() if one.waveforms)
-        own = {one.name for one in parameters}
-        for one in touches:
-            if one.name in own:
+        touches = tuple(_touch(key, own) for key, own in measured.items() if own.waveforms)
+        own = {parameter.name for parameter in parameters}
+        for parameter in touches:
+            if parameter.name in own:
                 raise InvalidValue(
-                    f"{one.name} is the time of first touch in a force record: take another name"
+                    f"{parameter.name} is the time of first touch in a force record: take another "
+                    "name"
                 )
         ties = read_ties(self.drops, parameters, self.tie)
         objective = Objective(self.drops, measured, parameters + touches, ties, self.rtol)
@@ -145,8 +146,8 @@ class FitProblem:
             if key not in self.drops:
                 raise InvalidValue(f"data of {shown(key)}: no drop; {nearest(key, self.drops)}")
         return {
-            key: read_measured(self.drops[key], one, f"{key}." if key else "")
-            for key, one in data.items()
+            key: read_measured(self.drops[key], own, f"{key}." if key else "")
+            for key, own in data.items()
         }
 
     def fit(
@@ -191,7 +192,7 @@ class FitProblem:
         _announce(objective, first, expected)
         course = objective.course
         try:
-            with course.told(progress, expected):
+            with course.reported(progress, expected):
                 minima = find_minima(objective, first[None], count, start)
         except KeyboardInterrupt as stopped:
             if course.best is None:
@@ -315,14 +316,14 @@ def _read_drops(drops: object) -> dict[str, Drop]:
         return {"": drops}
     if not isinstance(drops, Mapping) or not drops:
         raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(drops)}")
-    for key, one in drops.items():
+    for key, drop in drops.items():
         alone = key == "" and len(drops) == 1
         if not alone and not (isinstance(key, str) and key.isidentifier() and key.isascii()):
             raise InvalidValue(
                 f"a drop's name must be letters, digits and _, such as B2_on_B1, got {shown(key)}"
             )
-        if not isinstance(one, Drop):
-            raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(one)}")
+        if not isinstance(drop, Drop):
+            raise InvalidType(f"drop must be a Drop or map names to Drops, got {shown(drop)}")
     return dict(drops)
 
 
@@ -337,11 +338,11 @@ def _touch(key: str, measured: Measured) -> Parameter:
 def _first_trial(objective: Objective) -> Any:
     """Return the trial (parameters,) of the drops' own numbers, or mid-range outside the bounds."""
     found = []
-    for one in objective.parameters:
-        at = find_numbers(objective.drops, one.name)
+    for parameter in objective.parameters:
+        at = find_numbers(objective.drops, parameter.name)
         value = value_in(objective.drops[at[0][0]], at[0][1]) if at else np.nan
-        inside = one.low <= value <= one.high
-        found.append(one.coordinate(value) if inside else 0.5 * sum(one.span))
+        inside = parameter.low <= value <= parameter.high
+        found.append(parameter.coordinate(value) if inside else 0.5 * sum(parameter.span))
     return np.array(found)
 
 

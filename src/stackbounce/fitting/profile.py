@@ -138,7 +138,7 @@ class Profile:
         """
         x = outer[0]
         for count in range(_MOST):
-            roots = [math.sqrt(max(one[1], 0.0)) for one in (inner, outer)]
+            roots = [math.sqrt(max(end[1], 0.0)) for end in (inner, outer)]
             share = (math.sqrt(rise) - roots[0]) / (roots[1] - roots[0])
             x = inner[0] + (0.5 if count % 3 == 2 else share) * (outer[0] - inner[0])
             end = self.at(x, start)

@@ -101,7 +101,7 @@ def read_with_error(given: object, unit: str, name: str, right: str) -> tuple[fl
         pair = (pair.nominal_value, pair.std_dev)
     if not isinstance(pair, Sequence) or isinstance(pair, str) or len(pair) != 2:
         raise InvalidValue(f"{name} must be {right}, got {shown(given)}")
-    value, error = (quantity(one, unit, name) for one in pair)
+    value, error = (quantity(part, unit, name) for part in pair)
     deviation(name, error, zero=False)
     if not abs(value) <= LARGEST * error:
         raise InvalidValue(f"{name} must be at most {LARGEST:g} of its errors, got {shown(given)}")

@@ -94,11 +94,11 @@ def list_residuals(objective: Objective, x: Array) -> list[Residual]:
             row = (datum.value, datum.error, float(value), float(pull), datum.unit)
             found.append(Residual(key, datum.name, *row))
     values = objective.values(x[None])
-    for one in objective.priors:
-        mean, error = one.prior or (0.0, 1.0)
-        fitted = float(values[one.name][0])
-        row = (mean, error, fitted, (fitted - mean) / error, one.unit)
-        found.append(Residual("", f"{one.name} (known)", *row))
+    for parameter in objective.priors:
+        mean, error = parameter.prior or (0.0, 1.0)
+        fitted = float(values[parameter.name][0])
+        row = (mean, error, fitted, (fitted - mean) / error, parameter.unit)
+        found.append(Residual("", f"{parameter.name} (known)", *row))
     return found
 
 

@@ -13,7 +13,7 @@ from stackbounce.fitting import notes, posterior
 from stackbounce.fitting.course import Progress, announce
 from stackbounce.fitting.covariance import estimate_covariance, find_directions, find_leverages
 from stackbounce.fitting.least_squares import Minimum
-from stackbounce.fitting.objective import Objective
+from stackbounce.fitting.objective import Objective, differences
 from stackbounce.fitting.posterior import Posterior
 from stackbounce.fitting.profile import Interval, Profile
 from stackbounce.fitting.quantities import Array
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 __all__ = ["Fit"]
 
 _LINEARISED = 60  # evaluations with derivatives for an interval, about
-_STEP = 1e-5  # of the width of the bounds: the step of a numerical derivative
 _GOODNESS = ("chi_squared", "degrees_of_freedom", "probability", "aicc", "bic")
 
 
@@ -234,7 +233,7 @@ class Fit:
         reach, count = positive("sigma", sigma), len(self.names)
         course, expected = self.objective.course, _LINEARISED * count * (2 * count + 1)
         announce(f"intervals of {count} numbers", course.cost(expected), "fit fewer numbers")
-        with course.told(progress, expected):
+        with course.reported(progress, expected):
             return {name: self._profile(k).interval(reach) for k, name in enumerate(self.names)}
 
     def profile(self, name: str, values: Any) -> Array:
@@ -354,9 +353,11 @@ class Fit:
         >>> sb.sweep(drop, {path: ("draw", x) for path, x in drawn.items()}).sizes["draw"]
         4800
         """
+        parameters = self.objective.parameters
         columns = [
-            np.log(posterior.draws(one.name)) if one.logarithmic else posterior.draws(one.name)
-            for one in self.objective.parameters
+            np.log(drawn) if parameter.logarithmic else drawn
+            for parameter in parameters
+            for drawn in (posterior.draws(parameter.name),)
         ]
         rows = self.objective.rows(self._key(drop), np.stack(columns, axis=1))
         return {number.path: column for number, column in rows.items()}
@@ -372,21 +373,15 @@ class Fit:
 
     def _numbers(self, key: str) -> "dict[str, UFloat]":
         """Return the varied and tied numbers of a drop by path, correlated as in `covariance`."""
-        objective, own = self.objective, list(self.values.values())
-        (low, high), steps = objective.spans.T, _STEP * objective.widths
-        up, down = np.minimum(self.x + steps, high), np.maximum(self.x - steps, low)
-        count = len(self.x)
-        trials = np.tile(self.x, (2 * count + 1, 1))
-        each = np.arange(count)
-        trials[each, each], trials[count + each, each] = up, down
-        parameters = np.array(list(objective.values(trials).values()))
-        moved = parameters[each, each] - parameters[each, count + each]
+        trials = self.objective.neighbours(self.x)
+        parameters = np.array(list(self.objective.values(trials).values()))
+        moved = np.diag(differences(parameters.T))
         found = {}
-        for number, column in objective.rows(key, trials).items():
-            slopes = (column[:count] - column[count:-1]) / moved
+        for number, column in self.objective.rows(key, trials).items():
+            slopes = (differences(column) / moved).tolist()
             value: Any = float(column[-1])
-            for one, slope in zip(own, slopes.tolist(), strict=True):
-                value = value + slope * (one - one.nominal_value)
+            for own, slope in zip(self.values.values(), slopes, strict=True):
+                value = value + slope * (own - own.nominal_value)
             found[number.path] = value
         return found
 
@@ -395,12 +390,12 @@ class Fit:
         return {
             **self._provenance,
             "values": {
-                name: {"value": one.nominal_value, "error": one.std_dev, "unit": self.units[name]}
-                for name, one in self.values.items()
+                name: {"value": own.nominal_value, "error": own.std_dev, "unit": self.units[name]}
+                for name, own in self.values.items()
             },
             **self.goodness(),
             "correlations": self.correlations.values.tolist(),
-            "residuals": [one._asdict() for one in self.residuals],
+            "residuals": [residual._asdict() for residual in self.residuals],
             "notes": list(self.notes),
             "drops": {key: drop.to_toml() for key, drop in self.drops.items()},
         }
@@ -414,11 +409,6 @@ class Fit:
     def free(self) -> int:
         """The number of fitted numbers, scales and baselines of force records included."""
         return self.objective.free
-
-    @property
-    def problem(self) -> Objective:
-        """The former name of `objective`."""
-        return self.objective
 
     @property
     def _provenance(self) -> dict[str, Any]:

@@ -76,8 +76,10 @@ def _made(
     """Return the model with all contacts of one finite law that last as long as the true ones."""
     given = {"restitution": _LOSSY, **numbers} if law.loss else numbers
     changed = {
-        key: replace(one, contacts=[_alike(one, i, law, given) for i in range(len(one.contacts))])
-        for key, one in drops.items()
+        key: replace(
+            drop, contacts=[_alike(drop, i, law, given) for i in range(len(drop.contacts))]
+        )
+        for key, drop in drops.items()
     }
     vary, tie = _finite(next(iter(changed.values())), times, law.loss)
     return Model(changed, vary, tie)
@@ -85,8 +87,8 @@ def _made(
 
 def _rigid(drops: Mapping[str, Drop], times: bool, *, shared: bool) -> FitProblem:
     changed = {
-        key: replace(one, contacts=[Rigid(_LOSSY)] * len(one.contacts))
-        for key, one in drops.items()
+        key: replace(drop, contacts=[Rigid(_LOSSY)] * len(drop.contacts))
+        for key, drop in drops.items()
     }
     first = next(iter(drops.values()))
     paths = [f"contacts.{i}.restitution" for i in range(len(first.contacts))]

@@ -41,7 +41,7 @@ class _Column(NamedTuple):
 
     @property
     def numeric(self) -> bool:
-        """Whether its cells may have a decimal mark."""
+        """Return whether its cells may have a decimal mark."""
         return self.kind in ("number", "data", "error")
 
 
@@ -143,10 +143,12 @@ def _drops(
     (_, first), *rows = rows
     columns = [_column(drop, cell) for cell in first]
     _check_columns(columns)
-    units = {(one.kind, one.name): one.unit for one in columns}
+    units = {(column.kind, column.name): column.unit for column in columns}
     columns = [
-        one._replace(unit=one.unit or units["data", one.name]) if one.kind == "error" else one
-        for one in columns
+        column._replace(unit=column.unit or units["data", column.name])
+        if column.kind == "error"
+        else column
+        for column in columns
     ]
     if not rows:
         raise InvalidValue("it has a heading but no drop below it")
@@ -211,7 +213,7 @@ def _known(name: str, numbers: Sequence[str]) -> str:
 
 
 def _check_columns(columns: Sequence[_Column]) -> None:
-    names = [(one.kind, one.name) for one in columns if one.kind]
+    names = [(column.kind, column.name) for column in columns if column.kind]
     for column in columns:
         if column.kind and names.count((column.kind, column.name)) > 1:
             raise InvalidValue(f"column {shown(column.text)} is there twice")
@@ -237,7 +239,7 @@ def _has_commas(columns: Sequence[_Column], rows: Sequence[tuple[int, list[str]]
     text, where = commas[0]
     if points:
         raise InvalidValue(f"{where}: {text} has a comma, but {points[0]} a decimal point")
-    if all(_GROUPED.fullmatch(one) for one, _ in commas):
+    if all(_GROUPED.fullmatch(number) for number, _ in commas):
         raise InvalidValue(f"{where}: {text} can be read in two ways: write it without a comma")
     return True
 

@@ -88,7 +88,7 @@ def read_ties(
         given = {}
     if not isinstance(given, Mapping):
         raise InvalidType(f"tie must map numbers to formulas, got {shown(given)}")
-    varied = {place for one in parameters for place in find_numbers(drops, one.name)}
+    varied = {place for parameter in parameters for place in find_numbers(drops, parameter.name)}
     places_of = {name: find_numbers(drops, name) for name in given if isinstance(name, str)}
     follow = [place for places in places_of.values() for place in places]
     found: list[Tie] = []
@@ -108,7 +108,7 @@ def read_ties(
         _check_given(drops[tie.drop], tie, given_here)
     _check_used(drops, parameters, found)
     return tuple(
-        tie for key in drops for tie in _in_order([one for one in found if one.drop == key])
+        tie for key in drops for tie in _in_order([own for own in found if own.drop == key])
     )
 
 
@@ -152,7 +152,7 @@ def _tie(
     if callable(formula):
         name = getattr(formula, "__name__", "a function")
         return Tie(key, number, formula, name, None)
-    known = {one.name for one in parameters} | set(numbers_of(drop))
+    known = {parameter.name for parameter in parameters} | set(numbers_of(drop))
     run, uses = read_formula(formula, known, number.path)
     return Tie(key, number, run, str(formula), uses)
 
@@ -183,10 +183,10 @@ def _check_used(
     drops: Mapping[str, Drop], parameters: Sequence[Parameter], ties: Sequence[Tie]
 ) -> None:
     """Refuse a parameter with a user's name that no tie uses."""
-    for one in parameters:
-        used = any(tie.uses is None or one.name in tie.uses for tie in ties)
-        if not find_numbers(drops, one.name) and not used:
+    for parameter in parameters:
+        used = any(tie.uses is None or parameter.name in tie.uses for tie in ties)
+        if not find_numbers(drops, parameter.name) and not used:
             raise InvalidValue(
-                f"{one.name[:60]} is neither a number of the drop nor used by a tie; "
-                f"{nearest(one.name, list_paths(drops))}"
+                f"{parameter.name[:60]} is neither a number of the drop nor used by a tie; "
+                f"{nearest(parameter.name, list_paths(drops))}"
             )

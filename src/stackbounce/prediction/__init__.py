@@ -2,8 +2,7 @@
 
 =========== =====================================================================
 inputs      the numbers with errors, and draws of them
-budget      the runs of draws, whose work is limited
-linearity   derivatives, and whether the results follow them within the errors
+draws       the runs of draws, whose work is limited; derivatives, and whether draws follow them
 runs        single runs, for forces, apexes and curves in time
 sensitivity which number makes how much of the variance: shares, Sobol indices
 result      `Prediction`: the result, with all of these

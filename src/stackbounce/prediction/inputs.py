@@ -17,7 +17,9 @@ from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmaske
 from stackbounce.measure.quantities import deviation, known_to, quantity_with_error
 from stackbounce.model import Drop
 from stackbounce.run.columns import check
+from stackbounce.run.options import Options
 from stackbounce.run.paths import Number, drop_at, number_at, value_in
+from stackbounce.run.quantities import Solved, solve_quantities
 from stackbounce.sweeps.dataset import check_together
 from stackbounce.units import quantity
 
@@ -28,7 +30,6 @@ __all__ = [
     "add_value",
     "error_of_deviation",
     "of_draws",
-    "possible",
     "read_inputs",
 ]
 
@@ -47,6 +48,8 @@ class Inputs:
 
     Parameters
     ----------
+    base : Drop
+        The drop that has them; their values take the place of its own.
     numbers : tuple of Number
         Which numbers.
     errors : tuple of UFloat
@@ -55,6 +58,7 @@ class Inputs:
         Draws (n,) of those numbers that were given by draws, by index: a row holds for all of them.
     """
 
+    base: Drop
     numbers: tuple[Number, ...]
     errors: tuple[Any, ...]
     given: Mapping[int, Array]
@@ -67,13 +71,15 @@ class Inputs:
     @functools.cached_property
     def values(self) -> Array:
         """(numbers,) values without errors, in SI units."""
-        return np.array([one.nominal_value for one in self.errors])
+        return np.array([error.nominal_value for error in self.errors])
 
     @functools.cached_property
     def spread(self) -> Array:
         """(numbers, variables) change of each number by one standard deviation of a variable."""
-        variables = list(dict.fromkeys(v for one in self.errors for v in one.derivatives))
-        rows = [[one.derivatives.get(v, 0.0) * v.std_dev for v in variables] for one in self.errors]
+        variables = list(dict.fromkeys(v for error in self.errors for v in error.derivatives))
+        rows = [
+            [error.derivatives.get(v, 0.0) * v.std_dev for v in variables] for error in self.errors
+        ]
         return np.array(rows)
 
     @property
@@ -88,27 +94,49 @@ class Inputs:
 
     @property
     def independent(self) -> bool:
-        """Whether no two numbers depend on the same variable."""
+        """Return whether no two numbers depend on the same variable."""
         return not self.given and bool(np.all(np.count_nonzero(self.spread, axis=0) <= 1))
 
-    def rows(self, x: Array) -> dict[Number, Array]:
-        """Return values (n, numbers) as a batch takes them."""
-        return dict(zip(self.numbers, x.T, strict=True))
+    @functools.cached_property
+    def drop(self) -> Drop:
+        """The drop with the values of the numbers."""
+        return self.drop_at(self.values)
+
+    def drop_at(self, x: Array) -> Drop:
+        """Return the drop with other numbers (numbers,)."""
+        return drop_at(self.base, dict(zip(self.numbers, x.tolist(), strict=True)))
+
+    def solve(self, x: Array, options: Options) -> Solved:
+        """Return all quantities of drops with numbers (n, numbers)."""
+        rows = dict(zip(self.numbers, x.T, strict=True))
+        return solve_quantities(self.drop, rows, len(x), options)
+
+    def possible(self, x: Array) -> tuple[NDArray[np.bool_], str]:
+        """Return which rows (n, numbers) are possible drops, and the first message of those not."""
+        every = np.ones(len(x), dtype=bool)
+        try:
+            check(self.drop, dict(zip(self.numbers, x.T, strict=True)), lambda _: "")
+        except (InvalidValue, InvalidType) as error:
+            for i, row in enumerate(x):
+                try:
+                    self.drop_at(row)
+                except (InvalidValue, InvalidType):
+                    every[i] = False
+            return every, str(error).strip()
+        return every, ""
 
     def linear(self, value: float, slopes: Array) -> Any:
         """Return a value that depends on the numbers with these derivatives (numbers,)."""
         found: Any = known_to(value, 0.0)
-        for one, slope in zip(self.errors, slopes.tolist(), strict=True):
-            found += slope * (one - one.nominal_value)
+        for number, slope in zip(self.errors, slopes.tolist(), strict=True):
+            found += slope * (number - number.nominal_value)
         return found
 
-    def draw(self, drop: Drop, count: int, seed: int) -> tuple[Array, str, float]:
+    def draw(self, count: int, seed: int) -> tuple[Array, str, float]:
         """Return draws from the normal distribution of the numbers that are possible drops.
 
         Parameters
         ----------
-        drop : Drop
-            The drop that has the numbers.
         count : int
             The number of draws; all given ones, if there are any.
         seed : int
@@ -138,7 +166,7 @@ class Inputs:
             x = self.values + np.sum(z[:, None, :] * self.spread, axis=2)
             for k, draws in self.given.items():
                 x[:, k] = draws
-            good, wrong = possible(drop, self.numbers, x)
+            good, wrong = self.possible(x)
             refused = refused or wrong
             left_out += int(np.sum(~good))
             found = np.concatenate([found, x[good]])[:count]
@@ -202,7 +230,7 @@ def read_inputs(drop: Drop, errors: object) -> Inputs:
         known[k] if k in known else _with_error(number, errors[number.path])
         for k, number in enumerate(numbers)
     )
-    inputs = Inputs(numbers, values, given)
+    inputs = Inputs(drop, numbers, values, given)
     if not inputs.spread.any():
         raise InvalidValue("errors must have a number with an error above 0, got none")
     return inputs
@@ -238,7 +266,7 @@ def _with_error(number: Number, value: Any) -> Any:
     if isinstance(value, str):
         found = quantity_with_error(value, unit, path)
     elif isinstance(value, Sequence) and len(value) == 2:
-        mean, error = (quantity(one, unit, path) for one in value)
+        mean, error = (quantity(item, unit, path) for item in value)
         found = known_to(mean, deviation(path, error))
     if not hasattr(found, "nominal_value"):
         raise InvalidType(f"{path} must be {right}, got {shown(value)}")
@@ -267,21 +295,5 @@ def _as_normal(draws: Sequence[Array]) -> list[Any]:
 
     if not draws:
         return []
-    means = [float(np.mean(one)) for one in draws]
+    means = [float(np.mean(own)) for own in draws]
     return list(correlated_values(means, np.atleast_2d(np.cov(np.array(draws)))))
-
-
-def possible(drop: Drop, numbers: Sequence[Number], x: Array) -> tuple[NDArray[np.bool_], str]:
-    """Return which rows (n, numbers) are possible drops, and the first message of those not."""
-    every = np.ones(len(x), dtype=bool)
-    try:
-        check(drop, dict(zip(numbers, x.T, strict=True)), lambda _: "")
-    except (InvalidValue, InvalidType) as error:
-        wrong = str(error).strip()
-        for i, row in enumerate(x.tolist()):
-            try:
-                drop_at(drop, dict(zip(numbers, row, strict=True)))
-            except (InvalidValue, InvalidType):
-                every[i] = False
-        return every, wrong
-    return every, ""

@@ -8,13 +8,11 @@ import numpy as np
 from stackbounce.errors import whole
 from stackbounce.extras import need
 from stackbounce.model import Drop
-from stackbounce.prediction.budget import DRAWS, Progress, solve_draws
+from stackbounce.prediction.draws import DRAWS, Progress, Slopes, differentiate, solve_draws
 from stackbounce.prediction.inputs import FEWEST, read_inputs
-from stackbounce.prediction.linearity import Slopes, differentiate
 from stackbounce.prediction.result import Prediction
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options, run_options
-from stackbounce.run.paths import drop_at
 from stackbounce.run.result import ROUND_OFF
 
 __all__ = ["predict"]
@@ -92,20 +90,18 @@ def predict(
     need("measure", "a number with an error")
     options = run_options(drop, until, rtol, event_limit)
     inputs = read_inputs(drop, errors)
-    best = drop_at(drop, dict(zip(inputs.numbers, inputs.values.tolist(), strict=True)))
-    count = _default_draws(best, options) if draws is None else whole("draws", draws, FEWEST, _MOST)
-    drawn, refused, share = inputs.draw(best, count, whole("seed", seed, 0, 2**32 - 1))
+    count = _default_draws(inputs.drop, options) if draws is None else draws
+    count = whole("draws", count, FEWEST, _MOST)
+    drawn, refused, share = inputs.draw(count, whole("seed", seed, 0, 2**32 - 1))
     reason = "draws were given" if inputs.given else ""
     if share > _FEW and not reason:
         reason = f"numbers within the errors are not possible and left out: {refused}"
-    asked, solved = len(drawn), solve_draws(best, inputs, drawn, options, progress)
+    asked, solved = len(drawn), solve_draws(inputs, drawn, options, progress)
     drawn, difference = drawn[: len(solved.status)], np.inf
     slopes: Slopes = {}
     if not reason:
-        slopes, reason, difference = differentiate(best, inputs, drawn, solved, options)
-    return Prediction(
-        best, inputs, options, reason, difference, slopes, drawn, solved, refused, asked
-    )
+        slopes, reason, difference = differentiate(inputs, drawn, solved, options)
+    return Prediction(inputs, options, reason, difference, slopes, drawn, solved, refused, asked)
 
 
 def _default_draws(drop: Drop, options: Options) -> int:

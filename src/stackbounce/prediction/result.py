@@ -10,20 +10,12 @@ import numpy as np
 
 from stackbounce.errors import InvalidValue, nearest, shown
 from stackbounce.model import Drop
-from stackbounce.prediction.budget import budget
-from stackbounce.prediction.inputs import (
-    FEWEST,
-    Array,
-    Inputs,
-    error_of_deviation,
-    of_draws,
-    possible,
-)
-from stackbounce.prediction.linearity import Slopes
+from stackbounce.prediction.draws import Slopes, budget
+from stackbounce.prediction.inputs import FEWEST, Array, Inputs, error_of_deviation, of_draws
 from stackbounce.prediction.runs import Runs
 from stackbounce.prediction.sensitivity import fit_slopes, linear_shares, sobol_indices
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, Solved, solve_quantities
+from stackbounce.run.quantities import QUANTITIES, Solved
 from stackbounce.run.result import Result, Status
 from stackbounce.units import rounded
 from stackbounce.version import __version__
@@ -72,8 +64,6 @@ class Prediction:
 
     Parameters
     ----------
-    drop : Drop
-        With the values of the numbers.
     inputs : Inputs
         The numbers with errors.
     options : Options
@@ -103,7 +93,6 @@ class Prediction:
     ('derivatives', '4.93+/-0.05')
     """
 
-    drop: Drop
     inputs: Inputs = field(repr=False)
     options: Options = field(repr=False)
     reason: str
@@ -113,6 +102,11 @@ class Prediction:
     solved: Solved = field(repr=False)
     refused: str = field(repr=False)
     asked: int = field(repr=False)
+
+    @property
+    def drop(self) -> Drop:
+        """The drop with the values of the numbers."""
+        return self.inputs.drop
 
     @property
     def method(self) -> str:
@@ -132,7 +126,7 @@ class Prediction:
     @functools.cached_property
     def _runs(self) -> Runs:
         few = self.drawn[: min(_RUNS, self._affordable(3))] if self.reason else None
-        return Runs(self.drop, self.inputs, self.options, few)
+        return Runs(self.inputs, self.options, few)
 
     def _affordable(self, each: int) -> int:
         """Return how often so many runs cost no more than all draws may; see `budget`."""
@@ -242,7 +236,9 @@ class Prediction:
         half = min(len(self.drawn) // 2, self._affordable(len(self.inputs.numbers)))
         enough = self.reason and self.inputs.independent and half >= FEWEST // 2
         found = self._sobol(half) if enough else self._linear()
-        labels = [_label(name, k) for name, one in found.items() for k in range(len(one.first))]
+        labels = [
+            _label(name, k) for name, shares in found.items() for k in range(len(shares.first))
+        ]
         fields = {
             key: (("quantity", "number"), np.concatenate([getattr(s, key) for s in found.values()]))
             for key in ("first", "first_error", "total", "total_error")
@@ -278,9 +274,11 @@ class Prediction:
         if not np.isfinite(shares).all():
             return ""
         best = int(np.argmax(shares))
-        words = f"measure {self.inputs.paths[best]} better: it makes {100.0 * shares[best]:.0f} %"
         together = "" if self.inputs.independent else " (the errors are correlated)"
-        return f"{words} of the variance of {name}{together}"
+        return (
+            f"measure {self.inputs.paths[best]} better: it makes {100.0 * shares[best]:.0f} % of "
+            f"the variance of {name}{together}"
+        )
 
     @property
     def how(self) -> str:
@@ -334,8 +332,8 @@ class Prediction:
     def table(self) -> str:
         """Return all numbers with their errors as a text, a line each."""
         lines = []
-        for name, one in self._all.items():
-            value, error = rounded((one.nominal_value, one.std_dev), one.std_dev)
+        for name, number in self._all.items():
+            value, error = rounded((number.nominal_value, number.std_dev), number.std_dev)
             unit = QUANTITIES[name.partition(".")[0]].unit
             lines.append(f"{name:<20} {value:>10} ± {error:<8} {unit}".rstrip())
         return "\n".join(lines)
@@ -416,8 +414,8 @@ class Prediction:
             "how": self.how,
             "advice": self.advice(),
             "notes": list(self.notes),
-            "numbers": {name: _plain(one) for name, one in self.errors.items()},
-            "values": {name: _plain(one) for name, one in self._all.items()},
+            "numbers": {name: _plain(number) for name, number in self.errors.items()},
+            "values": {name: _plain(number) for name, number in self._all.items()},
             "shares": {
                 number: self.sensitivity["first"].sel(number=number).to_series().to_dict()
                 for number in self.inputs.paths
@@ -446,20 +444,18 @@ class Prediction:
 
     def _solve(self, x: Array) -> dict[str, Array]:
         """Return all quantities of some drops; nan for those that are not possible."""
-        inputs, good = self.inputs, np.ones(len(x), dtype=bool)
-        if self.refused:
-            good, _ = possible(self.drop, inputs.numbers, x)
-        rows = inputs.rows(np.where(good[:, None], x, inputs.values))
-        tables = solve_quantities(self.drop, rows, len(x), self.options).tables
+        good, _ = self.inputs.possible(x)
+        x = np.where(good[:, None], x, self.inputs.values)
+        tables = self.inputs.solve(x, self.options).tables
         return {name: np.where(good[:, None], table, np.nan) for name, table in tables.items()}
 
     def _linear(self) -> dict[str, Any]:
-        inputs, slopes = self.inputs, {name: one for name, (_, one) in self.slopes.items()}
+        inputs, slopes = self.inputs, {name: slope for name, (_, slope) in self.slopes.items()}
         if self.reason:
             slopes = {name: fit_slopes(self.drawn, self.solved.tables[name]) for name in _FLOATS}
         return {
-            name: linear_shares(one, inputs.covariance, independent=inputs.independent)
-            for name, one in slopes.items()
+            name: linear_shares(slope, inputs.covariance, independent=inputs.independent)
+            for name, slope in slopes.items()
         }
 
     def _sobol(self, half: int) -> dict[str, Any]:

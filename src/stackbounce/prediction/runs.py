@@ -7,12 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from stackbounce.model import Drop
+from stackbounce.prediction.draws import ROUND_OFF, STEP
 from stackbounce.prediction.inputs import Array, Inputs, of_draws
-from stackbounce.prediction.linearity import ROUND_OFF, STEP
 from stackbounce.run.driver import solve_one
 from stackbounce.run.options import Options
-from stackbounce.run.paths import drop_at
 from stackbounce.run.result import Result
 
 __all__ = ["Runs"]
@@ -26,8 +24,6 @@ class Runs:
 
     Parameters
     ----------
-    drop : Drop
-        With the values of the numbers.
     inputs : Inputs
         The numbers with errors.
     options : Options
@@ -36,7 +32,6 @@ class Runs:
         (n, numbers) draws; None for derivatives.
     """
 
-    drop: Drop
     inputs: Inputs
     options: Options
     drawn: Array | None
@@ -89,5 +84,4 @@ class Runs:
         return np.asarray(((up - down).T / widths).T)
 
     def _simulate(self, x: Array) -> Result:
-        numbers = dict(zip(self.inputs.numbers, x.tolist(), strict=True))
-        return solve_one(drop_at(self.drop, numbers), self.options)
+        return solve_one(self.inputs.drop_at(x), self.options)

@@ -10,7 +10,6 @@ from stackbounce.measure.quantities import without_error
 from stackbounce.model import Drop
 from stackbounce.model.toml import load_toml, write_toml
 from stackbounce.prediction.inputs import read_inputs
-from stackbounce.run.paths import drop_at
 
 __all__ = ["read_scenario", "split_error", "split_errors", "write_scenario"]
 
@@ -89,14 +88,15 @@ def write_scenario(drop: Drop, errors: Mapping[str, Any]) -> str:
     inputs = read_inputs(drop, errors)
     if not inputs.independent:
         raise InvalidValue("errors must be independent of each other in a scenario file")
-    values = dict(zip(inputs.numbers, inputs.values.tolist(), strict=True))
-    mapping = drop_at(drop, values).to_mapping()
-    for number, error in zip(inputs.numbers, inputs.deviations.tolist(), strict=True):
+    mapping, values = inputs.drop.to_mapping(), inputs.values.tolist()
+    for number, value, error in zip(
+        inputs.numbers, values, inputs.deviations.tolist(), strict=True
+    ):
         if error > 0.0:
             place: Any = mapping[number.part] if number.part else mapping
             if number.part and number.field:
                 place = place[number.index]
-            text = f"{values[number]!r} ± {error!r} {number.unit}".rstrip()
+            text = f"{value!r} ± {error!r} {number.unit}".rstrip()
             place[number.field or number.index] = text
     return write_toml(mapping)
 
@@ -120,7 +120,7 @@ def split_errors(mapping: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, 
                 for key, one in value.items()
             }
         if isinstance(value, list):
-            return [plain(one, f"{path}.{k}") for k, one in enumerate(value)]
+            return [plain(part, f"{path}.{k}") for k, part in enumerate(value)]
         return value
 
     return plain(mapping, ""), errors

@@ -136,4 +136,4 @@ def _indices(both: Array, changed: Array) -> Sensitivity:
             for k, terms in ((0, (b - mean) * (c - a)), (2, 0.5 * (a - c) ** 2)):
                 found[k, :, part] = np.mean(terms, axis=1) / variance
                 found[k + 1, :, part] = np.std(terms, axis=1) / variance / np.sqrt(len(ok))
-    return Sensitivity(*(one.T for one in found))
+    return Sensitivity(*(rows.T for rows in found))

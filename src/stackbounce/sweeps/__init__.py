@@ -5,7 +5,7 @@ If the values are dask arrays, the Dataset is lazy and computed in chunks.
 ======== ==========================================================================
 dataset  in memory: the parameters that vary become the dimensions of a Dataset
 store    a sweep larger than memory, written block by block to a file; resumable
-progress which blocks of it are written, and by which process
+progress which process writes it
 files    the Zarr store
 axes     reads texts such as those of ``--over``: a parameter and its values
 draws    tables of draws, each row a drop

@@ -76,12 +76,12 @@ def axis(drop: Drop, text: str) -> tuple[str, NDArray[np.float64]]:
     number = _number(drop, path)
     parts = written.split(":")
     if len(parts) == 1:
-        values = [quantity(one, number.unit, path) for one in written.split(",")]
+        values = [quantity(text, number.unit, path) for text in written.split(",")]
         return path, np.array(values)
     spacing = parts[3:]
     if len(parts) < 3 or not parts[2].isdecimal() or spacing not in ([], ["log"], ["lin"]):
         raise InvalidValue(f"--over must be {_RIGHT}, got {shown(text)}")
-    start, stop = (quantity(one, number.unit, path) for one in parts[:2])
+    start, stop = (quantity(text, number.unit, path) for text in parts[:2])
     count = count_written(parts[2])
     if count is None or not 1 <= count <= _MOST:
         many = shown(parts[2]).strip("'")

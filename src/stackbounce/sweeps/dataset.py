@@ -119,7 +119,7 @@ def check_together(numbers: Sequence[Number]) -> None:
     for number in numbers:
         if number.field == "restitution":
             other = f"{number.part}.{number.index}.unloading_exponent"
-            if any(one.path == other for one in numbers):
+            if any(number.path == other for number in numbers):
                 raise InvalidValue(f"{number.path} and {other}: only one of the two can vary")
 
 
@@ -239,8 +239,8 @@ def run_block(
     def where(index: Sequence[int]) -> str:
         place = ", ".join(f"{dim} {i}" for dim, i in zip(dims, index, strict=False))
         there = ", ".join(
-            f"{one.path} = {np.broadcast_to(values, shape)[tuple(index)]:.10g}"
-            for one, values in rows.items()
+            f"{number.path} = {np.broadcast_to(values, shape)[tuple(index)]:.10g}"
+            for number, values in rows.items()
         )
         return f"(at {place}: {there})" if place else f"(at {there})"
 

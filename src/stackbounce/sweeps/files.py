@@ -49,12 +49,13 @@ class Form:
         sides: Sequence[int],
     ) -> None:
         self.attrs = sample.attrs
-        self.results = {str(name): one for name, one in sample.data_vars.items()}
-        self.coordinates = {str(name): one for name, one in sample.coords.items()}
-        own = {name: one.values for name, one in self.coordinates.items()}
+        self.results = {str(name): variable for name, variable in sample.data_vars.items()}
+        self.coordinates = {str(name): variable for name, variable in sample.coords.items()}
+        own = {name: variable.values for name, variable in self.coordinates.items()}
         self.values = own | {path: axis for path, (_, axis) in axes.items()}
         self.sizes = {
-            str(one.dims[0]): len(self.values[name]) for name, one in self.coordinates.items()
+            str(variable.dims[0]): len(self.values[name])
+            for name, variable in self.coordinates.items()
         }
         self.grid = tuple({dim: len(axis) for dim, axis in axes.values()}.values())
         self.sides = tuple(sides)
@@ -83,8 +84,8 @@ class Form:
             )
             and all(
                 name in found
-                and (found[name].dims, found[name].shape) == (one.dims, self.shape(one))
-                for name, one in self.results.items()
+                and (found[name].dims, found[name].shape) == (variable.dims, self.shape(variable))
+                for name, variable in self.results.items()
             )
         )
 
@@ -94,15 +95,15 @@ def create(path: Path, form: Form) -> None:
     import zarr
 
     group = zarr.create_group(path, zarr_format=2, attributes=form.marked)
-    for name, one in (form.results | form.coordinates).items():
+    for name, variable in (form.results | form.coordinates).items():
         own = name in form.coordinates
         array = group.create_array(
             name,
-            shape=form.shape(one),
-            chunks=form.shape(one) if own else form.chunk(one),
-            dtype=one.dtype,
-            fill_value=math.nan if one.dtype.kind == "f" else None,
-            attributes={**one.attrs, "_ARRAY_DIMENSIONS": [str(dim) for dim in one.dims]},
+            shape=form.shape(variable),
+            chunks=form.shape(variable) if own else form.chunk(variable),
+            dtype=variable.dtype,
+            fill_value=math.nan if variable.dtype.kind == "f" else None,
+            attributes={**variable.attrs, "_ARRAY_DIMENSIONS": [str(dim) for dim in variable.dims]},
         )
         if own:
             array[...] = form.values[name]
@@ -122,8 +123,8 @@ def writer(path: Path) -> Iterator[Writer]:
         arrays = dict(group.arrays())
 
         def write(block: Block, data: "xr.Dataset") -> None:
-            for name, one in data.data_vars.items():
-                arrays[name][block] = one.values
+            for name, variable in data.data_vars.items():
+                arrays[name][block] = variable.values
 
         yield write
 
@@ -136,19 +137,20 @@ def opened(path: Path) -> "xr.Dataset":
     return xr.open_dataset(path, engine="zarr", chunks=None)
 
 
-def lost(path: Path, form: Form) -> tuple[tuple[int, ...], list[int]]:
-    """Return the sides of a block, and the numbers of the blocks that are not there."""
+def lost(path: Path, form: Form) -> tuple[list[Block], int]:
+    """Return the blocks of a store that are not there, and the number of all its blocks."""
     import zarr
 
     group: Any = zarr.open_group(path, mode="r")
     arrays = {name: group[name] for name in form.results}
     sides = tuple(next(iter(arrays.values())).chunks[: len(form.grid)])
-    missing = []
-    for number, block in enumerate(blocks(form.grid, sides)):
+    missing, count = [], 0
+    for block in blocks(form.grid, sides):
+        count += 1
         place = [side.start // length for side, length in zip(block, sides, strict=True)]
         if not all(_is_there(path / name, array, place, block) for name, array in arrays.items()):
-            missing.append(number)
-    return sides, missing
+            missing.append(block)
+    return missing, count
 
 
 def _check_metadata(store: Path) -> None:

@@ -1,13 +1,12 @@
-"""The file beside a sweep that is being written: who writes it, and which blocks are done.
+"""The file beside a sweep that is being written, which says who writes it.
 
 ``NAME.progress`` is locked for as long as a process writes to ``NAME.partial``. The system ends the
 lock with the process, however that ends. The lines of the file are::
 
     # process 4711 on host since 2026-11-22 18:50:03     a writer; the last one is the present one
-    3 2                                                  the sides of a block
-    17                                                   the number of a block that is written
+    ready                                                the coordinates are there
 
-The second line comes when the coordinates are there; before, nothing in ``NAME.partial`` counts.
+Before the second line, nothing in ``NAME.partial`` counts; then all blocks that it has do.
 """
 
 import contextlib
@@ -16,7 +15,7 @@ import os
 import platform
 import stat
 import time
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
 from typing import BinaryIO
@@ -25,14 +24,14 @@ from stackbounce.errors import FileError, shown
 
 __all__ = ["Progress", "only_writer", "tidy"]
 
-_WRITER = "# "
+_WRITER, _READY = "# ", "ready"
 _PATIENCE = 2.0  # s, for a writer to say who it is
 _PAUSE = 0.01  # s
-_LONGEST = 2**26  # bytes: ten million blocks
+_LONGEST = 2**20  # bytes: ten thousand writers
 
 
 class Progress:
-    """What is done of a sweep, in a file that this process has locked.
+    """Who writes a sweep, in a file that this process has locked.
 
     Parameters
     ----------
@@ -44,31 +43,27 @@ class Progress:
 
     def __init__(self, path: Path, file: BinaryIO) -> None:
         self._path, self._file = path, file
-        file.seek(0)
         content = file.read(_LONGEST + 1)
-        if len(content) > _LONGEST:
-            raise self._damaged(f"more than {_LONGEST} bytes")
-        if content and not content.startswith(_WRITER.encode()):  # another program's
-            raise self._damaged(content[:40])
         whole = content[: content.rfind(b"\n") + 1]  # the last line may be half written
-        lines = whole.decode("ascii", "replace").splitlines()
-        self.is_known = any(line.startswith(_WRITER) for line in lines)
+        lines = list(filter(None, whole.decode("ascii", "replace").splitlines()))
+        others = [line for line in lines if line != _READY and not line.startswith(_WRITER)]
+        if others or len(content) > _LONGEST or content[:2] not in (b"", b"#", b"# "):
+            raise FileError(
+                f"{path} is damaged, it has {shown(others[0] if others else content[:40])}: remove "
+                f"it, and move {path.stem}.partial away or remove it"
+            )
+        self.is_known = bool(lines)
         """Whether the file was there, and so ``NAME.partial`` is of this program."""
-        numbers = [line.split() for line in lines if line and not line.startswith(_WRITER)]
-        try:
-            values = [[int(word) for word in words] for words in numbers]
-            self.sides = tuple(values[0]) if values else None
-            """The sides of a block; None before the coordinates are there."""
-            self.done = {number for (number,) in values[1:]}
-            """The numbers of the blocks that are written."""
-        except ValueError:
-            raise self._damaged(whole[:40]) from None
+        self.is_ready = _READY in lines
+        """Whether the coordinates are there."""
         self._length = len(whole)
 
     def sign(self) -> None:
         """Note that this process is the writer from now on."""
         self._file.truncate(self._length)
-        self._append(f"{_WRITER}{_this_process()}\n")
+        now = datetime.now().astimezone().isoformat(" ", "seconds")
+        host = platform.node() or "this machine"
+        self._append(f"{_WRITER}process {os.getpid()} on {host} since {now}")
 
     def withdraw(self) -> None:
         """Take back that this process is the writer: leave the file as it was found."""
@@ -76,36 +71,18 @@ class Progress:
         if not self._length:
             self.remove()
 
-    def begin(self, sides: Iterable[int], done: Iterable[int] = ()) -> None:
-        """Note that the coordinates are there, in blocks of these sides, some written already."""
-        self.sides, self.done = tuple(sides), set(done)
-        words = " ".join(map(str, self.sides))
-        lines = [f"{_WRITER}{_this_process()}", words, *map(str, self.done)]
-        length = os.fstat(self._file.fileno()).st_size
-        self._file.seek(0)
-        self._write("".join(f"{line}\n" for line in lines).ljust(length, "\n"))  # never empty
-
-    def add(self, number: int) -> None:
-        """Note that a block is written."""
-        self._append(f"{number}\n")
+    def begin(self) -> None:
+        """Note that the coordinates are there."""
+        self._append(_READY)
 
     def remove(self) -> None:
         """Remove the file: the sweep is complete, or nothing of it is there."""
         with contextlib.suppress(PermissionError):  # of Windows, while it is open
             self._path.unlink(missing_ok=True)
 
-    def _damaged(self, what: object) -> FileError:
-        return FileError(
-            f"{self._path} is damaged, it has {shown(what)}: remove it, and move "
-            f"{self._path.stem}.partial away or remove it"
-        )
-
-    def _append(self, text: str) -> None:
+    def _append(self, line: str) -> None:
         self._file.seek(0, os.SEEK_END)
-        self._write(text)
-
-    def _write(self, text: str) -> None:
-        content = text.encode("ascii", "replace")
+        content = f"{line}\n".encode("ascii", "replace")
         if self._file.write(content) != len(content):
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
 
@@ -192,8 +169,3 @@ def _writer(path: Path) -> str:
         return ""
     signed = [line[len(_WRITER) :] for line in lines if line.startswith(_WRITER)]
     return signed[-1] if signed else ""
-
-
-def _this_process() -> str:
-    now = datetime.now().astimezone().isoformat(" ", "seconds")
-    return f"process {os.getpid()} on {platform.node() or 'this machine'} since {now}"

@@ -1,9 +1,9 @@
 """A sweep larger than memory, written to a file block by block; it can be stopped and resumed.
 
 Until it is complete the file is called ``NAME.partial``. The file ``NAME.progress`` beside it says
-which blocks are written, and by whom (`progress`): one process writes at a time. The final bytes do
-not depend on how often the sweep was stopped. A file that is complete has all its blocks, and each
-can be read; those that cannot are computed again.
+who writes it (`progress`): one process writes at a time. The final bytes do not depend on how often
+the sweep was stopped. A file that is complete has all its blocks, and each can be read; those that
+cannot are computed again.
 """
 
 import contextlib
@@ -11,7 +11,7 @@ import math
 import re
 import shutil
 import warnings
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import CancelledError
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import Drop
-from stackbounce.run.blocks import Block, blocks, sides, size
+from stackbounce.run.blocks import Block, sides, size
 from stackbounce.sweeps import files
 from stackbounce.sweeps.dataset import check_along, read_values, sweep
 from stackbounce.sweeps.files import Form
@@ -39,8 +39,7 @@ BLOCK = 2**16
 _AHEAD = 3  # blocks submitted to a cluster for each of its threads
 _DIMENSION = re.compile(r"\w[\w.-]*")  # a name that all kinds of file can have
 _Axes: TypeAlias = Mapping[str, tuple[str, NDArray[np.float64]]]  # dimension and values, by path
-_Todo: TypeAlias = Iterator[tuple[int, Block]]
-_Done: TypeAlias = Iterator[tuple[int, Block, "xr.Dataset"]]
+_Done: TypeAlias = Iterator[tuple[Block, "xr.Dataset"]]
 
 
 def write(
@@ -98,7 +97,7 @@ def write(
     >>> xr.open_zarr(path).collisions.values.ravel()
     array([1, 1, 1, 1, 1])
     """
-    out, tell = Path(out), progress or _tell_nobody
+    out, report = Path(out), progress or (lambda *_: None)
     files.check_name(out)
     if block < 1:
         raise InvalidValue(f"block must be a number of drops, 1 or above, got {block}")
@@ -110,23 +109,21 @@ def write(
     try:
         if _is_complete(out, form):
             tidy(out)
-            tell(total, total)
+            report(total, total)
             return out
         with only_writer(out) as log:
             partial = _begin(out, form, log)
             if partial is None:  # it has been completed by now
-                tell(total, total)
+                report(total, total)
                 return out
-            cut = list(enumerate(blocks(shape, log.sides or ())))
-            finished = sum(size(one) for k, one in cut if k in log.done)
-            tell(finished, total)
-            todo = ((k, one) for k, one in cut if k not in log.done)
+            todo, _ = files.lost(partial, form)
+            finished = total - sum(map(size, todo))
+            report(finished, total)
             with files.writer(partial) as put:
-                for k, one, data in _solved(drop, axes, todo, options, client):
-                    put(one, data)
-                    log.add(k)
-                    finished += size(one)
-                    tell(finished, total)
+                for part, data in _solved(drop, axes, todo, options, client):
+                    put(part, data)
+                    finished += size(part)
+                    report(finished, total)
             partial.rename(out)
             log.remove()
     except FileError:
@@ -162,17 +159,13 @@ def _sizes(axes: _Axes) -> dict[str, int]:
     return {dim: len(axis) for dim, axis in axes.values()}
 
 
-def _tell_nobody(done: int, total: int) -> None:
-    pass
-
-
 def _is_complete(out: Path, form: Form) -> bool:
     """Return whether the complete file of this sweep exists; raise if it holds another sweep."""
     if not out.exists():
         return False
     if not _is_same(out, form):
         raise FileError(f"{out} exists, and is not this sweep: remove it or choose another name")
-    return not files.lost(out, form)[1]
+    return not files.lost(out, form)[0]
 
 
 def _begin(out: Path, form: Form, log: Progress) -> Path | None:
@@ -189,28 +182,25 @@ def _begin(out: Path, form: Form, log: Progress) -> Path | None:
         if _is_complete(out, form):
             log.remove()
             return None
-        if partial.exists() and log.sides is not None:
-            _resume(out, partial, form, log)
-        elif out.exists():
-            _mend(out, partial, form, log)
+        if partial.exists() and log.is_ready:
+            _check_part(out, partial, form)
+            return partial
+        if partial.exists():
+            shutil.rmtree(partial)
+        if out.exists():
+            _warn_of_lost(out, form)
+            out.rename(partial)
         else:
-            _create(partial, form, log)
+            files.create(partial, form)
+        log.begin()
     except FileError:
         log.withdraw()
         raise
     return partial
 
 
-def _create(partial: Path, form: Form, log: Progress) -> None:
-    """Create the partial file, after a writer that was stopped while it did."""
-    if partial.exists():
-        shutil.rmtree(partial)
-    files.create(partial, form)
-    log.begin(form.sides)
-
-
-def _resume(out: Path, partial: Path, form: Form, log: Progress) -> None:
-    """Go on with the partial file; blocks that are not in it are not done, whatever the log has."""
+def _check_part(out: Path, partial: Path, form: Form) -> None:
+    """Refuse to go on with a partial file that is not of this sweep, or not the only one."""
     if out.exists():
         raise FileError(
             f"{out} has lost blocks, and {partial} is a second one, not complete: "
@@ -221,28 +211,15 @@ def _resume(out: Path, partial: Path, form: Form, log: Progress) -> None:
             f"{partial} is part of another sweep: remove it and {partial.stem}.progress, "
             "or choose another name"
         )
-    sides, lost = files.lost(partial, form)
-    if sides != log.sides:
-        log.begin(sides, set(range(_count(form, sides))) - set(lost))
-    log.done -= set(lost)
 
 
-def _mend(out: Path, partial: Path, form: Form, log: Progress) -> None:
-    """Make a whole file that has lost blocks the partial one."""
-    if partial.exists():
-        shutil.rmtree(partial)
-    sides, lost = files.lost(out, form)
-    count = _count(form, sides)
+def _warn_of_lost(out: Path, form: Form) -> None:
+    """Warn of a whole file that has lost blocks."""
+    lost, count = files.lost(out, form)
     warnings.warn(
         f"{out}: {len(lost)} of {count} blocks are missing or damaged, and computed again",
         stacklevel=4,
     )
-    log.begin(sides, set(range(count)) - set(lost))
-    out.rename(partial)
-
-
-def _count(form: Form, sides: Sequence[int]) -> int:
-    return sum(1 for _ in blocks(form.grid, sides))
 
 
 def _is_same(path: Path, form: Form) -> bool:
@@ -265,40 +242,40 @@ def solve_block(drop: Drop, values: _Axes, options: Mapping[str, Any]) -> "xr.Da
 
 
 def _solved(
-    drop: Drop, axes: _Axes, todo: _Todo, options: Mapping[str, Any], client: "Client | None"
+    drop: Drop, axes: _Axes, todo: list[Block], options: Mapping[str, Any], client: "Client | None"
 ) -> _Done:
     """Yield blocks with their results as they are finished; few are in memory at a time."""
-    jobs = ((k, block, (drop, _part(axes, block), options)) for k, block in todo)
+    jobs = ((block, (drop, _part(axes, block), options)) for block in todo)
     if client is None:
-        return ((k, block, solve_block(*job)) for k, block, job in jobs)
+        return ((block, solve_block(*job)) for block, job in jobs)
     return _on_cluster(client, jobs)
 
 
-def _on_cluster(cluster: Any, jobs: Iterator[tuple[int, Block, Any]]) -> _Done:
+def _on_cluster(cluster: Any, jobs: Iterator[tuple[Block, Any]]) -> _Done:
     import distributed
 
     ready: Any = distributed.as_completed
     running = ready()
-    waiting: dict[Any, tuple[int, Block]] = {}
+    waiting: dict[Any, Block] = {}
     with _cluster_errors():
         ahead = _AHEAD * max(1, sum(cluster.nthreads().values()))
-    for k, block, job in jobs:
+    for block, job in jobs:
         with _cluster_errors():
             future = cluster.submit(solve_block, *job, pure=False)
             running.add(future)
-        waiting[future] = k, block
+        waiting[future] = block
         if len(waiting) >= ahead:
             yield _next(running, waiting)
     while waiting:
         yield _next(running, waiting)
 
 
-def _next(running: Any, waiting: dict[Any, tuple[int, Block]]) -> tuple[int, Block, "xr.Dataset"]:
+def _next(running: Any, waiting: dict[Any, Block]) -> tuple[Block, "xr.Dataset"]:
     with _cluster_errors():
         future = next(running)
         data = future.result()
         future.release()
-    return *waiting.pop(future), data
+    return waiting.pop(future), data
 
 
 @contextlib.contextmanager

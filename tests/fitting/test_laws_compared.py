@@ -7,11 +7,11 @@ import pytest
 
 import stackbounce as sb
 from stackbounce import datasets
+from stackbounce.fitting.validation import comparison
+from stackbounce.fitting.validation.comparison import AGREES, REFUTED, compare_laws
+from stackbounce.fitting.validation.family import Family, families, reason_to_skip
+from stackbounce.fitting.validation.series import CONTACT_TIME, RESTITUTION, Series, make_series
 from stackbounce.model import LAWS
-from stackbounce.validation import comparison
-from stackbounce.validation.comparison import AGREES, REFUTED, compare_laws
-from stackbounce.validation.family import Family, families, predicted, reason_to_skip
-from stackbounce.validation.series import CONTACT_TIME, RESTITUTION, Series, make_series
 
 SPEEDS = np.array([4.0, 3.0, 2.0, 1.0, 0.5])
 ERROR = 0.004
@@ -178,15 +178,3 @@ def test_assumed_errors_are_halved_and_doubled(monkeypatch):
     own = outcome(compare_laws(supposed), "Rigid")
     assert own.p_half < own.p < own.p_twice
     assert outcome(compare_laws(made), "Rigid").p_half is None
-
-
-@pytest.mark.slow
-def test_the_golf_ball_loses_the_same_share_at_all_speeds(monkeypatch):
-    monkeypatch.setattr(comparison, "families", only("Rigid", "Viscoelastic", "HuntCrossley"))
-    data = datasets.load("golf-marble-flights")
-    found = compare_laws(make_series(data), make_series(data, air=False))
-    assert outcome(found, "Rigid").verdict == AGREES
-    assert outcome(found, "Viscoelastic").verdict == REFUTED
-    assert outcome(found, "HuntCrossley").verdict == REFUTED
-    assert found.steady
-    assert predicted(sb.Rigid(0.9), RESTITUTION, SPEEDS).tolist() == [0.9] * 5

@@ -7,9 +7,9 @@ import numpy as np
 
 from stackbounce.calibration import calibrate, contact_time, restitution
 from stackbounce.errors import StackbounceError
+from stackbounce.fitting.quantities import Array
+from stackbounce.fitting.validation.series import CONTACT_TIME, RESTITUTION, Series
 from stackbounce.model.laws import LAWS, ContactLaw
-from stackbounce.validation.fall import Array
-from stackbounce.validation.series import CONTACT_TIME, RESTITUTION, Series
 
 __all__ = ["Family", "families", "predicted", "reason_to_skip"]
 
@@ -44,7 +44,7 @@ class Family:
 
     @property
     def is_constant(self) -> bool:
-        """Whether it is known of the class that what is predicted is the same at all speeds."""
+        """Return whether the class is known to give the same at all speeds."""
         return self.quantity == RESTITUTION and "speed" not in self.law_class.loss_depends_on
 
     def law(self, value: float) -> ContactLaw:

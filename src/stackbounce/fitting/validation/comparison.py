@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from stackbounce.errors import StackbounceError
-from stackbounce.validation.fall import Array
-from stackbounce.validation.family import Family, families, reason_to_skip
-from stackbounce.validation.series import RESTITUTION, Series
+from stackbounce.fitting.quantities import Array
+from stackbounce.fitting.validation.family import Family, families, reason_to_skip
+from stackbounce.fitting.validation.series import RESTITUTION, Series
 
 __all__ = [
     "AGREES",
@@ -29,6 +29,7 @@ REFUTED_BELOW, _AGREES_FROM = 0.01, 0.05
 
 _NODES = 9  # at which a family is computed, for the fit
 _WIDER = 1.5  # logarithm by which the fit may leave the measured values
+_GRID = 61  # values of which the best one is where the fit begins
 _ALIKE = 1e-6  # relative, of curves that are one and the same
 
 
@@ -80,7 +81,7 @@ class Outcome:
 
     @property
     def steady(self) -> bool:
-        """Whether half and twice the assumed errors leave the verdict as it is."""
+        """Return whether half and twice the assumed errors leave the verdict as it is."""
         given = [p for p in (self.p_half, self.p_twice) if p is not None]
         return all(verdict(p) == self.verdict for p in given)
 
@@ -115,36 +116,36 @@ class Comparison:
 
     @property
     def tells_apart(self) -> bool:
-        """Whether one law agrees and another one is refuted."""
-        return {AGREES, REFUTED} <= {one.verdict for one in self.outcomes}
+        """Return whether one law agrees and another one is refuted."""
+        return {AGREES, REFUTED} <= {outcome.verdict for outcome in self.outcomes}
 
     @property
     def steady(self) -> bool:
-        """Whether half and twice the assumed errors leave all verdicts as they are."""
-        return all(one.steady for one in self.outcomes)
+        """Return whether half and twice the assumed errors leave all verdicts as they are."""
+        return all(outcome.steady for outcome in self.outcomes)
 
     @property
     def summary(self) -> str:
         """What the series says of the laws, and what that owes to the correction for the air."""
         names = {
-            kind: [name for one in self.outcomes if one.verdict == kind for name in one.laws]
+            kind: [name for law in self.outcomes if law.verdict == kind for name in law.laws]
             for kind in (AGREES, DOUBTFUL, REFUTED)
         }
         if not names[AGREES] and not names[DOUBTFUL]:
             return f"No law follows it within the errors.{self._without_air}"
-        said = [f"{', '.join(names[AGREES])} agree" if names[AGREES] else "No law agrees"]
+        parts = [f"{', '.join(names[AGREES])} agree" if names[AGREES] else "No law agrees"]
         if names[DOUBTFUL]:
-            said.append(f"{', '.join(names[DOUBTFUL])} doubtful")
-        said.append(f"{', '.join(names[REFUTED])} refuted" if names[REFUTED] else "none is refuted")
-        return f"{'; '.join(said)}.{self._without_air}"
+            parts.append(f"{', '.join(names[DOUBTFUL])} doubtful")
+        refuted = f"{', '.join(names[REFUTED])} refuted" if names[REFUTED] else "none is refuted"
+        return f"{'; '.join([*parts, refuted])}.{self._without_air}"
 
     @property
     def _without_air(self) -> str:
         """The laws whose verdict changes if the drag of the air is left out; empty for none."""
         found = [
-            f"{one.short_name} {verdict(one.p_without_air)} (p: {format_p(one.p_without_air)})"
-            for one in self.outcomes
-            if one.p_without_air is not None and verdict(one.p_without_air) != one.verdict
+            f"{law.short_name} {verdict(law.p_without_air)} (p: {format_p(law.p_without_air)})"
+            for law in self.outcomes
+            if law.p_without_air is not None and verdict(law.p_without_air) != law.verdict
         ]
         return f" Without the drag of the air: {'; '.join(found)}." if found else ""
 
@@ -198,14 +199,13 @@ def compare_laws(series: Series, without_air: Series | None = None) -> Compariso
             continue
         for i, (other, same) in enumerate(found):
             if np.allclose(curve, other, rtol=_ALIKE, atol=0.0):
-                more = {"laws": (*same.laws, name)}
-                found[i] = other, Outcome(**vars(same) | more)
+                found[i] = other, replace(same, laws=(*same.laws, name))
                 break
         else:
             found.append((curve, outcome))
             curves[name] = family
     exponent, error, p_power = _power(series)
-    ranked = sorted((outcome for _, outcome in found), key=lambda one: one.chi_squared)
+    ranked = sorted((outcome for _, outcome in found), key=lambda outcome: outcome.chi_squared)
     return Comparison(series, tuple(ranked), skipped, exponent, error, p_power, curves)
 
 
@@ -215,7 +215,7 @@ def _outcome(
     """Return the best curve of a family, and how well it follows the series."""
     freedom = series.values.size - 1
     curve = _interpolated(family, series)
-    value, error, _ = _fitted(curve, series, 1.0)
+    value, error, _ = _fitted(curve, series)
     best = family.at(value, series.speeds)
     apart = series.values - best
     squares = float(apart @ np.linalg.solve(series.covariance(), apart))
@@ -225,7 +225,7 @@ def _outcome(
             supposed[key] = _probability(_fitted(curve, series, scale)[2], freedom, series, scale)
     if without_air is not None:
         again = replace(family, speed=float(without_air.speeds.max()))
-        least = _fitted(_interpolated(again, without_air), without_air, 1.0)[2]
+        least = _fitted(_interpolated(again, without_air), without_air)[2]
         supposed["p_without_air"] = _probability(least, freedom, without_air)
     return best, Outcome(
         laws=(name,),
@@ -254,30 +254,31 @@ def _probability(squares: float, freedom: int, series: Series, scale: float = 1.
 
 def _scaled(series: Series, values: Array) -> Array:
     """Return what is nearly linear in its start: log(-log e), or the logarithm of the time."""
-    found: Array = np.log(-np.log(values) if series.quantity == RESTITUTION else values)
-    return found
+    return np.asarray(np.log(-np.log(values) if series.quantity == RESTITUTION else values))
 
 
-def _unscaled(series: Series, scaled: Array) -> Array:
-    found: Array = np.exp(-np.exp(scaled) if series.quantity == RESTITUTION else scaled)
-    return found
+def _unscaled(series: Series, scaled: Array | float) -> Array:
+    return np.asarray(np.exp(-np.exp(scaled) if series.quantity == RESTITUTION else scaled))
+
+
+def _reach(series: Series) -> tuple[float, float]:
+    """Return the bounds of the scaled value in a fit."""
+    scaled = _scaled(series, series.values)
+    return float(scaled.min()) - _WIDER, float(scaled.max()) + _WIDER
 
 
 def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
     """Return the curve of a family by the scaled value at its speed: from some exact curves."""
     if family.is_constant:
-        return lambda start: np.full(series.speeds.shape, _unscaled(series, np.array([start])))
+        return lambda start: np.full(series.speeds.shape, _unscaled(series, start))
     if family.law_class.rigid:  # in closed form, and with a corner where the restitution is 1
-        return lambda start: family.at(
-            float(_unscaled(series, np.array([start]))[0]), series.speeds
-        )
-    scaled = _scaled(series, series.values)
-    low, high = float(scaled.min()) - _WIDER, float(scaled.max()) + _WIDER
+        return lambda start: family.at(float(_unscaled(series, start)), series.speeds)
+    low, high = _reach(series)
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     nodes = np.polynomial.chebyshev.chebpts1(_NODES)
     starts = _unscaled(series, middle + half * nodes)
-    exact = np.array([_scaled(series, family.at(float(one), series.speeds)) for one in starts])
-    through = np.polynomial.chebyshev.chebfit(nodes, exact, _NODES - 1)
+    exact = [_scaled(series, family.at(start, series.speeds)) for start in starts.tolist()]
+    through = np.polynomial.chebyshev.chebfit(nodes, np.array(exact), _NODES - 1)
 
     def curve(start: float) -> Array:
         scaled = np.polynomial.chebyshev.chebval((start - middle) / half, through)
@@ -287,7 +288,7 @@ def _interpolated(family: Family, series: Series) -> Callable[[float], Array]:
 
 
 def _fitted(
-    curve: Callable[[float], Array], series: Series, scale: float
+    curve: Callable[[float], Array], series: Series, scale: float = 1.0
 ) -> tuple[float, float, float]:
     """Return the best value at the family's speed, its standard deviation, and the least χ²."""
     from scipy.optimize import minimize_scalar
@@ -298,15 +299,13 @@ def _fitted(
         apart = series.values - curve(start)
         return float(apart @ weight @ apart)
 
-    scaled = _scaled(series, series.values)
-    low, high = float(scaled.min()) - _WIDER, float(scaled.max()) + _WIDER
-    grid = np.linspace(low, high, 61)
-    first = int(np.argmin([squares(one) for one in grid]))
+    grid = np.linspace(*_reach(series), _GRID)
+    first = int(np.argmin([squares(start) for start in grid]))
     ends = grid[max(0, first - 1)], grid[min(grid.size - 1, first + 1)]
     best = minimize_scalar(squares, bounds=ends, method="bounded", options={"xatol": 1e-9})
     start = float(best.x)
     slope = _slope(curve, start)
-    value = float(_unscaled(series, np.array([start]))[0])
+    value = float(_unscaled(series, start))
     by_value = -value * np.log(value) if series.quantity == RESTITUTION else value
     return value, float(by_value / np.sqrt(slope @ weight @ slope)), float(best.fun)
 

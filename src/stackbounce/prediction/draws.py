@@ -1,17 +1,35 @@
-"""Derivatives of what follows from a drop, and whether it follows them within the errors."""
+"""Runs of draws: their work together is limited; and derivatives, which describe them or do not."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.model import Drop
-from stackbounce.prediction.inputs import Array, Inputs
+from stackbounce.errors import InvalidValue
+from stackbounce.prediction.inputs import FEWEST, Array, Inputs
 from stackbounce.run.options import Options
-from stackbounce.run.quantities import QUANTITIES, Solved, solve_quantities
+from stackbounce.run.quantities import QUANTITIES, Solved
 from stackbounce.run.result import Status
 
-__all__ = ["ROUND_OFF", "STEP", "Slopes", "differentiate"]
+__all__ = [
+    "DRAWS",
+    "ROUND_OFF",
+    "STEP",
+    "Progress",
+    "Slopes",
+    "budget",
+    "differentiate",
+    "solve_draws",
+]
+
+DRAWS = 10_000
+"""The number of draws by default."""
+
+_RUNS = 5  # that meet the limit of work: what all draws together may cost, up to half a minute
+_FIRST = 4  # draws that are run before it is known what they cost
+
+Progress = Callable[[int, int], object]
+"""Is called with the number of draws done and the number of all."""
 
 STEP = 0.1  # of a standard deviation, for central differences
 ROUND_OFF = 1e-10  # relative: differences of this size are none
@@ -22,15 +40,80 @@ Slopes = Mapping[str, tuple[Array, Array]]
 """Values (parts,) by the name of a quantity, and derivatives (parts, numbers); nan where none."""
 
 
+def budget(options: Options, draws: int) -> int:
+    """Return the work of all draws together: more for more draws, or for runs with more events."""
+    return _RUNS * options.work_limit * max(draws, DRAWS) // DRAWS
+
+
+def solve_draws(
+    inputs: Inputs, draws: Array, options: Options, progress: Progress | None = None
+) -> Solved:
+    """Run draws until all are done, or until further ones would exceed the budget.
+
+    The number of draws that are run does not depend on the machine.
+
+    Parameters
+    ----------
+    inputs : Inputs
+        The numbers with errors.
+    draws : ndarray
+        (n, numbers) draws of them.
+    options : Options
+        Of each run.
+    progress : callable, optional
+        Is called after each part.
+
+    Returns
+    -------
+    Solved
+        Of the first draws.
+
+    Raises
+    ------
+    InvalidValue
+        If fewer than 100 draws would be run.
+    """
+    most, parts = budget(options, len(draws)), list[Solved]()
+    done, spent, stopped = 0, 0, 0
+    while done < len(draws):
+        affordable = done * most // spent if spent else len(draws)
+        stop = min(len(draws), max(_FIRST, 2 * done), affordable)
+        if stop <= done or (affordable < FEWEST and stopped == done):
+            break
+        parts.append(inputs.solve(draws[done:stop], options))
+        spent += int(np.sum(parts[-1].work))
+        stopped += int(np.sum(parts[-1].status == Status.EVENT_LIMIT))
+        done = stop
+        if progress is not None:
+            progress(done, len(draws))
+    status = np.concatenate([part.status for part in parts])
+    if done < min(FEWEST, len(draws)):
+        raise InvalidValue(_why_few(inputs, draws[:done], status))
+    names = parts[0].tables
+    tables = {name: np.concatenate([part.tables[name] for part in parts]) for name in names}
+    return Solved(tables, status, np.concatenate([part.work for part in parts]))
+
+
+def _why_few(inputs: Inputs, draws: Array, status: NDArray[np.int64]) -> str:
+    """Return the message of why too few draws were run."""
+    limited, met = np.flatnonzero(status == Status.EVENT_LIMIT), ""
+    if len(limited):
+        values = zip(inputs.paths, draws[limited[0]].tolist(), strict=True)
+        there = ", ".join(f"{path} = {value:.4g}" for path, value in values)
+        met = f" ({len(limited)} met a limit, the first with {there})"
+    return (
+        f"errors lead to drops that take too long: {FEWEST} draws are needed, and only "
+        f"{len(draws)} could be run{met}; give smaller errors, or raise event_limit"
+    )
+
+
 def differentiate(
-    drop: Drop, inputs: Inputs, draws: Array, solved: Solved, options: Options
+    inputs: Inputs, draws: Array, solved: Solved, options: Options
 ) -> tuple[Slopes, str, float]:
     """Return the derivatives of all quantities, and why they do not do, if so.
 
     Parameters
     ----------
-    drop : Drop
-        With the values of the numbers.
     inputs : Inputs
         The numbers with errors.
     draws : ndarray
@@ -53,7 +136,7 @@ def differentiate(
     count = len(inputs.numbers)
     steps = np.diag(STEP * inputs.deviations)
     x = np.concatenate([inputs.values[None], inputs.values + steps, inputs.values - steps])
-    near = solve_quantities(drop, inputs.rows(x), len(x), options)
+    near = inputs.solve(x, options)
     found = {
         name: np.concatenate([table, solved.tables[name]]) for name, table in near.tables.items()
     }
@@ -93,7 +176,7 @@ def _changed_counts(counts: Array) -> str:
     for contact, column in enumerate(counts.T.tolist()):
         known = sorted(set(column), key=lambda count: (count < 0, count))
         if len(known) > 1:
-            words = ["infinitely many" if one < 0 else f"{one}" for one in known]
+            words = ["infinitely many" if count < 0 else f"{count}" for count in known]
             if len(words) > 3:
                 words = [f"{words[0]} to {words[-1]}"]
             return f"contact {contact} collides {_alternatives(words)} times"

@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from stackbounce.validation.fall import (
-    DRAG_COEFFICIENT,
-    DRAG_ERROR,
-    GRAVITY,
-    Array,
-    Fall,
-    through_air,
+from stackbounce.fitting.quantities import Array
+from stackbounce.model.drag import (
+    fallen_speed,
+    flight_speed,
+    landing_speed,
+    launch_speed,
+    sphere_drag,
 )
+from stackbounce.model.drop import STANDARD_GRAVITY
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -26,10 +27,14 @@ __all__ = ["CONTACT_TIME", "RESTITUTION", "Series", "make_series", "why_not"]
 
 RESTITUTION, CONTACT_TIME = "restitution", "contact time"
 
+_AIR_DENSITY = 1.2  # kg/m**3
+_DRAG_COEFFICIENT, _DRAG_ERROR = 0.45, 0.05
+"""Of a sphere, at the Reynolds numbers of falling balls, about 10**3 to 10**5: 0.4 to 0.5."""
+
 Scatter = tuple[Array, float]  # a covariance from the scatter of readings, degrees of freedom
 
 _Points = tuple[Array, Array]  # speeds and values
-_Transform = Callable[[Fall, dict[str, Array]], _Points]
+_Transform = Callable[[float, dict[str, Array]], _Points]  # of a drag in 1/m and columns
 _STEP = 1e-6  # relative, of a numerical derivative
 
 
@@ -49,7 +54,7 @@ class Series:
         Covariances of the values, (n, n): from errors that the source gives or from the scatter of
         its readings, and from errors that are assumed, that of the drag among them.
     drag : float
-        In 1/m, as in `Fall`; 0 if the air was left out.
+        k of `stackbounce.model.drag` in 1/m; 0 if the air was left out.
     restitution : float, optional
         The restitution that goes with contact times.
     scatters : tuple of (array, float), optional
@@ -92,12 +97,14 @@ class Series:
         """
         whole = self.covariance(scale)
         shares = [np.trace(np.linalg.solve(whole, part)) / len(part) for part, _ in self.scatters]
-        inverse = sum(share**2 / one for share, (_, one) in zip(shares, self.scatters, strict=True))
+        inverse = sum(
+            share**2 / freedom for share, (_, freedom) in zip(shares, self.scatters, strict=True)
+        )
         return float(1.0 / inverse) if inverse else math.inf
 
     @property
     def has_assumed_errors(self) -> bool:
-        """Whether some of the errors are assumed."""
+        """Return whether some of the errors are assumed."""
         return bool(np.any(self.assumed != 0.0))
 
 
@@ -136,11 +143,11 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
     -------
     Series
     """
-    fall = (through_air(data.attrs) if air else None) or Fall()
-    speeds, values, published, assumed, scatters = _points(fall, data)
-    if fall.drag:  # the drag is not known well, and changes all values together
-        more = 1.0 + DRAG_ERROR / DRAG_COEFFICIENT
-        shift = _points(Fall(more * fall.drag), data).values - values
+    drag = _drag_of_ball(data) if air else 0.0
+    speeds, values, published, assumed, scatters = _points(drag, data)
+    if drag:  # it is not known well, and changes all values together
+        more = 1.0 + _DRAG_ERROR / _DRAG_COEFFICIENT
+        shift = _points(more * drag, data).values - values
         assumed = assumed + np.outer(shift, shift)
     view = _view_of(data)
     quantity = RESTITUTION if view is None else view.quantity
@@ -154,7 +161,7 @@ def make_series(data: "xr.Dataset", *, air: bool = True) -> Series:
         values=values,
         published=published,
         assumed=assumed,
-        drag=fall.drag if quantity == RESTITUTION else 0.0,
+        drag=drag if quantity == RESTITUTION else 0.0,
         restitution=None if kept is None else float(kept[0]),
         scatters=scatters,
     )
@@ -170,47 +177,65 @@ class _Measured(NamedTuple):
     scatters: tuple[Scatter, ...]
 
 
-def _points(fall: Fall, data: "xr.Dataset") -> _Measured:
+def _points(drag: float, data: "xr.Dataset") -> _Measured:
     view = _view_of(data)
-    return _flights(fall, data) if view is None else _propagated(view, fall, data)
+    return _flights(drag, data) if view is None else _propagated(view, drag, data)
 
 
-def _rebounds(fall: Fall, given: dict[str, Array]) -> _Points:
-    before = fall.landing_speed(given["drop_height"])
-    return before, fall.leaving_speed(given["rebound_height"]) / before
+def _drag_of_ball(data: "xr.Dataset") -> float:
+    """Return the drag of a dataset's ball in 1/m; 0 if its mass or its diameter is not known."""
+    if not {"mass", "diameter"} <= set(data.attrs):
+        return 0.0
+    sphere = sphere_drag(_AIR_DENSITY, _DRAG_COEFFICIENT, data.attrs["diameter"])
+    return sphere / float(data.attrs["mass"])
 
 
-def _ratios(fall: Fall, given: dict[str, Array]) -> _Points:
+def _each(formula: Callable[[float, float, float], float], drag: float, values: Array) -> Array:
+    return np.asarray(np.vectorize(formula, otypes=[float])(drag, values, STANDARD_GRAVITY))
+
+
+def _speeds_of_flight(drag: float, time: Array) -> tuple[Array, Array]:
+    """Return the speeds in m/s at the start and at the end of flights of some times in s."""
+    leaving = _each(flight_speed, drag, time)
+    return leaving, _each(landing_speed, drag, leaving)
+
+
+def _rebounds(drag: float, given: dict[str, Array]) -> _Points:
+    before = _each(fallen_speed, drag, given["drop_height"])
+    return before, _each(launch_speed, drag, given["rebound_height"]) / before
+
+
+def _ratios(drag: float, given: dict[str, Array]) -> _Points:
     """Take a published restitution for the root of a ratio of heights."""
     rebound = given["restitution"] ** 2 * given["drop_height"]
-    return _rebounds(fall, given | {"rebound_height": rebound})
+    return _rebounds(drag, given | {"rebound_height": rebound})
 
 
-def _apexes(fall: Fall, given: dict[str, Array]) -> _Points:
+def _apexes(drag: float, given: dict[str, Array]) -> _Points:
     heights = given["apex_height"]
-    return _rebounds(fall, {"drop_height": heights[:-1], "rebound_height": heights[1:]})
+    return _rebounds(drag, {"drop_height": heights[:-1], "rebound_height": heights[1:]})
 
 
-def _at_speeds(_: Fall, given: dict[str, Array]) -> _Points:
+def _at_speeds(_: float, given: dict[str, Array]) -> _Points:
     return given["impact_speed"], given["restitution"]
 
 
-def _knocks(fall: Fall, given: dict[str, Array]) -> _Points:
-    leaving, landing = fall.flight(np.diff(given["knock_time"]))
-    before = np.append(fall.landing_speed(given["drop_height"][:1]), landing[:-1])
+def _knocks(drag: float, given: dict[str, Array]) -> _Points:
+    leaving, landing = _speeds_of_flight(drag, np.diff(given["knock_time"]))
+    before = np.append(_each(fallen_speed, drag, given["drop_height"][:1]), landing[:-1])
     return before, leaving / before
 
 
-def _blocks(_: Fall, given: dict[str, Array]) -> _Points:
+def _blocks(_: float, given: dict[str, Array]) -> _Points:
     """Take the restitution of the slope of the mean flight, which is ``e - 1`` per unit of time."""
     flight = (given["end"] - given["start"]) / given["flights"]
     middle = 0.5 * (given["start"] + given["end"])
-    speed = 0.25 * GRAVITY * (flight[1:] + flight[:-1])
+    speed = 0.25 * STANDARD_GRAVITY * (flight[1:] + flight[:-1])
     return speed, 1.0 + np.diff(flight) / np.diff(middle)
 
 
-def _contacts(fall: Fall, given: dict[str, Array]) -> _Points:
-    return fall.landing_speed(given["drop_height"]), given["contact_time"]
+def _contacts(drag: float, given: dict[str, Array]) -> _Points:
+    return _each(fallen_speed, drag, given["drop_height"]), given["contact_time"]
 
 
 _VIEWS = (
@@ -228,16 +253,16 @@ def _view_of(data: "xr.Dataset") -> _View | None:
     return next((view for view in _VIEWS if set(view.columns) <= set(data)), None)
 
 
-def _propagated(view: _View, fall: Fall, data: "xr.Dataset") -> _Measured:
+def _propagated(view: _View, drag: float, data: "xr.Dataset") -> _Measured:
     """Return speeds, values and their covariances, by the derivatives by each number given."""
     columns = {name: _read(data, name) for name in view.columns}
     given = {name: column.means for name, column in columns.items()}
-    speeds, values = view.transform(fall, given)
+    speeds, values = view.transform(drag, given)
     published, assumed = np.zeros((2, values.size, values.size))
     scatters: list[Scatter] = []
     for name, column in columns.items():
         rows = range(column.means.size)
-        slopes = np.stack([_slope(view.transform, fall, given, name, i) for i in rows], axis=1)
+        slopes = np.stack([_slope(view.transform, drag, given, name, i) for i in rows], axis=1)
         published += (slopes * column.variances) @ slopes.T
         assumed += column.assumed**2 * slopes @ slopes.T
         if column.scatter:
@@ -246,13 +271,13 @@ def _propagated(view: _View, fall: Fall, data: "xr.Dataset") -> _Measured:
     return _Measured(speeds, values, published, assumed, tuple(scatters))
 
 
-def _slope(transform: _Transform, fall: Fall, given: dict[str, Array], name: str, i: int) -> Array:
+def _slope(transform: _Transform, drag: float, given: dict[str, Array], name: str, i: int) -> Array:
     step = _STEP * max(abs(given[name][i]), _STEP)
     ends = []
     for sign in (1.0, -1.0):
         moved = given[name].copy()
         moved[i] += sign * step
-        ends.append(transform(fall, given | {name: moved})[1])
+        ends.append(transform(drag, given | {name: moved})[1])
     slope: Array = (ends[0] - ends[1]) / (2.0 * step)
     return slope
 
@@ -286,7 +311,7 @@ def _read(data: "xr.Dataset", name: str) -> _Column:
     )
 
 
-def _flights(fall: Fall, data: "xr.Dataset") -> _Measured:
+def _flights(drag: float, data: "xr.Dataset") -> _Measured:
     """Return the restitutions of all bounces between two flights, averaged over the throws.
 
     Neighbouring bounces share a flight, so that their errors are correlated. Variance and
@@ -294,7 +319,9 @@ def _flights(fall: Fall, data: "xr.Dataset") -> _Measured:
     variance worse: n of them as n / (1 + 2 r**2) others, with the correlation r of neighbours.
     """
     number = np.asarray(data.flight.values, dtype=int)
-    leaving, landing = fall.flight(np.asarray(data.flight_time.values, dtype=np.float64))
+    leaving, landing = _speeds_of_flight(
+        drag, np.asarray(data.flight_time.values, dtype=np.float64)
+    )
     after = np.flatnonzero(np.diff(number) == 1) + 1  # whose flight follows that of the row above
     ratios = leaving[after] / landing[after - 1]
     values = ratios.mean(axis=1)

@@ -4,15 +4,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from stackbounce.fitting.validation.comparison import Comparison
+from stackbounce.fitting.validation.series import RESTITUTION
 from stackbounce.plots.style import COLORS, styled_figure
-from stackbounce.validation.comparison import Comparison, Outcome
-from stackbounce.validation.series import RESTITUTION
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-__all__ = ["draw", "draw_on", "label"]
+__all__ = ["draw", "draw_on"]
 
 _POINTS = 40  # of a curve
 _STYLES = ("-", "--", "-.", ":")
@@ -35,9 +35,8 @@ def draw_on(axes: "Axes", comparison: Comparison) -> None:
         i = places.index(outcome.laws[0])
         curve = comparison.curves[outcome.laws[0]].at(outcome.value, speeds)
         style = _STYLES[i % len(_STYLES)]
-        axes.plot(
-            speeds, factor * curve, style, color=COLORS[i % len(COLORS)], label=label(outcome)
-        )
+        label = f"{outcome.short_name}: p = {outcome.p:.2g}"
+        axes.plot(speeds, factor * curve, style, color=COLORS[i % len(COLORS)], label=label)
     errors = factor * np.sqrt(series.covariance().diagonal())
     axes.errorbar(
         series.speeds, factor * series.values, errors, fmt="o", color="black", ms=4, lw=1.0
@@ -46,8 +45,3 @@ def draw_on(axes: "Axes", comparison: Comparison) -> None:
     axes.set_xlabel("impact speed (m/s)")
     axes.set_ylabel("restitution" if factor == 1.0 else "contact time (ms)")
     axes.legend(fontsize=8, loc="best")
-
-
-def label(outcome: Outcome) -> str:
-    """Return the first names of laws with one curve, and their p value."""
-    return f"{outcome.short_name}: p = {outcome.p:.2g}"

@@ -5,12 +5,12 @@ import json
 
 import pytest
 
-from stackbounce import datasets, validation
+from stackbounce import datasets
 from stackbounce.cli import main
 from stackbounce.errors import FileError
+from stackbounce.fitting import validation
+from stackbounce.fitting.validation.comparison import AGREES, REFUTED, verdict
 from stackbounce.model import LAWS
-from stackbounce.validation.comparison import AGREES, REFUTED, verdict
-from stackbounce.validation.results import validate
 
 FEW = ("granite-spheres", "superball-knocks")
 
@@ -68,17 +68,21 @@ def test_the_folder_must_have_a_name(capsys):
 
 @pytest.fixture(scope="module")
 def everything():
-    return validate()
+    return validation.validate()
 
 
 @pytest.mark.slow
-def test_every_dataset_is_compared_or_has_a_reason(everything):
-    compared = [one.series.name for one in everything.comparisons]
+def test_every_dataset_is_compared_or_has_a_reason_and_the_summary_counts_them(everything):
+    compared = [found.series.name for found in everything.comparisons]
     assert sorted([*compared, *everything.left_out]) == list(datasets.names())
     assert len(compared) >= 15
-    for one in everything.comparisons:
-        asked = [name for found in one.outcomes for name in found.laws]
-        assert sorted([*asked, *one.skipped]) == sorted(LAWS)
+    for found in everything.comparisons:
+        asked = [name for outcome in found.outcomes for name in outcome.laws]
+        assert sorted([*asked, *found.skipped]) == sorted(LAWS)
+    verdicts = sum(len(found.outcomes) for found in everything.comparisons)
+    shaky = sum(not found.steady for found in everything.comparisons)
+    assert everything.summary.startswith(f"{len(compared)} series have {verdicts} verdicts")
+    assert f" {shaky} of the series are not steady" in everything.summary
 
 
 def laws_of(comparison, verdict):
@@ -87,16 +91,6 @@ def laws_of(comparison, verdict):
 
 def p_of(comparison, law):
     return next(one.p for one in comparison.outcomes if law in one.laws)
-
-
-@pytest.mark.slow
-def test_the_summary_counts_verdicts_and_series_that_are_not_steady(everything):
-    rows = [one.verdict for found in everything.comparisons for one in found.outcomes]
-    shaky = [found for found in everything.comparisons if not found.steady]
-    assert everything.summary.startswith(
-        f"{len(everything.comparisons)} series have {len(rows)} verdicts"
-    )
-    assert f" {len(shaky)} of the series are not steady" in everything.summary
 
 
 @pytest.mark.slow
@@ -118,16 +112,12 @@ def test_what_the_docs_say_of_balls_and_laws(everything):
     assert not found["table-tennis-nine-heights"].tells_apart
     assert "superball-contact-time" in everything.left_out
     assert laws_of(found["superball-knocks"], REFUTED) == {"RigidBySpeed"}
-    refuted = [one for one in found.values() if "HuntCrossley" in laws_of(one, REFUTED)]
+    refuted = [name for name in found if "HuntCrossley" in laws_of(found[name], REFUTED)]
     assert len(refuted) > len(found) / 2
-    assert any(not laws_of(one, AGREES) for one in found.values())
-
-
-@pytest.mark.slow
-def test_air_that_is_left_out_refutes_a_law_that_follows_the_flights(everything):
-    found = {one.series.name: one for one in everything.comparisons}
-    ball = found["table-tennis-parquet-flights"]
-    rigid = next(one for one in ball.outcomes if "Rigid" in one.laws)
+    assert any(not laws_of(comparison, AGREES) for comparison in found.values())
+    (rigid,) = (
+        law for law in found["table-tennis-parquet-flights"].outcomes if "Rigid" in law.laws
+    )
     assert rigid.verdict == AGREES
     assert verdict(rigid.p_without_air) == REFUTED
 
