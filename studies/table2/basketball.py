@@ -13,13 +13,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.calibration import calibrate
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import fallen_speed, force_above, pair
 from stackbounce.cross2007.stacks import gap_for_delay, stack_masses
 from stackbounce.fitting import FitProblem, Model
 from stackbounce.model import ContactLaw, HollowBall, HuntCrossley, Hysteretic, Spring
+from stackbounce.run.calibration import calibrate
 from stackbounce.run.result import Result
 from studies.table2 import inputs
 from studies.table2.searches import fit_model

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from stackbounce.calibration import calibrate
 from stackbounce.model import ContactLaw
+from stackbounce.run.calibration import calibrate
 from studies.table2.inputs import Solo
 
 __all__ = ["LOWEST", "RELAXATION", "Numbers", "calibrate_numbers", "loss_unit"]

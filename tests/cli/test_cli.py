@@ -12,11 +12,11 @@ from typer.testing import CliRunner
 
 import stackbounce as sb
 from stackbounce import cross2007, plots
-from stackbounce.calibration import separate
 from stackbounce.cli import app, main, output, tables
 from stackbounce.cli.scenario import read, read_contact
 from stackbounce.errors import FileError, InvalidValue
 from stackbounce.model import LAWS
+from stackbounce.run.collision import separate
 from stackbounce.version import __version__
 
 PAIR = ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"]

@@ -10,11 +10,11 @@ import pytest
 
 import stackbounce as sb
 from stackbounce import plots
-from stackbounce.calibration import between
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.gaps_and_masses.batch import solve_drops
 from stackbounce.gaps_and_masses.separation_limit import find_separation_limit, replace_gaps
 from stackbounce.model.catalogue import catalogue_ball
+from stackbounce.model.laws.series import between
 
 
 def pair(lower, upper, laws, **options):

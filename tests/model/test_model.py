@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from stackbounce import errors
-from stackbounce.calibration import restitution, separate
 from stackbounce.model import LAWS, Ball, Drop, Hysteretic, Rigid, Spring, law_named
 from stackbounce.model.catalogue import BALLS, PAIRS, catalogue_ball, stack
+from stackbounce.run.collision import restitution, separate
 
 BALL = Ball(0.057)
 SPRING = Spring(2500.0)

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.calibration import separate
 from stackbounce.errors import InvalidValue, positive, shown, whole
 from stackbounce.gaps_and_masses.batch import join_sweeps
 from stackbounce.gaps_and_masses.separation_limit import (
@@ -15,6 +14,7 @@ from stackbounce.gaps_and_masses.separation_limit import (
     replace_gaps,
 )
 from stackbounce.model import Drop
+from stackbounce.run.collision import separate
 from stackbounce.run.driver import simulate
 from stackbounce.run.options import run_options
 from stackbounce.sweeps import sweep

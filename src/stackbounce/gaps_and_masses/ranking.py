@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from stackbounce.calibration import between, calibrate
 from stackbounce.errors import (
     InvalidType,
     InvalidValue,
@@ -23,6 +22,8 @@ from stackbounce.gaps_and_masses.batch import solve_drops
 from stackbounce.gaps_and_masses.separation_limit import replace_gaps
 from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteretic
 from stackbounce.model.catalogue import BALLS, catalogue_ball
+from stackbounce.model.laws.series import between
+from stackbounce.run.calibration import calibrate
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ def highest(
 
     Notes
     -----
-    The contact of two balls is both their floor contacts in series, as in `calibration.between`.
+    The contact of two balls is both their floor contacts in series, as in `series.between`.
     The springs that the paper fitted to three of the catalogue's pairs are not used, because the
     other pairs have none. The ranks depend on the gap, which is seldom known.
 
@@ -196,7 +197,7 @@ def build_stack(stack: Sequence[Candidate], impact_speed: float) -> Drop:
 def join_contacts(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
     """Return the contacts of a stack from the floor contact of each ball, the lowest first.
 
-    The contact of two balls is both floor contacts in series, as in `calibration.between`.
+    The contact of two balls is both floor contacts in series, as in `series.between`.
 
     Parameters
     ----------

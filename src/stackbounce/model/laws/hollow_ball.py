@@ -85,8 +85,22 @@ restitution 0.75'
     )
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section III"
     form = "TWO_STAGE"
+    page_code: ClassVar = {
+        "numbers": """({ stiffness, restitution, buckling_compression, stiffness_ratio }) =>
+          [stiffness, restitution ** 2, buckling_compression, stiffness_ratio]""",
+        "others": f"""({{ mass, contact_time, impact_speed }}, {{ stiffness }}) => {{
+          const rate = Math.sqrt(stiffness / mass);
+          const share = {_BUCKLING_SHARE};
+          const start = Math.min({_BUCKLING_TIME} * contact_time * rate, Math.asin(share));
+          return {{
+            buckling_compression: (impact_speed * Math.sin(start)) / rate,
+            stiffness_ratio: Math.min(1, Math.tan(start) ** 2 * (1 / share ** 2 - 1)),
+          }};
+        }}""",
+    }
     rate_free = True
     loss = "restitution"
+    least_restitution = 0.0873  # at which it buckles after 4 % of the contact time at the softest
 
     exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
@@ -108,7 +122,7 @@ restitution 0.75'
     @property
     def contact_time_depends_on(self) -> tuple[str, ...]:
         """Mass and speed: a faster ball buckles further."""
-        return ("mass", "speed")
+        return ("mass", "impact_speed")
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution, which is the same for all collisions."""

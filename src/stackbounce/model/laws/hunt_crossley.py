@@ -88,7 +88,7 @@ class HuntCrossley(ContactLaw):
     form = "HUNT_CROSSLEY"
     law_parameter = "dissipation"
     loss = "dissipation"
-    loss_depends_on = ("speed",)
+    loss_depends_on = ("impact_speed",)
     usual_exponent = 1.5
     usual_models: ClassVar = {"HuntCrossley": {}}
 

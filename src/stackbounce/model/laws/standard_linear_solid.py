@@ -87,10 +87,15 @@ class StandardLinearSolid(ContactLaw):
     )
     source = "C. Zener, Elasticity and Anelasticity of Metals (1948)"
     form = "RELAXING"
+    page_code: ClassVar = {
+        "others": """({ contact_time }, { relaxation_strength }) =>
+          ({ relaxation_time: contact_time / Math.PI / Math.sqrt(1 + relaxation_strength) })"""
+    }
     law_parameter = "relaxation_strength"
     second_parameter = "relaxation_time"
     loss = "relaxation_strength"
     loss_depends_on = ("mass",)
+    least_restitution = 2.7e-4  # nearly at the largest relaxation strength that is tried
 
     exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]

@@ -100,7 +100,7 @@ class Tabulated(ContactLaw):
     form = "TABULATED"
     rate_free = True
     loss = "restitution"
-    loss_depends_on = ("mass", "speed")
+    loss_depends_on = ("mass", "impact_speed")
 
     exponent: ClassVar[float] = 1.0
     compression: Annotated[Sequence[float], Unit("m")]
@@ -177,7 +177,7 @@ class Tabulated(ContactLaw):
     @property
     def contact_time_depends_on(self) -> tuple[str, ...]:
         """Mass and speed."""
-        return ("mass", "speed")
+        return ("mass", "impact_speed")
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution of a mass in kg at a speed in m/s, by a simulation."""

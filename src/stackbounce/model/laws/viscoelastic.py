@@ -74,7 +74,7 @@ class Viscoelastic(ContactLaw):
     form = "VISCOELASTIC"
     law_parameter = "dissipative_time"
     loss = "dissipative_time"
-    loss_depends_on = ("mass", "speed")
+    loss_depends_on = ("mass", "impact_speed")
     usual_models: ClassVar = {"Viscoelastic": {}}
 
     exponent: ClassVar[float] = 1.5
