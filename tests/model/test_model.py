@@ -9,7 +9,7 @@ import pytest
 from stackbounce import errors
 from stackbounce.model import LAWS, Ball, Drop, Hysteretic, Rigid, Spring, law_named
 from stackbounce.model.catalogue import BALLS, PAIRS, catalogue_ball, stack
-from stackbounce.run.collision import restitution, separate
+from stackbounce.run.collision import separate
 
 BALL = Ball(0.057)
 SPRING = Spring(2500.0)
@@ -65,16 +65,6 @@ def test_names():
 
 
 # laws
-
-
-@pytest.mark.parametrize("value", [-1.0, 0.0, math.nan, math.inf])
-@pytest.mark.parametrize(
-    "make", [Spring, lambda stiffness: Hysteretic(stiffness, restitution=0.78)]
-)
-def test_stiffness_is_positive_and_finite(make, value):
-    got = message(errors.InvalidValue, make, value)
-    assert got.startswith("stiffness must be a positive number of N/m")
-    assert got.endswith(f"got {value}")
 
 
 @pytest.mark.parametrize("value", [-0.1, 1.1, math.nan, math.inf])
@@ -155,19 +145,6 @@ def test_exponent_is_at_least_1(value):
     assert got == f"exponent must be a number from 1 to 1e+06, got {value}"
 
 
-@pytest.mark.parametrize(
-    "law",
-    [
-        Hysteretic(1.0, restitution=0.7),
-        Hysteretic(1.0, exponent=1.5, unloading_exponent=3.3),
-        Spring(2.0),
-        Rigid(0.3),
-    ],
-)
-def test_repr_makes_the_same_law(law):
-    assert eval(repr(law)) == law
-
-
 def test_laws_by_name():
     assert law_named("Spring") is law_named("spring") is Spring
     got = message(errors.InvalidValue, law_named, "Sprung")
@@ -242,14 +219,6 @@ def test_velocities_are_finite(value):
             "contacts must hold one law per ball, the one below it (2), got 1",
         ),
         (
-            {"contacts": [SPRING] * 3},
-            "contacts must hold one law per ball, the one below it (2), got 3",
-        ),
-        (
-            {"gaps": []},
-            "gaps must hold one number per neighbouring pair of balls (1), got 0",
-        ),
-        (
             {"gaps": [0.0, 0.0]},
             "gaps must hold one number per neighbouring pair of balls (1), got 2",
         ),
@@ -280,13 +249,6 @@ def test_velocities_are_finite(value):
             ),
         ),
         (
-            {"contacts": [Hysteretic(1.0, restitution=0.5), Rigid(1.0)]},
-            (
-                "contacts must be all rigid or have none that is, got a mixture: "
-                "contacts.1 is Rigid and contacts.0 is Hysteretic"
-            ),
-        ),
-        (
             {"contacts": [SPRING, None]},
             "contacts.1 must be a contact law, got None (for the floor only)",
         ),
@@ -313,13 +275,6 @@ def test_values_of_a_drop(changes, expected):
             {"contacts": [SPRING, 2500.0]},
             f"contacts.1 must be a contact law ({', '.join(LAWS)}), got 2500.0",
         ),
-        (
-            {"contacts": [SPRING, Spring]},
-            (
-                f"contacts.1 must be a contact law ({', '.join(LAWS)}), "
-                "got <class 'stackbounce.model.laws.spring.Spring'>"
-            ),
-        ),
         ({"gaps": 0.002}, "gaps must be a list, got 0.002"),
         ({"gaps": {0.002}}, "gaps must be a list, got {0.002}"),
         ({"gaps": ["2 mm"]}, "gaps.0 must be a number of metres, 0 or above, got '2 mm'"),
@@ -344,14 +299,6 @@ def test_rigid_drops():
 
 
 # what follows from a drop
-
-
-def test_restitution_of_each_law():
-    assert restitution(Rigid(0.3)) == 0.3
-    assert restitution(Spring(1.0)) == 1.0
-    assert restitution(Hysteretic(1.0, restitution=0.78)) == 0.78
-    got = message(errors.InvalidType, restitution, 0.78)
-    assert got == "law must be a contact law, got 0.78"
 
 
 def test_separate_collisions_keep_everything_else():

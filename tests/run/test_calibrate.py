@@ -3,8 +3,6 @@
 import dataclasses
 import math
 import re
-import subprocess
-import sys
 
 import numpy as np
 import pytest
@@ -34,52 +32,6 @@ def message(error, make, *arguments, **parameters):
         make(*arguments, **parameters)
     assert "\n" not in str(caught.value)
     return str(caught.value)
-
-
-def with_damping_ratio(zeta):
-    return sb.Dashpot(1.0, damping=2.0 * zeta)
-
-
-# published and independent values: mass, stiffness and speed 1
-
-
-@pytest.mark.parametrize(
-    ("law", "constant"),
-    [
-        (sb.Spring(1.0), math.pi),
-        (sb.PowerLaw(1.0, 1.0), math.pi),
-        (sb.Hertz(1.0), 2.943275),
-        (sb.PowerLaw(1.0, 2.0), 2.804364),
-    ],
-)
-def test_contact_time_over_peak_compression(law, constant):
-    p = law.exponent
-    peak = (0.5 * (p + 1.0)) ** (1.0 / (p + 1.0))
-    assert sb.contact_time(law, 1.0, 1.0) == pytest.approx(constant * peak, abs=1e-6)
-
-
-def test_hertz_contact_time():
-    got = sb.contact_time(sb.Hertz(1e6), mass=0.1, impact_speed=2.0)
-    assert got == pytest.approx(3.218065 * (0.1**2 / (1e12 * 2.0)) ** 0.2, rel=2e-7)
-
-
-def test_dashpot_values():
-    assert sb.restitution(with_damping_ratio(0.1), mass=1.0) == pytest.approx(0.744079, abs=5e-7)
-    assert sb.restitution(with_damping_ratio(0.3), mass=1.0) == pytest.approx(0.450975, abs=5e-7)
-    assert sb.contact_time(with_damping_ratio(0.1), mass=1.0) == pytest.approx(2.956075, abs=5e-7)
-
-
-@pytest.mark.parametrize(("d", "e"), [(0.1, 0.937476), (0.3, 0.832870), (1.0, 0.593624)])
-@pytest.mark.parametrize("p", [1.0, 1.5, 3.0])
-def test_hunt_crossley_values(d, e, p):
-    law = sb.HuntCrossley(7.0, p, d / 2.0)
-    assert sb.restitution(law, impact_speed=2.0) == pytest.approx(e, abs=5e-7)
-
-
-@pytest.mark.parametrize(("v", "e"), [(0.3, 0.902852), (0.5, 0.760037), (0.8, 0.525371)])
-def test_viscoelastic_values(v, e):
-    law = sb.Viscoelastic(1.0, dissipative_time=v * v / 1.5)
-    assert sb.restitution(law, 1.0, 1.0) == pytest.approx(e, abs=5e-7)
 
 
 # against a run
@@ -185,20 +137,14 @@ def asked(kind, mass, time, e, speed, p):
 
 
 @given(
-    st.sampled_from([sb.Dashpot, sb.HuntCrossley, sb.Hysteretic]),
+    st.sampled_from([*ELASTIC, sb.Dashpot, sb.HuntCrossley, sb.Hysteretic]),
     masses, times, restitutions, speeds, exponents,
 )  # fmt: skip
-def test_lossy_laws_come_out_as_asked(kind, mass, time, e, speed, p):
+def test_laws_come_out_as_asked(kind, mass, time, e, speed, p):
+    e = e if kind.loss else 1.0
     law = sb.calibrate(kind, **asked(kind, mass, time, e, speed, p))
     assert type(law) is kind
     assert sb.restitution(law, mass, speed) == pytest.approx(e, abs=1e-13)
-    assert sb.contact_time(law, mass, speed) == pytest.approx(time, rel=1e-12)
-
-
-@given(st.sampled_from(ELASTIC), masses, times, speeds, exponents)
-def test_elastic_laws_come_out_as_asked(kind, mass, time, speed, p):
-    law = sb.calibrate(kind, **asked(kind, mass, time, 1.0, speed, p))
-    assert type(law) is kind
     assert sb.contact_time(law, mass, speed) == pytest.approx(time, rel=1e-12)
 
 
@@ -533,12 +479,6 @@ def test_a_contact_that_does_not_close_has_the_reference_speed():
     drop = sb.Drop(balls, [law, law], velocities=[0.5, 3.0])
     expected = sb.restitution(law, impact_speed=3.0)
     assert [one.restitution for one in sb.separate(drop).contacts] == [expected, expected]
-
-
-def test_scipy_is_imported_only_where_it_is_needed():
-    code = "import sys, stackbounce as sb\nsb.separate\nprint('scipy' in sys.modules)"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    assert run.stdout.strip() == "False"
 
 
 @pytest.mark.parametrize("loss", [1e-3, 1e-5, 1e-6, 1e-10, 1e-15])

@@ -41,7 +41,8 @@ def bounce(
     (1.0, 0.1)
     """
     room = memory(FINITE, 1, native.available())
-    room.put(Drops([mass], *([number] for number in numbers), [0.0], [-speed], 0.0))
+    law = ([number] for number in numbers)
+    room.put(Drops._make([[mass], *law, [0.0], [-speed], 0.0]))
     room.put_pieces([pieces])
     log: list[float] = []
     stage, status = BEGIN, codes.RUNNING

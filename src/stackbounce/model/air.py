@@ -279,7 +279,7 @@ class Air:
                 f"speeds must hold one number per ball ({len(drop.balls)}), got {len(given)}"
             )
         g, drags = drop.gravity or STANDARD_GRAVITY, self._drags(drop.balls)
-        rates = [one / ball.mass for one, ball in zip(drags, drop.balls, strict=True)]
+        rates = [force / ball.mass for force, ball in zip(drags, drop.balls, strict=True)]
         rises = [drag.risen(k, abs(v), g) for k, v in zip(rates, given, strict=True)]
         return [math.copysign(h, v) for h, v in zip(rises, given, strict=True)]
 

@@ -108,7 +108,8 @@ def solve(
             drops = Drops._make(array[: size(block)] for array in room)
             sizes = [side.stop - side.start for side in block]
             shaped = (array.reshape((*sizes, *array.shape[1:])) for array in drops)
-            fill(Drops._make(shaped), drop, {one: values[block] for one, values in wide.items()})
+            varied = {number: values[block] for number, values in wide.items()}
+            fill(Drops._make(shaped), drop, varied)
             part = Outcomes._make(array[stop - size(block) : stop] for array in out)
             run(drops, part, options, chosen, pause)
             _find_ratios(drops, part, chosen)

@@ -165,7 +165,7 @@ class Result:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields only. Cached arrays are left out: unpickled ones would be writeable."""
-        return {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+        return {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
 
     @property
     def advice(self) -> str:

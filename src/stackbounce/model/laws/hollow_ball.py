@@ -77,7 +77,6 @@ class HollowBall(ContactLaw):
 restitution 0.75'
     """
 
-    says = "A hollow ball: stiff until its wall buckles, softer then, with hysteresis."
     formula = (
         "F = stiffness c up to buckling_compression b, then stiffness (b + stiffness_ratio (c - b))"
         "; from the peak C on times 1 - g + g (c/C)**m, so that restitution**2 of the work is "
@@ -123,10 +122,6 @@ restitution 0.75'
     def contact_time_depends_on(self) -> tuple[str, ...]:
         """Mass and speed: a faster ball buckles further."""
         return ("mass", "impact_speed")
-
-    def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution, which is the same for all collisions."""
-        return self.restitution
 
     @classmethod
     def _needs_speed(cls, exponent: float) -> bool:

@@ -82,7 +82,6 @@ class HuntCrossley(ContactLaw):
     HuntCrossley(stiffness=3000000.0, exponent=1.5, dissipation=0.15)
     """
 
-    says = "A power law with a damping force in proportion to the elastic force."
     formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
     source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
     form = "HUNT_CROSSLEY"

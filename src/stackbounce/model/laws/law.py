@@ -111,12 +111,12 @@ class ContactLaw:
     """The base class of all contact laws: the attributes and methods that the package uses.
 
     A law is a frozen dataclass; the hint of each parameter holds a `Quantity`. The class must set
-    `says`, `formula`, `source` and `form`. It overrides the defaults that do not apply to it, and
+    `formula`, `source` and `form`. It overrides the defaults that do not apply to it, and
     is decorated with `stackbounce.model.laws.registry.register`.
     """
 
     says: ClassVar[str]
-    """A description of the law in one line, for users."""
+    """A description of the law in one line, for users: the first line of its docstring."""
     formula: ClassVar[str]
     """The formula of the force in terms of the compression c and its rate c', as plain text."""
     source: ClassVar[str]
@@ -207,7 +207,7 @@ class ContactLaw:
     def to_mapping(self) -> dict[str, Any]:
         """Return the law as plain values, with its name as ``law``, as scenario files have it."""
         law: Any = self
-        given = {one.name: getattr(self, one.name) for one in fields(law) if one.init}
+        given = {field.name: getattr(self, field.name) for field in fields(law) if field.init}
         return {"law": type(self).__name__} | given
 
     def described(self) -> str:
@@ -264,10 +264,16 @@ class ContactLaw:
         return ("mass", "impact_speed") if self._needs_speed(self.exponent) else ("mass",)
 
     def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution of a mass in kg at a speed in m/s; by default by a simulation."""
-        from stackbounce.engine.one_ball import bounce
+        """Return the restitution of a mass in kg at a speed in m/s.
 
-        return bounce(self.engine_numbers(), mass, speed)[0]
+        It is 1 without a loss, and a field of the law if it depends on nothing else; of any other
+        law it is found by a simulation, by default.
+        """
+        if not self.loss:
+            return 1.0
+        if self.loss == "restitution" and not self.loss_depends_on:
+            return float(self.restitution)
+        return self._bounce(mass, speed)[0]
 
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return the contact time in s of a mass in kg at a speed in m/s."""
@@ -276,10 +282,14 @@ class ContactLaw:
 
     def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v, see `elastic`, by default from a simulation."""
+        time = self._bounce(mass, speed)[1]
+        return time / elastic.peak_compression(self.stiffness, self.exponent, mass, speed) * speed
+
+    def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
+        """Return restitution and contact time in s by a simulation."""
         from stackbounce.engine.one_ball import bounce
 
-        time = bounce(self.engine_numbers(), mass, speed)[1]
-        return time / elastic.peak_compression(self.stiffness, self.exponent, mass, speed) * speed
+        return bounce(self.engine_numbers(), mass, speed, self.pieces())
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:

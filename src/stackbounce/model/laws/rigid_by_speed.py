@@ -69,7 +69,6 @@ class RigidBySpeed(Rigid):
     [1.0, 0.548, 0.32, 0.22]
     """
 
-    says = "An instantaneous collision whose restitution falls with a power of the speed."
     formula = "v' = -e v, e = min(1, restitution (v/speed)**-speed_exponent)"
     source = "A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988)"
     form = "RIGID_POWER"
@@ -163,7 +162,6 @@ class RigidLossBySpeed(RigidBySpeed):
     [0.907, 0.8, 0.731]
     """
 
-    says = "An instantaneous collision whose loss grows with a power of the speed."
     formula = "v' = -e v, e = max(0, 1 - (1 - restitution) (v/speed)**speed_exponent)"
     source = (
         "R. Ramírez, T. Pöschel, N. V. Brilliantov and T. Schwager, Phys. Rev. E 60, 4465 (1999)"

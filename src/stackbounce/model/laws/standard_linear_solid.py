@@ -81,7 +81,6 @@ class StandardLinearSolid(ContactLaw):
     0.801
     """
 
-    says = "A spring in parallel with a spring and a dashpot in series (Zener): its force relaxes."
     formula = (
         "F = max(0, stiffness (c + relaxation_strength (c - u))), u' = (c - u)/relaxation_time"
     )
@@ -185,7 +184,7 @@ def collision(strength: float, time: float) -> tuple[float, float]:
     g, square = y - sigma, a / y - sigma * sigma
     norm = g * g + square
     if norm < _CLOSE * y * y:
-        return _simulated(strength, time)
+        return StandardLinearSolid(1.0, strength, time)._bounce(1.0, 1.0)
     start = y * y * w / (a * b)  # A, without cancellation
     slope = square + g * (1.0 / b - sigma)  # B
 
@@ -229,12 +228,6 @@ def _after_release(
         if t == math.inf:
             raise ArithmeticError
     return t
-
-
-def _simulated(strength: float, time: float) -> tuple[float, float]:
-    from stackbounce.engine.one_ball import bounce
-
-    return bounce(StandardLinearSolid(1.0, strength, time).engine_numbers(), 1.0, 1.0)
 
 
 def _time(strength: float, share: float) -> float:

@@ -94,7 +94,6 @@ class Tabulated(ContactLaw):
     (0.842, 0.821)
     """
 
-    says = "A law from measured points of force over compression, in and out."
     formula = "F = the monotone spline through the points"
     source = "L. L. Schumaker, SIAM J. Numer. Anal. 20, 853 (1983)"
     form = "TABULATED"
@@ -187,11 +186,6 @@ class Tabulated(ContactLaw):
         """Return the contact time in s of a mass in kg at a speed in m/s, by a simulation."""
         return self._bounce(mass, speed)[1]
 
-    def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
-        from stackbounce.engine.one_ball import bounce
-
-        return bounce(self.engine_numbers(), mass, speed, self.pieces())
-
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
         """Return no names: `calibrated` says what makes a table."""
@@ -269,7 +263,7 @@ def _curves(
 def _shares(x: Sequence[float], forces: Sequence[float], back: Sequence[float]) -> list[Piece]:
     """Return the straight pieces of unloading over loading, which rises to 1, over c/C."""
     at = [place / x[-1] for place in x[1:]]
-    share = [one / two for one, two in zip(back[1:], forces[1:], strict=True)]
+    share = [out / force for out, force in zip(back[1:], forces[1:], strict=True)]
     rising = list(itertools.accumulate(reversed(share), min))[::-1]
     slopes = [
         (high - low) / (end - begin)

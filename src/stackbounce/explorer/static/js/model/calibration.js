@@ -125,6 +125,7 @@ function calibrated(kind, given) {
 
 const WIDEST = 10; // times, from one end of a bracket to the next
 const CLOSEST = 1e-15; // relative
+const ROUNDS = 200;
 
 /** Return the zero of a function that rises with a number above 0, near a start or far from it. */
 function risingRoot(compute, start) {
@@ -132,8 +133,8 @@ function risingRoot(compute, start) {
     if (!(x > 1e-307 && x < Infinity)) throw new OutOfRange();
     return compute(x);
   };
-  let [before, x] = [start, start];
-  let [valueBefore, valueNow] = [value(x), value(x)];
+  let [before, x, valueNow] = [start, start, value(start)];
+  let valueBefore = valueNow;
   const below = valueNow < 0;
   for (let factor = 1.1; valueNow < 0 === below && valueNow !== 0; factor = Math.min(factor * factor, WIDEST)) {
     [before, valueBefore] = [x, valueNow];
@@ -141,7 +142,7 @@ function risingRoot(compute, start) {
     valueNow = value(x);
   }
   // the secant rule, with half the value of an end that stays (the Illinois rule)
-  while (valueNow !== 0 && Math.abs(x - before) > CLOSEST * x) {
+  for (let round = 0; round < ROUNDS && valueNow !== 0 && Math.abs(x - before) > CLOSEST * x; round += 1) {
     const next = x - (valueNow * (x - before)) / (valueNow - valueBefore);
     const valueNext = value(next);
     if (valueNext < 0 === valueNow < 0) valueBefore /= 2;
