@@ -17,9 +17,9 @@ from rich.table import Table
 
 import stackbounce as sb
 from benchmarks.timing import best
+from stackbounce.engine.memory import memory
 from stackbounce.engine.records import BEGIN_WITH_PEAKS
 from stackbounce.run.engines import choose_engine
-from stackbounce.run.memory import memory
 from stackbounce.run.options import run_options
 from stackbounce.run.parameters import drop_numbers
 

@@ -13,10 +13,10 @@ from rich.console import Console
 
 from benchmarks.random_drops import random
 from stackbounce.engine import codes, native
+from stackbounce.engine.memory import spring_workspace
 from stackbounce.engine.records import Drops
 from stackbounce.engine.tables import Table
 from stackbounce.run.batch import new_outcomes
-from stackbounce.run.memory import spring_workspace
 
 _LIMIT = 10**6
 

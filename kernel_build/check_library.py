@@ -24,11 +24,10 @@ import numpy as np
 from fuzz import draw
 from kernel_build.targets import TARGETS
 from stackbounce.engine import codes, native
+from stackbounce.engine.memory import FINITE, RIGID, memory, spring_workspace
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.run.batch import new_outcomes
-from stackbounce.run.engines import FINITE, RIGID
-from stackbounce.run.memory import memory, spring_workspace
 
 _ENTRIES = ("run_batch", "run_rigid_batch", "run_two_springs", "find_ratios")
 _ARGUMENTS = 11

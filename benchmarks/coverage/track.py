@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from typing import Any
 
-from stackbounce.calibration import calibrate
 from stackbounce.measure.kinds.track.analysis import track
 from stackbounce.model import Ball, Drop, HuntCrossley, Rigid
+from stackbounce.run.calibration import calibrate
 from stackbounce.run.driver import simulate
 from synthetic.falls import Falls, falls
 from synthetic.track import track as tracked

@@ -38,7 +38,7 @@ def contacts(balls: Sequence[sb.Ball], law: str, *, floor: bool) -> list[Any]:
     for below, ball in zip(lower, balls, strict=True):
         hertz = sb.Hertz.between(ball) if below is None else sb.Hertz.between(below, ball)
         mass = ball.mass if below is None else (below.mass, ball.mass)
-        time = sb.contact_time(hertz, mass=mass, speed=SPEED)
+        time = sb.contact_time(hertz, mass=mass, impact_speed=SPEED)
         measured = {"mass": mass, "contact_time": time}
         if law == "rigid":
             found.append(sb.Rigid(1.0))

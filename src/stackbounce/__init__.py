@@ -6,7 +6,6 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from typing import Any
 
-    from stackbounce.calibration import calibrate, contact_time, restitution, separate
     from stackbounce.errors import StackbounceError
     from stackbounce.fitting import Fit, Model, Range, compare, fit, standard_models
     from stackbounce.measure import read
@@ -32,6 +31,8 @@ if TYPE_CHECKING:
     )
     from stackbounce.prediction import Prediction, predict
     from stackbounce.run.bounces import bounces_in_air
+    from stackbounce.run.calibration import calibrate
+    from stackbounce.run.collision import contact_time, restitution, separate
     from stackbounce.run.driver import simulate
     from stackbounce.run.result import Result, Status
     from stackbounce.sweeps import sweep
@@ -84,11 +85,12 @@ __all__ = [
 
 # Each name is imported when it is first used, so that nothing waits for what it does not need.
 _ROOMS = {
-    "calibration": ("calibrate", "contact_time", "restitution", "separate"),
     "errors": ("StackbounceError",),
     "fitting": ("Fit", "Model", "Range", "compare", "fit", "standard_models"),
     "measure": ("read",),
     "prediction": ("Prediction", "predict"),
+    "run.calibration": ("calibrate",),
+    "run.collision": ("contact_time", "restitution", "separate"),
     "run.driver": ("simulate",),
     "run.result": ("Result", "Status"),
     "run.bounces": ("bounces_in_air",),

@@ -173,7 +173,7 @@ class Theory:
         """Return the loss between two balls; the lower one has the share f of the compression."""
         if self.where == OWN:
             return np.asarray(values["e_between"])
-        if self.law.loss == "restitution":  # shares of the energy, as `calibration.between`
+        if self.law.loss == "restitution":  # shares of the energy, as `series.between`
             elastic = self.where == ELASTIC
             return np.ones_like(f) if elastic else np.sqrt(f * lower**2 + (1.0 - f) * upper**2)
         if self.where == ELASTIC:

@@ -3,11 +3,10 @@
 import pytest
 
 import stackbounce as sb
+from stackbounce.engine.memory import FINITE, memory
 from stackbounce.engine.slots import EVENTS, STEPS
 from stackbounce.engine.work import WORK_LIMIT
 from stackbounce.run.batch import solve
-from stackbounce.run.engines import FINITE
-from stackbounce.run.memory import memory
 from stackbounce.run.options import run_options
 
 

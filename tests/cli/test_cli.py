@@ -12,12 +12,12 @@ from typer.testing import CliRunner
 
 import stackbounce as sb
 from stackbounce import cross2007, plots
-from stackbounce.calibration import separate
 from stackbounce.cli import app, descriptions, main, output, tables
 from stackbounce.cli.drop_options import read_contact
 from stackbounce.cli.scenario import read
 from stackbounce.model import LAWS
 from stackbounce.plots import style
+from stackbounce.run.collision import separate
 from stackbounce.version import __version__
 
 PAIR = ["simulate", "basketball", "tennis", "--height", "0.63m", "--gap", "2mm"]

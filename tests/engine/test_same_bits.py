@@ -11,11 +11,10 @@ import stackbounce as sb
 from fuzz.draw import balls_of, drops_of, is_rigid
 from fuzz.replay import drop_of, options_of
 from stackbounce.engine import native
+from stackbounce.engine.memory import FINITE, RIGID, memory, spring_workspace
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
 from stackbounce.run.batch import new_outcomes
-from stackbounce.run.engines import FINITE, RIGID
-from stackbounce.run.memory import memory, spring_workspace
 from stackbounce.run.options import Options
 
 SEED = 11

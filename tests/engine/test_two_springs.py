@@ -6,11 +6,11 @@ import pytest
 import stackbounce as sb
 from reference import make_data, springs
 from stackbounce.engine import codes, native
+from stackbounce.engine.memory import spring_workspace
 from stackbounce.engine.records import Drops
 from stackbounce.engine.tables import Table
 from stackbounce.engine.two_springs import SCRATCH, new_scratch, run_two_springs
 from stackbounce.run.batch import new_outcomes
-from stackbounce.run.memory import spring_workspace
 
 SPEED = 1e-12
 TIME = 1e-11

@@ -11,11 +11,10 @@ import pytest
 
 from fuzz import draw
 from stackbounce.engine import codes, native
+from stackbounce.engine.memory import FINITE, RIGID, memory, spring_workspace
 from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, Drops
 from stackbounce.engine.tables import Table
 from stackbounce.run.batch import new_outcomes
-from stackbounce.run.engines import FINITE, RIGID
-from stackbounce.run.memory import memory, spring_workspace
 from stackbounce.run.options import Options
 
 SEED = 3

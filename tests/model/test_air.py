@@ -132,13 +132,6 @@ def test_the_speed_of_a_flight_is_that_of_quadrature(k, speed):
     assert drag.landing_speed(k, speed, G) <= speed
 
 
-@given(speed=speeds, density=densities)
-def test_the_speed_of_a_flight_is_the_inverse_of_its_time(speed, density):
-    k, flight = sb.Air(density)._rate(BALL), sb.Air(density).flight(BALL, speed)
-    time = flight.rise_time + flight.fall_time
-    assert drag.flight_speed(k, time, STANDARD_GRAVITY) == pytest.approx(speed, rel=3e-13)
-
-
 def test_the_speed_of_a_flight_grows_with_its_time():
     times = np.geomspace(1e-9, 300.0, 3000)
     found = [drag.flight_speed(0.126, time, G) for time in times.tolist()]
@@ -182,20 +175,6 @@ def test_the_height_of_a_fall_is_the_inverse_of_its_speed(height, density):
         assert drag.fall_height(k, speed, G) == pytest.approx(height, rel=1e-13)
     terminal = math.sqrt(G / k) if k > 1e-300 else math.inf
     assert drag.fall_height(k, 1.001 * terminal, G) == math.inf
-
-
-def test_energy_that_the_air_takes_in_a_flight():
-    """The work of the drag on the way up and down is the kinetic energy that is missing."""
-    speed = 5.8
-    flight = AIR.flight(BALL, speed)
-    # on the way up v**2 = (v0**2 + g/k) exp(-2 k h) - g/k, and down (g/k) (1 - exp(-2 k (H - h)))
-    h = np.linspace(0.0, flight.height, 200_001)
-    up = (speed**2 + G / K) * np.exp(-2.0 * K * h) - G / K
-    down = G / K * -np.expm1(-2.0 * K * (flight.height - h))
-    work = BALL.mass * K * np.trapezoid(up + down, h)
-    lost = 0.5 * BALL.mass * (speed**2 - flight.landing_speed**2)
-    assert work == pytest.approx(lost, rel=1e-9)
-    assert 0.05 < lost / (0.5 * BALL.mass * speed**2) < 0.07
 
 
 def test_the_drag_is_the_weight_at_the_terminal_speed():
@@ -276,17 +255,6 @@ def test_a_drop_without_drag_is_the_drop(height):
         in_air = NOTHING.dropped(here)
         assert in_air.velocities == here.start_velocities
         assert in_air.gaps == here.gaps
-
-
-def test_a_drop_in_air_can_be_run():
-    balls = [sb.Ball(0.1, 0.058), sb.Ball(0.0085, 0.026)]
-    drop = sb.Drop(balls, [sb.Rigid(0.9)] * 2, height=0.2)
-    result = sb.simulate(AIR.dropped(drop))
-    free = sb.simulate(drop)
-    assert result.status is sb.Status.FINISHED
-    risen = AIR.rebound_heights(drop, result.rebound_speeds)
-    high = free.rebound_speeds**2 / (2.0 * G)
-    assert 0.9 * high[1] < risen[1] < high[1]
 
 
 def test_heights_of_balls_that_move_down_have_a_minus_sign():

@@ -5,8 +5,8 @@ import math
 import pytest
 
 import stackbounce as sb
-from stackbounce.calibration import between
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, KINDS, catalogue_ball, stack
+from stackbounce.model.laws.series import between
 
 FIGURES = {"mass", "diameter", "restitution", "contact_time", "stiffness"}
 NAMES = [str(entry.ball.name) for entry in CLASS_BALLS]

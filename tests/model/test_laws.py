@@ -50,7 +50,7 @@ def test_every_law_is_named():
     assert all(getattr(sb, name) is law for name, law in LAWS.items())
 
 
-@pytest.mark.parametrize("law", EXAMPLES, ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize("law", [*EXAMPLES, sb.Hysteretic(1.0, unloading_exponent=3.3)], ids=repr)
 def test_a_law_is_a_frozen_value(law):
     assert eval(repr(law), vars(sb).copy()) == law
     assert hash(law) == hash(dataclasses.replace(law))
@@ -77,28 +77,17 @@ def test_stiffness_is_positive_and_finite(law, value):
 @pytest.mark.parametrize(
     ("law", "field", "unit"),
     [
-        (FINITE[3], "damping", "N s/m"),
-        (FINITE[5], "dissipative_time", "seconds"),
-        (FINITE[6], "dissipation", "s/m"),
+        (FINITE[3], "damping", " of N s/m"),
+        (FINITE[4], "relaxation_strength", ""),
+        (FINITE[5], "dissipative_time", " of seconds"),
+        (FINITE[6], "dissipation", " of s/m"),
     ],
 )
 def test_losses_are_not_negative(law, field, unit):
     for value in (-1e-300, math.nan, math.inf):
         got = message(errors.InvalidValue, dataclasses.replace, law, **{field: value})
-        assert got == f"{field} must be a number of {unit}, 0 or above, got {value}"
+        assert got == f"{field} must be a number{unit}, 0 or above, got {value}"
     assert getattr(dataclasses.replace(law, **{field: 0}), field) == 0.0
-
-
-def test_a_relaxation_has_a_strength_and_a_time():
-    law = FINITE[4]
-    assert dataclasses.replace(law, relaxation_strength=0).relaxation_strength == 0.0
-    for value in (-1e-300, math.nan, math.inf):
-        change = {"relaxation_strength": value}
-        got = message(errors.InvalidValue, dataclasses.replace, law, **change)
-        assert got == f"relaxation_strength must be a number, 0 or above, got {value}"
-    for value in (0.0, -1.0, math.inf):
-        got = message(errors.InvalidValue, dataclasses.replace, law, relaxation_time=value)
-        assert got == f"relaxation_time must be a positive number of seconds, got {value}"
 
 
 @pytest.mark.parametrize("law", [FINITE[2], FINITE[6]])
@@ -146,13 +135,6 @@ def test_two_materials():
     expected = 4.0 / 3.0 * modulus * math.sqrt(1.0 / (1.0 / 0.05 + 1.0 / 0.02))
     assert sb.Hertz.between(a, b).stiffness == pytest.approx(expected, rel=1e-14)
     assert sb.Hertz.between(b, a) == sb.Hertz.between(a, b)
-
-
-@pytest.mark.parametrize("r", [1.0, 0.5, 0.3])
-def test_stiffness_ratio_of_equal_materials(r):
-    lower, upper = sb.Ball(1.0, 0.06, **STEEL), sb.Ball(r**3, 0.06 * r, **STEEL)
-    ratio = sb.Hertz.between(lower, upper).stiffness / sb.Hertz.between(lower).stiffness
-    assert ratio == pytest.approx(math.sqrt(r / (1.0 + r)) / 2.0, rel=1e-14)
 
 
 def test_a_large_ball_is_a_flat_floor():
@@ -261,13 +243,6 @@ def test_hertz_contacts_with_a_rigid_floor_are_not_in_series_as_spheres():
     small = sb.Ball(1.0, 0.01, **STEEL)
     both = sb.series(alone, sb.Hertz.between(small)).stiffness
     assert both != pytest.approx(sb.Hertz.between(lower, small).stiffness, rel=1e-2)
-
-
-def test_series_of_hysteretic_contacts():
-    law = sb.Hysteretic(2.0, exponent=1.5, restitution=0.5)
-    both = sb.series(law, dataclasses.replace(law, stiffness=5.0))
-    assert both.stiffness == pytest.approx(sb.series(sb.Hertz(2.0), sb.Hertz(5.0)).stiffness)
-    assert dataclasses.replace(both, stiffness=2.0) == law
 
 
 @pytest.mark.parametrize(

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from stackbounce import errors
-from stackbounce.calibration import restitution, separate
 from stackbounce.model import LAWS, Ball, Drop, Hysteretic, Rigid, Spring, law_named
 from stackbounce.model.catalogue import BALLS, PAIRS, catalogue_ball, stack
+from stackbounce.run.collision import separate
 
 BALL = Ball(0.057)
 SPRING = Spring(2500.0)
@@ -65,16 +65,6 @@ def test_names():
 
 
 # laws
-
-
-@pytest.mark.parametrize("value", [-1.0, 0.0, math.nan, math.inf])
-@pytest.mark.parametrize(
-    "make", [Spring, lambda stiffness: Hysteretic(stiffness, restitution=0.78)]
-)
-def test_stiffness_is_positive_and_finite(make, value):
-    got = message(errors.InvalidValue, make, value)
-    assert got.startswith("stiffness must be a positive number of N/m")
-    assert got.endswith(f"got {value}")
 
 
 @pytest.mark.parametrize("value", [-0.1, 1.1, math.nan, math.inf])
@@ -155,19 +145,6 @@ def test_exponent_is_at_least_1(value):
     assert got == f"exponent must be a number from 1 to 1e+06, got {value}"
 
 
-@pytest.mark.parametrize(
-    "law",
-    [
-        Hysteretic(1.0, restitution=0.7),
-        Hysteretic(1.0, exponent=1.5, unloading_exponent=3.3),
-        Spring(2.0),
-        Rigid(0.3),
-    ],
-)
-def test_repr_makes_the_same_law(law):
-    assert eval(repr(law)) == law
-
-
 def test_laws_by_name():
     assert law_named("Spring") is law_named("spring") is Spring
     got = message(errors.InvalidValue, law_named, "Sprung")
@@ -202,12 +179,22 @@ def test_ways_to_come_in():
     assert drop.start_velocities == (0.0, -2.0)
 
 
-@pytest.mark.parametrize("value", [-1.0, 0.0, math.nan, math.inf])
-def test_speed_and_height_are_positive(value):
-    got = message(errors.InvalidValue, two, impact_speed=value)
-    assert got == f"impact_speed must be a positive number of m/s, got {value}"
-    got = message(errors.InvalidValue, two, impact_speed=None, height=value)
-    assert got == f"height must be a positive number of metres, got {value}"
+@pytest.mark.parametrize(
+    ("given", "right", "values"),
+    [
+        (lambda v: {"impact_speed": v}, "impact_speed must be a positive number of m/s", (-1, 0)),
+        (lambda v: {"height": v}, "height must be a positive number of metres", (-1, 0)),
+        (lambda v: {"gaps": [v]}, "gaps.0 must be a number of metres, 0 or above", (-1,)),
+        (lambda v: {"gravity": v}, "gravity must be a number of m/s**2, 0 or above", (-1,)),
+        (lambda v: {"velocities": [0.0, v]}, "velocities.1 must be a finite number of m/s", ()),
+    ],
+)
+def test_numbers_of_a_drop_have_ranges(given, right, values):
+    for value in (*values, math.nan, math.inf):
+        alone = {"height", "velocities"} & set(given(value))
+        speed = {"impact_speed": None} if alone else {}
+        got = message(errors.InvalidValue, two, **(speed | given(value)))
+        assert got == f"{right}, got {value}"
 
 
 @pytest.mark.parametrize(("height", "gravity"), [(1e308, 0.0), (1e-200, 1e-200), (1e200, 1e200)])
@@ -219,20 +206,6 @@ def test_a_height_gives_a_speed(height, gravity):
     )
 
 
-@pytest.mark.parametrize("value", [-1.0, math.nan, math.inf])
-def test_gaps_and_gravity_are_not_negative(value):
-    got = message(errors.InvalidValue, two, gaps=[value])
-    assert got == f"gaps.0 must be a number of metres, 0 or above, got {value}"
-    got = message(errors.InvalidValue, two, gravity=value)
-    assert got == f"gravity must be a number of m/s**2, 0 or above, got {value}"
-
-
-@pytest.mark.parametrize("value", [math.nan, math.inf])
-def test_velocities_are_finite(value):
-    got = message(errors.InvalidValue, two, impact_speed=None, velocities=[0.0, value])
-    assert got == f"velocities.1 must be a finite number of m/s, got {value}"
-
-
 @pytest.mark.parametrize(
     ("changes", "expected"),
     [
@@ -240,14 +213,6 @@ def test_velocities_are_finite(value):
         (
             {"contacts": [SPRING]},
             "contacts must hold one law per ball, the one below it (2), got 1",
-        ),
-        (
-            {"contacts": [SPRING] * 3},
-            "contacts must hold one law per ball, the one below it (2), got 3",
-        ),
-        (
-            {"gaps": []},
-            "gaps must hold one number per neighbouring pair of balls (1), got 0",
         ),
         (
             {"gaps": [0.0, 0.0]},
@@ -280,13 +245,6 @@ def test_velocities_are_finite(value):
             ),
         ),
         (
-            {"contacts": [Hysteretic(1.0, restitution=0.5), Rigid(1.0)]},
-            (
-                "contacts must be all rigid or have none that is, got a mixture: "
-                "contacts.1 is Rigid and contacts.0 is Hysteretic"
-            ),
-        ),
-        (
             {"contacts": [SPRING, None]},
             "contacts.1 must be a contact law, got None (for the floor only)",
         ),
@@ -313,13 +271,6 @@ def test_values_of_a_drop(changes, expected):
             {"contacts": [SPRING, 2500.0]},
             f"contacts.1 must be a contact law ({', '.join(LAWS)}), got 2500.0",
         ),
-        (
-            {"contacts": [SPRING, Spring]},
-            (
-                f"contacts.1 must be a contact law ({', '.join(LAWS)}), "
-                "got <class 'stackbounce.model.laws.spring.Spring'>"
-            ),
-        ),
         ({"gaps": 0.002}, "gaps must be a list, got 0.002"),
         ({"gaps": {0.002}}, "gaps must be a list, got {0.002}"),
         ({"gaps": ["2 mm"]}, "gaps.0 must be a number of metres, 0 or above, got '2 mm'"),
@@ -332,26 +283,14 @@ def test_types_of_a_drop(changes, expected):
     assert message(errors.InvalidType, two, **changes) == expected
 
 
-def test_a_drop_without_a_floor():
-    drop = two(contacts=[None, Rigid(0.5)], impact_speed=None, velocities=[0.0, -1.0])
-    assert drop.rigid
+def test_rigid_drops():
+    assert two(contacts=[Rigid(1), Rigid(0.5)]).rigid
+    assert two(contacts=[None, Rigid(0.5)]).rigid
+    assert not two().rigid
     assert not two(contacts=[None, SPRING]).rigid
 
 
-def test_rigid_drops():
-    assert two(contacts=[Rigid(1), Rigid(0.5)]).rigid
-    assert not two().rigid
-
-
 # what follows from a drop
-
-
-def test_restitution_of_each_law():
-    assert restitution(Rigid(0.3)) == 0.3
-    assert restitution(Spring(1.0)) == 1.0
-    assert restitution(Hysteretic(1.0, restitution=0.78)) == 0.78
-    got = message(errors.InvalidType, restitution, 0.78)
-    assert got == "law must be a contact law, got 0.78"
 
 
 def test_separate_collisions_keep_everything_else():

@@ -6,16 +6,10 @@ import pytest
 import stackbounce as sb
 from stackbounce.engine import native
 from stackbounce.engine.entries import ENTRIES
+from stackbounce.engine.memory import FINITE, OUT_OF_RANGE, RIGID
 from stackbounce.errors import InvalidValue
 from stackbounce.run import batch, driver
-from stackbounce.run.engines import (
-    FINITE,
-    OUT_OF_RANGE,
-    RIGID,
-    choose_compiled,
-    choose_engine,
-    suits_two_springs,
-)
+from stackbounce.run.engines import choose_compiled, choose_engine, suits_two_springs
 from stackbounce.run.options import run_options
 from stackbounce.run.paths import number_at
 

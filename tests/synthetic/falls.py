@@ -7,10 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.calibration import contact_time, restitution
 from stackbounce.errors import InvalidValue, finite, positive, whole
 from stackbounce.model import ContactLaw, Rigid
 from stackbounce.model.drop import STANDARD_GRAVITY
+from stackbounce.run.collision import contact_time, restitution
 
 __all__ = ["Falls", "falls"]
 

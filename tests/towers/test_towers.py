@@ -10,9 +10,10 @@ import pytest
 
 import stackbounce as sb
 from stackbounce import plots
-from stackbounce.calibration import between, separate
 from stackbounce.errors import InvalidType, InvalidValue
 from stackbounce.model.catalogue import catalogue_ball
+from stackbounce.model.laws.series import between
+from stackbounce.run.collision import separate
 from stackbounce.towers.batch import solve_drops
 from stackbounce.towers.separation import replace_gaps
 

@@ -47,11 +47,11 @@ def run(
 ) -> None:
     """Drop a stack of balls and tell how each one bounces."""
     from stackbounce import predict, simulate
-    from stackbounce.calibration import separate
     from stackbounce.cli import scenario
     from stackbounce.cli.drop_options import read_until
     from stackbounce.cli.errors_given import read_errors, split_errors
     from stackbounce.cli.simulation_tables import print_simulation
+    from stackbounce.run.collision import separate
 
     output.check_picture(plot, overwrite)
     plain, written = split_errors(given)

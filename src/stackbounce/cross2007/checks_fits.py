@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from stackbounce.calibration import restitution
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.checks_tables import WITH_105
 from stackbounce.cross2007.stacks import heavier_b1, small_fit, smallest_fit
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import Hysteretic
+from stackbounce.run.collision import restitution
 
 __all__ = ["CONCLUSION", "FITS"]
 

@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from stackbounce.calibration import separate
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.drops import (
@@ -16,6 +15,7 @@ from stackbounce.cross2007.drops import (
 )
 from stackbounce.cross2007.stacks import stack_masses
 from stackbounce.model.drop import Drop
+from stackbounce.run.collision import separate
 from stackbounce.run.result import Result
 
 __all__ = ["INTRODUCTION", "MODELS"]

@@ -5,13 +5,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.calibration import contact_time
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.checks import Number, Section
 from stackbounce.cross2007.checks_tables import WITH_105
 from stackbounce.cross2007.drops import Two, bisect, rigid_pair
 from stackbounce.cross2007.stacks import heavier_b1, late_pair
 from stackbounce.model.laws import Hertz
+from stackbounce.run.collision import contact_time
 from stackbounce.run.result import Result
 
 __all__ = ["STEEL", "SUPERBALLS"]

@@ -10,11 +10,11 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
 
-from stackbounce.calibration import calibrate
 from stackbounce.cross2007.data import PAPER
 from stackbounce.cross2007.drops import fallen_speed
 from stackbounce.errors import InvalidValue, nearest
 from stackbounce.model import Ball, ContactLaw, Drop, Hysteretic, Spring
+from stackbounce.run.calibration import calibrate
 
 __all__ = ["NAMES", "PREFIX", "DataSet", "dataset", "load_dataset", "load_pair"]
 

@@ -6,12 +6,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from stackbounce.calibration import calibrate
 from stackbounce.cross2007.bench import Bench
 from stackbounce.cross2007.drops import Array, Two, bisect, fallen_speed, newton, pair, spring_pair
 from stackbounce.model.ball import Ball
 from stackbounce.model.drop import Drop
 from stackbounce.model.laws import HollowBall, Hysteretic, Spring
+from stackbounce.run.calibration import calibrate
 
 __all__ = [
     "better_fit",

@@ -5,6 +5,8 @@ kernels       marks kernels: plain Python that is compiled when the package is b
 tables        how a compiled kernel receives a record of arrays: by one address
 entries       the kernels that the compiled code offers
 native        loads the compiled code of this machine
+memory        the memory in which drops are run, and the kernels that run them
+one_ball      one collision of one ball with the floor
 codes         integer codes of statuses, phases and events
 slots         names of the slots of a stack's small arrays
 stack         the arrays that hold a stack of balls

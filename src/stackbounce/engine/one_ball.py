@@ -3,17 +3,13 @@
 import math
 from collections.abc import Sequence
 
-from stackbounce.engine import codes
-from stackbounce.engine.motion import velocity_at
-from stackbounce.engine.preparation import prepare
-from stackbounce.engine.simultaneous import advance_contacts, begin_contacts
-from stackbounce.engine.slots import LAST_EVENT, LOG_ROWS
-from stackbounce.engine.stack import new_samples, new_stack
+from stackbounce.engine import codes, native
+from stackbounce.engine.memory import FINITE, OUT_OF_RANGE, memory
+from stackbounce.engine.records import AFTER, BEGIN, CONTINUE, Drops
 from stackbounce.engine.work import WORK_LIMIT
 
 _TOLERANCE = 1e-12
 _EVENTS = 1_000  # events or steps: a collision that can be followed takes some hundred
-_ROWS = 64  # of the log
 
 
 def bounce(
@@ -44,18 +40,21 @@ def bounce(
     >>> round(e, 9), round(time / math.pi, 9)
     (1.0, 0.1)
     """
-    form, k, p, z, w = numbers
-    stack = new_stack(1)
-    stack.pieces[: len(pieces)] = pieces
-    log = [0.0] * (_ROWS * codes.LOG_COLUMNS)
-    contact = [form], [k], [p], [z], [w]
-    unit = prepare(stack, [mass], *contact, [0.0], [-speed], 0.0, _TOLERANCE)
-    begin_contacts(stack)
-    status, none = codes.RUNNING, new_samples([], 1)
-    while status == codes.RUNNING and stack.counter[LOG_ROWS] < _ROWS - 1:
-        status = advance_contacts(stack, math.inf, _EVENTS, WORK_LIMIT, log, none)
+    room = memory(FINITE, 1, native.available())
+    law = ([number] for number in numbers)
+    room.put(Drops._make([[mass], *law, [0.0], [-speed], 0.0]))
+    room.put_pieces([pieces])
+    log: list[float] = []
+    stage, status = BEGIN, codes.RUNNING
+    try:
+        while status == codes.RUNNING:
+            status = room.run(stage, math.inf, _TOLERANCE, _EVENTS, WORK_LIMIT)
+            log += room.take_log()
+            stage = CONTINUE
+    except OUT_OF_RANGE:
+        status = codes.INVALID
     if status != codes.FINISHED:
         raise ArithmeticError
     rows = [log[at : at + codes.LOG_COLUMNS] for at in range(0, len(log), codes.LOG_COLUMNS)]
-    ends = [row[codes.TIME] * unit for row in rows if row[codes.KIND] == codes.RELEASE]
-    return velocity_at(stack, 0, stack.clock[LAST_EVENT]) / unit / speed, max(ends, default=0.0)
+    ends = [row[codes.TIME] for row in rows if row[codes.KIND] == codes.RELEASE]
+    return room.numbers(room.space.after)[AFTER] / speed, max(ends, default=0.0)

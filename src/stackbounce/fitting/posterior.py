@@ -10,7 +10,7 @@ from stackbounce.errors import InvalidValue, nearest, shown, whole
 from stackbounce.fitting.course import announce
 from stackbounce.fitting.objective import Objective
 from stackbounce.fitting.quantities import Array
-from stackbounce.run.memory import check_room
+from stackbounce.run.options import check_room
 
 if TYPE_CHECKING:
     from uncertainties import UFloat

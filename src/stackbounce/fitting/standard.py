@@ -4,10 +4,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
-from stackbounce.calibration import calibrate, contact_time
 from stackbounce.errors import InvalidValue
 from stackbounce.fitting.problem import FitProblem, Model
 from stackbounce.model import LAWS, ContactLaw, Drop, Rigid
+from stackbounce.run.calibration import calibrate
+from stackbounce.run.collision import contact_time
 
 __all__ = ["standard_models"]
 
@@ -129,7 +130,7 @@ def _mass(drop: Drop, i: int) -> float | tuple[float, float]:
 def _lasting(drop: Drop, i: int) -> float:
     """Return how long a contact alone lasts at the impact speed, in s."""
     law: Any = drop.contacts[i]
-    return float(contact_time(law, mass=_mass(drop, i), speed=drop.reference_speed))
+    return float(contact_time(law, mass=_mass(drop, i), impact_speed=drop.reference_speed))
 
 
 def _alike(drop: Drop, i: int, law: type[ContactLaw], numbers: Mapping[str, float]) -> ContactLaw:

@@ -10,7 +10,6 @@ option_values texts from a user interface -> values that the analyses take
 analysis      the right analysis for what a file holds
 measurement   a file or typed numbers, with the results, for all user interfaces
 drag          the drag of the air in measured flights
-error_of_drag its error in what was found
 constants     contact time and restitution -> stiffness, constants of any law
 assembly      results -> a law, a ball to drop
 hints         options that a message recommends, in the words of each interface

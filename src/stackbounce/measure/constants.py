@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from stackbounce.calibration import calibrate
 from stackbounce.errors import InvalidValue, between, fraction, positive, shown
 from stackbounce.measure.quantities import Number, Row, deviation, measured
 from stackbounce.measure.statistics.propagation import propagate
 from stackbounce.model.laws import STEEPEST, ContactLaw, law_named
+from stackbounce.run.calibration import calibrate
 
 __all__ = ["LawConstants", "dynamic_stiffness", "law_constants"]
 

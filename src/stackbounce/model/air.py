@@ -60,6 +60,10 @@ class Air:
     data have a nearly flat curve of 0.4 to 0.5 for Reynolds numbers ``v D/(1.5e-5 m**2/s)`` of 1e3
     to 3e5. The drag of slower or smaller balls is larger than this, and matters less.
 
+    The methods take a `Ball` with a diameter, a height or a speed above 0, and gravity in m/s**2,
+    above 0. They raise `InvalidValue` if a number is out of its range, or the ball has no diameter
+    or no drag coefficient, and `InvalidType` if something has the wrong type.
+
     During the contacts the drag is left out. So are the buoyancy and the air that a ball sets in
     motion: see `docs/air.md` for how much they are.
 
@@ -85,7 +89,8 @@ class Air:
                         f"drag_coefficient must have names of balls as keys, got {shown(name)}"
                     )
             checked: object = {
-                name: non_negative(f"drag_coefficient.{name}", one) for name, one in given.items()
+                name: non_negative(f"drag_coefficient.{name}", value)
+                for name, value in given.items()
             }
         else:
             checked = non_negative("drag_coefficient", given)
@@ -100,20 +105,6 @@ class Air:
     def terminal_speed(self, ball: Ball, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the speed in m/s at which the drag equals the weight; infinite without drag.
 
-        Parameters
-        ----------
-        ball : Ball
-            With a diameter.
-        gravity : float, optional
-            In m/s**2, above 0.
-
-        Raises
-        ------
-        InvalidValue
-            If a number is out of its range, or the ball has no diameter or no drag coefficient.
-        InvalidType
-            If something has the wrong type.
-
         Examples
         --------
         >>> round(Air().terminal_speed(Ball(mass=0.057, diameter=0.066)), 1)
@@ -124,22 +115,6 @@ class Air:
 
     def impact_speed(self, ball: Ball, height: float, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the speed in m/s of a ball that has fallen from rest by a height in m.
-
-        Parameters
-        ----------
-        ball : Ball
-            With a diameter.
-        height : float
-            In m, above 0.
-        gravity : float, optional
-            In m/s**2, above 0.
-
-        Raises
-        ------
-        InvalidValue
-            If a number is out of its range, or the ball has no diameter or no drag coefficient.
-        InvalidType
-            If something has the wrong type.
 
         Examples
         --------
@@ -152,22 +127,6 @@ class Air:
     def fall_time(self, ball: Ball, height: float, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the time in s that a ball takes to fall from rest by a height in m.
 
-        Parameters
-        ----------
-        ball : Ball
-            With a diameter.
-        height : float
-            In m, above 0.
-        gravity : float, optional
-            In m/s**2, above 0.
-
-        Raises
-        ------
-        InvalidValue
-            If a number is out of its range, or the ball has no diameter or no drag coefficient.
-        InvalidType
-            If something has the wrong type.
-
         Examples
         --------
         >>> round(Air().fall_time(Ball(mass=0.057, diameter=0.066), 0.71), 4)
@@ -178,22 +137,6 @@ class Air:
 
     def rise(self, ball: Ball, speed: float, gravity: float = STANDARD_GRAVITY) -> float:
         """Return the height in m to which a ball rises that leaves at a speed in m/s.
-
-        Parameters
-        ----------
-        ball : Ball
-            With a diameter.
-        speed : float
-            In m/s, 0 or above.
-        gravity : float, optional
-            In m/s**2, above 0.
-
-        Raises
-        ------
-        InvalidValue
-            If a number is out of its range, or the ball has no diameter or no drag coefficient.
-        InvalidType
-            If something has the wrong type.
 
         Examples
         --------
@@ -207,22 +150,6 @@ class Air:
         """Return the speed in m/s at which a ball left that rises to a height in m.
 
         It turns a measured bounce into a speed: the inverse of `rise`.
-
-        Parameters
-        ----------
-        ball : Ball
-            With a diameter.
-        height : float
-            In m, above 0.
-        gravity : float, optional
-            In m/s**2, above 0.
-
-        Raises
-        ------
-        InvalidValue
-            If a number is out of its range, or the ball has no diameter or no drag coefficient.
-        InvalidType
-            If something has the wrong type.
 
         Examples
         --------
@@ -240,22 +167,6 @@ class Air:
 
     def flight(self, ball: Ball, speed: float, gravity: float = STANDARD_GRAVITY) -> Flight:
         """Return the flight of a ball that leaves the floor at a speed in m/s, above 0.
-
-        Parameters
-        ----------
-        ball : Ball
-            With a diameter.
-        speed : float
-            In m/s, above 0.
-        gravity : float, optional
-            In m/s**2, above 0.
-
-        Raises
-        ------
-        InvalidValue
-            If a number is out of its range, or the ball has no diameter or no drag coefficient.
-        InvalidType
-            If something has the wrong type.
 
         Examples
         --------
@@ -368,7 +279,7 @@ class Air:
                 f"speeds must hold one number per ball ({len(drop.balls)}), got {len(given)}"
             )
         g, drags = drop.gravity or STANDARD_GRAVITY, self._drags(drop.balls)
-        rates = [one / ball.mass for one, ball in zip(drags, drop.balls, strict=True)]
+        rates = [force / ball.mass for force, ball in zip(drags, drop.balls, strict=True)]
         rises = [drag.risen(k, abs(v), g) for k, v in zip(rates, given, strict=True)]
         return [math.copysign(h, v) for h, v in zip(rises, given, strict=True)]
 

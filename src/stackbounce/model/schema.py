@@ -80,7 +80,7 @@ def write_law(law: ContactLaw | None) -> dict[str, Any]:
 
 
 def _given(instance: Any) -> dict[str, Any]:
-    values = {one.name: getattr(instance, one.name) for one in fields(instance) if one.init}
+    values = {field.name: getattr(instance, field.name) for field in fields(instance) if field.init}
     return {name: value for name, value in values.items() if value is not None}
 
 
@@ -91,7 +91,7 @@ def _table(value: object, path: str) -> Mapping[str, Any]:
 
 
 def _check_keys(kind: type, table: Iterable[str], path: str) -> None:
-    known = {one.name: one for one in fields(kind) if one.init}
+    known = {field.name: field for field in fields(kind) if field.init}
     for key in table:
         if key not in known:
             name = key if key.isidentifier() and len(key) < 60 else shown(key)

@@ -5,10 +5,11 @@ options     the end time, the tolerance and the event limit of a run
 parameters  the parameters of one drop, as the engine takes them
 columns     the parameters of many drops, as arrays for the engine
 engines     chooses the engine, and plain Python or compiled code
-memory      the arrays in which drops are run, or lists for plain Python
 driver      one drop: `simulate`
 batch       many drops in blocks and threads
 bounces     one ball that bounces on in air
+collision   one collision: restitution and contact time, and drops by separate collisions
+calibration the law that has a restitution and a contact time
 quantities  speeds, heights, times and energy of many drops, by name
 result      the `Result` of one drop
 paths       the parameters of a drop by their paths, such as ``balls.0.mass``

@@ -19,23 +19,27 @@ from typing import TypeAlias
 import numpy as np
 
 from stackbounce.engine import codes
+from stackbounce.engine.memory import (
+    FINITE,
+    OUT_OF_RANGE,
+    Engine,
+    kernel_named,
+    memory,
+    spring_workspace,
+)
 from stackbounce.engine.records import Drops, Outcomes
 from stackbounce.engine.tables import Table
-from stackbounce.model import ContactLaw, Drop
+from stackbounce.model import Drop
 from stackbounce.run.blocks import Block, blocks, sides, size
 from stackbounce.run.columns import Rows, base_rows, fill
 from stackbounce.run.engines import (
-    FINITE,
-    OUT_OF_RANGE,
     TWO_SPRINGS_EVENTS,
-    Engine,
     choose_compiled,
     choose_engine,
-    kernel_named,
     suits_two_springs,
 )
-from stackbounce.run.memory import check_room, memory, spring_workspace
-from stackbounce.run.options import Options
+from stackbounce.run.options import Options, check_room
+from stackbounce.run.parameters import drop_pieces
 
 __all__ = ["new_outcomes", "solve"]
 
@@ -86,7 +90,7 @@ def solve(
     """
     count, balls = math.prod(shape), len(drop.balls)
     chosen = choose_compiled(compiled)
-    run: _Runner = functools.partial(_run_rows, choose_engine(drop), drop.contacts)
+    run: _Runner = functools.partial(_run_rows, choose_engine(drop), drop_pieces(drop))
     if suits_two_springs(drop, rows, options):
         run = _run_two_springs
     wide = {number: np.broadcast_to(values, shape) for number, values in rows.items()}
@@ -104,7 +108,8 @@ def solve(
             drops = Drops._make(array[: size(block)] for array in room)
             sizes = [side.stop - side.start for side in block]
             shaped = (array.reshape((*sizes, *array.shape[1:])) for array in drops)
-            fill(Drops._make(shaped), drop, {one: values[block] for one, values in wide.items()})
+            varied = {number: values[block] for number, values in wide.items()}
+            fill(Drops._make(shaped), drop, varied)
             part = Outcomes._make(array[stop - size(block) : stop] for array in out)
             run(drops, part, options, chosen, pause)
             _find_ratios(drops, part, chosen)
@@ -163,24 +168,24 @@ def _run_two_springs(
 
 def _run_rows(
     engine: Engine,
-    laws: Sequence[ContactLaw | None],
+    pieces: Sequence[Sequence[float]],
     drops: Drops,
     out: Outcomes,
     options: Options,
     compiled: bool,
     pause: _Pause,
 ) -> None:
-    """Run drops by one engine; of their laws it needs the tables, which do not vary."""
+    """Run drops by one engine; the pieces of tables do not vary."""
     balls = drops.mass.shape[1]
     if compiled:
         room = memory(engine, balls, compiled)
-        room.put_pieces(laws)
+        room.put_pieces(pieces)
         room.run_batch(engine.run_batch, drops, options, out, pause)
         return
     run = kernel_named(engine.run_batch, compiled)
     for row in range(len(out.status)):
         room = memory(engine, balls, compiled)
-        room.put_pieces(laws)
+        room.put_pieces(pieces)
         stack, space, _ = room.arguments
         one = Drops._make(array[row : row + 1].tolist() for array in drops)
         outcome = Outcomes._make(array[row : row + 1] for array in out)

@@ -23,7 +23,9 @@ Rows: TypeAlias = Mapping[Number, NDArray[np.float64]]
 
 def base_rows(drop: Drop, count: int) -> Drops:
     """Return the parameters of ``count`` equal drops, as arrays (count, balls) and (count,)."""
-    return Drops._make(np.full((count, *np.shape(one)), one) for one in drop_numbers(drop))
+    return Drops._make(
+        np.full((count, *np.shape(numbers)), numbers) for numbers in drop_numbers(drop)
+    )
 
 
 def fill(drops: Drops, drop: Drop, rows: Rows) -> None:

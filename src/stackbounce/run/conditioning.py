@@ -6,8 +6,8 @@ stay so: balls that touch go on touching.
 """
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -15,8 +15,6 @@ from stackbounce.engine.records import Drops
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
-
-    from stackbounce.run.result import Result
 
 __all__ = ["amplification", "disturbed", "known_until"]
 
@@ -62,15 +60,25 @@ def disturbed(numbers: Drops, error: float, seed: int) -> Drops:
     )
 
 
-def amplification(result: "Result") -> "NDArray[np.float64]":
-    """Return the standard deviation of the final speeds over that of the errors; see `Result`."""
-    final = np.array(result.final_velocities)
-    speed = result.drop.reference_speed
+def amplification(
+    rerun: Callable[..., Any], final: Sequence[float], speed: float
+) -> "NDArray[np.float64]":
+    """Return the standard deviation of the final speeds over that of the errors; see `Result`.
+
+    Parameters
+    ----------
+    rerun : callable
+        Repeats the run, see `Result`.
+    final : sequence of float
+        The final velocities of its balls in m/s.
+    speed : float
+        The reference speed in m/s.
+    """
     factors = np.full(len(final), math.nan)
     for error in _ERRORS:
-        ends = [result.rerun((), error, seed).velocities for seed in range(_RUNS)]
+        ends = [rerun((), error, seed).velocities for seed in range(_RUNS)]
         with np.errstate(all="ignore"):  # speeds may be near the largest numbers, or none
-            differences = np.abs(np.array(ends) - final) / speed
+            differences = np.abs(np.array(ends) - np.array(final)) / speed
             differences[~np.isfinite(differences)] = math.inf
             factors = np.sqrt(np.mean(differences**2, axis=0)) / error
         if differences.max() <= _PROPORTIONAL:
@@ -78,20 +86,38 @@ def amplification(result: "Result") -> "NDArray[np.float64]":
     return factors
 
 
-def known_until(result: "Result") -> float:
-    """Return the time in s up to which the speeds of all balls have a digit; see `Result`."""
-    if not math.isfinite(result.end_time) or not np.isfinite(result.conditioning).all():
+def known_until(
+    rerun: Callable[..., Any],
+    end: float,
+    speed: float,
+    conditioning: "NDArray[np.float64]",
+    precision: float,
+) -> float:
+    """Return the time in s up to which the speeds of all balls have a digit; see `Result`.
+
+    Parameters
+    ----------
+    rerun, speed
+        As of `amplification`.
+    end : float
+        The end of the run in s.
+    conditioning : ndarray
+        What `amplification` returned.
+    precision : float
+        The relative error of each step.
+    """
+    if not math.isfinite(end) or not np.isfinite(conditioning).all():
         return 0.0
-    largest = result.conditioning.max()
+    largest = conditioning.max()
     proportional = largest * _ERRORS[-1] <= _PROPORTIONAL  # else errors grow by more than that
-    if proportional and result.precision * largest < _NO_DIGIT:
+    if proportional and precision * largest < _NO_DIGIT:
         return math.inf
-    times = np.linspace(0.0, result.end_time, _MOMENTS + 1)
-    shape = len(times), len(result.drop.balls)
-    runs = [result.rerun(times.tolist(), 0.0, 0)]
-    runs += [result.rerun(times.tolist(), result.precision, seed) for seed in range(_RUNS)]
+    times = np.linspace(0.0, end, _MOMENTS + 1)
+    shape = len(times), len(conditioning)
+    runs = [rerun(times.tolist(), 0.0, 0)]
+    runs += [rerun(times.tolist(), precision, seed) for seed in range(_RUNS)]
     first, *others = (np.reshape(np.array(run.samples.velocity), shape) for run in runs)
     with np.errstate(all="ignore"):
         spread = np.max([np.abs(other - first).max(axis=1) for other in others], axis=0)
-    unknown = np.flatnonzero(~(spread < _NO_DIGIT * result.drop.reference_speed))
+    unknown = np.flatnonzero(~(spread < _NO_DIGIT * speed))
     return float(times[unknown[0]]) if len(unknown) else math.inf

@@ -11,14 +11,15 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 from stackbounce.engine import codes
+from stackbounce.engine.memory import OUT_OF_RANGE, RIGID, memory
 from stackbounce.engine.records import AFTER, BEGIN_WITH_PEAKS, CONTINUE, END, UNIT
 from stackbounce.engine.slots import CAUSE, LAST_EVENT, NONLINEAR, WORK
 from stackbounce.engine.stack import Samples
 from stackbounce.model import Drop
-from stackbounce.run.engines import OUT_OF_RANGE, RIGID, choose_compiled, choose_engine
-from stackbounce.run.memory import memory
+from stackbounce.run.conditioning import disturbed
+from stackbounce.run.engines import choose_compiled, choose_engine
 from stackbounce.run.options import Options, run_options
-from stackbounce.run.parameters import drop_numbers
+from stackbounce.run.parameters import drop_numbers, drop_pieces
 from stackbounce.run.result import ROUND_OFF, Cause, Result, Status
 
 if TYPE_CHECKING:
@@ -150,11 +151,9 @@ def _run(
     room = memory(engine, balls, compiled)
     numbers = drop_numbers(drop)
     if error > 0.0:
-        from stackbounce.run.conditioning import disturbed
-
         numbers = disturbed(numbers, error, seed)
     room.put(numbers)
-    room.put_pieces(drop.contacts)
+    room.put_pieces(drop_pieces(drop))
     samples = room.samples(times)
     run = room.run_with(samples)
     log: list[float] = []

@@ -14,12 +14,12 @@ the same bits, about a hundred times slower.
 """
 
 import math
-from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from stackbounce.engine import native
 from stackbounce.engine.codes import POWER
-from stackbounce.engine.stack import new_rigid_stack, new_stack
+from stackbounce.engine.memory import FINITE, RIGID, Engine
 from stackbounce.errors import InvalidType, InvalidValue, shown
 from stackbounce.model import Drop
 from stackbounce.model.laws import contact_numbers
@@ -28,61 +28,10 @@ from stackbounce.run.options import Options
 if TYPE_CHECKING:
     from stackbounce.run.paths import Number
 
-__all__ = [
-    "FINITE",
-    "OUT_OF_RANGE",
-    "RIGID",
-    "TWO_SPRINGS_EVENTS",
-    "Engine",
-    "Kernel",
-    "choose_compiled",
-    "choose_engine",
-    "kernel_named",
-    "suits_two_springs",
-]
+__all__ = ["TWO_SPRINGS_EVENTS", "choose_compiled", "choose_engine", "suits_two_springs"]
 
 TWO_SPRINGS_EVENTS = 10_000
 """An event limit that two springs never reach where their own engine gives an answer."""
-
-OUT_OF_RANGE = (OverflowError, ZeroDivisionError, ValueError)
-"""What plain Python raises where compiled code goes on with inf or nan.
-
-``1.0 / 0.0``, ``math.sqrt(-1.0)`` and ``int(math.nan)`` are such cases. Any other exception in a
-kernel is a programming error and is not caught.
-"""
-
-Kernel: TypeAlias = Callable[..., Any]
-
-
-class Engine(NamedTuple):
-    """What solves stacks of one kind: how a stack is made, and the names of the kernels.
-
-    Parameters
-    ----------
-    new_stack : callable
-        Returns an empty stack for a number of balls.
-    run_drop : str
-        The kernel that runs one drop until it ends or the log is full.
-    run_batch : str
-        The kernel that runs many drops one after the other.
-    """
-
-    new_stack: Callable[[int], Any]
-    run_drop: str
-    run_batch: str
-
-
-FINITE = Engine(new_stack, "run_drop", "run_batch")
-RIGID = Engine(new_rigid_stack, "run_rigid_drop", "run_rigid_batch")
-
-
-def kernel_named(name: str, compiled: bool) -> Kernel:
-    """Return a kernel as compiled code or in plain Python, which is imported only then."""
-    if compiled:
-        return native.compiled(name)
-    from stackbounce.engine.entries import ENTRIES
-
-    return ENTRIES[name]
 
 
 def choose_compiled(compiled: bool | None) -> bool:

@@ -1,16 +1,18 @@
-"""The options of a run, validated."""
+"""The options of a run, validated, and whether its results fit into memory."""
 
 import math
+import os
 from typing import NamedTuple
 
 from stackbounce.engine.work import EVENT_LIMIT, WORK_LIMIT
 from stackbounce.errors import InvalidType, InvalidValue, between, positive, shown, whole
 from stackbounce.model import Drop
 
-__all__ = ["Options", "run_options"]
+__all__ = ["Options", "check_room", "run_options"]
 
 _MOST_BALLS = 2000  # the arrays for normal modes and queues grow with the number of balls
 _MOST_EVENTS = 10**18  # the range of a 64-bit counter
+_USUAL = 16 * 10**9  # bytes of memory, where it is not known
 
 
 class Options(NamedTuple):
@@ -35,3 +37,35 @@ def run_options(drop: object, until: object, rtol: object, event_limit: object) 
         event_limit=events,
         work_limit=min(WORK_LIMIT * max(events, EVENT_LIMIT) // EVENT_LIMIT, _MOST_EVENTS),
     )
+
+
+def check_room(numbers: int, what: str, way: str) -> None:
+    """Refuse what has more numbers of 64 bits than this machine has memory for.
+
+    Parameters
+    ----------
+    numbers : int
+        How many.
+    what, way : str
+        What has them, and how to do without.
+
+    Raises
+    ------
+    InvalidValue
+        If they do not fit.
+
+    Examples
+    --------
+    >>> check_room(10**15, "a million drops", "take fewer")
+    Traceback (most recent call last):
+    stackbounce.errors.InvalidValue: a million drops would take 8e+06 GB of memory, and ...
+    """
+    try:
+        most = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+    except (AttributeError, ValueError):  # Windows
+        most = _USUAL
+    if 8 * numbers > most:
+        needed, there = 8e-9 * numbers, 1e-9 * most
+        raise InvalidValue(
+            f"{what} would take {needed:.3g} GB of memory, and this machine has {there:.3g}: {way}"
+        )

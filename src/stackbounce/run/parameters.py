@@ -4,7 +4,7 @@ from stackbounce.engine.records import Drops
 from stackbounce.model import Drop
 from stackbounce.model.laws import contact_numbers
 
-__all__ = ["drop_numbers"]
+__all__ = ["drop_numbers", "drop_pieces"]
 
 
 def drop_numbers(drop: Drop) -> Drops:
@@ -22,3 +22,8 @@ def drop_numbers(drop: Drop) -> Drops:
         velocity=list(drop.start_velocities),
         gravity=drop.gravity,
     )
+
+
+def drop_pieces(drop: Drop) -> list[list[float]]:
+    """Return the pieces of the curves of each contact; none of one that is not a table."""
+    return [[] if law is None else law.pieces() for law in drop.contacts]

@@ -160,7 +160,7 @@ def _changed(part: Any, chosen: Mapping[str, float], path: str) -> Any:
 def _units(kind: Any) -> dict[str, str]:
     """Return the SI units of those fields of a class that are single numbers, by field."""
     hints = get_type_hints(kind, include_extras=True)
-    found = {one.name: _unit(hints[one.name]) for one in fields(kind)}
+    found = {field.name: _unit(hints[field.name]) for field in fields(kind)}
     return {name: unit.symbol for name, unit in found.items() if unit is not None}
 
 

@@ -14,6 +14,7 @@ from stackbounce.engine import codes
 from stackbounce.engine.ratios import energy_kept
 from stackbounce.errors import InvalidType, InvalidValue, finite, shown, unmasked
 from stackbounce.model import Drop
+from stackbounce.run.conditioning import amplification, known_until
 from stackbounce.version import __version__
 
 if TYPE_CHECKING:
@@ -164,7 +165,7 @@ class Result:
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the fields only. Cached arrays are left out: unpickled ones would be writeable."""
-        return {one.name: getattr(self, one.name) for one in dataclasses.fields(self)}
+        return {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
 
     @property
     def advice(self) -> str:
@@ -274,9 +275,8 @@ class Result:
         >>> [sb.simulate(drop, until=end).conditioning.round() for end in (0.3, 1.5)]
         [array([2., 2., 2.]), array([993.,  94., 225.])]
         """
-        from stackbounce.run.conditioning import amplification
-
-        return _frozen(amplification(self))
+        speed = self.drop.reference_speed
+        return _frozen(amplification(self.rerun, self.final_velocities, speed))
 
     @functools.cached_property
     def known_until(self) -> float:
@@ -292,9 +292,8 @@ class Result:
         >>> sb.simulate(sb.Drop(balls, [sb.Spring(1e4)] * 2, impact_speed=1.0)).known_until
         inf
         """
-        from stackbounce.run.conditioning import known_until
-
-        return known_until(self)
+        speed = self.drop.reference_speed
+        return known_until(self.rerun, self.end_time, speed, self.conditioning, self.precision)
 
     @functools.cached_property
     def apexes(self) -> NDArray[Any]:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from stackbounce.calibration import between, calibrate
 from stackbounce.errors import (
     InvalidType,
     InvalidValue,
@@ -20,6 +19,8 @@ from stackbounce.errors import (
 )
 from stackbounce.model import STANDARD_GRAVITY, Ball, ContactLaw, Drop, Hysteretic
 from stackbounce.model.catalogue import BALLS, catalogue_ball
+from stackbounce.model.laws.series import between
+from stackbounce.run.calibration import calibrate
 from stackbounce.towers.batch import solve_drops
 from stackbounce.towers.masses import best_masses, geometric_means, mass_range
 from stackbounce.towers.separation import replace_gaps
@@ -124,7 +125,7 @@ def highest(
 
     Notes
     -----
-    The contact of two balls is both their floor contacts in series, as in `calibration.between`.
+    The contact of two balls is both their floor contacts in series, as in `series.between`.
     The springs that the paper fitted to three of the catalogue's pairs are not used, because the
     other pairs have none. The ranks depend on the gap, which is seldom known.
 
@@ -210,7 +211,7 @@ def _candidate(given: object, i: int, law: type[ContactLaw], impact_speed: float
 def join_contacts(names: Sequence[str], laws: Sequence[ContactLaw]) -> list[ContactLaw]:
     """Return the contacts of a stack from the floor contact of each ball, the lowest first.
 
-    The contact of two balls is both floor contacts in series, as in `calibration.between`.
+    The contact of two balls is both floor contacts in series, as in `series.between`.
 
     Parameters
     ----------

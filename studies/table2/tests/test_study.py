@@ -29,10 +29,10 @@ from studies.table2.section_v import refit_section_v
 from studies.table2.theories import Theory, make_rigid_model
 
 import stackbounce as sb
-from stackbounce.calibration import between
 from stackbounce.cross2007 import PAPER
 from stackbounce.fitting import Comparison
 from stackbounce.model import Drop, HuntCrossley, Hysteretic, StandardLinearSolid, Viscoelastic
+from stackbounce.model.laws.series import between
 
 PLAIN = ("Hertz", "A", "X", "S")  # nothing fitted but gaps
 FITTED = ("A, fitted", "S, fitted")

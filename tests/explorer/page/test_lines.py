@@ -99,15 +99,16 @@ def compare_lines(asked, seed, count):
                 compared["own"] += 1
                 if curve["textbook"]:
                     theirs = curve["textbook"]["values"][i]
-                    assert alike(theirs, textbook(drop, *given)), (line, values[i])
+                    # of restitutions that the page has from runs
+                    assert alike(theirs, textbook(drop, *given), 1e-8), (line, values[i])
                     compared["textbook"] += 1
     assert min(compared.values()) > 5 * count
 
 
-def alike(one, other):
+def alike(one, other, near=1e-12):
     if one is None or other is None:
         return one is other
-    return one == pytest.approx(other, rel=1e-12, abs=1e-300)
+    return one == pytest.approx(other, rel=near, abs=1e-300)
 
 
 def test_random_lines_have_the_library_s_numbers(asked):

@@ -4,13 +4,13 @@ import dataclasses
 import functools
 from typing import Any
 
-from stackbounce import calibration
 from stackbounce.cross2007.cases import list_cases
 from stackbounce.explorer.answers.examples import list_examples
 from stackbounce.explorer.limits import Limits
 from stackbounce.json_values import as_json
 from stackbounce.model import LAWS, ContactLaw, Drop, Hysteretic, Rigid, law_named
 from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
+from stackbounce.run import calibration, collision
 from stackbounce.version import __version__
 
 __all__ = [
@@ -179,14 +179,13 @@ def convert_law(
     No contact has the restitution 0.8 and the contact time of a rigid one, 5 ms.
     """
     contact = contact or DEFAULT_CONTACT
-    at = {"mass": mass, "speed": impact_speed}
     if contact_time is None:
-        contact_time = calibration.contact_time(contact, **at) or DEFAULT_CONTACT_TIME
+        contact_time = collision.contact_time(contact, mass, impact_speed) or DEFAULT_CONTACT_TIME
     law = law_named(to)
     given = {"contact_time": contact_time, "impact_speed": impact_speed, "mass": mass}
     if law.loss:
         if restitution is None:
-            restitution = calibration.restitution(contact, **at)
+            restitution = collision.restitution(contact, mass, impact_speed)
         given["restitution"] = restitution
     if law.default_exponent() is None and not law.rigid:
         given["exponent"] = getattr(contact, "exponent", DEFAULT_EXPONENT)

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from stackbounce.calibration import separate
 from stackbounce.errors import StackbounceError
 from stackbounce.explorer.limits import LIMITS
 from stackbounce.json_values import as_json
 from stackbounce.model import STANDARD_GRAVITY, Drop
 from stackbounce.plots.impact_window import choose_window, sample_with_approach
+from stackbounce.run.collision import separate
 from stackbounce.run.driver import simulate
 from stackbounce.run.result import Result
 from stackbounce.version import __version__

@@ -5,9 +5,7 @@ parts       all files that are made, by their names in the page
 data        laws, balls, cases, lessons, units and bounds, as JSON
 lessons     the lessons, with links that the page can follow
 units       all units that the package reads, with their factors
-laws        the formulas of the contact laws, as JavaScript
 bounds      the numbers that a check lets through
-translation Python to JavaScript, for these formulas
 policy      the content security policy of a page that comes from a server
 one_file    the whole explorer as one HTML file
 folder      the whole explorer as a folder for any web server

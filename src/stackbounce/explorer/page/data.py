@@ -9,11 +9,12 @@ from typing import Any
 from stackbounce.cross2007.lines import list_lines
 from stackbounce.explorer.answers import catalogue, maps, play
 from stackbounce.explorer.limits import LIMITS
+from stackbounce.explorer.page.bounds import limits_of
 from stackbounce.explorer.page.lessons import list_lessons
 from stackbounce.explorer.page.units import list_units
 from stackbounce.json_values import as_json
-from stackbounce.model import STANDARD_GRAVITY, STEEPEST
-from stackbounce.model.catalogue import BALLS, CLASS_BALLS, pressed, stack
+from stackbounce.model import LAWS, STANDARD_GRAVITY, STEEPEST, ContactLaw
+from stackbounce.model.catalogue import BALLS, CLASS_BALLS, stack
 from stackbounce.run.result import Cause, Status
 from stackbounce.units import examples
 
@@ -41,6 +42,7 @@ def model_json() -> str:
             "lessons": list_lessons(),
             "lines": _list_lines(),
             "map_rtol": maps.RTOL,
+            "models": _list_models(),
             "outcomes": maps.OUTCOMES,
             "ratios": {
                 name: {"sets": sets, "refers": refers, "label": label}
@@ -74,26 +76,60 @@ def _list_lines() -> list[dict[str, Any]]:
     ]
 
 
-def _list_contacts() -> dict[str, Any]:
-    """Return each ball's contact with the floor, as it is and as it is pressed on another one."""
+def _list_models() -> dict[str, Any]:
+    """Return what the page computes with of each law: what it is in the engine, and its numbers."""
     return {
-        str(entry.ball.name): {
-            "floor": entry.contact.to_mapping(),
-            "pressed": pressed(entry).to_mapping(),
+        name: {
+            "law": name,
+            "form": kind.form,
+            "parameters": (kind.law_parameter, kind.second_parameter),
+            "rigid": kind.rigid,
+            "loss": kind.loss,
+            "loss_fields": kind.loss_fields(),
+            "constant_loss": not kind.loss_depends_on,
+            "least_restitution": kind.least_restitution,
+            "exponent": kind.fixed_exponent(),
+            "usual_exponent": kind.default_exponent(),
+            "needs": {"linear": kind.calibration_needs(1.0), "other": kind.calibration_needs(2.0)},
+            "fields": _list_fields(kind),
         }
-        for entry in (*BALLS, *CLASS_BALLS)
+        for name, kind in LAWS.items()
     }
 
 
-def _list_stacks() -> dict[str, Any]:
-    """Return contacts and gaps of any two of the paper's balls, and their gap further up."""
+def _list_fields(kind: type[ContactLaw]) -> list[dict[str, Any]]:
+    """Return the numbers of a law: unit, limits, usual value, and where a search for it starts."""
+    return [
+        {"name": name, "unit": number.symbol, "start": number.slider[1 if name == kind.loss else 0]}
+        | limits_of(number.check)
+        | ({"usual": getattr(kind, name)} if hasattr(kind, name) else {})
+        for name, number in kind.quantities().items()
+    ]
+
+
+def _list_contacts() -> dict[str, Any]:
+    """Return each ball's contact with the floor, and its source."""
     found = {}
-    for names in itertools.product([str(entry.ball.name) for entry in BALLS], repeat=2):
-        two, three = stack(names), stack([names[0], *names])
-        found[" ".join(names)] = {
-            "floor": (two.contacts[0].to_mapping(), two.contact_sources[0]),
-            "between": (two.contacts[1].to_mapping(), two.contact_sources[1]),
-            "gap": (two.gaps[0], two.gap_sources[0]),
-            "other_gap": (three.gaps[1], three.gap_sources[1]),
-        }
+    for entry in (*BALLS, *CLASS_BALLS):
+        alone = stack([str(entry.ball.name)])
+        found[str(entry.ball.name)] = alone.contacts[0].to_mapping(), alone.contact_sources[0]
+    return found
+
+
+def _list_stacks() -> dict[str, Any]:
+    """Return the contact of any two balls, and where the lower one's differs, floor and gap."""
+    found = {}
+    names = [str(entry.ball.name) for entry in (*BALLS, *CLASS_BALLS)]
+    for lower, upper in itertools.product(names, repeat=2):
+        two, alone = stack([lower, upper]), stack([lower])
+        floor, between = (
+            (law.to_mapping(), source)
+            for law, source in zip(two.contacts, two.contact_sources, strict=True)
+        )
+        pair: dict[str, Any] = {"between": between}
+        if floor[1] != alone.contact_sources[0]:
+            pair["floor"] = floor
+        if two.gaps[0] > 0.0:
+            pair["gap"] = two.gaps[0], two.gap_sources[0]
+        found[f"{lower} {upper}"] = pair
     return found

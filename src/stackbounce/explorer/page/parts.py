@@ -6,7 +6,7 @@ from pathlib import Path
 from stackbounce.engine import native
 from stackbounce.errors import FileError
 from stackbounce.explorer.page.data import model_json
-from stackbounce.explorer.page.laws import laws_js
+from stackbounce.model.laws import LAWS
 
 __all__ = ["KINDS", "made_file"]
 
@@ -34,7 +34,7 @@ def made_file(name: str) -> bytes:
     b'\x00asm'
     """
     if name == "laws.js":
-        return laws_js().encode()
+        return _laws_js().encode()
     if name == "model.json":
         return model_json().encode()
     try:
@@ -44,3 +44,13 @@ def made_file(name: str) -> bytes:
             f"{name} is not in this installation: the page computes with the engine that was "
             "compiled when stackbounce was built, and there was none"
         ) from None
+
+
+def _laws_js() -> str:
+    """Return what the page computes of some laws in their own way, see `ContactLaw.page_code`."""
+    codes = (
+        f"  {name}: {{ {', '.join(f'{what}: {code}' for what, code in kind.page_code.items())} }},"
+        for name, kind in LAWS.items()
+        if kind.page_code
+    )
+    return "\n".join(["export const LAW_CODE = {", *codes, "};", ""])

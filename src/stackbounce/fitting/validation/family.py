@@ -5,11 +5,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from stackbounce.calibration import calibrate, contact_time, restitution
 from stackbounce.errors import StackbounceError
 from stackbounce.fitting.quantities import Array
 from stackbounce.fitting.validation.series import CONTACT_TIME, RESTITUTION, Series
 from stackbounce.model.laws import LAWS, ContactLaw
+from stackbounce.run.calibration import calibrate
+from stackbounce.run.collision import contact_time, restitution
 
 __all__ = ["Family", "families", "predicted", "reason_to_skip"]
 
@@ -45,7 +46,7 @@ class Family:
     @property
     def is_constant(self) -> bool:
         """Return whether the class is known to give the same at all speeds."""
-        return self.quantity == RESTITUTION and "speed" not in self.law_class.loss_depends_on
+        return self.quantity == RESTITUTION and "impact_speed" not in self.law_class.loss_depends_on
 
     def law(self, value: float) -> ContactLaw:
         """Return the law that has a value at the speed of the calibration.
@@ -72,7 +73,7 @@ def predicted(law: ContactLaw, quantity: str, speeds: Array) -> Array:
     """Return the restitution or the contact time of a law at some speeds."""
     asked = restitution if quantity == RESTITUTION else contact_time
     depends = law.loss_depends_on if quantity == RESTITUTION else law.contact_time_depends_on
-    if "speed" not in depends:
+    if "impact_speed" not in depends:
         return np.full(speeds.shape, asked(law, _MASS, float(speeds[0])))
     return np.array([asked(law, _MASS, float(speed)) for speed in speeds])
 

@@ -87,6 +87,6 @@ class CatalogueBall:
         >>> catalogue_ball("B1").to_mapping()["mass"]
         0.101
         """
-        figures = {one.name: getattr(self, one.name) for one in fields(self)}
+        figures = {field.name: getattr(self, field.name) for field in fields(self)}
         listed = {"sources": dict(self.sources), "kinds": dict(self.kinds)}
         return asdict(figures.pop("ball")) | figures | listed

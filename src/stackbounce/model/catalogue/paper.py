@@ -2,7 +2,7 @@
 
 import math
 from dataclasses import dataclass
-from typing import Annotated
+from typing import Annotated, Any
 
 from stackbounce.model.ball import Ball
 from stackbounce.model.catalogue.entry import CatalogueBall
@@ -45,99 +45,50 @@ class Pair:
     source: str
 
 
-def _bounced(height: float, drop_height: float) -> tuple[float, str]:
-    source = f"{_SECTION_III}: bounce to {height:.2f} m from {drop_height:.2f} m"
-    return math.sqrt(height / drop_height), source
+_SUPERBALL = ("mass", "diameter", "restitution", "stiffness", "static_stiffness", "contact_time")
 
 
-def _basketball() -> CatalogueBall:
-    restitution, bounce = _bounced(0.42, 0.71)
+def _bounced(height: float) -> tuple[float, str]:
+    """Return the restitution of a bounce from 0.71 m to a height in m, and its source."""
+    return math.sqrt(height / 0.71), f"{_SECTION_III}: bounce to {height:.2f} m from 0.71 m"
+
+
+def _entry(name: str, **figures: tuple[float, str]) -> CatalogueBall:
+    """Return a ball of figures, each with its source."""
+    given: dict[str, Any] = {figure: value for figure, (value, _) in figures.items()}
     return CatalogueBall(
-        ball=Ball(mass=0.150, diameter=0.160, name="basketball"),
-        restitution=restitution,
-        stiffness=2500.0,
-        static_stiffness=30.0 / 18.6e-3,
-        contact_time=None,
-        sources=(
-            ("mass", _SECTION_III),
-            ("diameter", _SECTION_III),
-            ("restitution", bounce),
-            ("stiffness", "Cross 2007, Figure 9: k1 of the fit with a tennis ball on top"),
-            ("static_stiffness", f"{_SECTION_III}, Figure 7: 18.6 mm at 30 N"),
-        ),
+        ball=Ball(mass=given.pop("mass"), diameter=given.pop("diameter"), name=name),
+        sources=tuple((figure, source) for figure, (_, source) in figures.items()),
+        **{"static_stiffness": None, "contact_time": None} | given,
     )
 
 
-def _tennis() -> CatalogueBall:
-    restitution, bounce = _bounced(0.40, 0.71)
-    return CatalogueBall(
-        ball=Ball(mass=0.057, diameter=0.066, name="tennis"),
-        restitution=restitution,
-        stiffness=2.25e4,
-        static_stiffness=1.03e4,
-        contact_time=5.0e-3,
-        sources=(
-            ("mass", _SECTION_III),
-            ("diameter", _SECTION_III),
-            ("restitution", bounce),
-            ("stiffness", f"{_SECTION_III}: from the contact time"),
-            ("static_stiffness", f"{_SECTION_III}, Figure 7: at 30 N"),
-            ("contact_time", _SECTION_III),
-        ),
-    )
-
-
-def _superball(
-    name: str,
-    *,
-    diameter: float,
-    mass: float,
-    static_stiffness: float,
-    contact_time: float,
-    stiffness: float,
-    restitution: float,
-) -> CatalogueBall:
-    figures = ("mass", "diameter", "restitution", "stiffness", "static_stiffness", "contact_time")
-    return CatalogueBall(
-        ball=Ball(mass=mass, diameter=diameter, name=name),
-        restitution=restitution,
-        stiffness=stiffness,
-        static_stiffness=static_stiffness,
-        contact_time=contact_time,
-        sources=tuple((figure, _TABLE_I) for figure in figures),
-    )
+def _superball(name: str, *values: float) -> CatalogueBall:
+    figures = zip(_SUPERBALL, values, strict=True)
+    return _entry(name, **{figure: (value, _TABLE_I) for figure, value in figures})
 
 
 BALLS: tuple[CatalogueBall, ...] = (
-    _basketball(),
-    _tennis(),
-    _superball(
-        "B1",
-        diameter=0.058,
-        mass=0.101,
-        static_stiffness=4e4,
-        contact_time=4.3e-3,
-        stiffness=5.4e4,
-        restitution=0.78,
+    _entry(
+        "basketball",
+        mass=(0.150, _SECTION_III),
+        diameter=(0.160, _SECTION_III),
+        restitution=_bounced(0.42),
+        stiffness=(2500.0, "Cross 2007, Figure 9: k1 of the fit with a tennis ball on top"),
+        static_stiffness=(30.0 / 18.6e-3, f"{_SECTION_III}, Figure 7: 18.6 mm at 30 N"),
     ),
-    _superball(
-        "B2",
-        diameter=0.038,
-        mass=0.0248,
-        static_stiffness=1.3e4,
-        contact_time=2.6e-3,
-        stiffness=3.6e4,
-        restitution=0.90,
+    _entry(
+        "tennis",
+        mass=(0.057, _SECTION_III),
+        diameter=(0.066, _SECTION_III),
+        restitution=_bounced(0.40),
+        stiffness=(2.25e4, f"{_SECTION_III}: from the contact time"),
+        static_stiffness=(1.03e4, f"{_SECTION_III}, Figure 7: at 30 N"),
+        contact_time=(5.0e-3, _SECTION_III),
     ),
-    _superball(
-        "B3",
-        diameter=0.026,
-        mass=0.0085,
-        static_stiffness=1.2e4,
-        contact_time=1.9e-3,
-        stiffness=2.3e4,
-        restitution=0.90,
-    ),
+    _superball("B1", 0.101, 0.058, 0.78, 5.4e4, 4e4, 4.3e-3),
+    _superball("B2", 0.0248, 0.038, 0.90, 3.6e4, 1.3e4, 2.6e-3),
+    _superball("B3", 0.0085, 0.026, 0.90, 2.3e4, 1.2e4, 1.9e-3),
 )
 """The balls of the paper."""
 

@@ -1,13 +1,15 @@
 """Root finding for functions of one number."""
 
 import math
+import sys
 from collections.abc import Callable
 
-__all__ = ["root"]
+__all__ = ["rising_root", "root"]
 
 _MARGIN = 1e-3  # round-off at an end of a bracket must not hide the change of sign
 _CLOSEST = 1e-15  # relative
 _LEAST = 5e-324
+_WIDEST = 10.0  # times, from one end of a bracket to the next
 _ROUNDS = 2000  # a bracket of numbers above 0 can span 600 decades
 
 
@@ -69,6 +71,36 @@ def root(function: Callable[[float], float], low: float, high: float) -> float:
         x += step if abs(step) > closest else math.copysign(closest, half)
         f = function(x)
     raise ArithmeticError
+
+
+def rising_root(function: Callable[[float], float], start: float) -> float:
+    """Return the zero of a function that rises with a number above 0, near a start or far from it.
+
+    Raises
+    ------
+    ArithmeticError
+        If it has no zero among the numbers above 0.
+
+    Examples
+    --------
+    >>> round(rising_root(lambda x: x * x - 2.0, 1e9), 15)
+    1.414213562373095
+    """
+    low = high = start
+    factor = 1.1
+
+    def value(x: float) -> float:
+        if not sys.float_info.min < x < math.inf:
+            raise ArithmeticError
+        return function(x)
+
+    while value(low) > 0.0:
+        high, low = low, low / factor
+        factor = min(factor * factor, _WIDEST)
+    while value(high) < 0.0:
+        low, high = high, high * factor
+        factor = min(factor * factor, _WIDEST)
+    return root(function, low, high)
 
 
 def _interpolated(

@@ -58,7 +58,6 @@ class Bond(ContactLaw):
     [0.9738, 0.9738]
     """
 
-    says = "A spring and a dashpot that push and pull, and never open: two parts of one body."
     formula = "F = stiffness c + damping c'"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section II"
     form = "BOND"

@@ -63,7 +63,6 @@ class Dashpot(ContactLaw):
     Dashpot(stiffness=22500.0, damping=7.2)
     """
 
-    says = "A linear spring and a dashpot in parallel (Kelvin-Voigt), which cannot pull."
     formula = "F = max(0, stiffness c + damping c')"
     source = "Bartz, arXiv 2007.15005"
     form = "DASHPOT"

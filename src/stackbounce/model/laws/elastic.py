@@ -19,10 +19,6 @@ class ElasticLaw(ContactLaw):
     form = "POWER"
     rate_free = True
 
-    def restitution_at(self, mass: float, speed: float) -> float:
-        """Return 1: the law is lossless."""
-        return 1.0
-
     def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v."""
         return elastic.duration(self.exponent)

@@ -43,7 +43,6 @@ class Hertz(ElasticLaw):
     (Hertz(stiffness=2000000000.0), 1.5)
     """
 
-    says = "The contact of two elastic spheres, or of one and a flat floor, without loss."
     formula = "F = stiffness c**1.5"
     source = (
         "H. Hertz, J. Reine Angew. Math. 92, 156 (1881); "
@@ -105,10 +104,12 @@ def _shares(name: str, ball: object) -> tuple[float, float]:
     if not isinstance(ball, Ball):
         raise InvalidType(f"{name} must be a Ball, got {shown(ball)}")
     missing = [
-        one for one in ("diameter", "young_modulus", "poisson_ratio") if getattr(ball, one) is None
+        field
+        for field in ("diameter", "young_modulus", "poisson_ratio")
+        if getattr(ball, field) is None
     ]
     if missing:
-        listed = ", ".join(f"{name}.{one}" for one in missing)
+        listed = ", ".join(f"{name}.{field}" for field in missing)
         raise InvalidValue(f"{listed} must be given for a Hertz contact, got None")
     assert ball.diameter is not None
     assert ball.young_modulus is not None

@@ -77,7 +77,6 @@ class HollowBall(ContactLaw):
 restitution 0.75'
     """
 
-    says = "A hollow ball: stiff until its wall buckles, softer then, with hysteresis."
     formula = (
         "F = stiffness c up to buckling_compression b, then stiffness (b + stiffness_ratio (c - b))"
         "; from the peak C on times 1 - g + g (c/C)**m, so that restitution**2 of the work is "
@@ -85,8 +84,22 @@ restitution 0.75'
     )
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section III"
     form = "TWO_STAGE"
+    page_code: ClassVar = {
+        "numbers": """({ stiffness, restitution, buckling_compression, stiffness_ratio }) =>
+          [stiffness, restitution ** 2, buckling_compression, stiffness_ratio]""",
+        "others": f"""({{ mass, contact_time, impact_speed }}, {{ stiffness }}) => {{
+          const rate = Math.sqrt(stiffness / mass);
+          const share = {_BUCKLING_SHARE};
+          const start = Math.min({_BUCKLING_TIME} * contact_time * rate, Math.asin(share));
+          return {{
+            buckling_compression: (impact_speed * Math.sin(start)) / rate,
+            stiffness_ratio: Math.min(1, Math.tan(start) ** 2 * (1 / share ** 2 - 1)),
+          }};
+        }}""",
+    }
     rate_free = True
     loss = "restitution"
+    least_restitution = 0.0873  # at which it buckles after 4 % of the contact time at the softest
 
     exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
@@ -108,11 +121,7 @@ restitution 0.75'
     @property
     def contact_time_depends_on(self) -> tuple[str, ...]:
         """Mass and speed: a faster ball buckles further."""
-        return ("mass", "speed")
-
-    def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution, which is the same for all collisions."""
-        return self.restitution
+        return ("mass", "impact_speed")
 
     @classmethod
     def _needs_speed(cls, exponent: float) -> bool:

@@ -82,13 +82,12 @@ class HuntCrossley(ContactLaw):
     HuntCrossley(stiffness=3000000.0, exponent=1.5, dissipation=0.15)
     """
 
-    says = "A power law with a damping force in proportion to the elastic force."
     formula = "F = max(0, stiffness c**exponent (1 + dissipation c'))"
     source = "K. H. Hunt and F. R. E. Crossley, J. Appl. Mech. 42, 440 (1975)"
     form = "HUNT_CROSSLEY"
     law_parameter = "dissipation"
     loss = "dissipation"
-    loss_depends_on = ("speed",)
+    loss_depends_on = ("impact_speed",)
     usual_exponent = 1.5
     usual_models: ClassVar = {"HuntCrossley": {}}
 

@@ -78,13 +78,13 @@ class Hysteretic(ContactLaw):
     7.0
     """
 
-    says = "A lossy spring with hysteresis: it unloads along another curve than it loads."
     formula = (
         "F = stiffness c**exponent; from the peak C on, "
         "F = stiffness C**exponent (c/C)**unloading_exponent"
     )
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), section V"
     form = "HYSTERETIC"
+    law_parameter = "unloading_exponent"
     rate_free = True
     loss = "restitution"
     usual_exponent = 1.0
@@ -152,10 +152,6 @@ class Hysteretic(ContactLaw):
             e = varied.get("restitution", self.restitution)
             n = np.maximum(p, (p + 1.0) / e / e - 1.0)
         return FORMS[self.form], k, p, n, 0.0
-
-    def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution, which is the same for all collisions."""
-        return self.restitution
 
     def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v."""

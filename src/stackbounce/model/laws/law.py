@@ -1,6 +1,7 @@
 """The base class of contact laws: the interface that the package uses, and its defaults."""
 
 import functools
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from types import MappingProxyType
@@ -12,12 +13,14 @@ from typing import (
     NamedTuple,
     Self,
     TypeAlias,
+    TypeVar,
     get_type_hints,
 )
 
 from stackbounce.engine import codes
 from stackbounce.errors import InvalidValue, between, positive
 from stackbounce.model.collision import elastic
+from stackbounce.model.collision.roots import rising_root
 from stackbounce.units import Unit, unit_of
 
 __all__ = [
@@ -43,6 +46,8 @@ Given: TypeAlias = Mapping[str, float]
 EngineNumbers: TypeAlias = tuple[int, Any, Any, Any, Any]
 """A contact as the engine takes it, see `stackbounce.engine.forces`."""
 
+_MEASURED = ("mass", "impact_speed", "contact_time", "exponent")
+_LOSSLESS = 1.0 - 1e-11  # a smaller loss is not told from round-off in a simulation
 _NOTHING: Mapping[str, Any] = MappingProxyType({})
 
 
@@ -99,16 +104,19 @@ Flanks: TypeAlias = tuple[Flank, Flank]
 """The flanks at the touch and at the release."""
 
 
+_Law = TypeVar("_Law", bound="ContactLaw")
+
+
 class ContactLaw:
     """The base class of all contact laws: the attributes and methods that the package uses.
 
     A law is a frozen dataclass; the hint of each parameter holds a `Quantity`. The class must set
-    `says`, `formula`, `source` and `form`. It overrides the defaults that do not apply to it, and
+    `formula`, `source` and `form`. It overrides the defaults that do not apply to it, and
     is decorated with `stackbounce.model.laws.registry.register`.
     """
 
     says: ClassVar[str]
-    """A description of the law in one line, for users."""
+    """A description of the law in one line, for users: the first line of its docstring."""
     formula: ClassVar[str]
     """The formula of the force in terms of the compression c and its rate c', as plain text."""
     source: ClassVar[str]
@@ -130,11 +138,18 @@ class ContactLaw:
     loss: ClassVar[str] = ""
     """The field that describes the energy loss; empty for a lossless law."""
     loss_depends_on: ClassVar[tuple[str, ...]] = ()
-    """The quantities that the restitution depends on besides the law: ``mass``, ``speed``."""
+    """What the restitution depends on besides the law: ``mass``, ``impact_speed``."""
+    least_restitution: ClassVar[float] = 0.0
+    """The smallest restitution that `calibrate` can give the law if no more is known of it."""
     usual_exponent: ClassVar[float | None] = None
     """The default exponent in `calibrate`, for a law with a free exponent."""
     usual_models: ClassVar[Mapping[str, Mapping[str, float]]] = {}
     """The models with this law in `standard_models`: name -> extra arguments of `calibrate`."""
+
+    page_code: ClassVar[Mapping[str, str]] = {}
+    """What the page cannot do by default, in JavaScript: ``numbers``, those of the engine after the
+    form as `engine_numbers` gives them; ``others``, the fields that `calibrated` derives from what
+    was measured and from stiffness and loss."""
 
     if TYPE_CHECKING:  # fields differ from law to law
 
@@ -192,7 +207,7 @@ class ContactLaw:
     def to_mapping(self) -> dict[str, Any]:
         """Return the law as plain values, with its name as ``law``, as scenario files have it."""
         law: Any = self
-        given = {one.name: getattr(self, one.name) for one in fields(law) if one.init}
+        given = {field.name: getattr(self, field.name) for field in fields(law) if field.init}
         return {"law": type(self).__name__} | given
 
     def described(self) -> str:
@@ -245,14 +260,20 @@ class ContactLaw:
 
     @property
     def contact_time_depends_on(self) -> tuple[str, ...]:
-        """The quantities that the contact time depends on besides the law: ``mass``, ``speed``."""
-        return ("mass", "speed") if self._needs_speed(self.exponent) else ("mass",)
+        """What the contact time depends on besides the law: ``mass``, ``impact_speed``."""
+        return ("mass", "impact_speed") if self._needs_speed(self.exponent) else ("mass",)
 
     def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution of a mass in kg at a speed in m/s; by default by a simulation."""
-        from stackbounce.engine.one_ball import bounce
+        """Return the restitution of a mass in kg at a speed in m/s.
 
-        return bounce(self.engine_numbers(), mass, speed)[0]
+        It is 1 without a loss, and a field of the law if it depends on nothing else; of any other
+        law it is found by a simulation, by default.
+        """
+        if not self.loss:
+            return 1.0
+        if self.loss == "restitution" and not self.loss_depends_on:
+            return float(self.restitution)
+        return self._bounce(mass, speed)[0]
 
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return the contact time in s of a mass in kg at a speed in m/s."""
@@ -261,10 +282,14 @@ class ContactLaw:
 
     def duration_at(self, mass: float, speed: float) -> float:
         """Return the contact time in units of C/v, see `elastic`, by default from a simulation."""
+        time = self._bounce(mass, speed)[1]
+        return time / elastic.peak_compression(self.stiffness, self.exponent, mass, speed) * speed
+
+    def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
+        """Return restitution and contact time in s by a simulation."""
         from stackbounce.engine.one_ball import bounce
 
-        time = bounce(self.engine_numbers(), mass, speed)[1]
-        return time / elastic.peak_compression(self.stiffness, self.exponent, mass, speed) * speed
+        return bounce(self.engine_numbers(), mass, speed, self.pieces())
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
@@ -278,11 +303,15 @@ class ContactLaw:
 
     @classmethod
     def _needs_speed(cls, exponent: float) -> bool:
-        return "speed" in cls.loss_depends_on or exponent != 1.0
+        return "impact_speed" in cls.loss_depends_on or exponent != 1.0
 
     @classmethod
     def calibrated(cls, given: Given) -> Self:
         """Return the law that reproduces measured quantities; ``given`` holds all that are needed.
+
+        By default the stiffness is searched for that gives the contact time, and within that search
+        the loss that gives the restitution, by simulations of the collision. Other fields have the
+        value in `given`, their default, or the initial value of their slider.
 
         Raises
         ------
@@ -291,7 +320,15 @@ class ContactLaw:
         InvalidValue
             If the law cannot be calibrated.
         """
-        raise InvalidValue(f"law_class must be a law that can be calibrated, got {cls.__name__}")
+        numbers = {
+            name: given.get(name, getattr(cls, name, number.slider[0]))
+            for name, number in cls.quantities().items()
+        }
+        if "stiffness" not in numbers:
+            raise InvalidValue(
+                f"law_class must be a law that can be calibrated, got {cls.__name__}"
+            )
+        return _found(cls, numbers, given)
 
     @property
     def linger(self) -> float:
@@ -341,6 +378,35 @@ def _quantities(kind: type[ContactLaw]) -> Mapping[str, Quantity]:
     hints = get_type_hints(kind, include_extras=True)
     found = {name: unit_of(hint) for name, hint in hints.items()}
     return {name: one for name, one in found.items() if isinstance(one, Quantity)}
+
+
+def _found(cls: type[_Law], numbers: dict[str, float], given: Given) -> _Law:
+    """Return the law with those numbers but for the stiffness and the loss, which are found."""
+    mass, speed, lasts, p = (given[name] for name in _MEASURED)
+    stiffness = elastic.measured_stiffness(given, elastic.duration(p))
+
+    def lasting(loss: dict[str, float]) -> _Law:
+        """Return the law with a loss that has the contact time."""
+        nonlocal stiffness
+
+        def short(k: float) -> float:  # linear in k for a power law
+            law = cls(**numbers | loss | {"stiffness": k})
+            return float((lasts / law.contact_time_at(mass, speed)) ** (p + 1.0)) - 1.0
+
+        stiffness = rising_root(short, stiffness)  # near which the next one is
+        return cls(**numbers | loss | {"stiffness": stiffness})
+
+    if cls.loss in ("", "restitution"):
+        return lasting({})
+    kept = given["restitution"]
+    if kept > _LOSSLESS:
+        return lasting({cls.loss: 0.0})
+
+    def excess(loss: float) -> float:
+        return math.log(kept / lasting({cls.loss: loss}).restitution_at(mass, speed))
+
+    _, least, _ = cls.quantities()[cls.loss].slider  # with a large one the run may not end
+    return lasting({cls.loss: rising_root(excess, least)})
 
 
 def contact_numbers(law: ContactLaw | None, varied: Mapping[str, Any] = _NOTHING) -> EngineNumbers:

@@ -43,7 +43,6 @@ class PowerLaw(ElasticLaw):
     PowerLaw(stiffness=10000000.0, exponent=1.3)
     """
 
-    says = "A spring without loss whose force grows as a power of the compression."
     formula = "F = stiffness c**exponent"
     source = (
         'P. Patricio, "The Hertz contact in chain elastic collisions", Am. J. Phys. 72, 1488 (2004)'

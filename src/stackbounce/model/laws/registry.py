@@ -32,7 +32,7 @@ def register(law: type[_Law]) -> type[_Law]:
     Raises
     ------
     TypeError
-        If the class lacks `says`, `formula`, `source` or `form`, or another law has its name, or
+        If the class lacks `formula`, `source` or `form`, or another law has its name, or
         the engine does not know its form.
     """
     return _registered(law, LAWS)
@@ -44,7 +44,7 @@ def register_unlisted(law: type[_Law]) -> type[_Law]:
 
 
 def _registered(law: type[_Law], laws: dict[str, type[ContactLaw]]) -> type[_Law]:
-    missing = [name for name in ("says", "formula", "source", "form") if not hasattr(law, name)]
+    missing = [name for name in ("formula", "source", "form") if not hasattr(law, name)]
     if missing:
         raise TypeError(f"{law.__name__} must set {', '.join(missing)}")
     other = (LAWS | UNLISTED).get(law.__name__, law)
@@ -53,6 +53,7 @@ def _registered(law: type[_Law], laws: dict[str, type[ContactLaw]]) -> type[_Law
     if law.form not in FORMS:
         hint = nearest(law.form, FORMS)
         raise TypeError(f"{law.__name__} has the form of force {law.form}; {hint}")
+    law.says = (law.__doc__ or "").partition("\n")[0]
     laws[law.__name__] = law
     return law
 

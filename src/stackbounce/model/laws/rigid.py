@@ -41,7 +41,6 @@ class Rigid(ContactLaw):
     Rigid(restitution=0.9)
     """
 
-    says = "An instantaneous collision with Newton's restitution."
     formula = "v' = -restitution v"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4"
     form = "RIGID"
@@ -56,10 +55,6 @@ class Rigid(ContactLaw):
     def contact_time_depends_on(self) -> tuple[str, ...]:
         """Nothing: the contact time is always 0."""
         return ()
-
-    def restitution_at(self, mass: float, speed: float) -> float:
-        """Return the restitution, which is the same for all collisions."""
-        return self.restitution
 
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return 0."""

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from stackbounce.engine.codes import FORMS
 from stackbounce.engine.elementary import power
@@ -63,19 +63,22 @@ class RigidBySpeed(Rigid):
 
     Examples
     --------
-    >>> from stackbounce.calibration import restitution
+    >>> from stackbounce.run.collision import restitution
     >>> ice = RigidBySpeed(0.32, speed=0.01, speed_exponent=0.234)
-    >>> [round(restitution(ice, speed=v), 3) for v in (0.00001, 0.001, 0.01, 0.05)]
+    >>> [round(restitution(ice, impact_speed=v), 3) for v in (0.00001, 0.001, 0.01, 0.05)]
     [1.0, 0.548, 0.32, 0.22]
     """
 
-    says = "An instantaneous collision whose restitution falls with a power of the speed."
     formula = "v' = -e v, e = min(1, restitution (v/speed)**-speed_exponent)"
     source = "A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988)"
     form = "RIGID_POWER"
     law_parameter = "scatter"
     second_parameter = "seed"
-    loss_depends_on = ("speed",)
+    page_code: ClassVar = {
+        "numbers": """({ restitution, speed, speed_exponent, scatter, seed }) =>
+          [restitution * speed ** speed_exponent, speed_exponent, scatter, seed]"""
+    }
+    loss_depends_on = ("impact_speed",)
 
     restitution: Annotated[float, _RESTITUTION]
     speed: Annotated[float, _SPEED]
@@ -153,18 +156,21 @@ class RigidLossBySpeed(RigidBySpeed):
 
     Examples
     --------
-    >>> from stackbounce.calibration import restitution
+    >>> from stackbounce.run.collision import restitution
     >>> basketball = RigidLossBySpeed(0.8, speed=3.0, speed_exponent=0.43)
-    >>> [round(restitution(basketball, speed=v), 3) for v in (0.5, 3.0, 6.0)]
+    >>> [round(restitution(basketball, impact_speed=v), 3) for v in (0.5, 3.0, 6.0)]
     [0.907, 0.8, 0.731]
     """
 
-    says = "An instantaneous collision whose loss grows with a power of the speed."
     formula = "v' = -e v, e = max(0, 1 - (1 - restitution) (v/speed)**speed_exponent)"
     source = (
         "R. Ramírez, T. Pöschel, N. V. Brilliantov and T. Schwager, Phys. Rev. E 60, 4465 (1999)"
     )
     form = "RIGID_LOSS"
+    page_code: ClassVar = {
+        "numbers": """({ restitution, speed, speed_exponent, scatter, seed }) =>
+          [(1 - restitution) * speed ** -speed_exponent, speed_exponent, scatter, seed]"""
+    }
 
     speed_exponent: Annotated[float, _EXPONENT] = 0.2
 

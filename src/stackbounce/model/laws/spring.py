@@ -40,7 +40,6 @@ class Spring(ElasticLaw):
     Spring(stiffness=2500.0)
     """
 
-    says = "A linear spring without loss that can be compressed and cannot pull."
     formula = "F = stiffness c"
     source = "R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 5 and 6"
     exact = True

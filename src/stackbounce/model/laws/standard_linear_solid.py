@@ -81,16 +81,20 @@ class StandardLinearSolid(ContactLaw):
     0.801
     """
 
-    says = "A spring in parallel with a spring and a dashpot in series (Zener): its force relaxes."
     formula = (
         "F = max(0, stiffness (c + relaxation_strength (c - u))), u' = (c - u)/relaxation_time"
     )
     source = "C. Zener, Elasticity and Anelasticity of Metals (1948)"
     form = "RELAXING"
+    page_code: ClassVar = {
+        "others": """({ contact_time }, { relaxation_strength }) =>
+          ({ relaxation_time: contact_time / Math.PI / Math.sqrt(1 + relaxation_strength) })"""
+    }
     law_parameter = "relaxation_strength"
     second_parameter = "relaxation_time"
     loss = "relaxation_strength"
     loss_depends_on = ("mass",)
+    least_restitution = 2.7e-4  # nearly at the largest relaxation strength that is tried
 
     exponent: ClassVar[float] = 1.0
     stiffness: Annotated[float, stiffness_in("N/m")]
@@ -180,7 +184,7 @@ def collision(strength: float, time: float) -> tuple[float, float]:
     g, square = y - sigma, a / y - sigma * sigma
     norm = g * g + square
     if norm < _CLOSE * y * y:
-        return _simulated(strength, time)
+        return StandardLinearSolid(1.0, strength, time)._bounce(1.0, 1.0)
     start = y * y * w / (a * b)  # A, without cancellation
     slope = square + g * (1.0 / b - sigma)  # B
 
@@ -224,12 +228,6 @@ def _after_release(
         if t == math.inf:
             raise ArithmeticError
     return t
-
-
-def _simulated(strength: float, time: float) -> tuple[float, float]:
-    from stackbounce.engine.one_ball import bounce
-
-    return bounce(StandardLinearSolid(1.0, strength, time).engine_numbers(), 1.0, 1.0)
 
 
 def _time(strength: float, share: float) -> float:

@@ -94,13 +94,12 @@ class Tabulated(ContactLaw):
     (0.842, 0.821)
     """
 
-    says = "A law from measured points of force over compression, in and out."
     formula = "F = the monotone spline through the points"
     source = "L. L. Schumaker, SIAM J. Numer. Anal. 20, 853 (1983)"
     form = "TABULATED"
     rate_free = True
     loss = "restitution"
-    loss_depends_on = ("mass", "speed")
+    loss_depends_on = ("mass", "impact_speed")
 
     exponent: ClassVar[float] = 1.0
     compression: Annotated[Sequence[float], Unit("m")]
@@ -177,7 +176,7 @@ class Tabulated(ContactLaw):
     @property
     def contact_time_depends_on(self) -> tuple[str, ...]:
         """Mass and speed."""
-        return ("mass", "speed")
+        return ("mass", "impact_speed")
 
     def restitution_at(self, mass: float, speed: float) -> float:
         """Return the restitution of a mass in kg at a speed in m/s, by a simulation."""
@@ -186,11 +185,6 @@ class Tabulated(ContactLaw):
     def contact_time_at(self, mass: float, speed: float) -> float:
         """Return the contact time in s of a mass in kg at a speed in m/s, by a simulation."""
         return self._bounce(mass, speed)[1]
-
-    def _bounce(self, mass: float, speed: float) -> tuple[float, float]:
-        from stackbounce.engine.one_ball import bounce
-
-        return bounce(self.engine_numbers(), mass, speed, self.pieces())
 
     @classmethod
     def calibration_needs(cls, exponent: float | None = None) -> list[str]:
@@ -269,7 +263,7 @@ def _curves(
 def _shares(x: Sequence[float], forces: Sequence[float], back: Sequence[float]) -> list[Piece]:
     """Return the straight pieces of unloading over loading, which rises to 1, over c/C."""
     at = [place / x[-1] for place in x[1:]]
-    share = [one / two for one, two in zip(back[1:], forces[1:], strict=True)]
+    share = [out / force for out, force in zip(back[1:], forces[1:], strict=True)]
     rising = list(itertools.accumulate(reversed(share), min))[::-1]
     slopes = [
         (high - low) / (end - begin)

@@ -65,7 +65,6 @@ class Viscoelastic(ContactLaw):
     Viscoelastic(stiffness=3000000.0, dissipative_time=0.0001)
     """
 
-    says = "The contact of two viscoelastic spheres, or of one and a flat floor."
     formula = "F = max(0, stiffness (c**1.5 + 1.5 dissipative_time c**0.5 c'))"
     source = (
         "G. Kuwabara and K. Kono, Jpn. J. Appl. Phys. 26, 1230 (1987); N. V. Brilliantov, "
@@ -74,7 +73,7 @@ class Viscoelastic(ContactLaw):
     form = "VISCOELASTIC"
     law_parameter = "dissipative_time"
     loss = "dissipative_time"
-    loss_depends_on = ("mass", "speed")
+    loss_depends_on = ("mass", "impact_speed")
     usual_models: ClassVar = {"Viscoelastic": {}}
 
     exponent: ClassVar[float] = 1.5
@@ -122,9 +121,7 @@ class Viscoelastic(ContactLaw):
 @functools.lru_cache(maxsize=256)
 def _collision(squared: float) -> tuple[float, float]:
     """Return e, and the contact time in units of L/v, at v*²."""
-    from stackbounce.engine.one_ball import bounce
-
-    return bounce(Viscoelastic(1.0, squared / 1.5).engine_numbers(), 1.0, 1.0)
+    return Viscoelastic(1.0, squared / 1.5)._bounce(1.0, 1.0)
 
 
 def restitution(squared: float) -> float:

@@ -7,8 +7,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from stackbounce.errors import InvalidType, InvalidValue, non_negative, positive, shown, unmasked
-from stackbounce.measure.drag import Drag, speed_after_fall
-from stackbounce.measure.error_of_drag import with_error_of_drag
+from stackbounce.measure.drag import Drag, speed_after_fall, with_error_of_drag
 from stackbounce.measure.kinds.bounces.knocks import Knocks, missed_between
 from stackbounce.measure.kinds.bounces.restitution_law import fit_line, laws_of
 from stackbounce.measure.kinds.bounces.result import Bounces

@@ -6,8 +6,7 @@ from typing import Any, Literal
 import numpy as np
 
 from stackbounce.errors import InvalidValue, finite, positive
-from stackbounce.measure.drag import Drag
-from stackbounce.measure.error_of_drag import with_error_of_drag
+from stackbounce.measure.drag import Drag, with_error_of_drag
 from stackbounce.measure.hints import Hint, Said
 from stackbounce.measure.kinds.track.air import fall_at, meeting, state, straightened
 from stackbounce.measure.kinds.track.flight_numbers import flight_numbers

@@ -168,7 +168,7 @@ function playSeparate(drop, until, times, eventLimit) {
     const position = positionsWithApproach(result, times.map((time) => Math.min(time, reached)));
     return {
       ...numbers(result),
-      restitutions: textbook.contacts.map((law) => law && law.restitution_at(1, 1)),
+      restitutions: textbook.contacts.map((law) => law && law.restitution),
       position,
     };
   } catch (error) {

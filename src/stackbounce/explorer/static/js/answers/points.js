@@ -70,9 +70,9 @@ export class Points {
   checkTogether(numbers) {
     for (const one of numbers) {
       const law = one.part === "contacts" ? this.drop.contacts[one.index] : null;
-      const twin = law?.constructor.loss_fields().find((field) => field !== one.field);
+      const twin = law?.kind.loss_fields.find((field) => field !== one.field);
       const other = numbers.find(({ part, index, field }) => part === one.part && index === one.index && field === twin);
-      if (law?.constructor.loss_fields()[0] !== one.field || !other) continue;
+      if (law?.kind.loss_fields[0] !== one.field || !other) continue;
       throw new InvalidValue(`${one.path} and ${other.path}: only one of the two can vary`);
     }
   }
@@ -157,7 +157,7 @@ export class Points {
       const own = varied.filter(({ number }) => number.part === "contacts" && number.index === contact);
       const constants = (i, j) => Object.fromEntries(own.map((one) => [one.number.field, one.at(i, j)]));
       const targets = ["stiffness", "exponent", "law_parameter", "second_parameter"].map((name) => [name, contact]);
-      if (own.length) change(own, targets, (i, j) => law.engine_numbers(constants(i, j)).slice(1));
+      if (own.length) change(own, targets, (i, j) => law.replaced(constants(i, j)).engineNumbers(theEngine().forms).slice(1));
     });
     const fall = varied.filter(({ number }) => ["gravity", "height", "impact_speed"].includes(number.field));
     const given = (field) => fall.find(({ number }) => number.field === field);

@@ -73,7 +73,7 @@ export class Drop {
   toMapping() {
     const given = { gaps: this.gaps, impact_speed: this.impact_speed, height: this.height, velocities: this.velocities };
     const plain = Object.fromEntries(Object.entries(given).filter(([, value]) => value !== undefined));
-    const contacts = this.contacts.map((law) => (law === null ? { law: "none" } : law.to_mapping()));
+    const contacts = this.contacts.map((law) => (law === null ? { law: "none" } : law.toMapping()));
     return { ...plain, gravity: this.gravity, balls: this.balls.map(inOrder), contacts };
   }
 }
@@ -100,7 +100,7 @@ function checkContacts(contacts, count) {
   if (rigid < 0 || other < 0) return;
   throw new InvalidValue(
     "contacts must be all rigid or have none that is, got a mixture: " +
-      `contacts.${rigid} is ${contacts[rigid].constructor.__name__} and contacts.${other} is ${contacts[other].constructor.__name__}`,
+      `contacts.${rigid} is ${contacts[rigid].kind.law} and contacts.${other} is ${contacts[other].kind.law}`,
   );
 }
 

@@ -1,56 +1,78 @@
-/** What the classes of made/laws.js derive from: fields with limits, and copies as plain values. */
+/** The contact laws: made/model.json has the fields of each, their limits, and what the engine takes. */
 
-import { within } from "./errors.js";
+import { LAW_CODE } from "../../made/laws.js";
+import { InvalidValue, between, fraction, general, shown, within } from "./errors.js";
+import { known } from "./known.js";
 
-/** A law of a contact. `tell` gives each class its constants, its fields, and the limits of its numbers. */
-export class LawBase {
-  static tell({ constants, law, fields = [], numbers = {} }) {
-    Object.assign(this, constants);
-    Object.assign(this.prototype, constants);
-    Object.defineProperty(this, "__name__", { value: law ?? this.name });
-    this.fields = fields;
-    const check = (limits) => (name, value) => within(name, value, limits);
-    this.numbers = Object.fromEntries(Object.entries(numbers).map(([name, one]) => [name, { ...one, check: check(one) }]));
+/** Return the laws' kinds, `known.models`, by their names. */
+export function kinds() {
+  return known.models;
+}
+
+/** Return the kind of the law without a contact time. */
+export function rigidKind() {
+  return Object.values(kinds()).find((kind) => kind.rigid);
+}
+
+/** A law of a contact, of a kind, with its numbers. */
+export class Law {
+  /** Take numbers by name, which are checked; where one is not given it is the usual one. */
+  constructor(kind, numbers) {
+    Object.defineProperties(this, { kind: { value: kind }, derived: { value: "", writable: true } });
+    this.exponent = kind.exponent;
+    for (const { name, usual } of kind.fields) this[name] = numbers[name] ?? usual ?? null;
+    const twins = kind.loss_fields.length > 1 ? kind.loss_fields : [];
+    for (const { name, ...limits } of kind.fields) if (!twins.includes(name)) within(name, this[name], limits);
+    if (twins.length) this.derive();
   }
 
-  /** Return a law of values in the order of its fields, and of values by name; they are checked. */
-  static make(values, named = {}) {
-    const law = new this();
-    const inOrder = this.fields.filter((field) => !field.named);
-    for (const { name, default: usual } of this.fields) {
-      const place = inOrder.findIndex((field) => field.name === name);
-      law[name] = named[name] ?? (place >= 0 && place < values.length ? values[place] : (usual ?? null));
+  get rigid() {
+    return this.kind.rigid;
+  }
+
+  /** Set restitution and unloading exponent, of which one is given: e² = (p + 1)/(n + 1). */
+  derive() {
+    const { exponent: p, restitution, unloading_exponent: unloading } = this;
+    const { steepest } = known;
+    const e = restitution === null ? null : fraction("restitution", restitution, { zero: false });
+    const n = unloading === null ? null : between("unloading_exponent", unloading, p, steepest);
+    const fromE = e && Math.max(p, (p + 1) / e / e - 1);
+    const fromN = n && Math.sqrt((p + 1) / (n + 1));
+    if (n === null && fromE > steepest) {
+      const least = general(1.001 * Math.sqrt((p + 1) / (steepest + 1)), 3);
+      const why = `for exponent ${general(p)}, so that unloading_exponent is at most ${general(steepest)}`;
+      throw new InvalidValue(`restitution must be at least ${least} ${why}, got ${shown(restitution)}`);
     }
-    law.__post_init__();
-    return law;
+    if (e !== null && (n === null || n === fromE)) Object.assign(this, { unloading_exponent: fromE, derived: "unloading_exponent" });
+    else if (n !== null && (e === null || e === fromN)) Object.assign(this, { restitution: fromN, derived: "restitution" });
+    else {
+      const got = e === null ? "neither" : `restitution=${shown(e)} and unloading_exponent=${shown(n)}, which disagree: set the other to None`;
+      throw new InvalidValue(`restitution and unloading_exponent: exactly one of the two must be given, got ${got}`);
+    }
   }
 
-  static quantities() {
-    return this.numbers;
+  /** Return the law as the engine takes it: the form of its force, and four numbers. */
+  engineNumbers(forms) {
+    const { law, form, parameters } = this.kind;
+    const parameter = (name) => (name ? this[name] : 0);
+    return [forms[form], ...(LAW_CODE[law]?.numbers?.(this) ?? [this.stiffness ?? 1, this.exponent ?? 1, ...parameters.map(parameter)])];
   }
 
-  quantities() {
-    return this.constructor.numbers;
-  }
-
-  /** Return a copy with fields changed. */
+  /** Return a copy with some numbers changed; a derived one is computed again. */
   replaced(changes) {
-    return this.constructor.make([], { ...this.given(), ...changes });
+    const numbers = this.given();
+    const twins = this.kind.loss_fields;
+    if (twins.some((name) => name in changes)) for (const name of twins) delete numbers[name];
+    return new Law(this.kind, { ...numbers, ...changes });
   }
 
   /** Return the law as plain values, with its name as `law`. */
-  to_mapping() {
-    return { law: this.constructor.__name__, ...this.given() };
+  toMapping() {
+    return { law: this.kind.law, ...this.given() };
   }
 
   given() {
-    return Object.fromEntries(this.constructor.fields.map(({ name }) => [name, this[name]]));
-  }
-}
-
-/** A number of a law that a formula checks by itself. */
-export class Quantity {
-  static make([unit, check]) {
-    return Object.assign(new Quantity(), { unit, check });
+    const names = this.kind.fields.map(({ name }) => name).filter((name) => name !== this.derived);
+    return Object.fromEntries(names.map((name) => [name, this[name]]));
   }
 }

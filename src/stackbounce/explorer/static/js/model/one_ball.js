@@ -1,19 +1,16 @@
-/** One collision of one ball with the floor, by the engine: where a law has no formula for it. */
+/** One collision of one ball with the floor, by the engine. */
 
-import { ArithmeticError } from "./python.js";
+/** A collision that cannot be followed to its end, or a number out of range. */
+export class OutOfRange extends Error {}
 
 const TOLERANCE = 1e-12;
-const EVENTS = 1000; // events or steps: a collision that can be followed takes some hundred
-
-/** The codes of the forms of forces, by name. */
-export const FORMS = {};
+const EVENTS = 100_000; // events or steps: most collisions take less than a hundred, and a very stiff one some 10 000
 
 let engine = null;
 
 /** Take the engine that runs the drops of this page. */
 export function useEngine(one) {
   engine = one;
-  Object.assign(FORMS, one.forms);
 }
 
 /** Return the engine that was taken. */
@@ -21,9 +18,10 @@ export function theEngine() {
   return engine;
 }
 
-/** Return the restitution and the contact time in s of a ball on a floor, without gravity. */
-export function bounce([form, stiffness, exponent, first, second], mass, speed) {
+/** Return the restitution and the contact time in s of a ball on a floor with a law, without gravity. */
+export function bounce(law, mass, speed) {
   const { log, statuses, events, layout } = engine;
+  const [form, stiffness, exponent, first, second] = law.engineNumbers(engine.forms);
   const drop = {
     mass: [mass],
     kind: [form],
@@ -34,10 +32,10 @@ export function bounce([form, stiffness, exponent, first, second], mass, speed) 
     gap: [0],
     velocity: [-speed],
     gravity: 0,
-    rigid: false,
+    rigid: law.rigid,
   };
   const run = engine.simulate(drop, { rtol: TOLERANCE, eventLimit: EVENTS, peaks: false });
-  if (run.status !== statuses.FINISHED) throw new ArithmeticError();
+  if (run.status !== statuses.FINISHED) throw new OutOfRange();
   let end = 0;
   for (let at = 0; at < run.log.length; at += layout.sizes.log_columns) {
     if (run.log[at + log.KIND] === events.RELEASE) end = Math.max(end, run.log[at + log.TIME]);

@@ -27,8 +27,7 @@ function unitsOf(law) {
   if (law === null) return {};
   const exponent = law.exponent ?? 1;
   const power = exponent === 1 ? "" : `**${general(exponent)}`;
-  const units = Object.entries(law.quantities()).map(([name, { unit }]) => [name, unit.replace("**exponent", power)]);
-  return Object.fromEntries(units);
+  return Object.fromEntries(law.kind.fields.map(({ name, unit }) => [name, unit.replace("**exponent", power)]));
 }
 
 /** Return a number of a drop; undefined for one that is not given. */

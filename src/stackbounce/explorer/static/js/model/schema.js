@@ -1,9 +1,9 @@
 /** Reads a drop from what somebody gave, as stackbounce/model/schema.py does: same numbers, same words. */
 
-import { LAWS } from "../../made/laws.js";
 import { Drop } from "./drop.js";
 import { InvalidValue, Wrong, between, nearest, shown, shownAsGiven, writeFloat } from "./errors.js";
 import { known } from "./known.js";
+import { Law, kinds } from "./law.js";
 import { quantity } from "./units.js";
 
 export const NO_FLOOR = "none";
@@ -55,33 +55,30 @@ function readBall(value, path) {
 /** Return the contact law that a mapping describes; null for no floor. */
 export function readLaw(value, path) {
   const { law: name, ...table } = tableOf(value, path);
-  if (name === undefined) throw new InvalidValue(`${path}.law is missing; ${nearest("", [...Object.keys(LAWS), NO_FLOOR])}`);
+  if (name === undefined) throw new InvalidValue(`${path}.law is missing; ${nearest("", [...Object.keys(kinds()), NO_FLOOR])}`);
   if (typeof name === "string" && name.toLowerCase() === NO_FLOOR) {
     if (Object.keys(table).length) throw new InvalidValue(`${path}.law = "${NO_FLOOR}" has no numbers, got ${shownAsGiven(table)}`);
     return null;
   }
   let kind = null;
-  under(path, () => (kind = lawNamed(name)), `, ${NO_FLOOR}`);
+  under(path, () => (kind = kindNamed(name)), `, ${NO_FLOOR}`);
   const fields = fieldsOf(kind);
   checkKeys(fields, table, path);
   const exponent = "exponent" in table ? readValue("exponent", table.exponent, fields, path, 1) : 1;
   const values = readValues(fields, table, path, exponent);
-  return under(path, () => kind.make([], values));
+  return under(path, () => new Law(kind, values));
 }
 
-/** Return the class of a law by its name; case, hyphens and underscores do not matter. */
-export function lawNamed(name) {
+/** Return the kind of a law by its name; case, hyphens and underscores do not matter. */
+export function kindNamed(name) {
   const word = typeof name === "string" ? name.toLowerCase().replace(JOINED, "") : "";
-  const found = Object.keys(LAWS).find((one) => one.toLowerCase() === word);
-  if (found) return LAWS[found];
-  throw new InvalidValue(`law must be a contact law, got ${shownAsGiven(name)}; ${nearest(name, Object.keys(LAWS))}`);
+  const found = Object.values(kinds()).find(({ law }) => law.toLowerCase() === word);
+  if (found) return found;
+  throw new InvalidValue(`law must be a contact law, got ${shownAsGiven(name)}; ${nearest(name, Object.keys(kinds()))}`);
 }
 
 function fieldsOf(kind) {
-  const { numbers } = kind;
-  return Object.fromEntries(
-    kind.fields.map(({ name, default: usual }) => [name, { required: usual === undefined, unit: numbers[name]?.unit }]),
-  );
+  return Object.fromEntries(kind.fields.map(({ name, usual, unit }) => [name, { required: usual === undefined, unit }]));
 }
 
 function isTable(value) {

@@ -1,14 +1,17 @@
-"""The memory in which drops are run: lists for plain Python, arrays and their tables otherwise."""
+"""The memory in which drops are run: lists for plain Python, arrays and their tables otherwise.
+
+Compiled code is run wherever there is some for this machine (`native`). Plain Python gives the same
+bits, about a hundred times slower.
+"""
 
 import functools
-import os
 import threading
-from collections.abc import Callable, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from stackbounce.engine import codes
+from stackbounce.engine import codes, native
 from stackbounce.engine.records import AFTER, Drops, Outcomes, Workspace
 from stackbounce.engine.slots import LOG_ROWS
 from stackbounce.engine.stack import (
@@ -17,20 +20,55 @@ from stackbounce.engine.stack import (
     Samples,
     as_arrays,
     in_one_room,
+    new_rigid_stack,
     new_samples,
+    new_stack,
 )
 from stackbounce.engine.tables import Table
-from stackbounce.errors import InvalidValue
-from stackbounce.model import ContactLaw
-from stackbounce.run.engines import Engine, Kernel, kernel_named
-from stackbounce.run.options import Options
 
-__all__ = ["Memory", "check_room", "memory", "spring_workspace"]
+Kernel: TypeAlias = Callable[..., Any]
+
+OUT_OF_RANGE = (OverflowError, ZeroDivisionError, ValueError)
+"""What plain Python raises where compiled code goes on with inf or nan.
+
+``1.0 / 0.0``, ``math.sqrt(-1.0)`` and ``int(math.nan)`` are such cases. Any other exception in a
+kernel is a programming error and is not caught.
+"""
 
 _ROWS = 512  # of the log, besides one for each ball
-_USUAL = 16 * 10**9  # bytes of memory, where it is not known
 _MOST = 16  # stacks of different height that a thread keeps
 _local = threading.local()
+
+
+class Engine(NamedTuple):
+    """What solves stacks of one kind: how a stack is made, and the names of the kernels.
+
+    Parameters
+    ----------
+    new_stack : callable
+        Returns an empty stack for a number of balls.
+    run_drop : str
+        The kernel that runs one drop until it ends or the log is full.
+    run_batch : str
+        The kernel that runs many drops one after the other.
+    """
+
+    new_stack: Callable[[int], Any]
+    run_drop: str
+    run_batch: str
+
+
+FINITE = Engine(new_stack, "run_drop", "run_batch")
+RIGID = Engine(new_rigid_stack, "run_rigid_drop", "run_rigid_batch")
+
+
+def kernel_named(name: str, compiled: bool) -> Kernel:
+    """Return a kernel as compiled code or in plain Python, which is imported only then."""
+    if compiled:
+        return native.compiled(name)
+    from stackbounce.engine.entries import ENTRIES
+
+    return ENTRIES[name]
 
 
 class Memory(NamedTuple):
@@ -50,10 +88,10 @@ class Memory(NamedTuple):
         for room, values in zip(self.drop, numbers, strict=True):
             room[0] = values
 
-    def put_pieces(self, laws: Sequence[ContactLaw | None]) -> None:
-        """Set the pieces of the curves of contacts that are given by tables."""
-        for i, law in enumerate(laws):
-            if law is not None and (numbers := law.pieces()):
+    def put_pieces(self, pieces: Iterable[Sequence[float]]) -> None:
+        """Set the pieces of the curves of contacts that are given by tables, of others nothing."""
+        for i, numbers in enumerate(pieces):
+            if numbers:
                 at = i * MOST_PIECES * PIECE_NUMBERS
                 self.stack.pieces[at : at + len(numbers)] = numbers
 
@@ -68,7 +106,7 @@ class Memory(NamedTuple):
         self,
         entry: str,
         drops: Drops,
-        options: Options,
+        options: Sequence[float],
         out: Outcomes,
         pause: Callable[[], None] = lambda: None,
     ) -> None:
@@ -95,38 +133,6 @@ class Memory(NamedTuple):
     def numbers(self, values: Any) -> list[Any]:
         """Return an array or a list as a list."""
         return list(values.tolist() if self.compiled else values)
-
-
-def check_room(numbers: int, what: str, way: str) -> None:
-    """Refuse what has more numbers of 64 bits than this machine has memory for.
-
-    Parameters
-    ----------
-    numbers : int
-        How many.
-    what, way : str
-        What has them, and how to do without.
-
-    Raises
-    ------
-    InvalidValue
-        If they do not fit.
-
-    Examples
-    --------
-    >>> check_room(10**15, "a million drops", "take fewer")
-    Traceback (most recent call last):
-    stackbounce.errors.InvalidValue: a million drops would take 8e+06 GB of memory, and ...
-    """
-    try:
-        most = os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
-    except (AttributeError, ValueError):  # Windows
-        most = _USUAL
-    if 8 * numbers > most:
-        needed, there = 8e-9 * numbers, 1e-9 * most
-        raise InvalidValue(
-            f"{what} would take {needed:.3g} GB of memory, and this machine has {there:.3g}: {way}"
-        )
 
 
 def memory(engine: Engine, balls: int, compiled: bool) -> Memory:

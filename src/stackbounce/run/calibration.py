@@ -2,12 +2,22 @@
 
 from typing import TypeVar
 
-from stackbounce.calibration.collision import Mass, reduced
 from stackbounce.errors import InvalidType, InvalidValue, between, fraction, positive, shown
 from stackbounce.model.laws import LAWS, STEEPEST, ContactLaw
 from stackbounce.model.laws.registry import UNLISTED
+from stackbounce.run.collision import Mass, reduced
 
 __all__ = ["calibrate"]
+
+_UNITS = {
+    "contact_time": "seconds",
+    "impact_speed": "m/s",
+    "relaxation_time": "seconds",
+    "buckling_time": "seconds",
+    "frequency": "Hz",
+    "decay_time": "seconds",
+}
+_KNOWN_BESIDES = {"relaxation_time", "buckling_time", "buckling_share"}
 
 _Law = TypeVar("_Law", bound=ContactLaw)
 
@@ -105,19 +115,26 @@ def calibrate(
             f"law_class must be the class of a contact law ({known}), got {shown(law_class)}"
         )
     kind: type[_Law] = law_class
-    given = _checked(kind, mass, contact_time, restitution, impact_speed, exponent)
-    if relaxation_time is not None:
-        given["relaxation_time"] = positive("relaxation_time", relaxation_time, "seconds")
-    if buckling_time is not None:
-        given["buckling_time"] = positive("buckling_time", buckling_time, "seconds")
-    if frequency is not None:
-        given["frequency"] = positive("frequency", frequency, "Hz")
-    if decay_time is not None:
-        given["decay_time"] = positive("decay_time", decay_time, "seconds")
-    if buckling_share is not None:
-        given["buckling_share"] = fraction("buckling_share", buckling_share, zero=False)
-        if given["buckling_share"] == 1.0:
-            raise InvalidValue("buckling_share must be below 1: the force rises on, got 1")
+    asked = {
+        "mass": mass,
+        "contact_time": contact_time,
+        "restitution": restitution,
+        "impact_speed": impact_speed,
+        "exponent": exponent,
+        "relaxation_time": relaxation_time,
+        "buckling_time": buckling_time,
+        "buckling_share": buckling_share,
+        "frequency": frequency,
+        "decay_time": decay_time,
+    }
+    given = {name: _checked(kind, name, one) for name, one in asked.items() if one is not None}
+    usual, fixed = kind.default_exponent(), kind.fixed_exponent()
+    if usual is not None:
+        given.setdefault("exponent", usual)
+    if fixed is not None and given["exponent"] != fixed:
+        raise InvalidValue(
+            f"exponent must be {fixed:g} or left out for {kind.__name__}, got {shown(exponent)}"
+        )
     if not kind.loss and given.get("restitution", 1.0) != 1.0:
         raise InvalidValue(
             f"restitution must be 1 or left out for {kind.__name__}, which gives back all "
@@ -130,6 +147,12 @@ def calibrate(
             f"{', '.join(missing)} must be given to calibrate {kind.__name__}, which needs "
             f"{', '.join(needed)}"
         )
+    kept = given.get("restitution", 1.0)
+    if kept < kind.least_restitution and not given.keys() & _KNOWN_BESIDES:
+        least = f"{kind.least_restitution:.3g}"
+        raise InvalidValue(
+            f"restitution must be at least {least} for a {kind.__name__}, got {kept:g}"
+        )
     try:  # where the exponent is 1, any speed will do
         return kind.calibrated({"impact_speed": 1.0} | given)
     except ArithmeticError:
@@ -139,33 +162,17 @@ def calibrate(
         ) from None
 
 
-def _checked(
-    law_class: type[ContactLaw],
-    mass: object,
-    contact_time: object,
-    restitution: object,
-    impact_speed: object,
-    exponent: object,
-) -> dict[str, float]:
-    """Validate the given arguments; return them with the fixed or default exponent of the class."""
-    given = {}
-    if mass is not None:
-        given["mass"] = reduced(mass)
-    if contact_time is not None:
-        given["contact_time"] = positive("contact_time", contact_time, "seconds")
-    if restitution is not None:
-        given["restitution"] = fraction("restitution", restitution, zero=law_class.rigid)
-    if impact_speed is not None:
-        given["impact_speed"] = positive("impact_speed", impact_speed, "m/s")
-    if exponent is not None:
-        given["exponent"] = between("exponent", exponent, 1.0, STEEPEST)
-    usual = law_class.default_exponent()
-    if usual is not None:
-        given.setdefault("exponent", usual)
-    fixed = law_class.fixed_exponent()
-    if fixed is not None and given["exponent"] != fixed:
-        raise InvalidValue(
-            f"exponent must be {fixed:g} or left out for {law_class.__name__}, "
-            f"got {shown(exponent)}"
-        )
-    return given
+def _checked(kind: type[ContactLaw], name: str, value: object) -> float:
+    """Return an argument, validated."""
+    if name == "mass":
+        return reduced(value)
+    if name == "restitution":
+        return fraction(name, value, zero=kind.rigid)
+    if name == "exponent":
+        return between(name, value, 1.0, STEEPEST)
+    if name != "buckling_share":
+        return positive(name, value, _UNITS[name])
+    share = fraction(name, value, zero=False)
+    if share == 1.0:
+        raise InvalidValue("buckling_share must be below 1: the force rises on, got 1")
+    return share

@@ -1,19 +1,24 @@
-"""The restitution and the contact time of a contact law, for one collision."""
+"""The restitution and the contact time of a contact law, and a drop as separate collisions."""
 
 import math
+import sys
 from collections.abc import Mapping, Sequence, Set
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 from stackbounce.errors import InvalidType, InvalidValue, positive, shown
-from stackbounce.model.laws import ContactLaw
+from stackbounce.model.drop import Drop
+from stackbounce.model.laws import ContactLaw, Rigid
 
-__all__ = ["Mass", "contact_time", "reduced", "restitution"]
+__all__ = ["Mass", "contact_time", "reduced", "restitution", "separate"]
 
 Mass: TypeAlias = float | Sequence[float]
 """In kg: the mass of a ball on a floor, or the reduced mass or both masses of a pair."""
 
 
-def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None = None) -> float:
+def restitution(
+    law: ContactLaw, mass: Mass | None = None, impact_speed: float | None = None
+) -> float:
     """Return the restitution of a contact: the ratio of its relative speeds after and before.
 
     Parameters
@@ -24,7 +29,7 @@ def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None =
         The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
         ``m1 m2/(m1 + m2)``); needed for `Dashpot`,
         `StandardLinearSolid` and `Viscoelastic`.
-    speed : float, optional
+    impact_speed : float, optional
         The speed in m/s at which the two meet; needed for `RigidBySpeed`, `RigidLossBySpeed`,
         `Viscoelastic` and `HuntCrossley`.
 
@@ -38,7 +43,7 @@ def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None =
     InvalidType
         If `law` is no contact law, or a number has the wrong type.
     InvalidValue
-        If `mass` or `speed` is needed and missing, or is not positive and finite.
+        If `mass` or `impact_speed` is needed and missing, or is not positive and finite.
 
     Notes
     -----
@@ -58,10 +63,12 @@ def restitution(law: ContactLaw, mass: Mass | None = None, speed: float | None =
     >>> round(restitution(Dashpot(100.0, damping=2.0), mass=1.0), 6)  # ζ = 0.1
     0.744079
     """
-    return _measured("restitution", law, mass, speed)
+    return _measured("restitution", law, mass, impact_speed)
 
 
-def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None = None) -> float:
+def contact_time(
+    law: ContactLaw, mass: Mass | None = None, impact_speed: float | None = None
+) -> float:
     """Return the contact time in s of one collision, from the touch to the release.
 
     Parameters
@@ -71,7 +78,7 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
     mass : float or (float, float), optional
         The mass in kg of the ball on the floor, or the two masses of a pair (or their reduced mass
         ``m1 m2/(m1 + m2)``); not needed for rigid laws.
-    speed : float, optional
+    impact_speed : float, optional
         The relative speed in m/s at the touch. Not needed for rigid laws, `Spring`, `Dashpot` and
         `StandardLinearSolid`, nor for `PowerLaw` and `Hysteretic` with the exponent 1.
 
@@ -85,7 +92,7 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
     InvalidType
         If `law` is no contact law, or a number has the wrong type.
     InvalidValue
-        If `mass` or `speed` is needed and missing, or is not positive and finite.
+        If `mass` or `impact_speed` is needed and missing, or is not positive and finite.
 
     Notes
     -----
@@ -102,10 +109,10 @@ def contact_time(law: ContactLaw, mass: Mass | None = None, speed: float | None 
     >>> from stackbounce.model import Hertz, Spring
     >>> round(contact_time(Spring(22500), mass=0.057), 6)
     0.005
-    >>> round(contact_time(Hertz(1.0), mass=1.0, speed=1.0), 6)
+    >>> round(contact_time(Hertz(1.0), mass=1.0, impact_speed=1.0), 6)
     3.218065
     """
-    return _measured("contact time", law, mass, speed)
+    return _measured("contact time", law, mass, impact_speed)
 
 
 def reduced(mass: object) -> float:
@@ -136,7 +143,7 @@ def reduced(mass: object) -> float:
     return low / (1.0 + low / high)
 
 
-def _measured(what: str, law: object, mass: object, speed: object) -> float:
+def _measured(what: str, law: object, mass: object, impact_speed: object) -> float:
     """Return the restitution or the contact time; mass and speed may be None if not needed."""
     if not isinstance(law, ContactLaw):
         raise InvalidType(f"law must be a contact law, got {shown(law)}")
@@ -144,7 +151,7 @@ def _measured(what: str, law: object, mass: object, speed: object) -> float:
         needed, compute = law.loss_depends_on, law.restitution_at
     else:
         needed, compute = law.contact_time_depends_on, law.contact_time_at
-    given = {"mass": mass, "speed": speed}
+    given = {"mass": mass, "impact_speed": impact_speed}
     missing = [name for name in needed if given[name] is None]
     if missing:
         raise InvalidValue(
@@ -152,13 +159,82 @@ def _measured(what: str, law: object, mass: object, speed: object) -> float:
             "depends on it, got None"
         )
     m = 1.0 if mass is None else reduced(mass)
-    v = 1.0 if speed is None else positive("speed", speed, "m/s")
+    v = 1.0 if impact_speed is None else positive("impact_speed", impact_speed, "m/s")
     try:
         value = compute(m, v)
     except ArithmeticError:
         value = math.nan
     if not math.isfinite(value):
         raise InvalidValue(
-            f"law, mass and speed must give a {what} in the range of numbers, got {shown(law)}"
+            f"law, mass and impact_speed must give a {what} in the range of numbers, "
+            f"got {shown(law)}"
         )
     return value
+
+
+def separate(drop: Drop) -> Drop:
+    """Return a drop with rigid contacts: the textbook model of separate collisions.
+
+    Parameters
+    ----------
+    drop : Drop
+        Any drop.
+
+    Returns
+    -------
+    Drop
+        The same drop, in which each contact is `Rigid` with the restitution of its former law.
+        Gravity is 0, because it has no effect during an instantaneous collision.
+
+    Raises
+    ------
+    InvalidType
+        If `drop` is no Drop.
+    InvalidValue
+        If the restitution of a contact cannot be computed in floating point, or a contact is a
+        `Bond`, which has none.
+
+    Notes
+    -----
+    Source: R. Cross, Am. J. Phys. 75, 1009 (2007), eqs 1 to 4.
+
+    If the restitution depends on the speed, the closing speed of the first collision is used. For
+    this speed the contacts collide once each, from the bottom up: ball 0 hits the floor at its
+    start velocity, and ball i meets ball i - 1 after the collision at contact i - 1. A contact that
+    would not close in this order gets the restitution at the drop's `reference_speed`. All later
+    collisions of a contact have the same restitution.
+
+    Examples
+    --------
+    >>> from stackbounce.model import Ball, Drop, Spring
+    >>> drop = Drop([Ball(0.150), Ball(0.057)], [Spring(2500), Spring(1000)], impact_speed=3.53)
+    >>> separate(drop).contacts
+    (Rigid(restitution=1.0), Rigid(restitution=1.0))
+    """
+    if not isinstance(drop, Drop):
+        raise InvalidType(f"drop must be a Drop, got {shown(drop)}")
+    rigid = replace(drop, contacts=_collisions(drop))
+    if drop.gravity == 0.0:
+        return rigid
+    if drop.height is None:
+        return replace(rigid, gravity=0.0)
+    return replace(rigid, gravity=0.0, height=None, impact_speed=drop.reference_speed)
+
+
+def _collisions(drop: Drop) -> list[Rigid | None]:
+    """Return each contact as `Rigid`, with its restitution in collisions from the bottom up."""
+    contacts: list[Rigid | None] = []
+    below = 0.0  # velocity of what lies below: the floor, then the ball after its own collision
+    for i, law in enumerate(drop.contacts):
+        own, mass = drop.start_velocities[i], drop.balls[i].mass
+        if law is None:
+            contacts.append(None)
+            below = own
+            continue
+        moving = mass if i == 0 else reduced((drop.balls[i - 1].mass, mass))
+        closing = min(below - own, sys.float_info.max)
+        e = restitution(law, moving, closing if closing > 0.0 else drop.reference_speed)
+        contacts.append(Rigid(e))
+        # m v' = m v + (1 + e) μ (v_below - v), as eqs 1 and 2
+        below = own + (1.0 + e) * moving / mass * max(0.0, closing)
+    return contacts
