@@ -17,7 +17,7 @@ class Hardening(ContactLaw):
     formula = "F = stiffness c (1 + (c/length)**2)"
     source = "I. Kovacic and M. J. Brennan, The Duffing Equation (Wiley, 2011)"
     form = "HARDENING"
-    law_parameter = "length"
+    third_number = "length"
     rate_free = True
     usual_models: ClassVar = {"Hardening": {}}
 

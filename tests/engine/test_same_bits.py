@@ -22,7 +22,6 @@ SEED = 11
 BATCHES = [batch for batch in range(50) if balls_of(batch) > 1]  # of 2 to 6 balls
 EVENTS = 100  # at most
 TIMES = 20  # of samples
-DRAWN = {"law_parameter": "extra", "second_parameter": "second"}  # their names in `fuzz.draw`
 EACH = 500  # drops of a batch that the processor levels are given
 
 
@@ -85,7 +84,7 @@ def batches():
     found = []
     for batch in BATCHES[: 10_000 // EACH]:
         drawn = drops_of(SEED, batch, EACH)
-        kept = [getattr(drawn, DRAWN.get(name, name)) for name in Drops._fields]
+        kept = [getattr(drawn, name) for name in Drops._fields]
         options = Options(np.inf, 1e-6, EVENTS)
         found.append((RIGID if is_rigid(batch) else FINITE, Drops(*kept), options))
     return found
@@ -114,7 +113,7 @@ def outcomes():
 def springs():
     """Return the bits of the outcomes of ten thousand drops of two balls on springs."""
     drawn = drops_of(SEED, 0, 10_000)
-    kept = [getattr(drawn, DRAWN.get(name, name)) for name in Drops._fields]
+    kept = [getattr(drawn, name) for name in Drops._fields]
     drops = Drops(*kept)._replace(velocity=np.repeat(-np.abs(drawn.velocity[:, :1]), 2, axis=1))
     out = empty(drops)
     run = native.compiled("run_two_springs")

@@ -22,11 +22,11 @@ def solve(mass, stiffness, gap, speed, *, plain=False, event_limit=10**6):
     n, table = len(gap), (len(gap), 2)
     drops = Drops(
         mass=np.array(mass, order="C"),
-        kind=np.full(table, codes.POWER),
-        stiffness=np.array(stiffness, order="C"),
-        exponent=np.ones(table),
-        law_parameter=np.zeros(table),
-        second_parameter=np.zeros(table),
+        form=np.full(table, codes.POWER),
+        first=np.array(stiffness, order="C"),
+        second=np.ones(table),
+        third=np.zeros(table),
+        fourth=np.zeros(table),
         gap=np.column_stack([np.zeros(n), gap]),
         velocity=-np.column_stack([speed, speed]),
         gravity=np.zeros(n),

@@ -53,19 +53,7 @@ _SHAKE = 64.0 * EPSILON  # of the largest momentum, per event
 @kernel
 def load(stack: Any, drops: Any, row: int) -> float:
     """Put one drop into a stack's cleared arrays, as `simulate` does; return its unit of time."""
-    unit: float = prepare(
-        stack,
-        drops.mass[row],
-        drops.kind[row],
-        drops.stiffness[row],
-        drops.exponent[row],
-        drops.extra[row],
-        drops.second[row],
-        drops.gap[row],
-        drops.velocity[row],
-        drops.gravity[row],
-        drops.rtol[row],
-    )
+    unit: float = prepare(stack, drops, row, drops.rtol[row])
     return unit
 
 
@@ -245,19 +233,7 @@ def run_rigid(
 ) -> None:
     """Run one drop of rigid balls and write into ``out`` what is found."""
     clear_arrays(room[0], room[1])
-    prepare_rigid(
-        stack,
-        drops.mass[row],
-        drops.kind[row],
-        drops.stiffness[row],
-        drops.exponent[row],
-        drops.extra[row],
-        drops.second[row],
-        drops.gap[row],
-        drops.velocity[row],
-        drops.gravity[row],
-        drops.rtol[row],
-    )
+    prepare_rigid(stack, drops, row)
     begin_collisions(stack)
     first, reference = rigid_energy(stack, drops, row, 0.0)
     fault, status = 0, RUNNING

@@ -183,7 +183,7 @@ def test_a_law_without_closed_forms_is_measured_by_a_run():
     @dataclasses.dataclass(frozen=True)
     class Plain(ContactLaw):
         form: ClassVar[str] = sb.Dashpot.form
-        law_parameter: ClassVar[str] = "damping"
+        third_number: ClassVar[str] = "damping"
         exponent: ClassVar[float] = 1.0
         stiffness: float
         damping: float

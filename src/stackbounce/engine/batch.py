@@ -60,19 +60,7 @@ def run_drop(
     if stage != CONTINUE:
         clear_arrays(space.floats, space.integers)
         stack.setting[RECORDS_PEAKS] = stage - BEGIN
-        space.after[UNIT] = prepare(
-            stack,
-            drops.mass[row],
-            drops.kind[row],
-            drops.stiffness[row],
-            drops.exponent[row],
-            drops.law_parameter[row],
-            drops.second_parameter[row],
-            drops.gap[row],
-            drops.velocity[row],
-            drops.gravity[row],
-            rtol,
-        )
+        space.after[UNIT] = prepare(stack, drops, row, rtol)
         for k in range(len(samples.time)):
             samples.time[k] /= space.after[UNIT]
         begin_contacts(stack)
@@ -109,26 +97,14 @@ def run_rigid_drop(
     row: int,
     stage: int,
     until: float,
-    rtol: float,
+    rtol: float,  # noqa: ARG001 - collisions are exact
     event_limit: int,
     work_limit: int,  # noqa: ARG001 - the limit of events is that of the work, too
 ) -> int:
     """Run a drop of rigid balls; see `run_drop`."""
     if stage != CONTINUE:
         clear_arrays(space.floats, space.integers)
-        space.after[UNIT] = prepare_rigid(
-            stack,
-            drops.mass[row],
-            drops.kind[row],
-            drops.stiffness[row],
-            drops.exponent[row],
-            drops.law_parameter[row],
-            drops.second_parameter[row],
-            drops.gap[row],
-            drops.velocity[row],
-            drops.gravity[row],
-            rtol,
-        )
+        space.after[UNIT] = prepare_rigid(stack, drops, row)
         begin_collisions(stack)
     stack.counter[LOG_ROWS] = 0
     status = collide_all(stack, until, event_limit, space.log, samples)

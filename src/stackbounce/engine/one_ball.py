@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from stackbounce.engine import codes
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare
+from stackbounce.engine.records import Drops
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts
 from stackbounce.engine.slots import LAST_EVENT, LOG_ROWS
 from stackbounce.engine.stack import new_samples, new_stack
@@ -27,7 +28,7 @@ def bounce(
     Parameters
     ----------
     numbers : tuple
-        A contact as in `prepare`: form of the force, stiffness, exponent and two law parameters.
+        A contact: the form of its force and four numbers, see `forces`.
     mass, speed : float
         In kg and m/s.
     pieces : sequence of float, optional
@@ -44,12 +45,12 @@ def bounce(
     >>> round(e, 9), round(time / math.pi, 9)
     (1.0, 0.1)
     """
-    form, k, p, z, w = numbers
+    form, *rest = numbers
     stack = new_stack(1)
     stack.pieces[: len(pieces)] = pieces
     log = [0.0] * (_ROWS * codes.LOG_COLUMNS)
-    contact = [form], [k], [p], [z], [w]
-    unit = prepare(stack, [mass], *contact, [0.0], [-speed], 0.0, _TOLERANCE)
+    contact = [[form]], *([[number]] for number in rest)
+    unit = prepare(stack, Drops([[mass]], *contact, [[0.0]], [[-speed]], [0.0]), 0, _TOLERANCE)
     begin_contacts(stack)
     status, none = codes.RUNNING, new_samples([], 1)
     while status == codes.RUNNING and stack.counter[LOG_ROWS] < _ROWS - 1:

@@ -73,8 +73,8 @@ class RigidBySpeed(Rigid):
     formula = "v' = -e v, e = min(1, restitution (v/speed)**-speed_exponent)"
     source = "A. P. Hatzes, F. G. Bridges and D. N. C. Lin, Mon. Not. R. Astron. Soc. 231 (1988)"
     form = "RIGID_POWER"
-    law_parameter = "scatter"
-    second_parameter = "seed"
+    third_number = "scatter"
+    fourth_number = "seed"
     loss_depends_on = ("speed",)
 
     restitution: Annotated[float, _RESTITUTION]

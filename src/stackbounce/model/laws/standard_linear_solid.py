@@ -87,8 +87,8 @@ class StandardLinearSolid(ContactLaw):
     )
     source = "C. Zener, Elasticity and Anelasticity of Metals (1948)"
     form = "RELAXING"
-    law_parameter = "relaxation_strength"
-    second_parameter = "relaxation_time"
+    third_number = "relaxation_strength"
+    fourth_number = "relaxation_time"
     loss = "relaxation_strength"
     loss_depends_on = ("mass",)
 

@@ -22,15 +22,15 @@ export function theEngine() {
 }
 
 /** Return the restitution and the contact time in s of a ball on a floor, without gravity. */
-export function bounce([form, stiffness, exponent, first, second], mass, speed) {
+export function bounce([form, first, second, third, fourth], mass, speed) {
   const { log, statuses, events, layout } = engine;
   const drop = {
     mass: [mass],
-    kind: [form],
-    stiffness: [stiffness],
-    exponent: [exponent],
-    law_parameter: [first],
-    second_parameter: [second],
+    form: [form],
+    first: [first],
+    second: [second],
+    third: [third],
+    fourth: [fourth],
     gap: [0],
     velocity: [-speed],
     gravity: 0,
