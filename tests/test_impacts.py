@@ -8,12 +8,10 @@ from functools import partial
 
 import pytest
 from benchmarks.impacts import __main__ as command
-from benchmarks.impacts import runs, score, table
+from benchmarks.impacts import make_answers, runs, score, table
 from benchmarks.impacts.score import FOLDER, Malformed, score_all
 from benchmarks.peers.impacts import PEERS, by_chipmunk, by_mujoco, by_scipy, ours, worlds
 from benchmarks.peers.impacts.common import Peer, Unsupported
-
-from reference import make_impacts
 
 PROBLEMS = score.read(FOLDER / "problems.json", "problems")["problems"]
 ANSWERS = score.read(FOLDER / "answers.json", "answers")["answers"]
@@ -80,7 +78,7 @@ def test_every_problem_has_its_answer():
 
 def recomputed(name):
     stored = next(one for one in ANSWERS if one["name"] == name)
-    assert make_impacts.answer(BY_NAME[name]) == stored
+    assert make_answers.answer(BY_NAME[name]) == stored
 
 
 @pytest.mark.parametrize("name", QUICK)

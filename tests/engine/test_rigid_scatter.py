@@ -142,15 +142,6 @@ def test_a_drop_of_a_sweep_does_not_depend_on_the_others():
         assert part.tolist() == whole[rows].tolist()
 
 
-def test_contacts_with_one_seed_have_draws_of_their_own():
-    law = granite()
-    drop = sb.Drop([sb.Ball(10.0), sb.Ball(1.0)], [law, law], [0.1], velocities=[-1.0, -1.0])
-    first, second = sb.simulate(drop).events[:2]
-    floor = first["upper_velocity"]
-    pair = (second["upper_velocity"] - second["lower_velocity"]) / (1.0 + floor)
-    assert abs(pair - floor) > 1e-3
-
-
 def test_one_ball_comes_to_rest():
     """On average each bounce is 0.83 times as long; far below, 0.4 times the scatter is lost."""
     for law in (granite(1.0), sb.RigidLossBySpeed(0.83, 1.0, 0.5, scatter=0.06, seed=2.0)):

@@ -42,6 +42,40 @@ def everything(result):
     return list(map(bits, known))
 
 
+TABLE = [0.0, 0.01, 0.03, 0.1], [0.0, 0.5, 2.5, 9.0]
+SCATTERS = sb.RigidLossBySpeed(0.8, 3.0, 0.2, scatter=0.05, seed=3.0)
+SPECIAL = {  # contacts that `fuzz.draw` does not draw, masses, gravity
+    "hollow": ([sb.HollowBall(100.0, 0.05, 0.3, 0.8)] * 2, [1.0, 3.0], 0.0),
+    "tables": (
+        [sb.Tabulated(*TABLE, [0.0, 0.0, 0.7, 9.0]), sb.Tabulated(*TABLE, restitution=0.6)],
+        [1.0, 3.0],
+        0.0,
+    ),
+    "bond": ([sb.Spring(300.0), sb.Bond(2e3, 1.0), sb.Spring(100.0)], [0.5, 0.5, 0.1], 0.0),
+    "plate": ([sb.Bond(4e3, 2.0), sb.Spring(900.0)], [1.0, 2.0], 9.81),
+    "by speed": ([sb.RigidBySpeed(0.7, 1.0), SCATTERS, sb.Rigid(0.9)], [1.0, 0.5, 2.0], 9.81),
+    "scatter": ([SCATTERS] * 3, [1.0, 0.5, 2.0], 0.0),
+    "collapse": ([sb.Rigid(0.5)] * 2, [1.0, 7.999], 0.0),
+    "joined": ([sb.Rigid(e) for e in (1.0, 0.95, 0.1)], [6.0, 0.3, 1.5], 1.0),
+    "cradle": ([None] + [sb.Spring(1.0)] * 5, [1.0] * 6, 0.0),
+}
+
+
+@pytest.mark.parametrize("options", [{}, {"until": 0.7}, {"event_limit": 3}], ids=str)
+@pytest.mark.parametrize("name", SPECIAL)
+def test_plain_python_and_compiled_code_of_special_stacks(name, options):
+    laws, masses, gravity = SPECIAL[name]
+    gaps = [0.0 if isinstance(law, sb.Bond) else 0.01 for law in laws[1:]]
+    velocities = [-1.0] * (len(laws) - 1) + [-2.0]
+    balls = [sb.Ball(mass) for mass in masses]
+    drop = sb.Drop(balls, laws, gaps, velocities=velocities, gravity=gravity)
+    options = {"event_limit": EVENTS} | options
+    plain, compiled = (
+        everything(sb.simulate(drop, **options, compiled=way)) for way in (False, True)
+    )
+    assert plain == compiled
+
+
 @pytest.mark.parametrize(
     "drops", [200, pytest.param(2000, marks=pytest.mark.slow)], ids=["few", "many"]
 )

@@ -224,13 +224,6 @@ def test_neither_order_nor_company_changes_a_bit():
         same(whole, solve(*(values[rows] for values in drops)), rows)
 
 
-def test_zero_gap_begins_at_once():
-    out = solve(np.ones((1, 2)), np.ones((1, 2)), np.zeros(1), np.ones(1))
-    assert out["velocity"][0].round(4).tolist() == [0.7664, 1.1886]
-    assert out["collisions"].tolist() == [[1, 1]]
-    assert out["first_touch"].tolist() == [[0.0, 0.0]]
-
-
 @pytest.mark.parametrize(
     ("ratio", "softness", "gap"),
     [

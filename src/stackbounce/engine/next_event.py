@@ -35,28 +35,7 @@ that exceeds its round-off only long after its zero is clipped at the zero all t
 import math
 from typing import NamedTuple, TypeAlias
 
-from stackbounce.engine.codes import (
-    ABSENT,
-    CHECK,
-    CLIPPED,
-    COMPRESSING,
-    CROSSED,
-    CURVED,
-    DIP,
-    EPSILON,
-    LINEARISED,
-    OPEN,
-    PEAK,
-    PIECEWISE,
-    POWER,
-    PRODUCT,
-    RELEASE,
-    RELEASING,
-    RESUMED,
-    RETURNED,
-    TOUCH,
-    UNLOADED,
-)
+from stackbounce.engine import codes
 from stackbounce.engine.contacts import linearised_impulse_limit
 from stackbounce.engine.cycles import has_hysteresis, lowest_compression
 from stackbounce.engine.elementary import exponent_of, times_power_of_two
@@ -84,26 +63,17 @@ from stackbounce.engine.series import (
 from stackbounce.engine.slots import NONLINEAR, SPEED, TOLERANCE
 from stackbounce.engine.stack import Stack
 
-_VANISHED = 1000.0 * EPSILON * EPSILON
-"""Of a typical speed or compression: a motion whose round-off is smaller has died out."""
-
+# of a typical speed or compression: a motion whose round-off is smaller has died out
+_VANISHED = 1000.0 * codes.EPSILON * codes.EPSILON
+# times the tolerance of a step: where motion is nonlinear, smaller overlaps are no touch
 _TOUCH_MARGIN = 10.0
-"""Times the tolerance of a step: where motion is nonlinear, smaller overlaps are no touch."""
-
+# of a time: a zero of the gain that is nearer than this to the time found is not refined
 _TIME_ERROR = 2e-12
-"""Of a time: a zero of the gain that is nearer than this to the time found is not refined."""
-
-_NEWTON_STEPS = 6
-"""Most steps that refine the zero of a gain; the last ones change no bit if they converge."""
-
-_LAST_STEP = 1e-3
-"""Of all steps together: a larger last step shows that they do not converge."""
-
-_CHORD_ENTRY = 0.9
-"""Of the compression where a chord ends: where it begins, so that it does not end at once."""
-
-_CHORD_LOGARITHMS = 1e3
-"""The largest change of the logarithm of the force between these two levels, for steep curves."""
+# the most steps that refine such a zero, and the part of them all that the last may be
+_NEWTON_STEPS, _LAST_STEP = 6, 1e-3
+# a chord ends at ``linearised_below`` and begins at this part of it, so that it does not end at
+# once, or where the logarithm of a steep force has fallen by so much
+_CHORD_ENTRY, _CHORD_LOGARITHMS = 0.9, 1e3
 
 Event: TypeAlias = tuple[float, bool, int]
 """A wait until an event, whether it is reached then or only not before, and its kind."""
@@ -137,22 +107,22 @@ def schedule_next_event(stack: Stack, i: int, time: float) -> None:
     Each kind of event is searched for up to the earliest that has been found before it.
     """
     phase = stack.phase[i]
-    if stack.law[i] == ABSENT:
+    if stack.law[i] == codes.ABSENT:
         return
-    if phase < COMPRESSING:
+    if phase < codes.COMPRESSING:
         align_anchors(stack, i)
     elif stack.bonded[i] == 1 or _keeps_curve(stack, i, time):
-        stack.event[i] = CHECK
+        stack.event[i] = codes.CHECK
         schedule(stack.due, stack.heap, stack.place, i, math.inf)
         return
     motion = _motion(stack, i, time)
     if not motion.known:
         schedule(stack.due, stack.heap, stack.place, i, -math.inf)
         return
-    if phase == OPEN:
+    if phase == codes.OPEN:
         event = _touch(stack, i, motion)
     elif _has_died_out(stack, i, motion):
-        event = 0.0, True, RELEASE
+        event = 0.0, True, codes.RELEASE
     else:
         event = _clip_or_resume(stack, i, time, motion)
         event = _fall(stack, i, motion, event)
@@ -170,15 +140,15 @@ def _motion(stack: Stack, i: int, time: float) -> Motion:
     order, power, tail, noise, rate_noise = compression_series(stack, i, time, root, a)
     known = math.isfinite(tail + noise + rate_noise + a[0] + a[1] + a[order])
     straight = order <= 2 and a[2] == 0.0
-    if stack.phase[i] == OPEN and stack.creep[i] > 0.0:
-        noise += 8.0 * EPSILON * abs(a[0])
+    if stack.phase[i] == codes.OPEN and stack.creep[i] > 0.0:
+        noise += 8.0 * codes.EPSILON * abs(a[0])
         last, power, rest = subtract_surface(stack, i, time, root, a)
         order, tail = max(order, last), tail + rest
     # at least the round-off of a typical compression and speed
-    tick = 4.0 * EPSILON * time
-    band = max(noise + tick * abs(a[root]), 4.0 * EPSILON * stack.scale[i])
+    tick = 4.0 * codes.EPSILON * time
+    band = max(noise + tick * abs(a[root]), 4.0 * codes.EPSILON * stack.scale[i])
     rate_band = rate_noise + tick * abs(2.0 * a[2 * root])
-    rate_band = max(rate_band, 4.0 * EPSILON * stack.number[SPEED])
+    rate_band = max(rate_band, 4.0 * codes.EPSILON * stack.number[SPEED])
     horizon = stack.due[size + stack.first[i]]
     if i > 0:
         horizon = min(horizon, stack.due[size + stack.first[i - 1]])
@@ -204,7 +174,7 @@ def _motion(stack: Stack, i: int, time: float) -> Motion:
 @kernel
 def _has_died_out(stack: Stack, i: int, motion: Motion) -> bool:
     """Return whether the motion of pressing contact i, in normal modes, is only round-off."""
-    if stack.phase[i] < COMPRESSING or stack.modal[stack.first[i]] == 0:
+    if stack.phase[i] < codes.COMPRESSING or stack.modal[stack.first[i]] == 0:
         return False
     slow = motion.rate_noise < _VANISHED * stack.number[SPEED]
     return slow and motion.noise < _VANISHED * stack.scale[i]
@@ -213,7 +183,9 @@ def _has_died_out(stack: Stack, i: int, motion: Motion) -> bool:
 @kernel
 def _has_peaks(stack: Stack, i: int) -> bool:
     """Return whether a peak of contact i is an event; else its series gives the peak."""
-    return has_hysteresis(stack, i) or (stack.law[i] == POWER and stack.modal[stack.first[i]] == 1)
+    return has_hysteresis(stack, i) or (
+        stack.law[i] == codes.POWER and stack.modal[stack.first[i]] == 1
+    )
 
 
 @kernel
@@ -238,22 +210,22 @@ def _touch(stack: Stack, i: int, motion: Motion) -> Event:
     if a[0] < -band or a[motion.root] < -rate_band:
         stack.touching[i] = math.nan
     if motion.straight and _never_meets(stack, i, a):
-        return math.inf, False, CHECK
+        return math.inf, False, codes.CHECK
     if motion.root == 2 and _is_pressed_together(stack, i, a, motion.order):
-        return 0.0, True, TOUCH
+        return 0.0, True, codes.TOUCH
     wait, reached = _level_wait(stack, motion, -1.0, 0.0, band, motion.horizon)
-    return wait, reached, TOUCH
+    return wait, reached, codes.TOUCH
 
 
 @kernel
 def _clip_or_resume(stack: Stack, i: int, time: float, motion: Motion) -> Event:
     """Return when the gain of contact i changes its sign; one that creeps then opens."""
     if not is_damped(stack, i):
-        return math.inf, False, CHECK
+        return math.inf, False, codes.CHECK
     wait, reached = _gain_wait(stack, i, time, motion)
     if creeps(stack, i):
-        return wait, reached, RELEASE
-    return wait, reached, RESUMED if stack.phase[i] == UNLOADED else CLIPPED
+        return wait, reached, codes.RELEASE
+    return wait, reached, codes.RESUMED if stack.phase[i] == codes.UNLOADED else codes.CLIPPED
 
 
 @kernel
@@ -262,7 +234,7 @@ def _can_fall(stack: Stack, i: int) -> bool:
 
     A contact that creeps opens with its gain; one with peaks has to pass its peak first.
     """
-    return not creeps(stack, i) and (stack.phase[i] == RELEASING or not _has_peaks(stack, i))
+    return not creeps(stack, i) and (stack.phase[i] == codes.RELEASING or not _has_peaks(stack, i))
 
 
 @kernel
@@ -273,11 +245,11 @@ def _fall(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
     """
     if not _can_fall(stack, i):
         return event
-    level, kind = lowest_compression(stack, i), RELEASE
+    level, kind = lowest_compression(stack, i), codes.RELEASE
     if level > 0.0:
-        kind = RETURNED
-    if stack.law[i] == PIECEWISE and stack.piece_low[i] > level:
-        level, kind = stack.piece_low[i], CROSSED
+        kind = codes.RETURNED
+    if stack.law[i] == codes.PIECEWISE and stack.piece_low[i] > level:
+        level, kind = stack.piece_low[i], codes.CROSSED
     limit = _limit(motion, event)
     wait, reached = _level_wait(stack, motion, 1.0, level, motion.band, limit)
     if wait < limit or (reached and wait <= limit < motion.horizon):
@@ -298,24 +270,24 @@ def _linearise(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
         return event
     limit = _limit(motion, event)
     wait, reached = _level_wait(stack, motion, 1.0, level, motion.band, limit)
-    return _earlier(motion, event, wait, reached, LINEARISED)
+    return _earlier(motion, event, wait, reached, codes.LINEARISED)
 
 
 @kernel
 def _rise(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
     """Return when c rises to where the curve of contact i changes, if before ``event``."""
-    level, kind, phase = math.inf, CHECK, stack.phase[i]
-    if phase == UNLOADED:
+    level, kind, phase = math.inf, codes.CHECK, stack.phase[i]
+    if phase == codes.UNLOADED:
         return event
     if has_hysteresis(stack, i):
-        if phase == COMPRESSING:
-            level, kind = stack.top[i], RETURNED
-    elif phase == RELEASING and _has_peaks(stack, i):
-        level, kind = stack.top[i], RETURNED
-    if stack.law[i] == PIECEWISE and stack.piece_high[i] < level:
-        level, kind = stack.piece_high[i], CROSSED
+        if phase == codes.COMPRESSING:
+            level, kind = stack.top[i], codes.RETURNED
+    elif phase == codes.RELEASING and _has_peaks(stack, i):
+        level, kind = stack.top[i], codes.RETURNED
+    if stack.law[i] == codes.PIECEWISE and stack.piece_high[i] < level:
+        level, kind = stack.piece_high[i], codes.CROSSED
     if stack.linearised[i] == 1 and stack.linearised_below[i] < level:
-        level, kind = stack.linearised_below[i], CURVED
+        level, kind = stack.linearised_below[i], codes.CURVED
     if level == math.inf:
         return event
     limit = _limit(motion, event)
@@ -326,7 +298,7 @@ def _rise(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
 @kernel
 def _curve(stack: Stack, i: int, time: float, motion: Motion, event: Event) -> Event:
     """Return when the impulse along the chord of contact i is spent, if before ``event``."""
-    if stack.linearised[i] == 0 or stack.rate[i] <= 0.0 or stack.phase[i] < COMPRESSING:
+    if stack.linearised[i] == 0 or stack.rate[i] <= 0.0 or stack.phase[i] < codes.COMPRESSING:
         return event
     spent, first = stack.changed, stack.first[i]
     order, power, tail = motion.order, motion.power, motion.tail
@@ -348,7 +320,7 @@ def _curve(stack: Stack, i: int, time: float, motion: Motion, event: Event) -> E
     budget, limit = linearised_impulse_limit(stack, i), _limit(motion, event)
     band = 0.1 * budget
     wait, reached = _safe_wait(stack, spent, order, power, tail, 0.0, -1.0, budget, band, limit)
-    return _earlier(motion, event, wait, reached, CURVED)
+    return _earlier(motion, event, wait, reached, codes.CURVED)
 
 
 @kernel
@@ -357,7 +329,7 @@ def _turn(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
 
     The series in ``stack.watched`` becomes that of the rate.
     """
-    rises = stack.phase[i] == COMPRESSING
+    rises = stack.phase[i] == codes.COMPRESSING
     if not has_hysteresis(stack, i) and not (rises and _has_peaks(stack, i)):
         return event
     a, order, root, power = stack.watched, motion.order, motion.root, motion.power
@@ -367,7 +339,7 @@ def _turn(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
     wait, reached = _safe_wait(
         stack, a, order - root, power - 1, tail, 0.0, sign, 0.0, motion.rate_band, limit
     )
-    return _earlier(motion, event, wait, reached, PEAK if rises else DIP)
+    return _earlier(motion, event, wait, reached, codes.PEAK if rises else codes.DIP)
 
 
 @kernel
@@ -380,13 +352,13 @@ def _keeps_curve(stack: Stack, i: int, time: float) -> bool:
     first, law = stack.first[i], stack.law[i]
     if stack.modal[first] == 1 or stack.anchor[first] != time or stack.linearised[i] == 1:
         return False
-    if law not in (POWER, PRODUCT) or stack.phase[i] != COMPRESSING:
+    if law not in (codes.POWER, codes.PRODUCT) or stack.phase[i] != codes.COMPRESSING:
         return False
     horizon = series_time(stack, first, stack.due[len(stack.mass) + first] - time)
     order, c = stack.order[first], stack.compression_series[i]
     begins = stack.root[first] if c[0] == 0.0 else 0  # the lowest power of the series that is not 0
     least = lower_bound(c, begins, order + stack.root[first], horizon)
-    if law == PRODUCT and not lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0:
+    if law == codes.PRODUCT and not lower_bound(stack.gain_series[i], 0, order, horizon) > 0.0:
         return False
     return least > _linearised_level(stack, i)
 
@@ -395,9 +367,9 @@ def _keeps_curve(stack: Stack, i: int, time: float) -> bool:
 def _linearised_level(stack: Stack, i: int) -> float:
     """Return the compression below which contact i must be linearised; 0 if it need not be."""
     smooth = stack.curve_exponent[i] == 0.0 or stack.curve_exponent[i] == 1.0
-    if smooth or stack.linearised[i] == 1 or stack.phase[i] == UNLOADED:
+    if smooth or stack.linearised[i] == 1 or stack.phase[i] == codes.UNLOADED:
         return 0.0
-    if root_at(stack, i) == 2 and stack.phase[i] == COMPRESSING:
+    if root_at(stack, i) == 2 and stack.phase[i] == codes.COMPRESSING:
         return 0.0
     ratio = max(_CHORD_ENTRY, 1.0 - _CHORD_LOGARITHMS / stack.curve_exponent[i])
     return ratio * stack.linearised_below[i]
@@ -409,8 +381,8 @@ def _gain_wait(stack: Stack, i: int, time: float, motion: Motion) -> tuple[float
     a, gain = stack.watched, stack.changed
     order, power, root, tail = motion.order, motion.power, motion.root, motion.tail
     speed = abs(a[root])
-    noise = max(motion.noise, 16.0 * EPSILON * abs(a[0])) + motion.tick * speed
-    rate_noise = max(motion.rate_noise, 16.0 * EPSILON * (stack.speed[i] + speed))
+    noise = max(motion.noise, 16.0 * codes.EPSILON * abs(a[0])) + motion.tick * speed
+    rate_noise = max(motion.rate_noise, 16.0 * codes.EPSILON * (stack.speed[i] + speed))
     rate_noise += motion.tick * abs(2.0 * a[2 * root])
     slope, rate = stack.gain_slope[i], stack.gain_rate[i]
     for k in range(order + 1):
@@ -423,10 +395,10 @@ def _gain_wait(stack: Stack, i: int, time: float, motion: Motion) -> tuple[float
         shift(stack.creep_series[i], order, since, stack.scratch)
         for k in range(order + 1):
             gain[k] -= stack.gain_creep[i] * stack.scratch[k]
-    noise = max(noise, EPSILON * EPSILON * stack.scale[i])
-    rate_noise = max(rate_noise, EPSILON * EPSILON * stack.number[SPEED])
-    clear = slope * noise + rate * rate_noise + 4.0 * EPSILON * stack.gain_constant[i]
-    sign = -1.0 if stack.phase[i] == UNLOADED else 1.0
+    noise = max(noise, codes.EPSILON * codes.EPSILON * stack.scale[i])
+    rate_noise = max(rate_noise, codes.EPSILON * codes.EPSILON * stack.number[SPEED])
+    clear = slope * noise + rate * rate_noise + 4.0 * codes.EPSILON * stack.gain_constant[i]
+    sign = -1.0 if stack.phase[i] == codes.UNLOADED else 1.0
     level = 0.0
     if stack.factor_exponent[i] > 0.0:
         clear += rate * stack.number[TOLERANCE] * stack.number[SPEED]
@@ -483,7 +455,7 @@ def _schedule(stack: Stack, i: int, time: float, motion: Motion, event: Event) -
         wait, horizon = wait * wait, horizon * horizon
     if time + wait <= time:
         reached = True  # shorter than the resolution of float64 time
-    stack.event[i] = kind if reached else CHECK
+    stack.event[i] = kind if reached else codes.CHECK
     due = time + wait if wait < horizon else math.inf
     schedule(stack.due, stack.heap, stack.place, i, due)
 
@@ -555,7 +527,7 @@ def _safe_wait(
         return parabola_root(f[0] - 0.5 * band, f[1], f[2]), True
     if tail == 0.0:
         return min(safe_step(f, order, 0.0, horizon), horizon), False
-    size = abs(f[0]) + band / EPSILON
+    size = abs(f[0]) + band / codes.EPSILON
     # where the remainder is as large, as a power of two: the choice of units changes no bit
     natural = times_power_of_two(8.0, exponent_of(size / tail) // power)
     if order < power and more == 0.0:

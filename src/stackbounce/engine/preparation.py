@@ -5,7 +5,7 @@ A contact is given by the form of its force and four numbers, which `forces` exp
 
 import math
 
-from stackbounce.engine import codes
+from stackbounce.engine import codes, slots
 from stackbounce.engine.elementary import (
     exponent_of,
     log,
@@ -18,23 +18,13 @@ from stackbounce.engine.ratios import largest_speed
 from stackbounce.engine.records import Drops
 from stackbounce.engine.restitution import take_restitution
 from stackbounce.engine.series import ORDER
-from stackbounce.engine.slots import (
-    BONDS,
-    GRAVITY,
-    LINEARISED_WORK,
-    NONLINEAR,
-    SERIES_ORDER,
-    SPEED,
-    TOLERANCE,
-    UNIT,
-)
 from stackbounce.engine.stack import RigidStack, Stack
 
 _STEP = 0.02  # the error of one step of a nonlinear cluster, over rtol
-_ROUND_OFF = 1e-16
-_LEAST_ORDER = 6
+_ROUND_OFF = 1e-16  # the least such error
+_LEAST_ORDER = 6  # of a power series
 _LINEARISED_SHARE = 1e-2  # LINEARISED_WORK over the error of one step
-_LEAST_LINEARISED_WORK = 1e-18
+_LEAST_LINEARISED_WORK = 1e-18  # but at least so much
 _LARGEST_EXPONENT = 600  # of 2 in the unit of speed
 _LONGEST_EXPONENT = 200  # of 2 in the unit of time
 
@@ -54,9 +44,9 @@ def prepare(stack: Stack, drops: Drops, row: int, rtol: float) -> float:
         stack.scale[i] = typical_compression(stack, i, speed)
         if stack.law[i] != codes.ABSENT:
             shortest = min(shortest, stack.scale[i] / speed)
-        stack.setting[BONDS] += stack.bonded[i]
+        stack.setting[slots.BONDS] += stack.bonded[i]
         if is_nonlinear(stack, i):
-            stack.setting[NONLINEAR] = 1
+            stack.setting[slots.NONLINEAR] = 1
     unit = 1.0
     if 0.0 < shortest < math.inf:
         power = nearest_exponent(shortest)
@@ -69,12 +59,12 @@ def prepare(stack: Stack, drops: Drops, row: int, rtol: float) -> float:
         stack.velocity[i] = velocity[i] * unit
         stack.compression[i] = -drops.gap[row][i]
     tolerance = max(_STEP * rtol, _ROUND_OFF)
-    stack.number[GRAVITY] = drops.gravity[row] * (unit * unit)
-    stack.number[SPEED] = speed * unit
-    stack.number[TOLERANCE] = tolerance
-    stack.number[LINEARISED_WORK] = max(tolerance * _LINEARISED_SHARE, _LEAST_LINEARISED_WORK)
+    stack.number[slots.GRAVITY] = drops.gravity[row] * (unit * unit)
+    stack.number[slots.SPEED] = speed * unit
+    stack.number[slots.TOLERANCE] = tolerance
+    stack.number[slots.LINEARISED_WORK] = max(tolerance * _LINEARISED_SHARE, _LEAST_LINEARISED_WORK)
     order = math.floor(1.5 - 0.7 * log(tolerance))
-    stack.setting[SERIES_ORDER] = min(ORDER, max(_LEAST_ORDER, order))
+    stack.setting[slots.SERIES_ORDER] = min(ORDER, max(_LEAST_ORDER, order))
     return unit
 
 
@@ -94,8 +84,8 @@ def prepare_rigid(stack: RigidStack, drops: Drops, row: int) -> float:
         take_restitution(stack, i, *_contact(drops, row, i))
         stack.velocity[i] = velocity[i] / unit
         stack.compression[i] = -drops.gap[row][i] / unit
-    stack.number[UNIT] = unit
-    stack.number[GRAVITY] = drops.gravity[row] / unit
+    stack.number[slots.UNIT] = unit
+    stack.number[slots.GRAVITY] = drops.gravity[row] / unit
     return 1.0
 
 

@@ -1,6 +1,6 @@
 """Write `benchmarks/impacts/answers.json` from the reference solvers.
 
-Run it in `tests` as `python -m reference.make_impacts [NAME ...]`; all of them take some minutes.
+Run `PYTHONPATH=tests python -m benchmarks.impacts.make_answers [NAME ...]`; all take some minutes.
 Each problem is solved in two ways that share as little as they can (`methods`), and `sure` is to
 how many digits both agree. A third kind of run, with inputs that are off by 1e-20 or so, tells how
 many times more the answer moves than the inputs (`conditioning`).
@@ -21,10 +21,11 @@ from unittest.mock import patch
 
 from mpmath import mp, mpf
 
-from reference import falling, hysteretic, precise, rigid, springs, taylor
+from benchmarks.impacts import older_series
+from reference import falling, precise, rigid, springs, taylor
 from reference.common import Outcome
 
-FOLDER = Path(__file__).parents[2] / "benchmarks" / "impacts"
+FOLDER = Path(__file__).parent
 SHOWN = 20  # digits of an answer
 MOST_SURE = 30  # digits that are claimed
 CARRIED = 60  # digits of the arithmetic here
@@ -33,7 +34,7 @@ NOTHING = mpf(10) ** -28  # speeds below this, in units of v0, are zero where co
 TRIALS, TRIED = 3, 12  # runs with other inputs; how many are tried, as some change a count
 FEW = 3  # balls, for which the older series takes seconds rather than minutes
 EXACT = 40  # rigid collisions that are followed in fractions, which get longer with each
-SMOOTH = ("Spring", "Hertz", "Hysteretic")  # laws that `hysteretic` knows
+SMOOTH = ("Spring", "Hertz", "Hysteretic")  # laws that `older_series` knows
 
 Problem = dict[str, Any]
 Solver = Callable[[Problem], "Solution"]
@@ -122,10 +123,10 @@ def by_modes(problem: Problem) -> Solution:
 
 
 def by_older_series(problem: Problem) -> Solution:
-    """Solve springs, Hertz's and hysteretic contacts by the other Taylor series (`hysteretic`)."""
+    """Solve springs, Hertz's and hysteretic contacts by other Taylor series (`older_series`)."""
     masses, contacts, gaps, velocities = _inputs(problem)
     laws = [law and _hysteretic(**law) for law in contacts]
-    return finite(problem, hysteretic.run(masses, laws, gaps, velocities))
+    return finite(problem, older_series.run(masses, laws, gaps, velocities))
 
 
 def _hysteretic(
@@ -134,10 +135,10 @@ def _hysteretic(
     exponent: Any = 1,
     restitution: Any = None,
     unloading_exponent: Any = None,
-) -> hysteretic.Law:
+) -> older_series.Law:
     if restitution is not None:
-        return hysteretic.Law.of_restitution(stiffness, exponent, restitution)
-    return hysteretic.Law(stiffness, 1.5 if law == "Hertz" else exponent, unloading_exponent)
+        return older_series.Law.of_restitution(stiffness, exponent, restitution)
+    return older_series.Law(stiffness, 1.5 if law == "Hertz" else exponent, unloading_exponent)
 
 
 def by_collisions(problem: Problem, digits: int = 50, limit: int = 10_000) -> Solution:
