@@ -63,8 +63,7 @@ def test_a_contact_opens_as_another_closes(stiffness):
 
 
 @pytest.mark.parametrize(
-    ("masses", "stiffness"),
-    [((1.0, 1.0), 1.0), ((1.0, 0.3), 1.0), ((1.0, 0.1), 0.4)],
+    ("masses", "stiffness"), [((1.0, 1.0), 1.0), ((1.0, 0.3), 1.0), ((1.0, 0.1), 0.4)]
 )
 def test_contacts_that_open_without_speed(masses, stiffness):
     """A drop with a zero gap, played backwards: both contacts open together, at speed 1.

@@ -106,10 +106,7 @@ FOLDERS = {  # how the folder of libraries is spoilt, and what is said of it
         lambda folder: library(folder).unlink(),
         "cannot be read (No such file or directory): install stackbounce again",
     ),
-    "unreadable": (
-        unreadable,
-        "cannot be read (Is a directory): install stackbounce again",
-    ),
+    "unreadable": (unreadable, "cannot be read (Is a directory): install stackbounce again"),
     "not loadable": (not_loadable, "cannot be loaded ("),
 }
 MACHINES = {  # what is another function of `native`, its answer, and what is said

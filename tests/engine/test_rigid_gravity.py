@@ -245,8 +245,7 @@ def test_lossy_stacks_come_to_rest_and_gain_no_energy(drop):
 
 
 @pytest.mark.parametrize(
-    ("masses", "restitutions"),
-    [((1.0, 1.0), (1.0, 0.5)), ((1.0, 1.0), (0.5, 1.0))],
+    ("masses", "restitutions"), [((1.0, 1.0), (1.0, 0.5)), ((1.0, 1.0), (0.5, 1.0))]
 )
 def test_two_balls_whose_bounces_halve(masses, restitutions):
     """Both leave at v/2 together: 2 (1/2 + 1/4 + ...) v/g until they rest."""

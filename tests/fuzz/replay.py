@@ -5,20 +5,6 @@ import numpy as np
 import stackbounce as sb
 from fuzz.draw import Drops
 
-NAMES = (
-    "None",
-    "Spring",
-    "Hertz",
-    "PowerLaw",
-    "Dashpot",
-    "Viscoelastic",
-    "HuntCrossley",
-    "Hysteretic",
-    "Hysteretic lossy",
-    "Rigid",
-    "StandardLinearSolid",
-)
-
 
 def law_of(drops: Drops, row: int, i: int) -> sb.model.ContactLaw | None:
     """Return the law of a contact."""

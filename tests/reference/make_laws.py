@@ -23,15 +23,7 @@ from reference.make_data import Case, fall, log_uniform, row, write
 WORST = 1e4  # amplification of a relative change of the inputs
 DIGITS = 28  # that are written
 STEPS = 4000  # of `integrate`: a longer story takes `precise` too long
-NAMES = (
-    "Spring",
-    "Hertz",
-    "PowerLaw",
-    "Dashpot",
-    "Viscoelastic",
-    "HuntCrossley",
-    "Hysteretic",
-)
+NAMES = ("Spring", "Hertz", "PowerLaw", "Dashpot", "Viscoelastic", "HuntCrossley", "Hysteretic")
 
 
 def law(random: Random, name: str, stiffness: float, mass: float) -> Case:

@@ -12,16 +12,7 @@ from stackbounce.engine.kernels import Floats, Integers, kernel
 from stackbounce.engine.log import convert_log
 from stackbounce.engine.motion import velocity_at
 from stackbounce.engine.preparation import prepare, prepare_rigid
-from stackbounce.engine.records import (
-    AFTER,
-    BEGIN,
-    CONTINUE,
-    END,
-    UNIT,
-    Drops,
-    Outcomes,
-    Workspace,
-)
+from stackbounce.engine.records import AFTER, BEGIN, CONTINUE, END, UNIT, Drops, Outcomes, Workspace
 from stackbounce.engine.rigid import begin_collisions, collide_all, rigid_velocity
 from stackbounce.engine.simultaneous import advance_contacts, begin_contacts, log_unfinished
 from stackbounce.engine.stack import RigidStack, Samples, Stack
@@ -217,6 +208,6 @@ def _read_outcome(space: Workspace, counter: Integers, status: int, out: Outcome
             out.last_release[row, i] = end
     for b in range(len(out.velocity[row])):
         out.velocity[row, b] = space.after[AFTER + b]
-    work = DROP + counter[slots.WORK] - out.work[row]
+    work: int = DROP + counter[slots.WORK] - out.work[row]
     out.status[row], out.work[row] = status, counter[slots.WORK]
     return work

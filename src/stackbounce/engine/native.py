@@ -201,6 +201,6 @@ def _content(name: str, folder: str = _HERE) -> bytes:
 
 
 def _processor_level(library: Any) -> int:
-    """Return the level of this processor among those of x86-64, as the library tells it."""
+    """Return the level of this processor among those of x86-64, as the library finds it."""
     library.processor_level.restype = ctypes.c_int64
     return int(library.processor_level())

@@ -104,7 +104,8 @@ class Motion(NamedTuple):
 def schedule_next_event(stack: Stack, i: int, time: float) -> None:
     """Schedule the next event of contact i, or a check if no event is certain yet.
 
-    Each kind of event is searched for up to the earliest that has been found before it.
+    Each kind of event is searched for up to the earliest found before it; of two at the same time
+    the one found first stays, but for a fall.
     """
     phase = stack.phase[i]
     if stack.law[i] == codes.ABSENT:
@@ -156,18 +157,7 @@ def _motion(stack: Stack, i: int, time: float) -> Motion:
     if root == 2:
         horizon = math.sqrt(horizon)
     return Motion(
-        root,
-        order,
-        power,
-        tail,
-        known,
-        straight,
-        noise,
-        rate_noise,
-        tick,
-        band,
-        rate_band,
-        horizon,
+        root, order, power, tail, known, straight, noise, rate_noise, tick, band, rate_band, horizon
     )
 
 
@@ -183,9 +173,8 @@ def _has_died_out(stack: Stack, i: int, motion: Motion) -> bool:
 @kernel
 def _has_peaks(stack: Stack, i: int) -> bool:
     """Return whether a peak of contact i is an event; else its series gives the peak."""
-    return has_hysteresis(stack, i) or (
-        stack.law[i] == codes.POWER and stack.modal[stack.first[i]] == 1
-    )
+    modal = stack.modal[stack.first[i]] == 1
+    return has_hysteresis(stack, i) or (modal and stack.law[i] == codes.POWER)
 
 
 @kernel
@@ -279,10 +268,8 @@ def _rise(stack: Stack, i: int, motion: Motion, event: Event) -> Event:
     level, kind, phase = math.inf, codes.CHECK, stack.phase[i]
     if phase == codes.UNLOADED:
         return event
-    if has_hysteresis(stack, i):
-        if phase == codes.COMPRESSING:
-            level, kind = stack.top[i], codes.RETURNED
-    elif phase == codes.RELEASING and _has_peaks(stack, i):
+    turned = codes.COMPRESSING if has_hysteresis(stack, i) else codes.RELEASING
+    if phase == turned and _has_peaks(stack, i):
         level, kind = stack.top[i], codes.RETURNED
     if stack.law[i] == codes.PIECEWISE and stack.piece_high[i] < level:
         level, kind = stack.piece_high[i], codes.CROSSED

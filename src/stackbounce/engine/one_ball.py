@@ -45,12 +45,13 @@ def bounce(
     >>> round(e, 9), round(time / math.pi, 9)
     (1.0, 0.1)
     """
-    form, *rest = numbers
+    form, *four = numbers
     stack = new_stack(1)
     stack.pieces[: len(pieces)] = pieces
     log = [0.0] * (_ROWS * codes.LOG_COLUMNS)
-    contact = [[form]], *([[number]] for number in rest)
-    unit = prepare(stack, Drops([[mass]], *contact, [[0.0]], [[-speed]], [0.0]), 0, _TOLERANCE)
+    contact = [[[number]] for number in four]
+    drops = Drops._make([[[mass]], [[form]], *contact, [[0.0]], [[-speed]], [0.0]])
+    unit = prepare(stack, drops, 0, _TOLERANCE)
     begin_contacts(stack)
     status, none = codes.RUNNING, new_samples([], 1)
     while status == codes.RUNNING and stack.counter[LOG_ROWS] < _ROWS - 1:

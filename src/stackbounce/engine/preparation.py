@@ -6,12 +6,7 @@ A contact is given by the form of its force and four numbers, which `forces` exp
 import math
 
 from stackbounce.engine import codes, slots
-from stackbounce.engine.elementary import (
-    exponent_of,
-    log,
-    nearest_exponent,
-    times_power_of_two,
-)
+from stackbounce.engine.elementary import exponent_of, log, nearest_exponent, times_power_of_two
 from stackbounce.engine.forces import is_nonlinear, take_law, typical_compression
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.ratios import largest_speed

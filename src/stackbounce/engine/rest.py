@@ -33,14 +33,7 @@ from stackbounce.engine.cycles import (
     loading_compression,
     loading_force,
 )
-from stackbounce.engine.forces import (
-    arm_energy,
-    creeps,
-    force,
-    is_damped,
-    potential,
-    static_state,
-)
+from stackbounce.engine.forces import arm_energy, creeps, force, is_damped, potential, static_state
 from stackbounce.engine.kernels import kernel
 from stackbounce.engine.pieces import find_piece
 from stackbounce.engine.slots import GRAVITY, SPEED, TOLERANCE
