@@ -299,7 +299,7 @@ def conditioning(problem: Problem, solver: Solver) -> dict[str, mpf]:
     found = list(islice(changes(), TRIALS))
     if not found:
         raise ArithmeticError(f"{problem['name']}: every change of the inputs changes a count")
-    return {name: max(one[name] for one in found) / OFF for name in found[0]}
+    return {name: max(change[name] for change in found) / OFF for name in found[0]}
 
 
 def answer(problem: Problem) -> dict[str, Any]:
@@ -342,15 +342,10 @@ def _asked(solution: Solution, ask: Sequence[str]) -> Iterator[tuple[str, Any]]:
 def written(value: Any) -> Any:
     """Return numbers as texts of `SHOWN` digits; counts, words and nothing as they are."""
     if isinstance(value, list):
-        return [written(one) for one in value]
+        return [written(item) for item in value]
     if value is None or isinstance(value, int | str):
         return value
     return mp.nstr(number(value), SHOWN, strip_zeros=True)
-
-
-def problems() -> list[Problem]:
-    """Return the problems of the set."""
-    return json.loads((FOLDER / "problems.json").read_text("utf-8"))["problems"]
 
 
 def main() -> None:
@@ -359,17 +354,22 @@ def main() -> None:
     names = sys.argv[1:]
     known = {}
     if names:
-        known = {one["name"]: one for one in json.loads(file.read_text("utf-8"))["answers"]}
-    told = json.loads((FOLDER / "problems.json").read_text("utf-8"))
-    wanted = [one for one in told["problems"] if not names or one["name"] in names]
+        known = {
+            solved["name"]: solved for solved in json.loads(file.read_text("utf-8"))["answers"]
+        }
+    given = json.loads((FOLDER / "problems.json").read_text("utf-8"))
+    wanted = [problem for problem in given["problems"] if not names or problem["name"] in names]
     with ProcessPoolExecutor() as pool:
-        for one in as_completed(pool.submit(answer, problem) for problem in wanted):
-            known[one.result()["name"]] = one.result()
-            sys.stderr.write(f"{one.result()['name']}: {one.result()['sure']} digits\n")
+        for future in as_completed(pool.submit(answer, problem) for problem in wanted):
+            solved = future.result()
+            known[solved["name"]] = solved
+            sys.stderr.write(f"{solved['name']}: {solved['sure']} digits\n")
     rows = ",\n".join(
-        json.dumps(known[one["name"]]) for one in told["problems"] if one["name"] in known
+        json.dumps(known[problem["name"]])
+        for problem in given["problems"]
+        if problem["name"] in known
     )
-    head = f'"version": {json.dumps(told["version"])}, "licence": {json.dumps(told["licence"])}'
+    head = f'"version": {json.dumps(given["version"])}, "licence": {json.dumps(given["licence"])}'
     file.write_text(f'{{{head}, "answers": [\n{rows}\n]}}\n', "utf-8")
 
 

@@ -68,7 +68,7 @@ def scaled(drop, *, mass=1.0, stiffness=1.0, speed=1.0, gap=1.0):
     factors = {"stiffness": stiffness, "damping": stiffness, "dissipation": 1.0 / speed}
     contacts = []
     for law in drop.contacts:
-        known = {one.name: getattr(law, one.name) for one in fields(law) if one.init}
+        known = {field.name: getattr(law, field.name) for field in fields(law) if field.init}
         if isinstance(law, sb.Hysteretic):
             known[law.derived] = None
         new = {name: value * factors[name] for name, value in known.items() if name in factors}

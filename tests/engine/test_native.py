@@ -148,7 +148,7 @@ def assert_plain(words):
     one, many = good()
     with pytest.warns(native.NoCompiledCode) as seen:
         plain = simulate(DROP), sb.sweep(DROP, MASSES), simulate(DROP)
-    (warning,) = [str(one.message) for one in seen]
+    (warning,) = [str(found.message) for found in seen]
     assert words in warning
     assert warning.startswith("drops run as plain Python, about a hundred times slower: ")
     for result in (plain[0], plain[2]):

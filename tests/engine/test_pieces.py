@@ -161,7 +161,7 @@ def test_stacks_against_another_integration(first, count):
         speeds, intervals = pieces.integrate(masses, contacts, drop.gaps, drop.start_velocities)
         result = sb.simulate(drop)
         assert result.status is sb.Status.FINISHED
-        assert result.collisions.tolist() == [len(one) for one in intervals]
+        assert result.collisions.tolist() == [len(pairs) for pairs in intervals]
         assert result.rebound_speeds == pytest.approx(speeds, abs=1e-9)
         for found, ends in zip(result.last_release, intervals, strict=True):
             assert not ends or found == pytest.approx(ends[-1][1], rel=1e-7)

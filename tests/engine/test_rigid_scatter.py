@@ -50,15 +50,15 @@ def test_draws_of_a_stack_are_those_of_the_reference():
             (random.uniform(0.6, 0.9), 1.0, random.choice([0.0, 0.2]), 0.1, random.randint(0, 9))
             for _ in range(3)
         ]
-        laws = [sb.RigidLossBySpeed(*one) for one in numbers]
+        laws = [sb.RigidLossBySpeed(*given) for given in numbers]
         masses = [random.uniform(0.5, 2.0) for _ in range(3)]
         result = sb.simulate(sb.Drop([sb.Ball(m) for m in masses], laws, impact_speed=1.0))
-        means = [restitution.loss_power(*one[:3]) for one in numbers]
+        means = [restitution.loss_power(*given[:3]) for given in numbers]
         expected = rigid.run(
             [mpf(m) for m in masses],
             [
-                restitution.scattered(mean, one[3], one[4], i)
-                for i, (mean, one) in enumerate(zip(means, numbers, strict=True))
+                restitution.scattered(mean, given[3], given[4], i)
+                for i, (mean, given) in enumerate(zip(means, numbers, strict=True))
             ],
             [mpf(0)] * 2,
             [mpf(-1)] * 3,

@@ -131,17 +131,17 @@ def empty(drops):
 
 def outcomes():
     """Return the bits of all outcomes of the drops of `batches`, by the level that is chosen."""
-    told, statuses = [], set()
+    found, statuses = [], set()
     for engine, drops, options in batches():
         out = empty(drops)
         memory(engine, drops.mass.shape[1], compiled=True).run_batch(
             engine.run_batch, drops, options, out
         )
         native.compiled("find_ratios")(Table(drops), Table(out))
-        told.append([bits(array) for array in out])
+        found.append([bits(array) for array in out])
         statuses |= set(out.status.tolist())
     assert sb.Status.FINISHED in statuses
-    return told
+    return found
 
 
 def springs():
@@ -161,8 +161,8 @@ def test_processor_levels(at_level):
     known, library = levels()
     if len(known) < 2:
         pytest.skip("the library of this machine has one level")
-    told = []
+    by_level = []
     for level in known:
         at_level(library, level)
-        told.append((outcomes(), springs()))
-    assert all(one == told[0] for one in told)
+        by_level.append((outcomes(), springs()))
+    assert all(found == by_level[0] for found in by_level)

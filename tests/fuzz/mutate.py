@@ -80,7 +80,7 @@ def _short_cases() -> dict[str, bytes]:
 
 def _lines(head: str, *columns: np.ndarray) -> bytes:
     rows = zip(*columns, strict=True)
-    return "\n".join([head, *(",".join(f"{one:.6g}" for one in row) for row in rows)]).encode()
+    return "\n".join([head, *(",".join(f"{cell:.6g}" for cell in row) for row in rows)]).encode()
 
 
 def mutated(content: bytes, random: Random) -> bytes:
@@ -207,7 +207,7 @@ def _marks(lines: list[str], random: Random) -> list[str]:
     mark = _mark(lines)
     other = ",;\t "[int(random.integers(4))]
     comma = random.random() < 0.5
-    return [(one.replace(".", ",") if comma else one).replace(mark, other) for one in lines]
+    return [(line.replace(".", ",") if comma else line).replace(mark, other) for line in lines]
 
 
 def _long(lines: list[str], random: Random) -> list[str]:
